@@ -1,0 +1,102 @@
+#include "base/files.h"
+
+#define XXH_INLINE_ALL
+#include <fcntl.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+#include "base/error.h"
+
+namespace voxray {
+namespace fs = std::filesystem;
+
+namespace {
+
+// Flushes a file or folder to disk, so that a rename never publishes an empty file.
+void syncPath(const fs::path& path) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) throw Error("{}: {}", path.string(), std::strerror(errno));
+    const int result = ::fsync(descriptor);
+    const int reason = errno;
+    ::close(descriptor);
+    if (result != 0 && reason != EINVAL) throw Error("{}: {}", path.string(), std::strerror(reason));
+}
+
+}  // namespace
+
+std::vector<uint8_t> readFile(const fs::path& path) {
+    std::error_code code;
+    if (fs::is_directory(path, code)) throw Error("{}: is a folder, not a file", path.string());
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw Error("{}: {}", path.string(), std::strerror(errno));
+    std::vector<uint8_t> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    if (in.bad()) throw Error("{}: read failed", path.string());
+    return bytes;
+}
+
+std::string readTextFile(const fs::path& path) {
+    const std::vector<uint8_t> bytes = readFile(path);
+    return {bytes.begin(), bytes.end()};
+}
+
+void writeFileAtomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+    std::error_code code;
+    if (path.has_parent_path()) fs::create_directories(path.parent_path(), code);
+    if (code) throw Error("{}: {}", path.parent_path().string(), code.message());
+    const fs::path temporary =
+        path.parent_path() / fs::path("." + path.stem().string() + "." + std::to_string(::getpid()) + ".tmp" +
+                                      path.extension().string());
+    try {
+        write(temporary);
+        syncPath(temporary);
+        fs::rename(temporary, path);
+    } catch (const fs::filesystem_error& error) {
+        fs::remove(temporary, code);
+        throw Error("{}: {}", path.string(), error.code().message());
+    } catch (...) {
+        fs::remove(temporary, code);
+        throw;
+    }
+}
+
+void writeFileAtomically(const fs::path& path, std::string_view content) {
+    writeFileAtomically(path, [&](const fs::path& temporary) {
+        std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+        out.write(content.data(), std::streamsize(content.size()));
+        out.close();
+        if (!out) throw Error("{}: {}", path.string(), std::strerror(errno));
+    });
+}
+
+fs::path cacheFolder() {
+    if (const char* folder = std::getenv("VOXRAY_CACHE"); folder && *folder) return folder;
+    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder) return fs::path(folder) / "voxray";
+    if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "voxray";
+    return fs::temp_directory_path() / "voxray-cache";
+}
+
+Hasher::Hasher() : state_(XXH3_createState()) { XXH3_128bits_reset(static_cast<XXH3_state_t*>(state_)); }
+Hasher::~Hasher() { XXH3_freeState(static_cast<XXH3_state_t*>(state_)); }
+
+Hasher& Hasher::add(const void* data, size_t bytes) {
+    XXH3_128bits_update(static_cast<XXH3_state_t*>(state_), data, bytes);
+    return *this;
+}
+
+Hasher& Hasher::add(std::string_view text) {
+    const uint64_t length = text.size();
+    add(&length, sizeof length);
+    return add(text.data(), text.size());
+}
+
+std::string Hasher::hex() const {
+    const XXH128_hash_t hash = XXH3_128bits_digest(static_cast<const XXH3_state_t*>(state_));
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+}  // namespace voxray

@@ -1,0 +1,224 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "base/suggest.h"
+#include "base/value.h"
+
+/// Parameters written once. A struct lists its fields in `schema()`; parsing, ranges, defaults, help and
+/// JSON Schema all come from that list:
+///
+///     struct Params {
+///         uint32_t rays = 1024;
+///         static constexpr auto schema() {
+///             return std::tuple{field("rays", &Params::rays, "Rays per light.", 1u, 1u << 26)};
+///         }
+///     };
+namespace voxray {
+
+/// Specialise for an enum that a parameter uses:
+///     template <> struct EnumNames<Write> {
+///         static constexpr std::array names{std::pair{Write::Average, "average"}, ...}; };
+template <typename E>
+struct EnumNames;
+
+/// One parameter. `min` and `max` are inclusive.
+template <typename Owner, typename T>
+struct Field {
+    const char* name;
+    T Owner::*member;
+    const char* help;
+    T min;
+    T max;
+    bool ranged;
+};
+
+template <typename Owner, typename T>
+constexpr Field<Owner, T> field(const char* name, T Owner::*member, const char* help) {
+    return {name, member, help, T{}, T{}, false};
+}
+template <typename Owner, typename T>
+constexpr Field<Owner, T> field(const char* name, T Owner::*member, const char* help,
+                                std::type_identity_t<T> min, std::type_identity_t<T> max) {
+    return {name, member, help, min, max, true};
+}
+
+/// What help pages and JSON Schema say of one parameter.
+struct ParameterDoc {
+    std::string name;
+    std::string type;     ///< "boolean", "integer", "number", "string", "choice", "rgb"
+    std::string help;
+    std::string defaults; ///< Default as YAML text.
+    std::string min, max; ///< Empty where there is no range.
+    std::vector<std::string> choices;
+};
+
+namespace schema_detail {
+
+template <typename E>
+std::vector<std::string> choicesOf() {
+    std::vector<std::string> names;
+    for (const auto& [value, name] : EnumNames<E>::names) names.emplace_back(name);
+    return names;
+}
+
+template <typename T>
+void readInto(T& out, const Value& value, const std::string& what) {
+    if constexpr (std::is_same_v<T, bool>) {
+        out = value.asBool(what);
+    } else if constexpr (std::is_enum_v<T>) {
+        const std::string text = value.asString(what);
+        for (const auto& [candidate, name] : EnumNames<T>::names) {
+            if (text == name) {
+                out = candidate;
+                return;
+            }
+        }
+        throw UsageError(value.where, "{}: unknown value '{}'{}", what, text, didYouMean(text, choicesOf<T>()));
+    } else if constexpr (std::is_integral_v<T>) {
+        const int64_t number = value.asInteger(what);
+        if (number < int64_t(std::numeric_limits<T>::min()) || uint64_t(number < 0 ? 0 : number) > uint64_t(std::numeric_limits<T>::max()))
+            throw UsageError(value.where, "{}: {} is out of range", what, number);
+        out = T(number);
+    } else if constexpr (std::is_floating_point_v<T>) {
+        out = T(value.asNumber(what));
+    } else if constexpr (std::is_same_v<T, glm::vec3>) {
+        if (value.isScalar()) {
+            out = glm::vec3(float(value.asNumber(what)));
+        } else {
+            if (!value.isList() || value.items.size() != 3)
+                throw UsageError(value.where, "{}: expected three numbers, as in [1, 1, 1]", what);
+            for (int i = 0; i < 3; ++i) out[i] = float(value.items[size_t(i)].asNumber(what));
+        }
+    } else {
+        static_assert(std::is_same_v<T, std::string>, "no reader for this parameter type");
+        out = value.asString(what);
+    }
+}
+
+template <typename T>
+std::string textOf(const T& value) {
+    if constexpr (std::is_same_v<T, bool>) {
+        return value ? "true" : "false";
+    } else if constexpr (std::is_enum_v<T>) {
+        for (const auto& [candidate, name] : EnumNames<T>::names)
+            if (candidate == value) return name;
+        return {};
+    } else if constexpr (std::is_arithmetic_v<T>) {
+        return fmt::format("{}", value);
+    } else if constexpr (std::is_same_v<T, glm::vec3>) {
+        return fmt::format("[{}, {}, {}]", value.x, value.y, value.z);
+    } else {
+        return value;
+    }
+}
+
+template <typename T>
+constexpr const char* typeName() {
+    if constexpr (std::is_same_v<T, bool>) return "boolean";
+    else if constexpr (std::is_enum_v<T>) return "choice";
+    else if constexpr (std::is_integral_v<T>) return "integer";
+    else if constexpr (std::is_floating_point_v<T>) return "number";
+    else if constexpr (std::is_same_v<T, glm::vec3>) return "rgb";
+    else return "string";
+}
+
+template <typename T>
+void checkRange(const T& value, const T& min, const T& max, const Value& at, const std::string& what) {
+    if constexpr (std::is_arithmetic_v<T>) {
+        if (value < min || value > max)
+            throw UsageError(at.where, "{}: {} is out of range [{}, {}]", what, value, min, max);
+    } else if constexpr (std::is_same_v<T, glm::vec3>) {
+        for (int i = 0; i < 3; ++i) checkRange(value[i], min[i], max[i], at, what);
+    }
+}
+
+}  // namespace schema_detail
+
+template <typename P, typename Visitor>
+void forEachField(Visitor&& visit) {
+    std::apply([&](const auto&... fields) { (visit(fields), ...); }, P::schema());
+}
+
+template <typename P>
+std::vector<std::string> fieldNames() {
+    std::vector<std::string> names;
+    forEachField<P>([&](const auto& f) { names.emplace_back(f.name); });
+    return names;
+}
+
+/// Reads a map into a parameter struct. Every key must be a field or one of `alsoAllowed`.
+/// @param owner name put before each key in errors, e.g. "voxelize".
+/// @throws UsageError naming file, line, key and the nearest valid word.
+template <typename P>
+P readParams(const Value& map, const std::string& owner, const std::vector<std::string>& alsoAllowed = {}) {
+    P params;
+    if (map.isNull()) return params;
+    if (!map.isMap()) throw UsageError(map.where, "{}: expected a map of parameters", owner);
+    std::vector<std::string> valid = fieldNames<P>();
+    valid.insert(valid.end(), alsoAllowed.begin(), alsoAllowed.end());
+    for (size_t i = 0; i < map.members.size(); ++i) {
+        const auto& [key, value] = map.members[i];
+        bool known = false;
+        for (const std::string& name : valid) known = known || name == key;
+        if (!known) throw UsageError(value.where, "{}: unknown parameter '{}'{}", owner, key, didYouMean(key, valid));
+        forEachField<P>([&, &key = key, &value = value](const auto& f) {
+            if (key != f.name) return;
+            const std::string what = owner + "." + key;
+            schema_detail::readInto(params.*(f.member), value, what);
+            if (f.ranged) schema_detail::checkRange(params.*(f.member), f.min, f.max, value, what);
+        });
+    }
+    return params;
+}
+
+/// Every parameter with its value, defaults filled in: what the manifest records.
+template <typename P>
+Value writeParams(const P& params) {
+    Value map = Value::map();
+    forEachField<P>([&](const auto& f) {
+        using T = std::remove_cvref_t<decltype(params.*(f.member))>;
+        if constexpr (std::is_same_v<T, glm::vec3>) {
+            Value list = Value::list();
+            for (int i = 0; i < 3; ++i)
+                list.items.push_back(Value::fromScalar(fmt::format("{}", (params.*(f.member))[i])));
+            map.set(f.name, list);
+        } else {
+            map.set(f.name, Value::fromScalar(schema_detail::textOf(params.*(f.member)),
+                                              std::is_same_v<T, std::string>));
+        }
+    });
+    return map;
+}
+
+/// Help of every parameter, in the order of the schema.
+template <typename P>
+std::vector<ParameterDoc> describeParams() {
+    std::vector<ParameterDoc> docs;
+    const P defaults;
+    forEachField<P>([&](const auto& f) {
+        using T = std::remove_cvref_t<decltype(defaults.*(f.member))>;
+        ParameterDoc doc;
+        doc.name = f.name;
+        doc.type = schema_detail::typeName<T>();
+        doc.help = f.help;
+        doc.defaults = schema_detail::textOf(defaults.*(f.member));
+        if (f.ranged) {
+            doc.min = schema_detail::textOf(f.min);
+            doc.max = schema_detail::textOf(f.max);
+        }
+        if constexpr (std::is_enum_v<T>) doc.choices = schema_detail::choicesOf<T>();
+        docs.push_back(doc);
+    });
+    return docs;
+}
+
+}  // namespace voxray

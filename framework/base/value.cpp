@@ -1,0 +1,178 @@
+#include "base/value.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace voxray {
+namespace {
+
+std::string describe(const Value& value) {
+    switch (value.kind) {
+        case Value::Kind::Null: return "nothing";
+        case Value::Kind::Scalar: return "'" + value.scalar + "'";
+        case Value::Kind::List: return "a list";
+        case Value::Kind::Map: return "a map";
+    }
+    return {};
+}
+
+template <typename T>
+bool parseAll(const std::string& text, T& out) {
+    const char* begin = text.data();
+    const char* end = begin + text.size();
+    if (begin != end && *begin == '+') ++begin;
+    const auto [last, code] = std::from_chars(begin, end, out);
+    return code == std::errc() && last == end;
+}
+
+std::string quotedJson(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        switch (c) {
+            case '"': out += "\\\""; break;
+            case '\\': out += "\\\\"; break;
+            case '\n': out += "\\n"; break;
+            case '\t': out += "\\t"; break;
+            case '\r': out += "\\r"; break;
+            default:
+                if (static_cast<unsigned char>(c) < 0x20) out += fmt::format("\\u{:04x}", int(c));
+                else out += c;
+        }
+    }
+    return out + "\"";
+}
+
+// A scalar that JSON writes without quotes.
+bool isJsonLiteral(const Value& value) {
+    if (value.quoted) return false;
+    if (value.scalar == "true" || value.scalar == "false") return true;
+    double number = 0;
+    if (!parseAll(value.scalar, number) || !std::isfinite(number)) return false;
+    // JSON allows neither "+1" nor ".5" nor "5." nor "007".
+    const std::string& s = value.scalar;
+    const size_t first = s[0] == '-' ? 1 : 0;
+    if (first >= s.size() || s[first] < '0' || s[first] > '9' || s.back() == '.') return false;
+    return !(s[first] == '0' && first + 1 < s.size() && s[first + 1] >= '0' && s[first + 1] <= '9');
+}
+
+void writeJson(const Value& value, int indent, int depth, std::string& out) {
+    const std::string newline = indent < 0 ? "" : "\n" + std::string(size_t(indent * (depth + 1)), ' ');
+    const std::string lastNewline = indent < 0 ? "" : "\n" + std::string(size_t(indent * depth), ' ');
+    switch (value.kind) {
+        case Value::Kind::Null: out += "null"; return;
+        case Value::Kind::Scalar: out += isJsonLiteral(value) ? value.scalar : quotedJson(value.scalar); return;
+        case Value::Kind::List:
+            out += "[";
+            for (size_t i = 0; i < value.items.size(); ++i) {
+                out += (i ? "," : "") + newline;
+                writeJson(value.items[i], indent, depth + 1, out);
+            }
+            out += (value.items.empty() ? "" : lastNewline) + "]";
+            return;
+        case Value::Kind::Map:
+            out += "{";
+            for (size_t i = 0; i < value.members.size(); ++i) {
+                out += (i ? "," : "") + newline + quotedJson(value.members[i].first) + (indent < 0 ? ":" : ": ");
+                writeJson(value.members[i].second, indent, depth + 1, out);
+            }
+            out += (value.members.empty() ? "" : lastNewline) + "}";
+            return;
+    }
+}
+
+}  // namespace
+
+Value Value::fromScalar(std::string text, bool quoted) {
+    Value value;
+    value.kind = Kind::Scalar;
+    value.scalar = std::move(text);
+    value.quoted = quoted;
+    return value;
+}
+
+Value Value::list() {
+    Value value;
+    value.kind = Kind::List;
+    return value;
+}
+
+Value Value::map() {
+    Value value;
+    value.kind = Kind::Map;
+    return value;
+}
+
+const Value* Value::find(std::string_view key) const {
+    for (const Member& member : members)
+        if (member.first == key) return &member.second;
+    return nullptr;
+}
+
+Value* Value::find(std::string_view key) { return const_cast<Value*>(std::as_const(*this).find(key)); }
+
+Value& Value::set(std::string_view key, Value value) {
+    if (kind == Kind::Null) kind = Kind::Map;
+    if (Value* existing = find(key)) return *existing = std::move(value);
+    members.emplace_back(std::string(key), std::move(value));
+    return members.back().second;
+}
+
+bool Value::erase(std::string_view key) {
+    return std::erase_if(members, [&](const Member& member) { return member.first == key; }) > 0;
+}
+
+bool Value::asBool(std::string_view what) const {
+    if (isScalar() && !quoted) {
+        if (scalar == "true") return true;
+        if (scalar == "false") return false;
+    }
+    throw UsageError(where, "{}: expected true or false, not {}", what, describe(*this));
+}
+
+int64_t Value::asInteger(std::string_view what) const {
+    int64_t number = 0;
+    if (isScalar() && !quoted && parseAll(scalar, number)) return number;
+    throw UsageError(where, "{}: expected a whole number, not {}", what, describe(*this));
+}
+
+double Value::asNumber(std::string_view what) const {
+    double number = 0;
+    if (isScalar() && !quoted && parseAll(scalar, number) && std::isfinite(number)) return number;
+    throw UsageError(where, "{}: expected a number, not {}", what, describe(*this));
+}
+
+std::string Value::asString(std::string_view what) const {
+    if (isScalar()) return scalar;
+    throw UsageError(where, "{}: expected text, not {}", what, describe(*this));
+}
+
+std::string Value::text() const {
+    switch (kind) {
+        case Kind::Null: return "null";
+        case Kind::Scalar: return quoted ? quotedJson(scalar) : scalar;
+        case Kind::List: {
+            std::string out = "[";
+            for (size_t i = 0; i < items.size(); ++i) out += (i ? ", " : "") + items[i].text();
+            return out + "]";
+        }
+        case Kind::Map: {
+            std::string out = "{";
+            for (size_t i = 0; i < members.size(); ++i)
+                out += (i ? ", " : "") + members[i].first + ": " + members[i].second.text();
+            return out + "}";
+        }
+    }
+    return {};
+}
+
+std::string Value::json(int indent) const {
+    std::string out;
+    writeJson(*this, indent, 0, out);
+    return out;
+}
+
+bool Value::operator==(const Value& other) const {
+    return kind == other.kind && scalar == other.scalar && items == other.items && members == other.members;
+}
+
+}  // namespace voxray

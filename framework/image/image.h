@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace voxray {
+
+/// A float picture in memory: linear Rec.709 radiance, interleaved channels, row 0 at the top.
+struct ImageF {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    uint32_t channels = 3;
+    std::vector<float> data;  ///< width * height * channels
+
+    ImageF() = default;
+    ImageF(uint32_t w, uint32_t h, uint32_t c, float value = 0.0f)
+        : width(w), height(h), channels(c), data(size_t(w) * h * c, value) {}
+
+    float* pixel(uint32_t x, uint32_t y) { return &data[(size_t(y) * width + x) * channels]; }
+    const float* pixel(uint32_t x, uint32_t y) const { return &data[(size_t(y) * width + x) * channels]; }
+    size_t pixelCount() const { return size_t(width) * height; }
+};
+
+/// Reads EXR, HDR, PNG or JPEG as float. 8-bit sRGB files are decoded to linear; alpha is dropped from
+/// 4-channel files, grey becomes 3 equal channels.
+/// @throws Error for a missing, broken or oversized file.
+ImageF readImage(const std::filesystem::path& path);
+
+/// A decoded 8-bit RGBA texture, still in the file's own encoding (no sRGB decode). Row 0 at the top.
+struct DecodedImage {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<uint8_t> rgba;
+};
+/// Decodes a PNG or JPEG from memory. @throws Error.
+DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name);
+
+/// Writes a float32 EXR, whole or not at all. 1 or 3 channels.
+void writeExr(const std::filesystem::path& path, const ImageF& image);
+
+/// Writes an 8-bit PNG of display values in [0, 1] (already encoded), whole or not at all. 1 or 3 channels.
+void writePng(const std::filesystem::path& path, const ImageF& display);
+
+/// Preview: scales by 2^exposure, clamps to [0, 1], applies the sRGB transfer function.
+ImageF preview(const ImageF& linear, float exposureStops);
+
+}  // namespace voxray

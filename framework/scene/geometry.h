@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace voxray {
+
+/// Per-vertex attributes, laid out as the shaders read them (see shaders/shared/scene_types.h). 64 bytes.
+struct VertexAttributes {
+    glm::vec3 normal{0, 1, 0};     ///< Unit length, world space; never NaN.
+    float padding = 0;
+    glm::vec4 tangent{1, 0, 0, 1}; ///< Unit length, world space; w is the handedness.
+    glm::vec4 texCoords{0.0f};     ///< uv0, uv1.
+    glm::vec4 color{1.0f};         ///< Linear RGBA.
+};
+
+/// Triangles of one instance: [firstTriangle, firstTriangle + triangleCount).
+struct InstanceRange {
+    uint32_t firstTriangle = 0;
+    uint32_t triangleCount = 0;
+    uint32_t firstVertex = 0;
+    uint32_t vertexCount = 0;
+};
+
+/// The scene at one time as one list of world-space triangles. A triangle's index here is the primitive
+/// number that every ray-tracing backend and every pass uses.
+struct Geometry {
+    std::vector<glm::vec3> positions;
+    std::vector<VertexAttributes> attributes;  ///< Same length as positions.
+    std::vector<glm::uvec3> triangles;         ///< Counter-clockwise seen from the front.
+    std::vector<uint32_t> triangleMaterials;   ///< Same length as triangles.
+    std::vector<InstanceRange> instances;      ///< In the order of Scene::instances.
+    glm::vec3 boundsMin{0.0f};
+    glm::vec3 boundsMax{0.0f};
+};
+
+/// A scene evaluated at one time: geometry, lights and cameras in world space (their node is -1).
+struct SceneState {
+    std::shared_ptr<const Scene> scene;  ///< Materials, textures, environment.
+    Geometry geometry;
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;
+};
+
+/// Evaluates nodes and animation at `timeSeconds` and flattens every instance into world space.
+/// Instances are duplicated: one list of triangles keeps every consumer simple.
+/// @throws Error where a transform is not finite or the vertex or triangle count exceeds 2^31.
+SceneState evaluate(std::shared_ptr<const Scene> scene, double timeSeconds);
+
+}  // namespace voxray

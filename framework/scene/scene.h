@@ -1,0 +1,150 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+
+/// A scene as glTF 2.0 describes it, in metres, right-handed, Y up, linear Rec.709.
+/// Plain data, immutable once loaded; `evaluate` (geometry.h) turns it into world-space triangles.
+namespace voxray {
+
+enum class Wrap : uint32_t { Repeat, ClampToEdge, MirroredRepeat };
+enum class AlphaMode : uint32_t { Opaque, Mask, Blend };
+
+/// An image with its sampler. Lookups are bilinear; sRGB is decoded before filtering.
+struct Texture {
+    std::string name;
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<uint8_t> rgba;  ///< 4 bytes a texel, row 0 at the top.
+    bool srgb = false;          ///< RGB is sRGB-encoded (base colour, emission).
+    Wrap wrapU = Wrap::Repeat;
+    Wrap wrapV = Wrap::Repeat;
+};
+
+/// Which texture a material reads, with which coordinates: uv' = transform * (u, v, 1).
+struct TextureRef {
+    int32_t texture = -1;  ///< Index into Scene::textures; -1: none.
+    uint32_t texCoord = 0; ///< 0 or 1.
+    std::array<glm::vec3, 2> transform{glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)};
+};
+
+/// Metallic-roughness material. Factors multiply their textures.
+struct Material {
+    std::string name;
+    glm::vec4 baseColor{1.0f};
+    float metallic = 1.0f;
+    float roughness = 1.0f;
+    float specular = 1.0f;             ///< KHR_materials_specular; 0 with metallic 0 is exactly Lambert.
+    glm::vec3 specularColor{1.0f};
+    float ior = 1.5f;                  ///< KHR_materials_ior.
+    glm::vec3 emission{0.0f};          ///< W/(m² sr): emissiveFactor * KHR_materials_emissive_strength.
+    float normalScale = 1.0f;
+    AlphaMode alphaMode = AlphaMode::Opaque;
+    float alphaCutoff = 0.5f;
+    bool doubleSided = false;          ///< Emits on both sides. All materials reflect and block on both.
+    TextureRef baseColorTexture;
+    TextureRef metallicRoughnessTexture;  ///< G roughness, B metallic.
+    TextureRef normalTexture;
+    TextureRef emissiveTexture;
+};
+
+/// One glTF primitive in object space. Attribute arrays are empty or as long as `positions`.
+struct Mesh {
+    std::string name;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;    ///< Always there after loading (flat where the file has none).
+    std::vector<glm::vec4> tangents;   ///< xyz and handedness w; made by the loader where a normal map needs them.
+    std::vector<glm::vec2> texCoords0;
+    std::vector<glm::vec2> texCoords1;
+    std::vector<glm::vec4> colors;     ///< Linear RGBA, multiplies the base colour.
+    std::vector<glm::uvec3> triangles;
+    uint32_t material = 0;
+};
+
+/// A node's local transform: translation * rotation * scale, or a matrix where the file gives one.
+struct Node {
+    std::string name;
+    int32_t parent = -1;
+    glm::vec3 translation{0.0f};
+    glm::quat rotation{1, 0, 0, 0};
+    glm::vec3 scale{1.0f};
+    std::optional<glm::mat4> matrix;
+};
+
+/// A mesh placed by a node.
+struct Instance {
+    uint32_t mesh = 0;
+    int32_t node = -1;  ///< -1: identity.
+};
+
+enum class LightType : uint32_t { Point, Spot, Directional };
+
+/// A punctual light (KHR_lights_punctual, read radiometrically). Placed by its node: at the node's origin,
+/// shining along the node's -Z. Without a node, `position` and `direction` are world space.
+struct Light {
+    std::string name;
+    LightType type = LightType::Point;
+    glm::vec3 intensity{1.0f};       ///< Colour * intensity: W/sr (point, spot) or W/m² (directional).
+    float innerConeAngle = 0.0f;     ///< Radians from the axis, spot only.
+    float outerConeAngle = 0.7853982f;
+    glm::vec3 position{0.0f};
+    glm::vec3 direction{0, 0, -1};   ///< The way the light travels, unit length.
+    int32_t node = -1;
+};
+
+/// A pinhole camera. Placed by its node, looking along -Z, +Y up; without a node the vectors are world space.
+struct Camera {
+    std::string name;
+    float verticalFovRadians = 1.0f;
+    glm::vec3 position{0.0f};
+    glm::vec3 forward{0, 0, -1};     ///< Unit length.
+    glm::vec3 up{0, 1, 0};           ///< Unit length, perpendicular to forward.
+    int32_t node = -1;
+};
+
+/// Light from infinitely far, seen where a ray leaves the scene.
+struct Environment {
+    glm::vec3 radiance{0.0f};          ///< Multiplies the map; the radiance itself where there is none. W/(m² sr).
+    std::shared_ptr<const ImageF> map; ///< Equirectangular, 3 channels, row 0 at +Y; u = 0.5 looks along -Z,
+                                       ///< u grows towards +X.
+};
+
+enum class AnimatedProperty : uint32_t { Translation, Rotation, Scale };
+enum class Interpolation : uint32_t { Linear, Step, CubicSpline };
+
+/// One animated property of one node. For CubicSpline each key has in-tangent, value, out-tangent.
+struct AnimationChannel {
+    uint32_t node = 0;
+    AnimatedProperty property = AnimatedProperty::Translation;
+    Interpolation interpolation = Interpolation::Linear;
+    std::vector<float> timesSeconds;
+    std::vector<glm::vec4> values;
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Texture> textures;
+    std::vector<Material> materials;  ///< At least one.
+    std::vector<Mesh> meshes;
+    std::vector<Node> nodes;          ///< Parents before children.
+    std::vector<Instance> instances;
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;
+    Environment environment;
+    std::vector<AnimationChannel> animation;  ///< All of the file's animations, played together.
+    std::vector<std::string> warnings;        ///< What the loader left out, a line each.
+    std::string contentHash;                  ///< Of everything above; part of cache keys.
+};
+
+}  // namespace voxray

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "scene/geometry.h"
+#include "trace/ray.h"
+
+namespace voxray {
+
+/// A scene's triangles in an Embree BVH, with alpha masks honoured on every ray. The only user of Embree's
+/// headers is the .cpp. Thread-safe after construction.
+class EmbreeScene {
+public:
+    /// `state` must outlive this object. @throws Error where Embree refuses (out of memory).
+    explicit EmbreeScene(const SceneState& state);
+    ~EmbreeScene();
+    EmbreeScene(EmbreeScene&&) noexcept;
+    EmbreeScene& operator=(EmbreeScene&&) noexcept;
+
+    /// One ray. The ray must be finite (checked by the callers that take rays from outside).
+    Hit closestHit(const Ray& ray) const;
+    bool occluded(const Ray& ray) const;
+
+    /// Whole streams, on all cores. @throws Error naming the index of the first ray that is NaN or infinite
+    /// (a tMax of +inf is allowed); `result` is 1 where something lies between tMin and tMax.
+    void closestHit(std::span<const Ray> rays, std::span<Hit> hits) const;
+    void occluded(std::span<const Ray> rays, std::span<uint32_t> results) const;
+
+    /// Bytes that Embree reports for the BVH.
+    size_t memoryBytes() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace voxray

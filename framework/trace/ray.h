@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+namespace voxray {
+
+/// A ray of a stream; the same 32 bytes in C++ and GLSL. `direction` need not be unit length: t counts in
+/// multiples of it. A ray with tMax < tMin is inactive: it is a miss and not occluded.
+struct Ray {
+    glm::vec3 origin;
+    float tMin;
+    glm::vec3 direction;
+    float tMax;
+};
+static_assert(sizeof(Ray) == 32);
+
+/// The closest hit of a ray; the same 16 bytes in C++ and GLSL.
+struct Hit {
+    static constexpr uint32_t kMiss = 0xffffffffu;
+    float t;            ///< Distance in multiples of the ray's direction; the ray's tMax on a miss.
+    uint32_t triangle;  ///< Index into Geometry::triangles, or kMiss.
+    float u;            ///< Barycentric weight of the triangle's second vertex.
+    float v;            ///< Barycentric weight of the triangle's third vertex.
+};
+static_assert(sizeof(Hit) == 16);
+
+}  // namespace voxray

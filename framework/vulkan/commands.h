@@ -1,0 +1,127 @@
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <initializer_list>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "vulkan/device.h"
+#include "vulkan/memory.h"
+#include "vulkan/program.h"
+
+namespace voxray {
+
+/// A resource bound to a shader's name. An Image binds as storage image (level 0, or `level`); give a sampler to
+/// bind it as sampled image.
+struct Binding {
+    std::string_view name;
+    std::variant<const Buffer*, const Image*, const TextureArray*, VkAccelerationStructureKHR> resource;
+    const Sampler* sampler = nullptr;
+    uint32_t level = 0;
+
+    Binding(std::string_view n, const Buffer& b) : name(n), resource(&b) {}
+    Binding(std::string_view n, const Image& i, uint32_t mipLevel = 0) : name(n), resource(&i), level(mipLevel) {}
+    Binding(std::string_view n, const Image& i, const Sampler& s) : name(n), resource(&i), sampler(&s) {}
+    Binding(std::string_view n, const TextureArray& t) : name(n), resource(&t) {}
+    Binding(std::string_view n, VkAccelerationStructureKHR a) : name(n), resource(a) {}
+};
+
+/// Push constants of one call.
+struct PushConstants {
+    const void* data = nullptr;
+    uint32_t bytes = 0;
+    PushConstants() = default;
+    template <typename T>
+    PushConstants(const T& value) : data(&value), bytes(sizeof(T)) {
+        static_assert(std::is_trivially_copyable_v<T>);
+    }
+};
+
+/// Targets of a raster pass. All have the extent of the viewport.
+struct RasterTargets {
+    struct Color {
+        const Image* image;
+        std::optional<VkClearColorValue> clear;  ///< Empty: keep the content.
+    };
+    std::vector<Color> colors;
+    const Image* depth = nullptr;  ///< Cleared to 1.
+    glm::uvec3 extent{0, 0, 1};    ///< Viewport; may be larger than no targets at all.
+};
+
+/// Records commands and runs them. Each call is ordered after all calls before it (a full memory barrier between
+/// them), so passes need no barriers of their own. Every binding that the program reflects must be given, and no other:
+/// @throws Error naming the program and the binding.
+class CommandStream {
+public:
+    explicit CommandStream(Device& device);
+    ~CommandStream();
+    CommandStream(const CommandStream&) = delete;
+    CommandStream& operator=(const CommandStream&) = delete;
+
+    Device& device();
+
+    /// Runs a compute program over `groups` work groups. A group count of 0 in any axis records nothing.
+    void dispatch(const Program& program, std::initializer_list<Binding> bindings, PushConstants push,
+                  glm::uvec3 groups);
+    void dispatch(const Program& program, std::span<const Binding> bindings, PushConstants push, glm::uvec3 groups);
+    /// Draws `vertexCount` vertices, `instanceCount` times.
+    void draw(const Program& program, std::initializer_list<Binding> bindings, PushConstants push,
+              const RasterTargets& targets, uint32_t vertexCount, uint32_t instanceCount = 1);
+
+    void fill(const Buffer& buffer, uint32_t word);                         ///< The whole buffer.
+    void clear(const Image& image, VkClearColorValue value);                ///< All levels.
+    void copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset = 0, uint64_t toOffset = 0);
+    void copy(const Image& from, const Buffer& to);                         ///< Level 0, tightly packed.
+    void copy(const Buffer& from, const Image& to, uint32_t level = 0);
+    void makeMipLevels(const Image& image);                                 ///< Box-filters level 0 down, by blits.
+
+    /// Host data into a device buffer through a staging buffer that lives until finish().
+    void upload(const Buffer& to, std::span<const std::byte> data, uint64_t toOffset = 0);
+    template <typename T>
+    void upload(const Buffer& to, const std::vector<T>& data) {
+        upload(to, std::as_bytes(std::span(data)));
+    }
+
+    /// Records raw commands (acceleration structures, traceRays) between barriers.
+    void record(const std::function<void(VkCommandBuffer)>& commands);
+
+    /// Names what follows in captures, until the matching end.
+    void beginLabel(const std::string& name);
+    void endLabel();
+
+    /// A time stamp on the device once all earlier work is done; the index is valid until resetTimestamps().
+    uint32_t timestamp();
+    /// Milliseconds between two stamps, after finish(). Includes host work done in between by the Embree backend.
+    double millisecondsBetween(uint32_t first, uint32_t second) const;
+    void resetTimestamps();
+
+    /// Submits what was recorded and waits; the stream then records anew.
+    void finish();
+
+    /// finish(), then the bytes of a buffer (staged where it isn't mapped).
+    std::vector<std::byte> read(const Buffer& buffer, uint64_t bytes, uint64_t offset = 0);
+    template <typename T>
+    std::vector<T> readAs(const Buffer& buffer, size_t count) {
+        const std::vector<std::byte> raw = read(buffer, count * sizeof(T));
+        std::vector<T> out(count);
+        std::memcpy(out.data(), raw.data(), raw.size());
+        return out;
+    }
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace voxray

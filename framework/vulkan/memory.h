@@ -1,0 +1,137 @@
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+
+#include "vulkan/device.h"
+
+namespace voxray {
+
+/// Where a buffer lives. On software Vulkan all memory is mapped, whichever is asked for.
+enum class MemoryKind {
+    Device,    ///< Fast for the device; mapped only where the device shares memory with the host.
+    Upload,    ///< Host writes, device reads.
+    Readback,  ///< Device writes, host reads.
+};
+
+/// A storage buffer with a device address. Move-only. Usable as storage, indirect, index and vertex buffer,
+/// transfer source and target, and as input of acceleration structures.
+class Buffer {
+public:
+    Buffer() = default;
+    /// @throws Error where the size is 0, over the device's or the configured memory limit.
+    Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind = MemoryKind::Device,
+           VkBufferUsageFlags extraUsage = 0);
+    ~Buffer();
+    Buffer(Buffer&& other) noexcept;
+    Buffer& operator=(Buffer&& other) noexcept;
+
+    explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
+    const std::string& name() const { return name_; }
+    uint64_t bytes() const { return bytes_; }
+    VkBuffer handle() const { return handle_; }
+    VkDeviceAddress address() const { return address_; }
+    /// Mapped memory, or nullptr. What the device writes is visible after CommandStream::finish().
+    void* mapped() const { return mapped_; }
+    template <typename T>
+    std::span<T> mappedAs() const {
+        return {static_cast<T*>(mapped_), mapped_ ? bytes_ / sizeof(T) : 0};
+    }
+
+private:
+    Device* device_ = nullptr;
+    std::string name_;
+    uint64_t bytes_ = 0;
+    uint64_t allocatedBytes_ = 0;
+    VkBuffer handle_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    VkDeviceAddress address_ = 0;
+    void* mapped_ = nullptr;
+};
+
+/// What an image is. `extent.z` > 1 makes it 3D.
+struct ImageDesc {
+    VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    glm::uvec3 extent{1, 1, 1};
+    uint32_t mipLevels = 1;
+    VkImageUsageFlags usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                              VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+};
+
+/// Bytes that an image of this description takes, mip levels included (before the driver's padding).
+uint64_t imageBytes(const ImageDesc& desc);
+
+/// An image with a view of all its levels, kept in VK_IMAGE_LAYOUT_GENERAL from its first use on. Move-only.
+class Image {
+public:
+    Image() = default;
+    Image(Device& device, std::string name, const ImageDesc& desc);
+    ~Image();
+    Image(Image&& other) noexcept;
+    Image& operator=(Image&& other) noexcept;
+
+    explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
+    const std::string& name() const { return name_; }
+    const ImageDesc& desc() const { return desc_; }
+    uint64_t bytes() const { return allocatedBytes_; }
+    VkImage handle() const { return handle_; }
+    VkImageView view() const { return view_; }
+    VkImageView levelView(uint32_t level) const;  ///< One mip level, for storage access.
+
+private:
+    Device* device_ = nullptr;
+    std::string name_;
+    ImageDesc desc_;
+    uint64_t allocatedBytes_ = 0;
+    VkImage handle_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    VkImageView view_ = VK_NULL_HANDLE;
+    std::vector<VkImageView> levelViews_;
+};
+
+enum class Filter { Nearest, Linear };
+
+/// A sampler. Move-only.
+class Sampler {
+public:
+    Sampler() = default;
+    Sampler(Device& device, Filter filter, VkSamplerAddressMode wrapU, VkSamplerAddressMode wrapV);
+    ~Sampler();
+    Sampler(Sampler&& other) noexcept;
+    Sampler& operator=(Sampler&& other) noexcept;
+    VkSampler handle() const { return handle_; }
+
+private:
+    Device* device_ = nullptr;
+    VkSampler handle_ = VK_NULL_HANDLE;
+};
+
+/// Many sampled images under one binding (`uniform sampler2D textures[]`), index by index. Holds at least one
+/// entry. The images and samplers must outlive it.
+class TextureArray {
+public:
+    struct Entry {
+        const Image* image;
+        const Sampler* sampler;
+    };
+    TextureArray() = default;
+    TextureArray(Device& device, std::span<const Entry> entries);
+    ~TextureArray();
+    TextureArray(TextureArray&& other) noexcept;
+    TextureArray& operator=(TextureArray&& other) noexcept;
+
+    VkDescriptorSet set() const { return set_; }
+    VkDescriptorSetLayout layout() const { return layout_; }
+
+private:
+    Device* device_ = nullptr;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+};
+
+}  // namespace voxray

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vulkan/device.h"
+#include "vulkan/memory.h"
+
+namespace voxray {
+
+/// Preprocessor definitions of one variant of a shader, e.g. {{"DIRECTIONS", "6"}}.
+using Defines = std::map<std::string, std::string>;
+
+/// One reflected binding. Set 0 is pushed per dispatch; set 1 binding 0 is the scene's texture array.
+struct ShaderBinding {
+    std::string name;  ///< The block's instance or variable name in GLSL.
+    uint32_t set = 0;
+    uint32_t binding = 0;
+    VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+};
+
+struct ShaderModule {
+    std::string file;  ///< For messages.
+    VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    std::vector<uint32_t> spirv;
+    std::vector<ShaderBinding> bindings;
+    uint32_t pushConstantBytes = 0;
+};
+
+/// GLSL to SPIR-V with glslang, at run time. Includes are searched relative to the including file, then in the
+/// source root (so that "shaders/..." and "passes/..." work). SPIR-V is cached on disk by the content of all its
+/// sources, the defines and the compiler's version.
+class ShaderCompiler {
+public:
+    /// @param sourceRoot folder that holds shaders/ and passes/; cacheFolder may be empty: no disk cache.
+    ShaderCompiler(std::filesystem::path sourceRoot, std::filesystem::path cacheFolder);
+
+    /// The stage follows from the extension: .comp .vert .geom .frag .rgen .rmiss .rchit .rahit.
+    /// @param file relative to the source root.
+    /// @throws Error with "file:line: message" of each compile error, of the file in which it is.
+    ShaderModule compile(const std::string& file, const Defines& defines = {}) const;
+
+private:
+    std::filesystem::path sourceRoot_;
+    std::filesystem::path cacheFolder_;
+};
+
+/// A pipeline with its layout, bindings found by reflection. Move-only.
+class Program {
+public:
+    Program() = default;
+    ~Program();
+    Program(Program&& other) noexcept;
+    Program& operator=(Program&& other) noexcept;
+
+    explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
+    VkPipeline pipeline() const { return pipeline_; }
+    VkPipelineLayout layout() const { return layout_; }
+    VkPipelineBindPoint bindPoint() const { return bindPoint_; }
+    VkShaderStageFlags stages() const { return stages_; }
+    const std::vector<ShaderBinding>& bindings() const { return bindings_; }
+    uint32_t pushConstantBytes() const { return pushConstantBytes_; }
+    const std::string& name() const { return name_; }
+
+private:
+    friend class ProgramBuilder;
+    Device* device_ = nullptr;
+    std::string name_;
+    VkPipeline pipeline_ = VK_NULL_HANDLE;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    VkDescriptorSetLayout pushSetLayout_ = VK_NULL_HANDLE;
+    VkDescriptorSetLayout textureSetLayout_ = VK_NULL_HANDLE;
+    VkPipelineBindPoint bindPoint_ = VK_PIPELINE_BIND_POINT_COMPUTE;
+    VkShaderStageFlags stages_ = 0;
+    std::vector<ShaderBinding> bindings_;
+    uint32_t pushConstantBytes_ = 0;
+};
+
+/// Specialization constants by constant_id.
+using SpecializationConstants = std::map<uint32_t, uint32_t>;
+
+/// @throws Error where the shader uses a feature or a binding kind that is not supported.
+Program makeComputeProgram(Device& device, const ShaderModule& module, const SpecializationConstants& constants = {});
+
+/// Fixed state of a raster pipeline. Vertices are pulled from storage buffers: there are no vertex inputs.
+/// Viewport and scissor are dynamic; no blending.
+struct RasterState {
+    std::vector<VkFormat> colorFormats;
+    VkFormat depthFormat = VK_FORMAT_UNDEFINED;      ///< UNDEFINED: no depth test.
+    VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
+    VkCullModeFlags cull = VK_CULL_MODE_NONE;
+    VkFrontFace frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+    bool writeColor = true;
+};
+Program makeRasterProgram(Device& device, std::span<const ShaderModule> modules, const RasterState& state,
+                          const SpecializationConstants& constants = {});
+
+}  // namespace voxray
