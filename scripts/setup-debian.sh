@@ -8,7 +8,7 @@ set -euo pipefail
 # Each package and why it is here: docs/dependencies.md.
 packages=(
   g++ cmake ninja-build pkg-config
-  libvulkan-dev glslang-dev spirv-tools libspirv-cross-c-shared-dev
+  libvulkan-dev glslang-dev glslang-tools spirv-tools libspirv-cross-c-shared-dev
   libembree-dev libtbb-dev libopenimageio-dev libtinygltf-dev nlohmann-json3-dev libglm-dev
   libyaml-cpp-dev libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev libgtest-dev libbenchmark-dev
   python3 python3-numpy python3-pandas python3-matplotlib python3-jinja2 python3-pil
