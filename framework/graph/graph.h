@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/value.h"
+#include "graph/pass.h"
+#include "graph/registry.h"
+
+namespace voxray {
+
+/// Time and cost of one pass in one run of its phase.
+struct PassSample {
+    double milliseconds = 0;
+    uint64_t rays = 0;
+    uint64_t voxelSteps = 0;
+};
+
+/// A checked chain of passes. Each entry of a config's `graph` list is a map with `pass`, optionally `id`
+/// (default: the pass's name) and `inputs` (port: "id.port" or "id"), and the pass's own parameters.
+/// An input without an entry in `inputs` takes the nearest earlier pass that writes a port of its name.
+class Graph {
+public:
+    /// Keys of a graph entry that are not parameters of the pass.
+    static const std::vector<std::string>& reservedKeys();
+
+    /// Reads, wires and sorts the graph; touches no device.
+    /// @throws UsageError with file and line: unknown pass or parameter, value out of range, duplicate id, missing or
+    /// mistyped port, cycle.
+    Graph(const Registry& registry, const Value& passList);
+    ~Graph();
+    Graph(Graph&&) noexcept;
+    Graph& operator=(Graph&&) noexcept;
+
+    struct PassInfo {
+        std::string id;
+        std::string kind;
+        Phase phase;
+    };
+    /// In execution order.
+    std::vector<PassInfo> passes() const;
+    /// The config's list with every default filled in, in execution order.
+    Value resolved() const;
+
+    /// A resource that will be read from outside, by port name: the last pass that writes it.
+    bool writes(const std::string& portName) const;
+
+    /// Checks sizes against the scene and the device and predicts memory, before any allocation.
+    /// @return bytes by pass, in the order of passes().
+    /// @throws Error where a pass can't do what is asked, or the sum is over `memoryLimitBytes` (names the largest).
+    std::vector<uint64_t> plan(const Frame& frame, const DeviceInfo& device, uint64_t memoryLimitBytes);
+
+    /// Makes programs and resources. After plan(), with the same frame.
+    void prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler, CommandStream& stream);
+
+    /// Runs all passes of a phase once and checks their outputs for NaN and infinity where `checkFinite`
+    /// (outside the measured time). @throws Error naming the pass.
+    /// @return a sample for each pass of that phase, in the order of passes().
+    std::vector<PassSample> run(Phase phase, const Frame& frame, Device& device, CommandStream& stream,
+                                RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex, bool checkFinite);
+
+    /// Device bytes held by each pass, in the order of passes().
+    std::vector<uint64_t> memoryBytes() const;
+
+    /// The image that the last pass with this output port wrote, or nullptr.
+    const Image* image(const std::string& portName) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,172 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <typeindex>
+#include <vector>
+
+#include "scene/geometry.h"
+#include "trace/gpu_scene.h"
+#include "trace/ray_tracer.h"
+#include "vulkan/commands.h"
+#include "vulkan/device.h"
+#include "vulkan/memory.h"
+#include "vulkan/program.h"
+
+/// What a technique implements. Life of a pass: `declare` its ports (pure) -> the graph is wired and sorted ->
+/// `plan` sizes (pure; predicts memory) -> `prepare` programs and resources -> `record`, once (build) or per frame.
+namespace voxray {
+
+/// What passes hand to each other: a plain struct of buffers and images. Producers fill in its description in
+/// plan() and its memory in prepare() or record().
+struct Resource {
+    virtual ~Resource() = default;
+    /// Float images and float buffers that are checked for NaN and infinity after the producing pass ran.
+    virtual std::vector<const Image*> checkedImages() const { return {}; }
+    virtual std::vector<const Buffer*> checkedBuffers() const { return {}; }
+};
+
+/// A radiance image of the frame's size: RGBA32F, linear Rec.709, W/(m² sr).
+struct FrameImage : Resource {
+    Image image;
+    std::vector<const Image*> checkedImages() const override { return {&image}; }
+};
+
+/// A port of a pass, bound by the graph to a resource. Typed, so that `get` needs no cast.
+template <typename T>
+struct Port {
+    int index = -1;  ///< Of the pass's own ports.
+};
+
+/// When a pass runs: once for a scene and its lights, or in each frame.
+enum class Phase { Build, Frame };
+
+struct PortInfo {
+    std::string name;
+    std::string help;
+    bool output = false;
+    bool optional = false;
+    std::type_index type = typeid(void);
+    Resource* (*create)() = nullptr;
+};
+
+/// Collects the ports of a pass.
+class PassBuilder {
+public:
+    /// Reads what an earlier pass writes under this name (or under the name that the config's `inputs` gives).
+    template <typename T>
+    Port<T> read(std::string name, std::string help) {
+        return add<T>({std::move(name), std::move(help), false, false, typeid(T)});
+    }
+    /// The same, but the graph is valid without it; `PassPlan::has` and `PassContext::has` tell.
+    template <typename T>
+    Port<T> readOptional(std::string name, std::string help) {
+        return add<T>({std::move(name), std::move(help), false, true, typeid(T)});
+    }
+    template <typename T>
+    Port<T> write(std::string name, std::string help) {
+        return add<T>({std::move(name), std::move(help), true, false, typeid(T),
+                       []() -> Resource* { return new T(); }});
+    }
+    const std::vector<PortInfo>& ports() const { return ports_; }
+
+private:
+    template <typename T>
+    Port<T> add(PortInfo info) {
+        ports_.push_back(std::move(info));
+        return {int(ports_.size()) - 1};
+    }
+    std::vector<PortInfo> ports_;
+};
+
+/// What all passes of a graph share. Everything outlives the graph.
+struct Frame {
+    const SceneState* scene = nullptr;
+    Camera camera;  ///< World space.
+    uint32_t width = 0;
+    uint32_t height = 0;
+    uint64_t seed = 0;
+};
+
+/// Access to the resources that a pass's ports are bound to.
+class PortAccess {
+public:
+    explicit PortAccess(const std::vector<Resource*>& resources) : resources_(resources) {}
+    template <typename T>
+    T& get(Port<T> port) const {
+        return static_cast<T&>(*resources_[size_t(port.index)]);
+    }
+    template <typename T>
+    bool has(Port<T> port) const {
+        return resources_[size_t(port.index)] != nullptr;
+    }
+
+private:
+    const std::vector<Resource*>& resources_;
+};
+
+/// Sizes and limits, known before any memory is taken.
+class PassPlan : public PortAccess {
+public:
+    PassPlan(const std::vector<Resource*>& resources, const Frame& f, const DeviceInfo& d)
+        : PortAccess(resources), frame(f), device(d) {}
+    const Frame& frame;
+    const DeviceInfo& device;
+    /// Bytes that this pass will allocate under `name`.
+    void reserve(std::string name, uint64_t bytes) { reservations.push_back({std::move(name), bytes}); }
+
+    struct Reservation {
+        std::string name;
+        uint64_t bytes;
+    };
+    std::vector<Reservation> reservations;
+};
+
+/// For making programs, buffers and images.
+class PassSetup : public PortAccess {
+public:
+    PassSetup(const std::vector<Resource*>& resources, const Frame& f, Device& d, const ShaderCompiler& c,
+              CommandStream& s)
+        : PortAccess(resources), frame(f), device(d), compiler(c), stream(s) {}
+    const Frame& frame;
+    Device& device;
+    const ShaderCompiler& compiler;
+    CommandStream& stream;
+};
+
+/// For running.
+class PassContext : public PortAccess {
+public:
+    PassContext(const std::vector<Resource*>& resources, const Frame& f, Device& d, CommandStream& s, RayTracer& t,
+                const GpuScene& g, uint32_t index)
+        : PortAccess(resources), frame(f), device(d), stream(s), tracer(t), scene(g), frameIndex(index) {}
+    const Frame& frame;
+    Device& device;
+    CommandStream& stream;
+    RayTracer& tracer;
+    const GpuScene& scene;
+    uint32_t frameIndex;
+    /// Rays traced outside of `tracer` (the reference traces on its own).
+    uint64_t extraRays = 0;
+    uint64_t voxelSteps = 0;
+};
+
+/// A stage of a graph. A pass class also has `struct Params` with a schema, a constructor from Params, and
+/// `static constexpr const char* kName, *kHelp` (what it does, what biases it, what makes it noisy, its source).
+class Pass {
+public:
+    virtual ~Pass() = default;
+    virtual Phase phase() const = 0;
+    /// Names the ports. No device work.
+    virtual void declare(PassBuilder& builder) = 0;
+    /// Checks parameters against scene and device, describes outputs, reserves memory. Runs in graph order.
+    /// @throws Error for what this scene or device can't do.
+    virtual void plan(PassPlan& plan) = 0;
+    /// Makes programs and resources. Runs in graph order, after all plans.
+    virtual void prepare(PassSetup& setup) = 0;
+    /// Records the work.
+    virtual void record(PassContext& context) = 0;
+};
+
+}  // namespace voxray

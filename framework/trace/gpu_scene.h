@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "scene/geometry.h"
+#include "vulkan/commands.h"
+#include "vulkan/memory.h"
+
+namespace voxray {
+
+/// A scene's triangles, materials, textures and lights on the device, as shaders/scene.glsl reads them
+/// (structs: shaders/shared/scene_types.h). Triangle numbers are those of Geometry.
+struct GpuScene {
+    Buffer positions;          ///< 3 floats a vertex, tightly packed.
+    Buffer attributes;         ///< VertexAttributes a vertex.
+    Buffer triangles;          ///< 3 uints a triangle.
+    Buffer triangleMaterials;  ///< 1 uint a triangle.
+    Buffer materials;          ///< GpuMaterial each.
+    Buffer lights;             ///< GpuLight each; at least one element is allocated.
+    Buffer emitters;           ///< GpuEmitter each: emissive triangles; at least one element is allocated.
+    TextureArray textures;     ///< All with full mip chains.
+
+    uint32_t triangleCount = 0;
+    uint32_t lightCount = 0;
+    uint32_t emitterCount = 0;
+    float emittedPower = 0;    ///< Of all emitters, luminance in W.
+
+    std::vector<Image> images;
+    std::vector<Sampler> samplers;
+
+    /// The bindings that a shader including shaders/scene.glsl needs, followed by `more`.
+    std::vector<Binding> bindings(std::initializer_list<Binding> more) const;
+};
+
+/// Bytes that makeGpuScene will allocate.
+uint64_t gpuSceneBytes(const SceneState& state);
+
+/// Uploads a scene. @throws Error over the memory limit, or for more textures than the device can bind.
+GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& state);
+
+}  // namespace voxray

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "graph/registry.h"
+
+namespace voxray {
+
+/// Adds every technique under passes/. A new pass is one line here.
+void registerPasses(Registry& registry);
+
+}  // namespace voxray
