@@ -12,26 +12,27 @@ namespace voxray {
 /// A scene's triangles in an Embree BVH, with alpha masks honoured on every ray. The only user of Embree's
 /// headers is the .cpp. Thread-safe after construction.
 class EmbreeScene {
-public:
+ public:
     /// `state` must outlive this object. @throws Error where Embree refuses (out of memory).
     explicit EmbreeScene(const SceneState& state);
     ~EmbreeScene();
     EmbreeScene(EmbreeScene&&) noexcept;
     EmbreeScene& operator=(EmbreeScene&&) noexcept;
 
-    /// One ray. The ray must be finite (checked by the callers that take rays from outside).
+    /// One ray. The ray must be finite with tMin >= 0 (checked by the callers that take rays from outside).
     Hit closestHit(const Ray& ray) const;
     bool occluded(const Ray& ray) const;
 
-    /// Whole streams, on all cores. @throws Error naming the index of the first ray that is NaN or infinite
-    /// (a tMax of +inf is allowed); `result` is 1 where something lies between tMin and tMax.
+    /// Whole streams, on all cores; `result` is 1 where something lies between tMin and tMax.
+    /// @throws Error naming the index of the first ray that is NaN, infinite (a tMax of +inf is allowed),
+    /// beyond 1.8e18 m or has a negative tMin; inactive rays too.
     void closestHit(std::span<const Ray> rays, std::span<Hit> hits) const;
     void occluded(std::span<const Ray> rays, std::span<uint32_t> results) const;
 
-    /// Bytes that Embree reports for the BVH.
+    /// Bytes that Embree holds: its BVH and its copy of the triangles.
     size_t memoryBytes() const;
 
-private:
+ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -1,0 +1,219 @@
+#include "trace/embree_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "base/error.h"
+#include "trace/texture_lookup.h"
+
+namespace voxray {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// A scene of separate triangles, three vertices each; material 0 is opaque, material 1 alpha-masked with a
+/// texture whose left half is transparent.
+struct Soup {
+    SceneState state;
+
+    Soup() {
+        auto scene = std::make_shared<Scene>();
+        Texture texture;
+        texture.width = 2;
+        texture.height = 1;
+        texture.wrapU = texture.wrapV = Wrap::ClampToEdge;
+        texture.rgba = {255, 255, 255, 0, 255, 255, 255, 255};
+        scene->textures = {texture};
+        scene->materials.resize(2);
+        scene->materials[1].alphaMode = AlphaMode::Mask;
+        scene->materials[1].baseColorTexture.texture = 0;
+        state.scene = scene;
+    }
+
+    void add(glm::vec3 a, glm::vec3 b, glm::vec3 c, uint32_t material = 0) {
+        const uint32_t first = uint32_t(state.geometry.positions.size());
+        const glm::vec2 uvs[3] = {{0, 0}, {1, 0}, {0, 1}};
+        const glm::vec3 corners[3] = {a, b, c};
+        for (int i = 0; i < 3; ++i) {
+            VertexAttributes attributes;
+            attributes.texCoords = glm::vec4(uvs[i], 0, 0);
+            state.geometry.positions.push_back(corners[i]);
+            state.geometry.attributes.push_back(attributes);
+        }
+        state.geometry.triangles.push_back({first, first + 1, first + 2});
+        state.geometry.triangleMaterials.push_back(material);
+    }
+};
+
+TEST(EmbreeScene, HitsReportDistanceTriangleAndBarycentrics) {
+    Soup soup;
+    soup.add({0, 0, -5}, {4, 0, -5}, {0, 4, -5});
+    soup.add({0, 0, -2}, {4, 0, -2}, {0, 4, -2});
+    const EmbreeScene scene(soup.state);
+    const Hit hit = scene.closestHit({{1, 2, 0}, 0, {0, 0, -0.5f}, kInfinity});
+    EXPECT_EQ(hit.triangle, 1u);
+    EXPECT_FLOAT_EQ(hit.t, 4.0f);
+    EXPECT_FLOAT_EQ(hit.u, 0.25f);
+    EXPECT_FLOAT_EQ(hit.v, 0.5f);
+    EXPECT_EQ(scene.closestHit({{1, 2, 0}, 4.1f, {0, 0, -0.5f}, kInfinity}).triangle, 0u);
+    EXPECT_GT(scene.memoryBytes(), 0u);
+}
+
+TEST(EmbreeScene, MissesKeepTheirTMax) {
+    Soup soup;
+    soup.add({0, 0, -5}, {4, 0, -5}, {0, 4, -5});
+    const EmbreeScene scene(soup.state);
+    const Hit hit = scene.closestHit({{1, 1, 0}, 0, {0, 0, -1}, 4.9f});
+    EXPECT_EQ(hit.triangle, Hit::kMiss);
+    EXPECT_EQ(hit.t, 4.9f);
+    EXPECT_FALSE(scene.occluded({{1, 1, 0}, 0, {0, 0, -1}, 4.9f}));
+    EXPECT_TRUE(scene.occluded({{1, 1, 0}, 0, {0, 0, -1}, 5.1f}));
+}
+
+TEST(EmbreeScene, InactiveRaysMiss) {
+    Soup soup;
+    soup.add({0, 0, -5}, {4, 0, -5}, {0, 4, -5});
+    const EmbreeScene scene(soup.state);
+    const std::vector<Ray> rays{{{1, 1, 0}, 1, {0, 0, -1}, 0},
+                                {{1, 1, 0}, 0, {0, 0, -1}, -kInfinity},
+                                {{1, 1, 0}, 0, {0, 0, -1}, 10}};
+    std::vector<Hit> hits(3);
+    std::vector<uint32_t> occluded(3, 7);
+    scene.closestHit(rays, hits);
+    scene.occluded(rays, occluded);
+    EXPECT_EQ(hits[0].triangle, Hit::kMiss);
+    EXPECT_EQ(hits[1].triangle, Hit::kMiss);
+    EXPECT_EQ(hits[2].triangle, 0u);
+    EXPECT_EQ(occluded, (std::vector<uint32_t>{0, 0, 1}));
+}
+
+TEST(EmbreeScene, NoTrianglesMeansNoHits) {
+    const Soup soup;
+    const EmbreeScene scene(soup.state);
+    EXPECT_EQ(scene.closestHit({{0, 0, 0}, 0, {0, 0, -1}, kInfinity}).triangle, Hit::kMiss);
+    EXPECT_FALSE(scene.occluded({{0, 0, 0}, 0, {0, 0, -1}, kInfinity}));
+}
+
+TEST(EmbreeScene, DegenerateTrianglesAndZeroDirectionsAreHarmless) {
+    Soup soup;
+    soup.add({0, 0, -1}, {0, 0, -1}, {0, 0, -1});
+    soup.add({0, 0, -1}, {1, 0, -1}, {2, 0, -1});
+    soup.add({-9, -9, -5}, {30, -9, -5}, {-9, 30, -5});
+    const EmbreeScene scene(soup.state);
+    for (const glm::vec3 target : {glm::vec3(0, 0, -1), glm::vec3(1, 0, -1), glm::vec3(0.5f, 0, -1)})
+        EXPECT_EQ(scene.closestHit({{0, 0, 0}, 0, target, kInfinity}).triangle, 2u);
+    EXPECT_EQ(scene.closestHit({{0, 0, 0}, 0, {0, 0, 0}, 1}).triangle, Hit::kMiss);
+}
+
+TEST(EmbreeScene, MaskedTrianglesAreCutForEveryRay) {
+    Soup soup;
+    soup.add({0, 0, -3}, {4, 0, -3}, {0, 4, -3}, 1);
+    soup.add({0, 0, -5}, {4, 0, -5}, {0, 4, -5}, 0);
+    soup.add({0, 0, -4}, {4, 0, -4}, {0, 4, -4}, 1);
+    const EmbreeScene scene(soup.state);
+    // The mask's alpha passes 0.5 at u = 0.5, which is x = 2.
+    for (const float x : {0.5f, 1.5f, 1.9f}) {
+        EXPECT_EQ(scene.closestHit({{x, 0.5f, 0}, 0, {0, 0, -1}, kInfinity}).triangle, 1u) << x;
+        EXPECT_FALSE(scene.occluded({{x, 0.5f, 0}, 0, {0, 0, -1}, 4.5f})) << x;
+    }
+    for (const float x : {2.1f, 3.0f}) {
+        EXPECT_EQ(scene.closestHit({{x, 0.5f, 0}, 0, {0, 0, -1}, kInfinity}).triangle, 0u) << x;
+        EXPECT_EQ(scene.closestHit({{x, 0.5f, 0}, 3.5f, {0, 0, -1}, kInfinity}).triangle, 2u) << x;
+        EXPECT_TRUE(scene.occluded({{x, 0.5f, 0}, 0, {0, 0, -1}, 4.5f})) << x;
+    }
+}
+
+TEST(EmbreeScene, StreamsAgreeWithSingleRays) {
+    Soup soup;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    const auto point = [&] { return glm::vec3(unit(random), unit(random), unit(random)); };
+    for (int i = 0; i < 300; ++i) {
+        const glm::vec3 a = point();
+        soup.add(a, a + 0.3f * point(), a + 0.3f * point(), i % 3 == 0 ? 1 : 0);
+    }
+    const EmbreeScene scene(soup.state);
+    std::vector<Ray> rays(20001);
+    for (Ray& ray : rays) ray = {point(), 0, point(), 1.0f + unit(random)};
+    std::vector<Hit> hits(rays.size());
+    std::vector<uint32_t> occluded(rays.size());
+    scene.closestHit(rays, hits);
+    scene.occluded(rays, occluded);
+    size_t hitCount = 0;
+    for (size_t i = 0; i < rays.size(); ++i) {
+        const Hit single = scene.closestHit(rays[i]);
+        ASSERT_EQ(single.triangle, hits[i].triangle) << i;
+        ASSERT_EQ(single.t, hits[i].t) << i;
+        ASSERT_EQ(scene.occluded(rays[i]), occluded[i] == 1) << i;
+        ASSERT_EQ(single.triangle != Hit::kMiss, occluded[i] == 1) << i;
+        hitCount += occluded[i];
+    }
+    EXPECT_GT(hitCount, rays.size() / 20);
+}
+
+TEST(EmbreeScene, StreamsNameTheFirstBadRay) {
+    Soup soup;
+    soup.add({0, 0, -5}, {4, 0, -5}, {0, 4, -5});
+    const EmbreeScene scene(soup.state);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const Ray good{{1, 1, 0}, 0, {0, 0, -1}, kInfinity};
+    const std::vector<Ray> badRays{
+        {{1, nan, 0}, 0, {0, 0, -1}, 1},     {{1, 1, 0}, 0, {0, kInfinity, -1}, 1},
+        {{1, 1, 0}, nan, {0, 0, -1}, 1},     {{1, 1, 0}, 0, {0, 0, -1}, nan},
+        {{1, 1, 0}, -1.0f, {0, 0, -1}, 1},   {{1, 1, 3e18f}, 0, {0, 0, -1}, 1},
+        {{1, nan, 0}, 1.0f, {0, 0, -1}, -1}, {{1, 1, 0}, kInfinity, {0, 0, -1}, 1}};
+    for (const Ray& bad : badRays) {
+        std::vector<Ray> rays(30000, good);
+        rays[12345] = rays[29000] = bad;
+        std::vector<Hit> hits(rays.size());
+        std::vector<uint32_t> occluded(rays.size());
+        for (const bool closest : {true, false}) {
+            try {
+                closest ? scene.closestHit(rays, hits) : scene.occluded(rays, occluded);
+                FAIL() << "a bad ray was traced";
+            } catch (const Error& error) {
+                EXPECT_NE(std::string(error.what()).find("ray 12345 "), std::string::npos) << error.what();
+            }
+        }
+    }
+}
+
+TEST(TextureLookup, WrapsAndFilters) {
+    Texture texture;
+    texture.width = 2;
+    texture.height = 1;
+    texture.rgba = {0, 0, 0, 255, 255, 255, 255, 255};
+    EXPECT_FLOAT_EQ(sampleTexture(texture, {0.25f, 0.5f}).r, 0.0f);
+    EXPECT_FLOAT_EQ(sampleTexture(texture, {0.75f, 0.5f}).r, 1.0f);
+    EXPECT_FLOAT_EQ(sampleTexture(texture, {0.5f, 0.5f}).r, 0.5f);
+    EXPECT_FLOAT_EQ(sampleTexture(texture, {-0.25f, 0.5f}).r, 1.0f);
+    EXPECT_FLOAT_EQ(sampleTexture(texture, {1.0f, 0.5f}).r, 0.5f);
+    texture.wrapU = Wrap::ClampToEdge;
+    EXPECT_FLOAT_EQ(sampleTexture(texture, {-3.0f, 0.5f}).r, 0.0f);
+    EXPECT_FLOAT_EQ(sampleTexture(texture, {1.0f, 0.5f}).r, 1.0f);
+    texture.wrapU = Wrap::MirroredRepeat;
+    EXPECT_FLOAT_EQ(sampleTexture(texture, {1.25f, 0.5f}).r, 1.0f);
+    EXPECT_FLOAT_EQ(sampleTexture(texture, {1.75f, 0.5f}).r, 0.0f);
+    EXPECT_FLOAT_EQ(sampleTexture(texture, {-0.75f, 0.5f}).r, 1.0f);
+    EXPECT_TRUE(std::isfinite(sampleTexture(texture, {kInfinity, 1e38f}).r));
+}
+
+TEST(TextureLookup, DecodesSrgbBeforeFiltering) {
+    Texture texture;
+    texture.width = 2;
+    texture.height = 1;
+    texture.srgb = true;
+    texture.rgba = {0, 188, 10, 0, 255, 188, 10, 255};
+    const glm::vec4 middle = sampleTexture(texture, {0.5f, 0.5f});
+    EXPECT_FLOAT_EQ(middle.r, 0.5f);
+    EXPECT_NEAR(middle.g, 0.5029f, 1e-4f);
+    EXPECT_NEAR(middle.b, 10.0f / 255.0f / 12.92f, 1e-6f);
+    EXPECT_FLOAT_EQ(middle.a, 0.5f);
+}
+
+}  // namespace
+}  // namespace voxray
