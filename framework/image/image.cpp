@@ -1,1 +1,236 @@
-// To be written.
+#include "image/image.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/parallel.h"
+#include "image/color.h"
+
+namespace voxray {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr uint64_t maxPixels = 1ull << 28;
+
+// Reasons of a library can span lines; an Error is one line.
+std::string oneLine(std::string text) {
+    while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text.empty() ? "unknown reason" : text;
+}
+
+void checkSpec(const OIIO::ImageSpec& spec, const std::string& name) {
+    if (spec.deep) throw Error("{}: is a deep image; store it flat", name);
+    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0)
+        throw Error("{}: is not a picture ({} x {} x {}, {} channels)", name, spec.width, spec.height,
+                    spec.depth, spec.nchannels);
+    if (uint64_t(spec.width) * uint64_t(spec.height) > maxPixels)
+        throw Error("{}: {} x {} pixels are more than the {} that Voxray reads", name, spec.width,
+                    spec.height, maxPixels);
+}
+
+// The channels [begin, begin + count) that hold the colour: R, G, B by name, else the first ones.
+struct ColourChannels {
+    int begin = 0;
+    int count = 1;
+};
+ColourChannels colourChannels(const OIIO::ImageSpec& spec) {
+    const int red = spec.channelindex("R");
+    if (red >= 0 && spec.channelindex("G") == red + 1 && spec.channelindex("B") == red + 2) return {red, 3};
+    if (const int luma = spec.channelindex("Y"); luma >= 0) return {luma, 1};
+    return {0, spec.nchannels >= 3 ? 3 : 1};
+}
+
+// Reads in strips and grows as they arrive, so that a short file that claims to be huge costs no memory.
+template <typename T>
+std::vector<T> readPixels(OIIO::ImageInput& input, const std::string& name, int firstChannel, int channels,
+                          OIIO::TypeDesc type) {
+    const OIIO::ImageSpec& spec = input.spec();
+    const int strip = spec.tile_height > 0 ? spec.tile_height : 64;
+    const size_t rowValues = size_t(spec.width) * size_t(channels);
+    const int lastChannel = firstChannel + channels;
+    std::vector<T> values;
+    for (int row = 0; row < spec.height; row += strip) {
+        const int begin = spec.y + row;
+        const int end = spec.y + std::min(row + strip, spec.height);
+        const size_t offset = values.size();
+        values.resize(offset + rowValues * size_t(end - begin));
+        const bool read = spec.tile_width > 0
+                              ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z,
+                                                 spec.z + 1, firstChannel, lastChannel, type, &values[offset])
+                              : input.read_scanlines(0, 0, begin, end, spec.z, firstChannel, lastChannel,
+                                                     type, &values[offset]);
+        if (!read) throw Error("{}: is broken or truncated: {}", name, oneLine(input.geterror()));
+    }
+    return values;
+}
+
+// A cut-off JPEG decodes to grey without complaint: look for its end marker.
+bool jpegEnds(std::span<const uint8_t> bytes) {
+    static constexpr uint8_t endOfImage[] = {0xff, 0xd9};
+    return std::find_end(bytes.begin(), bytes.end(), std::begin(endOfImage), std::end(endOfImage)) !=
+           bytes.end();
+}
+bool isJpeg(std::span<const uint8_t> bytes) {
+    return bytes.size() > 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
+}
+bool isPng(std::span<const uint8_t> bytes) {
+    static constexpr uint8_t magic[] = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
+    return bytes.size() > sizeof magic && std::equal(std::begin(magic), std::end(magic), bytes.begin());
+}
+
+// Colour under transparent pixels stays as the file has it.
+OIIO::ImageSpec openOptions() {
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    return config;
+}
+
+void checkWritable(const fs::path& path, const ImageF& image) {
+    if (image.channels != 1 && image.channels != 3)
+        throw Error("{}: cannot write {} channels, only 1 or 3", path.string(), image.channels);
+    if (image.width == 0 || image.height == 0) throw Error("{}: the image is empty", path.string());
+    if (image.data.size() != image.pixelCount() * image.channels)
+        throw Error("{}: {} values do not fill {} x {} pixels of {} channels", path.string(),
+                    image.data.size(), image.width, image.height, image.channels);
+}
+
+void writeWhole(const fs::path& path, const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                const void* values) {
+    writeFileAtomically(path, [&](const fs::path& temporary) {
+        const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(format);
+        if (!out) throw Error("{}: no writer for {}: {}", path.string(), format, oneLine(OIIO::geterror()));
+        if (!out->open(temporary.string(), spec) || !out->write_image(type, values) || !out->close())
+            throw Error("{}: {}", path.string(), oneLine(out->geterror()));
+    });
+}
+
+}  // namespace
+
+ImageF readImage(const fs::path& path) {
+    const std::string name = path.string();
+    const std::vector<uint8_t> bytes = readFile(path);
+    if (isJpeg(bytes) && !jpegEnds(bytes))
+        throw Error("{}: is broken or truncated: a JPEG without its end", name);
+    try {
+        // Open, and refuse what is no flat picture before any memory is taken.
+        const OIIO::ImageSpec config = openOptions();
+        const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &config);
+        if (!input) throw Error("{}: not an image that Voxray can read: {}", name, oneLine(OIIO::geterror()));
+        const OIIO::ImageSpec spec = input->spec();
+        checkSpec(spec, name);
+        const ColourChannels colour = colourChannels(spec);
+        std::vector<float> values =
+            readPixels<float>(*input, name, colour.begin, colour.count, OIIO::TypeDesc::FLOAT);
+
+        // Integer files hold display values.
+        if (!spec.format.is_floating_point())
+            parallelRanges(values.size(), 1 << 14, [&](size_t begin, size_t end) {
+                for (size_t i = begin; i < end; ++i) values[i] = srgbDecode(values[i]);
+            });
+
+        // Grey becomes three equal channels.
+        ImageF image;
+        image.width = uint32_t(spec.width);
+        image.height = uint32_t(spec.height);
+        image.channels = 3;
+        if (colour.count == 3) {
+            image.data = std::move(values);
+        } else {
+            image.data.resize(values.size() * 3);
+            for (size_t i = 0; i < image.data.size(); ++i) image.data[i] = values[i / 3];
+        }
+        return image;
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw Error("{}: is broken: {}", name, oneLine(error.what()));
+    }
+}
+
+DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name) {
+    const bool png = isPng(encoded);
+    if (!png && !isJpeg(encoded)) throw Error("{}: is neither PNG nor JPEG", name);
+    if (!png && !jpegEnds(encoded)) throw Error("{}: is broken or truncated: a JPEG without its end", name);
+    try {
+        // Open from memory.
+        OIIO::Filesystem::IOMemReader reader(const_cast<uint8_t*>(encoded.data()), encoded.size());
+        OIIO::Filesystem::IOProxy* proxy = &reader;
+        OIIO::ImageSpec config = openOptions();
+        config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+        const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(png ? "png" : "jpeg");
+        if (!input) throw Error("{}: no reader: {}", name, oneLine(OIIO::geterror()));
+        OIIO::ImageSpec opened;
+        if (!input->open(name, opened, config))
+            throw Error("{}: is broken: {}", name, oneLine(input->geterror()));
+        const OIIO::ImageSpec spec = input->spec();
+        checkSpec(spec, name);
+        const int channels = std::min(spec.nchannels, 4);
+        const std::vector<uint8_t> values =
+            readPixels<uint8_t>(*input, name, 0, channels, OIIO::TypeDesc::UINT8);
+
+        // Spread grey (1), grey and alpha (2), RGB (3) and RGBA (4) to RGBA.
+        DecodedImage image{uint32_t(spec.width), uint32_t(spec.height), {}};
+        const size_t pixels = size_t(image.width) * image.height;
+        image.rgba.resize(pixels * 4);
+        const bool grey = channels <= 2;
+        const bool alpha = channels == 2 || channels == 4;
+        for (size_t i = 0; i < pixels; ++i) {
+            const uint8_t* from = &values[i * size_t(channels)];
+            uint8_t* to = &image.rgba[i * 4];
+            for (int c = 0; c < 3; ++c) to[c] = from[grey ? 0 : c];
+            to[3] = alpha ? from[channels - 1] : uint8_t(255);
+        }
+        return image;
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw Error("{}: is broken: {}", name, oneLine(error.what()));
+    }
+}
+
+void writeExr(const fs::path& path, const ImageF& image) {
+    checkWritable(path, image);
+    OIIO::ImageSpec spec(int(image.width), int(image.height), int(image.channels), OIIO::TypeDesc::FLOAT);
+    spec.channelnames =
+        image.channels == 3 ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"};
+    spec.attribute("compression", "zip");
+    writeWhole(path, "openexr", spec, OIIO::TypeDesc::FLOAT, image.data.data());
+}
+
+void writePng(const fs::path& path, const ImageF& display) {
+    checkWritable(path, display);
+    std::vector<uint8_t> bytes(display.data.size());
+    for (size_t i = 0; i < bytes.size(); ++i) {
+        const float value = display.data[i];
+        if (std::isnan(value)) {
+            const size_t pixel = i / display.channels;
+            throw Error("{}: the image has NaN at ({}, {})", path.string(), pixel % display.width,
+                        pixel / display.width);
+        }
+        bytes[i] = uint8_t(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
+    }
+    OIIO::ImageSpec spec(int(display.width), int(display.height), int(display.channels),
+                         OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    writeWhole(path, "png", spec, OIIO::TypeDesc::UINT8, bytes.data());
+}
+
+ImageF preview(const ImageF& linear, float exposureStops) {
+    ImageF display = linear;
+    const float scale = std::exp2(exposureStops);
+    parallelRanges(display.data.size(), 1 << 14, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i)
+            display.data[i] = srgbEncode(std::clamp(display.data[i] * scale, 0.0f, 1.0f));
+    });
+    return display;
+}
+
+}  // namespace voxray
