@@ -1,74 +1,74 @@
 #!/usr/bin/env bash
 # Installs what Voxray needs on Debian 12, from Debian packages alone. Does nothing where nothing is missing.
+# setup-debian.sh [run|test]: packages for every command, or those of the tests as well.
 #
 # Mesa comes from bookworm-backports (lavapipe has ray tracing from Mesa 25 on). That suite is added
 # through the mirror that this machine's own apt configuration names for bookworm.
 set -euo pipefail
 
-# Each package and why it is here: docs/dependencies.md.
-packages=(
-  g++ cmake ninja-build pkg-config
-  libvulkan-dev glslang-dev glslang-tools spirv-tools libspirv-cross-c-shared-dev
-  libembree-dev libtbb-dev libopenimageio-dev libtinygltf-dev nlohmann-json3-dev libglm-dev
-  libyaml-cpp-dev libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev libgtest-dev libbenchmark-dev
-  python3 python3-numpy python3-pandas python3-matplotlib python3-jinja2 python3-pil
-  vulkan-validationlayers vulkan-tools
-)
-backports_packages=(mesa-vulkan-drivers)
+purpose=${1:-run}
 mesa_wanted_major=25
 
-say() { printf 'voxray setup: %s\n' "$*" >&2; }
-die() { say "$*"; exit 1; }
+say() { printf 'voxray set-up: %s\n' "$*" >&2; }
+die() { printf 'voxray: error: %s\n' "$*" >&2; exit 1; }
 
-installed() { dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null | grep -qx installed; }
+# Packages of the list that are not installed. Mesa is apart, because of its version.
+list=$(dirname "$(readlink -f "$0")")/packages.txt
+wanted=$(awk -F'|' -v purpose="$purpose" '!/^#/ && NF { gsub(/ /, "", $1); gsub(/ /, "", $3)
+  if ($3 != "mesa-vulkan-drivers" && ($1 == "run" || $1 == purpose)) print $3 }' "$list")
+installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' $wanted 2>/dev/null | sed -n 's/ installed$//p') || true
+missing=$(comm -23 <(sort -u <<<"$wanted") <(sort -u <<<"$installed") | tr '\n' ' ')
 
 mesa_is_new_enough() {
   local version
-  version=$(dpkg-query -W -f '${Version}' mesa-vulkan-drivers 2>/dev/null) || return 1
-  [ "${version%%.*}" -ge "$mesa_wanted_major" ] 2>/dev/null
+  version=$(dpkg-query -W -f '${db:Status-Status} ${Version}' mesa-vulkan-drivers 2>/dev/null) || return 1
+  [[ $version =~ ^installed\ ([0-9]+:)?([0-9]+)\. ]] && [ "${BASH_REMATCH[2]}" -ge "$mesa_wanted_major" ]
 }
 
-missing=()
-for package in "${packages[@]}"; do
-  installed "$package" || missing+=("$package")
-done
-if [ ${#missing[@]} -eq 0 ] && mesa_is_new_enough; then
+if [ -z "${missing// /}" ] && mesa_is_new_enough; then
   exit 0
-fi
-
-# Become root only where something has to be installed.
-if [ "$(id -u)" -ne 0 ]; then
-  command -v sudo >/dev/null || die "missing packages need root, and there is no sudo. As root: apt-get install ${missing[*]}"
-  exec sudo -- "$0" "$@"
 fi
 
 . /etc/os-release
 [ "${ID:-}" = debian ] && [ "${VERSION_ID:-}" = 12 ] ||
-  die "set-up knows Debian 12; this is ${PRETTY_NAME:-unknown}. './voxray doctor' lists what is needed and how it is called elsewhere"
+  die "set-up knows Debian 12 and this is ${PRETTY_NAME:-unknown}: './voxray doctor' lists what is needed and how it is called here; VOXRAY_SKIP_SETUP=1 goes on without set-up"
+
+# Become root only where something has to be installed.
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null ||
+    die "packages are missing and there is no sudo: run '$0' as root once (missing: ${missing}and Mesa $mesa_wanted_major)"
+  say "needs root to install packages"
+  exec sudo -- "$(readlink -f "$0")" "$purpose"
+fi
 
 export DEBIAN_FRONTEND=noninteractive
-apt_get() { apt-get -qq -o Dpkg::Use-Pty=0 -o Acquire::Retries=3 "$@"; }
+apt_get() {
+  apt-get -qq -o Dpkg::Use-Pty=0 -o Acquire::Retries=3 -o DPkg::Lock::Timeout=300 "$@" >/dev/null ||
+    die "apt-get $1 failed (its own message stands above)"
+}
+
+say "installing packages (a few minutes): ${missing}"
+apt_get update
 
 if ! mesa_is_new_enough; then
   # The suite that holds Mesa 25, through the mirror that already serves bookworm here.
-  if ! apt-cache policy 2>/dev/null | grep -q 'n=bookworm-backports'; then
-    apt_get update
-    mirror=$(apt-get indextargets --format '$(REPO_URI)' \
-      'Created-By: Packages' 'Codename: bookworm' 'Origin: Debian' | head -n 1)
+  suites=$(apt-get indextargets --format '$(CODENAME) $(REPO_URI)' 'Created-By: Packages' 'Origin: Debian')
+  suites+=$'\n'$(apt-get indextargets --format '$(CODENAME) $(REPO_URI)' 'Created-By: Packages' 'Origin: Debian Backports')
+  if ! grep -q '^bookworm-backports ' <<<"$suites"; then
+    mirror=$(awk '$1 == "bookworm" && !seen { print $2; seen = 1 }' <<<"$suites")
     [ -n "$mirror" ] || die "apt's configuration names no Debian mirror for bookworm: add one, then try again"
     printf 'Types: deb\nURIs: %s\nSuites: bookworm-backports\nComponents: main\nSigned-By: %s\n' \
       "$mirror" /usr/share/keyrings/debian-archive-keyring.gpg \
       > /etc/apt/sources.list.d/voxray-backports.sources
-    say "added bookworm-backports"
+    say "added the suite bookworm-backports in /etc/apt/sources.list.d/voxray-backports.sources"
+    apt_get update
   fi
 fi
 
-say "installing ${#missing[@]} packages and Mesa ${mesa_wanted_major} (a few minutes)"
-apt_get update
-if [ ${#missing[@]} -gt 0 ]; then
-  apt_get install -y --no-install-recommends "${missing[@]}" >/dev/null
+if [ -n "${missing// /}" ]; then
+  apt_get install -y --no-install-recommends $missing
 fi
 if ! mesa_is_new_enough; then
-  apt_get install -y --no-install-recommends -t bookworm-backports "${backports_packages[@]}" >/dev/null
+  apt_get install -y --no-install-recommends -t bookworm-backports mesa-vulkan-drivers
   mesa_is_new_enough || die "mesa-vulkan-drivers from bookworm-backports is older than $mesa_wanted_major"
 fi

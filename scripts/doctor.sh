@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# What this machine has of the things that Voxray builds and runs on, and what the missing ones are called on
+# Debian, Ubuntu, Fedora and Arch. Needs bash alone. Exit status 1 where something is missing.
+set -euo pipefail
+
+list=$(dirname "$(readlink -f "$0")")/packages.txt
+include_folders=(/usr/include /usr/local/include /usr/include/*-linux-gnu)
+vulkan_folders=(/usr/share/vulkan /etc/vulkan /usr/local/share/vulkan)
+
+# Whether version $1 is at least $2.
+at_least() { [ "$(printf '%s\n%s\n' "$2" "$1" | sort -V | head -n 1)" = "$2" ]; }
+
+# Prints what was found. $1: kind of probe, $2: name, $3: smallest version of a command.
+probe() {
+  local folder found version
+  case $1 in
+    command)
+      found=$(command -v "$2") || return 1
+      [ -n "${3:-}" ] || { echo "$found"; return 0; }
+      version=$("$found" -dumpfullversion 2>/dev/null || "$found" --version 2>/dev/null || true)
+      [[ $version =~ [0-9]+(\.[0-9]+)+ ]] || return 1
+      echo "$found ${BASH_REMATCH[0]}"
+      at_least "${BASH_REMATCH[0]}" "$3"
+      ;;
+    header)
+      for folder in "${include_folders[@]}"; do
+        [ -e "$folder/$2" ] && { echo "$folder/$2"; return 0; }
+      done
+      return 1
+      ;;
+    python)
+      [ -x /usr/bin/python3 ] || return 1
+      /usr/bin/python3 -c 'import importlib.util, sys
+spec = importlib.util.find_spec(sys.argv[1])
+print(spec.origin) if spec else sys.exit(1)' "$2" 2>/dev/null
+      ;;
+    vulkan)
+      for folder in "${vulkan_folders[@]}"; do
+        found=$(compgen -G "$folder/$2" | head -n 1) && [ -n "$found" ] && { echo "$found"; return 0; }
+      done
+      return 1
+      ;;
+  esac
+}
+
+system=unknown
+if [ -r /etc/os-release ]; then system=$(. /etc/os-release && echo "${PRETTY_NAME:-unknown}"); fi
+echo "System: $system, $(uname -m), $(getconf _NPROCESSORS_ONLN) cores"
+echo
+echo "Packages:"
+missing=()
+while IFS='|' read -r purpose check debian ubuntu fedora arch; do
+  [[ $purpose = \#* || -z ${check:-} ]] && continue
+  read -r debian <<<"$debian"; read -r purpose <<<"$purpose"
+  read -ra words <<<"$check"
+  if found=$(probe "${words[@]}"); then
+    printf '  ok       %-28s %s\n' "$debian" "$found"
+  elif [ "$purpose" = test ]; then
+    printf '  absent   %-28s only ./voxray test wants it\n' "$debian"
+  else
+    printf '  MISSING  %-28s %s%s\n' "$debian" "$check" "${found:+(found: $found)}"
+    missing+=("$debian|$ubuntu|$fedora|$arch")
+  fi
+done < "$list"
+
+[ ${#missing[@]} -eq 0 ] && exit 0
+echo
+echo "Missing, and what it is called (names outside Debian 12 are from those systems' lists, untested):"
+printf '  %-28s | %-28s | %-24s | %s\n' "Debian 12" Ubuntu Fedora Arch
+for row in "${missing[@]}"; do
+  IFS='|' read -r debian ubuntu fedora arch <<<"$row"
+  for name in debian ubuntu fedora arch; do read -r "${name?}" <<<"${!name}"; done
+  printf '  %-28s | %-28s | %-24s | %s\n' "$debian" "$ubuntu" "$fedora" "$arch"
+done
+echo
+echo "On Debian 12, './voxray run' or scripts/setup-debian.sh installs all of them."
+exit 1
