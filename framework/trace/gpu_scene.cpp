@@ -1,1 +1,171 @@
-// To be written.
+#include "trace/gpu_scene.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/error.h"
+#include "shaders/shared/scene_types.h"
+
+namespace voxray {
+namespace {
+
+static_assert(sizeof(gpu::GpuVertexAttributes) == sizeof(VertexAttributes));
+
+gpu::GpuTextureRef toGpu(const TextureRef& ref) {
+    return {ref.texture < 0 ? NO_TEXTURE : uint32_t(ref.texture), ref.texCoord, ref.transform[0], ref.transform[1]};
+}
+
+gpu::GpuMaterial toGpu(const Material& m) {
+    gpu::GpuMaterial out{};
+    out.baseColor = m.baseColor;
+    out.emission = m.emission;
+    out.metallic = m.metallic;
+    out.specularColor = m.specularColor;
+    out.roughness = m.roughness;
+    out.specular = m.specular;
+    out.ior = m.ior;
+    out.normalScale = m.normalScale;
+    out.alphaCutoff = m.alphaCutoff;
+    out.alphaMode = uint32_t(m.alphaMode);
+    out.doubleSided = m.doubleSided ? 1u : 0u;
+    out.baseColorTexture = toGpu(m.baseColorTexture);
+    out.metallicRoughnessTexture = toGpu(m.metallicRoughnessTexture);
+    out.normalTexture = toGpu(m.normalTexture);
+    out.emissiveTexture = toGpu(m.emissiveTexture);
+    return out;
+}
+
+gpu::GpuLight toGpu(const Light& light) {
+    return {light.intensity,
+            uint32_t(light.type),
+            light.position,
+            std::cos(light.innerConeAngle),
+            light.direction,
+            std::cos(light.outerConeAngle)};
+}
+
+float luminance(glm::vec3 c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+
+// Emissive triangles with the chance of picking each, in proportion to emission (without its texture) times area.
+std::vector<gpu::GpuEmitter> findEmitters(const SceneState& state, float& powerWatts) {
+    const Geometry& g = state.geometry;
+    std::vector<gpu::GpuEmitter> emitters;
+    std::vector<double> powers;
+    double total = 0;
+    for (uint32_t t = 0; t < g.triangles.size(); ++t) {
+        const Material& material = state.scene->materials[g.triangleMaterials[t]];
+        const float radiance = luminance(material.emission);
+        if (!(radiance > 0)) continue;
+        const glm::uvec3 v = g.triangles[t];
+        const float area =
+            0.5f * glm::length(glm::cross(g.positions[v.y] - g.positions[v.x], g.positions[v.z] - g.positions[v.x]));
+        if (!(area > 0)) continue;
+        emitters.push_back({t, area, 0, 0});
+        powers.push_back(double(radiance) * area * 3.14159265358979 * (material.doubleSided ? 2 : 1));
+        total += powers.back();
+    }
+    double running = 0;
+    for (size_t i = 0; i < emitters.size(); ++i) {
+        running += powers[i];
+        emitters[i].probability = float(powers[i] / total);
+        emitters[i].cumulativePower = i + 1 == emitters.size() ? 1.0f : float(running / total);
+    }
+    powerWatts = float(total);
+    return emitters;
+}
+
+VkSamplerAddressMode toVulkan(Wrap wrap) {
+    switch (wrap) {
+        case Wrap::Repeat: return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+        case Wrap::ClampToEdge: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        case Wrap::MirroredRepeat: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    }
+    return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+}
+
+ImageDesc describe(const Texture& texture) {
+    ImageDesc desc;
+    desc.format = texture.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
+    desc.extent = {texture.width, texture.height, 1};
+    desc.mipLevels = uint32_t(std::bit_width(std::max(texture.width, texture.height)));
+    desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    return desc;
+}
+
+template <typename T>
+Buffer uploaded(Device& device, CommandStream& stream, const char* name, const std::vector<T>& data) {
+    Buffer buffer(device, name, std::max<uint64_t>(data.size() * sizeof(T), sizeof(T)));
+    if (!data.empty()) stream.upload(buffer, data);
+    return buffer;
+}
+
+Image uploadedTexture(Device& device, CommandStream& stream, const Texture& texture) {
+    Image image(device, "texture " + texture.name, describe(texture));
+    Buffer staging(device, "texture staging", texture.rgba.size(), MemoryKind::Upload);
+    stream.upload(staging, texture.rgba);
+    stream.copy(staging, image);
+    if (image.desc().mipLevels > 1) stream.makeMipLevels(image);
+    stream.finish();
+    return image;
+}
+
+}  // namespace
+
+uint64_t gpuSceneBytes(const SceneState& state) {
+    const Geometry& g = state.geometry;
+    uint64_t bytes = g.positions.size() * (sizeof(glm::vec3) + sizeof(VertexAttributes)) +
+                     g.triangles.size() * (sizeof(glm::uvec3) + sizeof(uint32_t)) +
+                     state.scene->materials.size() * sizeof(gpu::GpuMaterial);
+    for (const Texture& texture : state.scene->textures) bytes += imageBytes(describe(texture));
+    return bytes;
+}
+
+std::vector<Binding> GpuScene::bindings(std::initializer_list<Binding> more) const {
+    std::vector<Binding> all{{"scenePositions", positions}, {"sceneAttributes", attributes},
+                             {"sceneTriangles", triangles}, {"sceneTriangleMaterials", triangleMaterials},
+                             {"sceneMaterials", materials}, {"sceneLights", lights},
+                             {"sceneEmitters", emitters},   {"sceneTextures", textures}};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& state) {
+    const Geometry& g = state.geometry;
+    GpuScene scene;
+
+    // Geometry, as it is.
+    scene.positions = uploaded(device, stream, "scene positions", g.positions);
+    scene.attributes = uploaded(device, stream, "scene attributes", g.attributes);
+    scene.triangles = uploaded(device, stream, "scene triangles", g.triangles);
+    scene.triangleMaterials = uploaded(device, stream, "scene triangle materials", g.triangleMaterials);
+    scene.triangleCount = uint32_t(g.triangles.size());
+
+    // Materials and lights.
+    std::vector<gpu::GpuMaterial> materials;
+    for (const Material& material : state.scene->materials) materials.push_back(toGpu(material));
+    scene.materials = uploaded(device, stream, "scene materials", materials);
+    std::vector<gpu::GpuLight> lights;
+    for (const Light& light : state.lights) lights.push_back(toGpu(light));
+    scene.lights = uploaded(device, stream, "scene lights", lights);
+    scene.lightCount = uint32_t(lights.size());
+    const std::vector<gpu::GpuEmitter> emitters = findEmitters(state, scene.emittedPower);
+    scene.emitters = uploaded(device, stream, "scene emitters", emitters);
+    scene.emitterCount = uint32_t(emitters.size());
+
+    // Textures with their mip levels; one white texel stands in where a scene has none.
+    std::vector<TextureArray::Entry> entries;
+    const Texture white{"white", 1, 1, {255, 255, 255, 255}, false, Wrap::Repeat, Wrap::Repeat};
+    const std::vector<Texture> none{white};
+    const std::vector<Texture>& textures = state.scene->textures.empty() ? none : state.scene->textures;
+    for (const Texture& texture : textures) {
+        scene.images.push_back(uploadedTexture(device, stream, texture));
+        scene.samplers.emplace_back(device, Filter::Linear, toVulkan(texture.wrapU), toVulkan(texture.wrapV));
+    }
+    for (size_t i = 0; i < scene.images.size(); ++i) entries.push_back({&scene.images[i], &scene.samplers[i]});
+    scene.textures = TextureArray(device, entries);
+    stream.finish();
+    return scene;
+}
+
+}  // namespace voxray

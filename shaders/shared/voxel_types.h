@@ -1,0 +1,32 @@
+// The voxel grid's structs, shared by C++ (passes/common/voxels.h) and GLSL (shaders/voxels.glsl).
+#ifndef VOXRAY_SHARED_VOXEL_TYPES_H
+#define VOXRAY_SHARED_VOXEL_TYPES_H
+
+#include "shaders/shared/types.h"
+
+VOXRAY_SHARED_BEGIN
+
+// A box of cubic voxels. Voxel (x, y, z) spans origin + voxelSize * [x, x+1] and so on. Rows along x are padded to
+// whole 32-bit words, so that one word holds the occupancy of 32 neighbours.
+struct VoxelGrid {
+    vec3 origin;      // m
+    float voxelSize;  // m
+    uvec3 resolution;
+    uint wordsPerRow;  // ceil(resolution.x / 32)
+};
+
+// What a surface voxel holds of the surfaces in it. Averages are weighted by area.
+struct VoxelMaterial {
+    vec3 albedo;     // Diffuse reflectance.
+    float opacity;   // Coverage seen along the best-covered axis, 0 to 1.
+    vec3 normal;     // Mean of the front-side normals, not normalised: a length below 1 tells of spread.
+    float area;      // Surface area in units of a voxel's face.
+    vec3 emission;   // W/(m² sr)
+    float reserved;
+    vec3 axisArea;   // area * (normal component)², by axis: how much of the surface faces ±x, ±y, ±z. Sums to area.
+    float reserved2;
+};
+
+VOXRAY_SHARED_END
+
+#endif
