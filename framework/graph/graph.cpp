@@ -1,1 +1,165 @@
-// To be written.
+#include "graph/graph.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "graph/finite_check.h"
+#include "graph/wiring.h"
+
+namespace voxray {
+
+struct Graph::Impl {
+    std::vector<GraphNode> nodes;
+    std::vector<uint64_t> memoryBytes;
+    std::optional<FiniteCheck> finiteCheck;
+
+    void checkOutputs(const GraphNode& node, CommandStream& stream);
+};
+
+const std::vector<std::string>& Graph::reservedKeys() {
+    static const std::vector<std::string> keys{"pass", "id", "inputs"};
+    return keys;
+}
+
+Graph::Graph(const Registry& registry, const Value& passList) : impl_(std::make_unique<Impl>()) {
+    impl_->nodes = wireGraph(registry, passList, reservedKeys());
+    impl_->memoryBytes.assign(impl_->nodes.size(), 0);
+}
+
+Graph::~Graph() = default;
+Graph::Graph(Graph&&) noexcept = default;
+Graph& Graph::operator=(Graph&&) noexcept = default;
+
+std::vector<Graph::PassInfo> Graph::passes() const {
+    std::vector<PassInfo> infos;
+    for (const GraphNode& node : impl_->nodes) infos.push_back({node.id, node.kind->name, node.pass->phase()});
+    return infos;
+}
+
+Value Graph::resolved() const {
+    Value list = Value::list();
+    for (const GraphNode& node : impl_->nodes) list.items.push_back(node.resolved);
+    return list;
+}
+
+bool Graph::writes(const std::string& portName) const {
+    for (const GraphNode& node : impl_->nodes)
+        for (const PortInfo& port : node.ports)
+            if (port.output && port.name == portName) return true;
+    return false;
+}
+
+std::vector<uint64_t> Graph::plan(const Frame& frame, const DeviceInfo& device, uint64_t memoryLimitBytes) {
+    std::vector<uint64_t> bytesByPass;
+    uint64_t total = 0;
+    std::string largest;
+    uint64_t largestBytes = 0;
+    for (GraphNode& node : impl_->nodes) {
+        PassPlan plan(node.resources, frame, device);
+        node.pass->plan(plan);
+        uint64_t bytes = 0;
+        for (const PassPlan::Reservation& r : plan.reservations) {
+            bytes += r.bytes;
+            if (r.bytes > largestBytes) {
+                largestBytes = r.bytes;
+                largest = node.id + "'s " + r.name;
+            }
+        }
+        bytesByPass.push_back(bytes);
+        total += bytes;
+    }
+    constexpr double kMiB = 1024.0 * 1024.0;
+    if (total > memoryLimitBytes)
+        throw Error("the graph needs about {:.1f} MiB, the limit is {:.1f} MiB; the largest part is {} with {:.1f} MiB",
+                    double(total) / kMiB, double(memoryLimitBytes) / kMiB, largest, double(largestBytes) / kMiB);
+    return bytesByPass;
+}
+
+void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler, CommandStream& stream) {
+    impl_->finiteCheck.emplace(device, compiler);
+    for (size_t n = 0; n < impl_->nodes.size(); ++n) {
+        GraphNode& node = impl_->nodes[n];
+        const uint64_t before = device.memoryUsedBytes();
+        PassSetup setup(node.resources, frame, device, compiler, stream);
+        node.pass->prepare(setup);
+        stream.finish();
+        impl_->memoryBytes[n] = device.memoryUsedBytes() - before;
+    }
+}
+
+std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& device, CommandStream& stream,
+                                   RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex, bool checkFinite) {
+    struct Stamps {
+        size_t sample;
+        uint32_t begin, end;
+    };
+    std::vector<PassSample> samples;
+    std::vector<Stamps> stamps;
+    stream.finish();
+    stream.resetTimestamps();
+    for (size_t n = 0; n < impl_->nodes.size(); ++n) {
+        GraphNode& node = impl_->nodes[n];
+        if (node.pass->phase() != phase) continue;
+        const uint64_t memoryBefore = device.memoryUsedBytes();
+        const uint64_t raysBefore = tracer.raysTraced();
+
+        // Time the pass on the device; the Embree backend's host work falls between the stamps.
+        PassContext context(node.resources, frame, device, stream, tracer, scene, frameIndex);
+        stream.beginLabel(node.id);
+        const uint32_t begin = stream.timestamp();
+        node.pass->record(context);
+        const uint32_t end = stream.timestamp();
+        stream.endLabel();
+
+        PassSample sample;
+        sample.rays = tracer.raysTraced() - raysBefore + context.extraRays;
+        sample.voxelSteps = context.voxelSteps;
+        stamps.push_back({samples.size(), begin, end});
+        samples.push_back(sample);
+
+        // A build pass may size its outputs by what it counted: what it holds now is what it costs.
+        impl_->memoryBytes[n] += device.memoryUsedBytes() - memoryBefore;
+        if (checkFinite) impl_->checkOutputs(node, stream);
+    }
+    stream.finish();
+    for (const Stamps& s : stamps) samples[s.sample].milliseconds = stream.millisecondsBetween(s.begin, s.end);
+    return samples;
+}
+
+void Graph::Impl::checkOutputs(const GraphNode& node, CommandStream& stream) {
+    size_t output = 0;
+    for (const PortInfo& port : node.ports) {
+        if (!port.output) continue;
+        const Resource& resource = *node.outputs[output++];
+        for (const Image* image : resource.checkedImages()) {
+            if (!*image) continue;
+            if (const uint32_t bad = finiteCheck->badTexels(stream, *image))
+                throw Error("pass '{}' wrote NaN or infinity to '{}' ({}, {} texels)", node.id, port.name, image->name(),
+                            bad);
+        }
+        for (const Buffer* buffer : resource.checkedBuffers()) {
+            if (!*buffer) continue;
+            if (const uint32_t bad = finiteCheck->badFloats(stream, *buffer))
+                throw Error("pass '{}' wrote NaN or infinity to '{}' ({}, {} values)", node.id, port.name,
+                            buffer->name(), bad);
+        }
+    }
+}
+
+std::vector<uint64_t> Graph::memoryBytes() const { return impl_->memoryBytes; }
+
+const Image* Graph::image(const std::string& portName) const {
+    const Image* found = nullptr;
+    for (const GraphNode& node : impl_->nodes) {
+        size_t output = 0;
+        for (const PortInfo& port : node.ports) {
+            if (!port.output) continue;
+            const Resource* resource = node.outputs[output++].get();
+            if (port.name != portName || port.type != typeid(FrameImage)) continue;
+            found = &static_cast<const FrameImage*>(resource)->image;
+        }
+    }
+    return found;
+}
+
+}  // namespace voxray

@@ -1,0 +1,17 @@
+#version 460
+// Counts NaN and infinite floats of a buffer of any size.
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+layout(local_size_x = 64) in;
+
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Words { uint data[]; };
+layout(set = 0, binding = 1) buffer Count { uint bad; } count;
+layout(push_constant) uniform Push {
+    Words words;
+    uint64_t length;
+} push;
+
+void main() {
+    if (gl_GlobalInvocationID.x >= push.length) return;
+    if ((push.words.data[gl_GlobalInvocationID.x] & 0x7f800000u) == 0x7f800000u) atomicAdd(count.bad, 1u);
+}

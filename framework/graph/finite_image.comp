@@ -1,0 +1,24 @@
+#version 460
+// Counts texels with a NaN or infinite component.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#ifdef IMAGE_3D
+layout(set = 0, binding = 0) uniform sampler3D image;
+#else
+layout(set = 0, binding = 0) uniform sampler2D image;
+#endif
+layout(set = 0, binding = 1) buffer Count { uint bad; } count;
+
+void main() {
+    const ivec3 p = ivec3(gl_GlobalInvocationID);
+#ifdef IMAGE_3D
+    if (any(greaterThanEqual(p, textureSize(image, 0)))) return;
+    const vec4 texel = texelFetch(image, p, 0);
+#else
+    if (any(greaterThanEqual(p.xy, textureSize(image, 0)))) return;
+    const vec4 texel = texelFetch(image, p.xy, 0);
+#endif
+    // All exponent bits set: infinite or NaN, whatever the compiler makes of float comparisons.
+    const uvec4 exponent = floatBitsToUint(texel) & 0x7f800000u;
+    if (any(equal(exponent, uvec4(0x7f800000u)))) atomicAdd(count.bad, 1u);
+}

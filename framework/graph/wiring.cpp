@@ -1,0 +1,182 @@
+#include "graph/wiring.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+namespace voxray {
+namespace {
+
+/// Where an input comes from: a node and one of its output ports.
+struct Source {
+    size_t node;
+    size_t port;
+};
+
+std::vector<std::string> idsOf(const std::vector<GraphNode>& nodes) {
+    std::vector<std::string> ids;
+    for (const GraphNode& node : nodes) ids.push_back(node.id);
+    return ids;
+}
+
+std::optional<size_t> outputNamed(const GraphNode& node, const std::string& name) {
+    for (size_t p = 0; p < node.ports.size(); ++p)
+        if (node.ports[p].output && node.ports[p].name == name) return p;
+    return {};
+}
+
+GraphNode readNode(const Registry& registry, const Value& entry, const std::vector<std::string>& reservedKeys) {
+    if (!entry.isMap()) throw UsageError(entry.where, "graph: each entry is a map with a 'pass', e.g. {{pass: gbuffer}}");
+    const Value* passName = entry.find("pass");
+    if (!passName) {
+        std::string hint;
+        if (!entry.members.empty()) hint = didYouMean(entry.members.front().first, reservedKeys);
+        throw UsageError(entry.where, "graph: entry without 'pass'{}", hint);
+    }
+    GraphNode node;
+    node.kind = &registry.require(passName->asString("graph.pass"), passName->where);
+    const Value* id = entry.find("id");
+    node.id = id ? id->asString("graph.id") : node.kind->name;
+    node.where = entry.where;
+    node.pass = node.kind->create(entry, node.id, reservedKeys);
+    node.ports = node.kind->ports;
+
+    // What the manifest records: the reserved keys as they are, then every parameter.
+    node.resolved = Value::map();
+    for (const std::string& key : reservedKeys)
+        if (const Value* value = entry.find(key)) node.resolved.set(key, *value);
+    const Value parameters = node.kind->resolve(entry, node.id, reservedKeys);
+    for (const auto& [key, value] : parameters.members) node.resolved.set(key, value);
+    return node;
+}
+
+/// The source that the config's `inputs` names for a port: "id" or "id.port".
+Source explicitSource(const std::vector<GraphNode>& nodes, const GraphNode& reader, const PortInfo& port,
+                      const Value& reference) {
+    const std::string text = reference.asString(reader.id + ".inputs." + port.name);
+    const size_t dot = text.find('.');
+    const std::string id = text.substr(0, dot);
+    const std::string portName = dot == std::string::npos ? port.name : text.substr(dot + 1);
+    for (size_t n = 0; n < nodes.size(); ++n) {
+        if (nodes[n].id != id) continue;
+        if (const auto output = outputNamed(nodes[n], portName)) return {n, *output};
+        std::vector<std::string> outputs;
+        for (const PortInfo& p : nodes[n].ports)
+            if (p.output) outputs.push_back(p.name);
+        throw UsageError(reference.where, "{}.inputs.{}: '{}' writes no '{}'{}", reader.id, port.name, id, portName,
+                         didYouMean(portName, outputs));
+    }
+    throw UsageError(reference.where, "{}.inputs.{}: no pass has the id '{}'{}", reader.id, port.name, id,
+                     didYouMean(id, idsOf(nodes)));
+}
+
+/// The nearest earlier pass that writes a port of this name, or nothing for an optional port.
+std::optional<Source> implicitSource(const std::vector<GraphNode>& nodes, size_t reader, const PortInfo& port,
+                                     const Registry& registry) {
+    for (size_t n = reader; n-- > 0;)
+        if (const auto output = outputNamed(nodes[n], port.name)) return Source{n, *output};
+    if (port.optional) return {};
+    for (size_t n = reader + 1; n < nodes.size(); ++n)
+        if (outputNamed(nodes[n], port.name))
+            throw UsageError(nodes[reader].where, "{}: reads '{}', which '{}' writes only later; move '{}' up",
+                             nodes[reader].id, port.name, nodes[n].id, nodes[n].id);
+    std::string writers;
+    for (const PassKind& kind : registry.kinds())
+        for (const PortInfo& p : kind.ports)
+            if (p.output && p.name == port.name) writers += (writers.empty() ? "" : ", ") + kind.name;
+    throw UsageError(nodes[reader].where, "{}: missing port '{}' ({}); no pass before it writes it{}", nodes[reader].id,
+                     port.name, port.help, writers.empty() ? "" : "; these can: " + writers);
+}
+
+void checkInputKeys(const GraphNode& node, const Value& inputs) {
+    if (!inputs.isMap()) throw UsageError(inputs.where, "{}.inputs: expected a map of port: id", node.id);
+    std::vector<std::string> names;
+    for (const PortInfo& port : node.ports)
+        if (!port.output) names.push_back(port.name);
+    for (const auto& [key, value] : inputs.members)
+        if (std::find(names.begin(), names.end(), key) == names.end())
+            throw UsageError(value.where, "{}.inputs: '{}' is not an input of {}{}", node.id, key, node.kind->name,
+                             didYouMean(key, names));
+}
+
+/// Writers before readers; ties in the list's order. @throws UsageError naming the passes of a cycle.
+std::vector<size_t> sorted(const std::vector<GraphNode>& nodes, const std::vector<std::set<size_t>>& dependencies) {
+    std::vector<size_t> order;
+    std::set<size_t> done;
+    while (order.size() < nodes.size()) {
+        const size_t before = order.size();
+        for (size_t n = 0; n < nodes.size(); ++n) {
+            if (done.count(n)) continue;
+            const bool ready = std::all_of(dependencies[n].begin(), dependencies[n].end(),
+                                           [&](size_t d) { return done.count(d) > 0; });
+            if (!ready) continue;
+            order.push_back(n);
+            done.insert(n);
+            break;
+        }
+        if (order.size() > before) continue;
+        std::string names;
+        TextLocation where;
+        for (size_t n = 0; n < nodes.size(); ++n) {
+            if (done.count(n)) continue;
+            if (names.empty()) where = nodes[n].where;
+            names += (names.empty() ? "" : ", ") + nodes[n].id;
+        }
+        throw UsageError(where, "graph: cycle between {}; change their 'inputs'", names);
+    }
+    return order;
+}
+
+}  // namespace
+
+std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList,
+                                 const std::vector<std::string>& reservedKeys) {
+    if (!passList.isList() || passList.items.empty())
+        throw UsageError(passList.where, "graph: expected a list of passes, e.g. [{{pass: gbuffer}}, ...]");
+
+    // Read every pass; ids are unique.
+    std::vector<GraphNode> nodes;
+    for (const Value& entry : passList.items) {
+        nodes.push_back(readNode(registry, entry, reservedKeys));
+        for (size_t n = 0; n + 1 < nodes.size(); ++n)
+            if (nodes[n].id == nodes.back().id)
+                throw UsageError(entry.where, "graph: two passes have the id '{}'; give one another 'id'", nodes[n].id);
+    }
+
+    // Outputs are owned by the pass that writes them.
+    for (GraphNode& node : nodes) {
+        node.resources.assign(node.ports.size(), nullptr);
+        for (size_t p = 0; p < node.ports.size(); ++p) {
+            if (!node.ports[p].output) continue;
+            node.outputs.emplace_back(node.ports[p].create());
+            node.resources[p] = node.outputs.back().get();
+        }
+    }
+
+    // Bind every input and note who depends on whom.
+    std::vector<std::set<size_t>> dependencies(nodes.size());
+    for (size_t n = 0; n < nodes.size(); ++n) {
+        const Value* inputs = passList.items[n].find("inputs");
+        if (inputs) checkInputKeys(nodes[n], *inputs);
+        for (size_t p = 0; p < nodes[n].ports.size(); ++p) {
+            const PortInfo& port = nodes[n].ports[p];
+            if (port.output) continue;
+            const Value* reference = inputs ? inputs->find(port.name) : nullptr;
+            const std::optional<Source> source = reference ? explicitSource(nodes, nodes[n], port, *reference)
+                                                           : implicitSource(nodes, n, port, registry);
+            if (!source) continue;
+            const GraphNode& writer = nodes[source->node];
+            if (writer.ports[source->port].type != port.type)
+                throw UsageError(nodes[n].where, "{}: port '{}' can't read '{}.{}', which is of another type", nodes[n].id,
+                                 port.name, writer.id, writer.ports[source->port].name);
+            nodes[n].resources[p] = writer.resources[source->port];
+            dependencies[n].insert(source->node);
+        }
+    }
+
+    std::vector<GraphNode> inOrder;
+    for (const size_t n : sorted(nodes, dependencies)) inOrder.push_back(std::move(nodes[n]));
+    return inOrder;
+}
+
+}  // namespace voxray

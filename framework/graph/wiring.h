@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/value.h"
+#include "graph/pass.h"
+#include "graph/registry.h"
+
+namespace voxray {
+
+/// One pass of a graph with what its ports are bound to.
+struct GraphNode {
+    std::string id;
+    const PassKind* kind = nullptr;
+    std::unique_ptr<Pass> pass;
+    std::vector<PortInfo> ports;
+    std::vector<Resource*> resources;               ///< By port; null for an optional input that nothing writes.
+    std::vector<std::unique_ptr<Resource>> outputs;  ///< What this pass owns.
+    Value resolved;                                  ///< The config's entry with defaults filled in.
+    TextLocation where;
+};
+
+/// Reads a config's pass list, binds every port and sorts passes so that writers come before readers.
+/// Passes that don't depend on each other keep the list's order.
+/// @throws UsageError with file and line.
+std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList,
+                                 const std::vector<std::string>& reservedKeys);
+
+}  // namespace voxray
