@@ -1,0 +1,66 @@
+"""Images as data URIs, and the colours of an error map."""
+
+from __future__ import annotations
+
+import base64
+import io
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from PIL import Image, UnidentifiedImageError
+
+from report.load import ReportError
+
+ERROR_COLORS = "magma"  # as FLIP's authors show it: black is no error, light yellow is the largest
+
+
+@dataclass(frozen=True)
+class Picture:
+    """An image to embed, with its size in pixels."""
+
+    uri: str
+    width: int
+    height: int
+
+
+def embed(path: Path) -> Picture:
+    """The PNG as it is. @throws ReportError where it is no PNG."""
+    data = path.read_bytes()
+    image = _open(path, data)
+    return Picture(_uri(data), *image.size)
+
+
+def embed_error(path: Path) -> Picture:
+    """An 8-bit grey error map (0 to 1) in false colours. @throws ReportError where it is no PNG."""
+    # A palette image stays as small as the grey one.
+    grey = _open(path, path.read_bytes()).convert("L")
+    palette = Image.fromarray(np.asarray(grey), mode="P")
+    palette.putpalette(_magma().tobytes())
+    out = io.BytesIO()
+    palette.save(out, "PNG", optimize=True)
+    return Picture(_uri(out.getvalue()), *grey.size)
+
+
+def error_gradient(steps: int = 9) -> str:
+    """The colours of an error map from 0 to 1, as the stops of a CSS gradient."""
+    colors = _magma()[np.linspace(0, 255, steps).astype(int)]
+    return ", ".join(f"#{r:02x}{g:02x}{b:02x}" for r, g, b in colors)
+
+
+def _magma() -> np.ndarray:
+    return (matplotlib.colormaps[ERROR_COLORS](np.arange(256))[:, :3] * 255).round().astype(np.uint8)
+
+
+def _open(path: Path, data: bytes) -> Image.Image:
+    try:
+        image = Image.open(io.BytesIO(data), formats=("PNG",))
+        image.load()
+        return image
+    except (UnidentifiedImageError, OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
+        raise ReportError(f"{path}: is not a whole PNG file") from error
+
+
+def _uri(data: bytes) -> str:
+    return "data:image/png;base64," + base64.b64encode(data).decode("ascii")

@@ -1,0 +1,202 @@
+"""Reads the result files of a run (docs/reading-a-report.md lists them); knows nothing of how to show them."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pandas as pd
+
+
+class ReportError(Exception):
+    """What keeps a report from being made: one line, what is wrong and what to do."""
+
+
+@dataclass(frozen=True)
+class Metric:
+    """One measure of an image against the reference. `better` is "low", "high" or "one" (closest to 1)."""
+
+    key: str
+    label: str
+    unit: str
+    better: str
+    meaning: str
+
+    def rank(self, value: float) -> float:
+        """A number that is lower where `value` is better, 0 or more for errors; NaN stays NaN."""
+        if self.better == "high":
+            return -value
+        return abs(value - 1.0) if self.better == "one" else value
+
+
+METRICS = (
+    Metric("nrmse", "nRMSE", "", "low", "root of the mean squared error, in units of the reference's mean; "
+           "weighs bright places"),
+    Metric("relmse", "relMSE", "", "low", "mean of squared error over (reference² + 0.01), in units of the "
+           "reference's mean; weighs dark places, leaks among them"),
+    Metric("flip", "HDR-FLIP", "", "low", "what an eye sees when flipping between the images, over a range "
+           "of exposures; 0 to 1"),
+    Metric("flip_ldr", "LDR-FLIP", "", "low", "what an eye sees when flipping between the previews; 0 to 1"),
+    Metric("ssim", "SSIM", "", "high", "structural similarity of the previews' luma; at most 1"),
+    Metric("psnr_db", "PSNR", "dB", "high", "peak signal-to-noise ratio of the previews, peak 1"),
+    Metric("mean_ratio", "mean ratio", "", "one", "mean of the image over mean of the reference; "
+           "1 keeps the energy"),
+)
+LIGHTS = {"total": "", "indirect": "indirect_"}  # name -> column prefix
+IMAGES = {"total": ("final.png", "flip.png"), "indirect": ("indirect.png", "indirect_flip.png")}
+BASELINES = ("black", "constant")
+
+_TEXT = ("variant", "status", "error", "device", "tracer")
+_COST = ("build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "rays")
+_SCORES = tuple(prefix + metric.key for prefix in LIGHTS.values() for metric in METRICS)
+_PASS_NUMBERS = ("ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes")
+
+
+@dataclass
+class Results:
+    """A run's results.
+
+    variants: a row a variant, columns as in results.csv; costs and scores are floats (NaN where absent),
+        everything else text as written. Ordered as the run wrote them.
+    passes: a row a variant, pass and phase, as in passes.csv; may be empty.
+    manifest: the run's manifest.json, {} where it is absent or broken.
+    sweep_keys: the columns of `variants` that the sweep varied.
+    warnings: what was absent or odd in the files, for the reader's eye, after the run's own warnings.
+    """
+
+    directory: Path
+    variants: pd.DataFrame
+    passes: pd.DataFrame
+    manifest: dict
+    sweep_keys: list[str]
+    warnings: list[str] = field(default_factory=list)
+
+    @property
+    def ok(self) -> pd.DataFrame:
+        """The variants that finished."""
+        return self.variants[self.variants["status"] == "ok"]
+
+    def lights(self) -> list[str]:
+        """Which of "total" and "indirect" have any score or image, always with "total"."""
+        def present(light: str) -> bool:
+            columns = [LIGHTS[light] + metric.key for metric in METRICS]
+            return bool(self.ok[columns].notna().any(axis=None)) or any(
+                self.image(folder, IMAGES[light][0]) for folder in ["reference", *self.ok["variant"]])
+
+        return ["total"] + (["indirect"] if present("indirect") else [])
+
+    def noise(self, column: str) -> float:
+        """The reference's own noise in a score's unit, NaN where the run did not measure it."""
+        return number(section(self.manifest, "reference").get(column + "_noise"))
+
+    def baseline(self, name: str, column: str) -> float:
+        """What the "black" or the "constant" image scores, NaN where the run did not measure it."""
+        return number(section(section(self.manifest, "baselines"), name).get(column))
+
+    def image(self, folder: str, name: str) -> Path | None:
+        """images/<folder>/<name>, None where there is no such file inside the run's images folder."""
+        images = (self.directory / "images").resolve()
+        try:
+            path = (images / folder / name).resolve()
+            return path if path.is_file() and images in path.parents else None
+        except (OSError, ValueError):  # a name too long, or with a NUL, names no file
+            return None
+
+
+def number(value) -> float:
+    """`value` as a float, NaN where it is no number."""
+    try:
+        return math.nan if value is None or isinstance(value, bool) else float(value)
+    except (TypeError, ValueError):
+        return math.nan
+
+
+def section(parent: dict, key: str) -> dict:
+    """parent[key] where that is an object, {} otherwise."""
+    value = parent.get(key)
+    return value if isinstance(value, dict) else {}
+
+
+def load(directory: str | Path) -> Results:
+    """Reads results.csv, passes.csv and manifest.json of a finished or partly finished run.
+
+    @throws ReportError where results.csv is absent or is not a table of variants.
+    """
+    directory = Path(directory)
+    warnings: list[str] = []
+    variants, sweep_columns = _read_variants(directory / "results.csv", warnings)
+    passes = _read_passes(directory / "passes.csv", warnings)
+    manifest = _read_manifest(directory / "manifest.json", warnings)
+
+    # The manifest names the sweep's keys; without it they are the columns that no format names.
+    declared = manifest.get("sweep_keys")
+    declared = declared if isinstance(declared, list) else sweep_columns
+    sweep_keys = [str(key) for key in declared if str(key) in variants.columns]
+    own = manifest.get("warnings")
+    warnings = [str(text) for text in own] + warnings if isinstance(own, list) else warnings
+    return Results(directory, variants, passes, manifest, sweep_keys, warnings)
+
+
+def _read_table(path: Path) -> pd.DataFrame:
+    # Everything is read as text, so that a variant called "001", "nan" or "None" keeps its name.
+    try:
+        return pd.read_csv(path, dtype=str, keep_default_na=False, na_filter=False, encoding="utf-8")
+    except (OSError, ValueError) as error:  # pandas' and the decoder's errors are ValueErrors
+        raise ReportError(f"{path}: cannot read: {error}") from error
+
+
+def _to_numbers(table: pd.DataFrame, columns: tuple[str, ...]) -> None:
+    for column in columns:
+        table[column] = pd.to_numeric(table[column], errors="coerce") if column in table else math.nan
+
+
+def _read_variants(path: Path, warnings: list[str]) -> tuple[pd.DataFrame, list[str]]:
+    if not path.is_file():
+        raise ReportError(f"{path}: no such file; name the folder that a run wrote its results to")
+    table = _read_table(path)
+    for column in ("variant", "status"):
+        if column not in table:
+            raise ReportError(f"{path}: has no column '{column}', so it is not a run's results.csv")
+    sweep = [column for column in table if column not in (*_TEXT, *_COST, *_SCORES)]
+    for column in _TEXT:
+        if column not in table:
+            table[column] = ""
+    _to_numbers(table, _COST)
+    _to_numbers(table, _SCORES)
+
+    # A resumed run may have written a variant again: its last row holds.
+    repeated = table["variant"].duplicated(keep="last")
+    if repeated.any():
+        warnings.append(f"results.csv has {int(repeated.sum())} repeated row(s); the last of each was taken.")
+    return table[~repeated].reset_index(drop=True), sweep
+
+
+def _read_passes(path: Path, warnings: list[str]) -> pd.DataFrame:
+    columns = ["variant", "pass", "phase", *_PASS_NUMBERS]
+    table = pd.DataFrame(columns=columns)
+    if not path.is_file():
+        warnings.append("passes.csv is missing: the time of each pass is not shown.")
+    else:
+        try:
+            table = _read_table(path)
+            if not {"variant", "pass", "phase"} <= set(table.columns):
+                raise ReportError("passes.csv lacks a column variant, pass or phase")
+        except ReportError as error:
+            warnings.append(f"{error}: the time of each pass is not shown.")
+            table = pd.DataFrame(columns=columns)
+    _to_numbers(table, _PASS_NUMBERS)
+    return table
+
+
+def _read_manifest(path: Path, warnings: list[str]) -> dict:
+    try:
+        manifest = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        warnings.append(f"manifest.json cannot be read, so where these results come from is not shown: {error}")
+        return {}
+    if not isinstance(manifest, dict):
+        warnings.append("manifest.json is not a JSON object, so where these results come from is not shown.")
+        return {}
+    return manifest

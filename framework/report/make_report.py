@@ -1,0 +1,54 @@
+"""Makes report.html from a run's result files: make_report.py RESULTS_DIR."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+
+from report import page  # noqa: E402
+from report.load import ReportError, load  # noqa: E402
+
+
+def write_whole(path: Path, content: str) -> None:
+    """Writes a file that is either the old one or wholly the new one, whatever interrupts the writing."""
+    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", errors="backslashreplace") as out:
+            out.write(content)
+            out.flush()
+            os.fsync(out.fileno())
+        os.chmod(name, 0o644)
+        os.replace(name, path)
+    except BaseException:
+        os.unlink(name)
+        raise
+
+
+def main(arguments: list[str]) -> int:
+    """Exit status: 0 done, 1 the page could not be written, 2 no results to read."""
+    parser = argparse.ArgumentParser(description="Makes one self-contained report.html from a run's results.")
+    parser.add_argument("results", type=Path, metavar="RESULTS_DIR", help="the folder that holds results.csv")
+    directory = parser.parse_args(arguments).results
+    try:
+        results = load(directory)
+    except ReportError as error:
+        print(f"report: {error}", file=sys.stderr)
+        return 2
+    target = directory / "report.html"
+    try:
+        write_whole(target, page.render(results))
+    except OSError as error:
+        print(f"report: {target}: cannot write: {error.strerror or error}", file=sys.stderr)
+        return 1
+    print(target)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,83 @@
+"""Which colour and marker stands for a variant or a pass, the same in every chart and legend of a page.
+
+Colours are names of the CSS variables of style.css, so that a chart follows the reader's light or dark scheme.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import pandas as pd
+
+from report.judge import is_numeric
+from report.load import Results
+
+CATEGORY_COLORS = tuple(f"c{i}" for i in range(8))
+RAMP_COLORS = tuple(f"s{i}" for i in range(7))  # for numbers: from little to much
+# Matplotlib's marker -> the same shape as an SVG path round (0, 0), about 5 units in radius.
+MARKERS = {
+    "o": "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0z",
+    "s": "M-4.5 -4.5h9v9h-9z",
+    "^": "M0 -5.5l5.5 10h-11z",
+    "D": "M0 -6l6 6l-6 6l-6 -6z",
+    "v": "M0 5.5l5.5 -10h-11z",
+    "P": "M-2 -5h4v3h3v4h-3v3h-4v-3h-3v-4h3z",
+}
+
+
+@dataclass(frozen=True)
+class Style:
+    color: str
+    marker: str
+
+
+@dataclass(frozen=True)
+class LegendEntry:
+    label: str
+    style: Style
+
+
+@dataclass(frozen=True)
+class Legend:
+    """One sweep key and how its values are shown."""
+
+    key: str
+    entries: list[LegendEntry]
+
+
+def variant_styles(results: Results) -> tuple[dict[str, Style], list[Legend]]:
+    """The style of each variant: colour by the first sweep key, marker by the second."""
+    table, keys = results.variants, results.sweep_keys
+    plain = Style(CATEGORY_COLORS[0], "o")
+    if not keys:
+        return {name: plain for name in table["variant"]}, []
+
+    colors = _colors(table[keys[0]])
+    shapes = list(MARKERS)
+    shape_of = {value: shapes[i % len(shapes)] for i, value in enumerate(_values(table[keys[1]]))} if keys[1:] else {}
+    legends = [Legend(keys[0], [LegendEntry(value, Style(color, "o")) for value, color in colors.items()])]
+    if shape_of:
+        legends.append(Legend(keys[1], [LegendEntry(v, Style("muted", m)) for v, m in shape_of.items()]))
+    styles = {row["variant"]: Style(colors[row[keys[0]]], shape_of[row[keys[1]]] if shape_of else "o")
+              for _, row in table.iterrows()}
+    return styles, legends
+
+
+def pass_colors(results: Results) -> dict[str, str]:
+    """The colour of each pass, in the order in which passes.csv first names them."""
+    names = results.passes["pass"].unique()
+    return {name: CATEGORY_COLORS[i % len(CATEGORY_COLORS)] for i, name in enumerate(names)}
+
+
+def _values(column: pd.Series) -> list[str]:
+    values = list(column.unique())
+    return sorted(values, key=float) if is_numeric(column) else values
+
+
+def _colors(column: pd.Series) -> dict[str, str]:
+    values = _values(column)
+    if not is_numeric(column):
+        return {value: CATEGORY_COLORS[i % len(CATEGORY_COLORS)] for i, value in enumerate(values)}
+    # Numbers take evenly spaced steps of the ramp.
+    last = max(len(values) - 1, 1)
+    return {value: RAMP_COLORS[round(i * (len(RAMP_COLORS) - 1) / last)] for i, value in enumerate(values)}

@@ -1,0 +1,70 @@
+"""Numbers and configs as text for a reader."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+
+_PLAIN = re.compile(r"[A-Za-z_/.][\w ./+-]*")
+
+
+def figures(value: float, digits: int = 3) -> str:
+    """`value` to some significant digits without an exponent where that stays short; "–" for NaN."""
+    if math.isnan(value):
+        return "–"
+    if math.isinf(value):
+        return "∞" if value > 0 else "−∞"
+    if value == 0:
+        return "0"
+    exponent = math.floor(math.log10(abs(value)))
+    if not -5 <= exponent < 6:
+        return f"{value:.{digits - 1}e}"
+    return f"{value:,.{max(digits - 1 - exponent, 0)}f}".replace(",", "\u202f")
+
+
+def count(value: float) -> str:
+    """A whole number with its unit prefix: 1.05 M."""
+    for step, unit in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if abs(value) >= step:
+            return f"{figures(value / step)} {unit}"
+    return figures(value)
+
+
+def size(value: float) -> str:
+    """Bytes with a binary unit."""
+    for step, unit in ((2**30, "GiB"), (2**20, "MiB"), (2**10, "KiB")):
+        if abs(value) >= step:
+            return f"{figures(value / step)} {unit}"
+    return figures(value) + ("" if math.isnan(value) else " B")
+
+
+def yaml_like(value, indent: int = 0) -> str:
+    """A JSON value as YAML-like text, short lists and leaves on one line."""
+    pad = "  " * indent
+    if isinstance(value, dict) and value and not _is_short(value):
+        lines = []
+        for key, item in value.items():
+            nested = isinstance(item, (dict, list)) and item and not _is_short(item)
+            lines.append(f"{pad}{_scalar(key)}:" + (f"\n{yaml_like(item, indent + 1)}" if nested else
+                                                    f" {yaml_like(item)}"))
+        return "\n".join(lines)
+    if isinstance(value, list) and value and not _is_short(value):
+        return "\n".join(f"{pad}- {yaml_like(item, indent + 1).lstrip()}" for item in value)
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{_scalar(key)}: {yaml_like(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(yaml_like(item) for item in value) + "]"
+    return _scalar(value)
+
+
+def _is_short(value) -> bool:
+    items = value.values() if isinstance(value, dict) else value
+    leaves = not any(isinstance(item, (dict, list)) for item in items)
+    return leaves and len(json.dumps(value)) <= (0 if isinstance(value, dict) else 90)
+
+
+def _scalar(value) -> str:
+    if isinstance(value, str) and _PLAIN.fullmatch(value) and value not in ("null", "true", "false"):
+        return value
+    return json.dumps(value, ensure_ascii=False)

@@ -1,0 +1,125 @@
+"""Makes up result folders for the tests of the report, as a run would leave them. Run as a program, it writes one."""
+
+from __future__ import annotations
+
+import csv
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+SCORES = ("flip", "ssim", "psnr_db", "nrmse", "relmse", "mean_ratio", "flip_ldr")
+COSTS = ("build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "rays")
+SIZE = (64, 36)
+
+
+def scores(error: float) -> dict[str, float]:
+    """Scores that all worsen with `error`."""
+    return {"flip": 0.5 * error, "ssim": 1 - 0.5 * error, "psnr_db": 30 - 20 * error, "nrmse": error,
+            "relmse": error * error, "mean_ratio": 1 - 0.1 * error, "flip_ldr": 0.4 * error}
+
+
+def variant(name: str, frame_ms: float, error: float, indirect: float | None = None, **sweep) -> dict:
+    """A row of results.csv of a finished variant; `indirect` is its error in the indirect light."""
+    row = {"variant": name, "status": "ok", "error": "", "device": "llvmpipe", "tracer": "embree", **sweep,
+           "build_ms": 2 * frame_ms, "frame_ms_median": frame_ms, "frame_ms_p05": 0.95 * frame_ms,
+           "frame_ms_p95": 1.05 * frame_ms, "memory_bytes": 2**24 * frame_ms, "rays": 262144, **scores(error)}
+    if indirect is not None:
+        row.update({f"indirect_{key}": value for key, value in scores(indirect).items()})
+    return row
+
+
+def failed(name: str, error: str, **sweep) -> dict:
+    """A row of results.csv of a failed variant."""
+    return {"variant": name, "status": "failed", "error": error, "device": "llvmpipe", "tracer": "embree", **sweep}
+
+
+def manifest(sweep_keys: list[str]) -> dict:
+    """The manifest of a finished run."""
+    baselines = {name: {**scores(error), **{f"indirect_{k}": v for k, v in scores(error * 1.2).items()}}
+                 for name, error in (("black", 1.6), ("constant", 0.9))}
+    return {"voxray_version": "0.1.0", "commit": "a042f5e", "started": "2026-01-01T10:00:00Z",
+            "finished": "2026-01-01T10:03:00Z", "device": "llvmpipe", "driver": "Mesa 25.0", "tracer": "embree",
+            "validation": False, "sweep_keys": sweep_keys, "seed": 7,
+            "config": {"name": "synthetic", "scene": {"file": "cornell", "lights": [{"point": [0, 1, 0]}]},
+                       "graph": [{"pass": "gbuffer"}, {"pass": "voxelize", "resolution": 64}]},
+            "image": {"width": SIZE[0], "height": SIZE[1]}, "exposure_stops": 0.0,
+            "flip_exposures": {"start": -2.0, "stop": 3.0, "count": 5},
+            "reference": {"pass": "path_trace", "spp": 64, "seconds": 12.5, "cached": False, "hash": "0123abcd",
+                          "nrmse_noise": 0.01, "relmse_noise": 0.001, "indirect_nrmse_noise": 0.02,
+                          "indirect_relmse_noise": 0.002},
+            "baselines": baselines, "auto": {"tracer": "embree"}, "warnings": [], "versions": {"glslang": "15"},
+            "machine": {"cpu": "a CPU", "cores": 2}}
+
+
+def passes(rows: list[dict]) -> list[dict]:
+    """Rows of passes.csv that add up to nearly the whole time of each finished variant."""
+    parts = (("voxelize", "build", 0.7), ("inject", "build", 0.28), ("gbuffer", "frame", 0.2),
+             ("gather", "frame", 0.7), ("composite", "frame", 0.05))
+    table = []
+    for row in rows:
+        for name, phase, share in parts if row["status"] == "ok" else ():
+            ms = share * row["build_ms" if phase == "build" else "frame_ms_median"]
+            table.append({"variant": row["variant"], "pass": name, "phase": phase, "ms_median": ms,
+                          "ms_p05": 0.9 * ms, "ms_p95": 1.1 * ms, "rays": 1000, "voxel_steps": 0,
+                          "memory_bytes": 2**20})
+    return table
+
+
+def save_image(path: Path, error: float, size: tuple[int, int], grey: bool = False) -> None:
+    """A picture of a lit sphere, the further from right the larger `error`; or the grey map of that error."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    x, y = np.meshgrid(np.linspace(-1.8, 1.8, size[0]), np.linspace(-1, 1, size[1]))
+    z = np.sqrt(np.clip(0.6 - x * x - y * y, 0, None))
+    right = np.stack([0.2 + z, 0.2 + 0.5 * z + 0.1 * x, 0.4 - 0.3 * y], axis=-1)
+    test = right + error * np.sin(12 * x)[..., None] * 0.3
+    pixels = np.abs(test - right).mean(axis=-1) if grey else test
+    Image.fromarray((pixels.clip(0, 1) * 255).astype(np.uint8)).save(path)
+
+
+def write_results(directory: Path, rows: list[dict], run: dict | None, *, reference: bool = True,
+                  indirect: bool = True, images: bool = True, size: tuple[int, int] = SIZE) -> Path:
+    """Writes a results folder; `run` is its manifest, None for none."""
+    sweep = [key for row in rows[:1] for key in row if key not in ("variant", "status", "error", "device", "tracer",
+             *COSTS, *SCORES) and not key.startswith("indirect_")]
+    columns = ["variant", "status", "error", "device", "tracer", *sweep, *COSTS, *SCORES,
+               *(f"indirect_{key}" for key in SCORES)]
+    directory.mkdir(parents=True, exist_ok=True)
+    _write_csv(directory / "results.csv", columns, rows)
+    _write_csv(directory / "passes.csv", ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays",
+                                          "voxel_steps", "memory_bytes"], passes(rows))
+    if run is not None:
+        (directory / "manifest.json").write_text(json.dumps(run), encoding="utf-8")
+
+    folders = [("reference", 0.0)] * reference + [(r["variant"], r["nrmse"]) for r in rows if r["status"] == "ok"]
+    for folder, error in folders if images else []:
+        for name in ("final", "indirect") if indirect else ("final",):
+            save_image(directory / "images" / folder / f"{name}.png", error, size)
+        for name in (("flip", "indirect_flip") if indirect else ("flip",)) if folder != "reference" else ():
+            save_image(directory / "images" / folder / f"{name}.png", error, size, grey=True)
+    return directory
+
+
+def _write_csv(path: Path, columns: list[str], rows: list[dict]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as out:
+        writer = csv.DictWriter(out, columns, restval="")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def sweep_of_two_keys() -> list[dict]:
+    """Six variants, two of them tied, one worse than a constant image, and a failed one."""
+    table = ((64, "light_rays", 12.0, 0.62, 0.95), (128, "light_rays", 21.0, 0.35, 0.50),
+             (256, "light_rays", 60.0, 0.211, 0.300), (64, "rsm", 9.0, 0.70, 1.3), (128, "rsm", 16.0, 0.44, 0.61),
+             (256, "rsm", 44.0, 0.217, 0.310))
+    rows = [variant(f"{inject}-{resolution}", ms, error, indirect, **{"voxelize.resolution": resolution,
+                    "inject": inject}) for resolution, inject, ms, error, indirect in table]
+    return rows + [failed("rsm-2048", "pass 'voxelize': needs 34.4 GiB, the device has 7.7 GiB; lower resolution",
+                          **{"voxelize.resolution": 2048, "inject": "rsm"})]
+
+
+if __name__ == "__main__":
+    print(write_results(Path(sys.argv[1]), sweep_of_two_keys(), manifest(["voxelize.resolution", "inject"]),
+                        size=(320, 180)))
