@@ -1,1 +1,4 @@
 # Tests of scene.
+voxray_tests(scene
+  SOURCES unit/scene_builtin_test.cpp
+  DEPENDS voxray_scene)

@@ -1,1 +1,163 @@
-// To be written.
+#include "scene/geometry.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_access.hpp>
+#include <limits>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "scene/animation.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint64_t maxCount = uint64_t(1) << 31;
+constexpr size_t grain = 16384;
+
+/// The vector's direction, or the fallback where it has none.
+glm::vec3 directionOr(const glm::vec3& v, const glm::vec3& fallback) {
+    const glm::dvec3 d(v);
+    const double length = glm::length(d);
+    return length > 0 && std::isfinite(length) ? glm::vec3(d / length) : fallback;
+}
+
+/// Transforms normals: det(m) times the inverse transpose of m, which exists for flat scales too.
+glm::mat3 cofactorMatrix(const glm::mat3& m) {
+    return glm::mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+}
+
+/// Counts vertices and triangles of all instances, and refuses what can't be held.
+Geometry allocate(const Scene& scene) {
+    Geometry geometry;
+    uint64_t vertices = 0;
+    uint64_t triangles = 0;
+    geometry.instances.reserve(scene.instances.size());
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        geometry.instances.push_back({uint32_t(triangles), uint32_t(mesh.triangles.size()),
+                                      uint32_t(vertices), uint32_t(mesh.positions.size())});
+        vertices += mesh.positions.size();
+        triangles += mesh.triangles.size();
+        if (vertices > maxCount || triangles > maxCount)
+            throw Error("{}: its instances have more than 2^31 vertices or triangles; use fewer instances",
+                        scene.name);
+    }
+    const uint64_t bytes = vertices * (sizeof(glm::vec3) + sizeof(VertexAttributes)) +
+                           triangles * (sizeof(glm::uvec3) + sizeof(uint32_t));
+    const uint64_t memory = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE));
+    if (bytes > memory)
+        throw Error(
+            "{}: {} vertices and {} triangles need {} MiB, this machine has {} MiB; use fewer instances",
+            scene.name, vertices, triangles, bytes >> 20, memory >> 20);
+    geometry.positions.resize(vertices);
+    geometry.attributes.resize(vertices);
+    geometry.triangles.resize(triangles);
+    geometry.triangleMaterials.resize(triangles);
+    return geometry;
+}
+
+void transformVertices(const Mesh& mesh, const glm::mat4& world, const InstanceRange& range, Geometry& out) {
+    const glm::mat3 linear(world);
+    const bool mirrored = glm::determinant(glm::dmat3(linear)) < 0;
+    const glm::mat3 toNormal = cofactorMatrix(linear) * (mirrored ? -1.0f : 1.0f);
+    parallelRanges(mesh.positions.size(), grain, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            out.positions[range.firstVertex + i] = glm::vec3(world * glm::vec4(mesh.positions[i], 1.0f));
+            VertexAttributes& a = out.attributes[range.firstVertex + i];
+            if (!mesh.normals.empty()) a.normal = directionOr(toNormal * mesh.normals[i], {0, 1, 0});
+            if (!mesh.tangents.empty()) {
+                const glm::vec4 t = mesh.tangents[i];
+                a.tangent = glm::vec4(directionOr(linear * glm::vec3(t), {1, 0, 0}), mirrored ? -t.w : t.w);
+            }
+            if (!mesh.texCoords0.empty()) {
+                a.texCoords.x = mesh.texCoords0[i].x;
+                a.texCoords.y = mesh.texCoords0[i].y;
+            }
+            if (!mesh.texCoords1.empty()) {
+                a.texCoords.z = mesh.texCoords1[i].x;
+                a.texCoords.w = mesh.texCoords1[i].y;
+            }
+            if (!mesh.colors.empty()) a.color = mesh.colors[i];
+        }
+    });
+
+    // A mirroring transform turns triangles round: swap two corners, so that fronts stay fronts.
+    parallelRanges(mesh.triangles.size(), grain, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const glm::uvec3 t = mesh.triangles[i] + range.firstVertex;
+            out.triangles[range.firstTriangle + i] = mirrored ? glm::uvec3(t.x, t.z, t.y) : t;
+            out.triangleMaterials[range.firstTriangle + i] = mesh.material;
+        }
+    });
+}
+
+void findBounds(const Scene& scene, Geometry& geometry) {
+    if (geometry.positions.empty()) return;
+    geometry.boundsMin = glm::vec3(std::numeric_limits<float>::infinity());
+    geometry.boundsMax = -geometry.boundsMin;
+    bool finite = true;
+    for (const glm::vec3& p : geometry.positions) {
+        finite = finite && std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+        geometry.boundsMin = glm::min(geometry.boundsMin, p);
+        geometry.boundsMax = glm::max(geometry.boundsMax, p);
+    }
+    if (!finite) throw Error("{}: transformed positions are not finite; scale the scene down", scene.name);
+}
+
+/// A node's axis in world space. @throws Error where the node's scale leaves no direction.
+glm::vec3 axisOf(const Scene& scene, const glm::mat4& world, const glm::vec3& axis, const std::string& what) {
+    const glm::vec3 direction = directionOr(glm::mat3(world) * axis, glm::vec3(0.0f));
+    if (direction == glm::vec3(0.0f))
+        throw Error("{}: {} has no direction, because its node is scaled by 0; correct the scale", scene.name,
+                    what);
+    return direction;
+}
+
+}  // namespace
+
+SceneState evaluate(std::shared_ptr<const Scene> scenePointer, double timeSeconds) {
+    const Scene& scene = *scenePointer;
+    const std::vector<glm::mat4> world = nodeToWorld(scene, timeSeconds);
+    SceneState state;
+
+    // Flatten the instances into world-space triangles.
+    state.geometry = allocate(scene);
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        const glm::mat4 toWorld = instance.node < 0 ? glm::mat4(1.0f) : world[size_t(instance.node)];
+        transformVertices(scene.meshes[instance.mesh], toWorld, state.geometry.instances[i], state.geometry);
+    }
+    findBounds(scene, state.geometry);
+
+    // Place lights; scale does not change how bright they are.
+    state.lights = scene.lights;
+    for (Light& light : state.lights) {
+        if (light.node < 0) continue;
+        const glm::mat4& toWorld = world[size_t(light.node)];
+        light.position = glm::vec3(toWorld[3]);
+        if (light.type != LightType::Point)
+            light.direction = axisOf(scene, toWorld, {0, 0, -1}, "light '" + light.name + "'");
+        light.node = -1;
+    }
+
+    // Place cameras, with the up vector perpendicular to the view.
+    state.cameras = scene.cameras;
+    for (Camera& camera : state.cameras) {
+        if (camera.node < 0) continue;
+        const glm::mat4& toWorld = world[size_t(camera.node)];
+        const std::string what = "camera '" + camera.name + "'";
+        camera.position = glm::vec3(toWorld[3]);
+        camera.forward = axisOf(scene, toWorld, {0, 0, -1}, what);
+        const glm::vec3 up = axisOf(scene, toWorld, {0, 1, 0}, what);
+        camera.up = directionOr(up - glm::dot(up, camera.forward) * camera.forward, {0, 0, 0});
+        if (camera.up == glm::vec3(0.0f))
+            throw Error("{}: {} has no up direction; correct its node's transform", scene.name, what);
+        camera.node = -1;
+    }
+    state.scene = std::move(scenePointer);
+    return state;
+}
+
+}  // namespace voxray

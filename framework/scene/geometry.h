@@ -12,11 +12,11 @@ namespace voxray {
 
 /// Per-vertex attributes, laid out as the shaders read them (see shaders/shared/scene_types.h). 64 bytes.
 struct VertexAttributes {
-    glm::vec3 normal{0, 1, 0};     ///< Unit length, world space; never NaN.
+    glm::vec3 normal{0, 1, 0};  ///< Unit length, world space; never NaN.
     float padding = 0;
-    glm::vec4 tangent{1, 0, 0, 1}; ///< Unit length, world space; w is the handedness.
-    glm::vec4 texCoords{0.0f};     ///< uv0, uv1.
-    glm::vec4 color{1.0f};         ///< Linear RGBA.
+    glm::vec4 tangent{1, 0, 0, 1};  ///< Unit length, world space; w is the handedness.
+    glm::vec4 texCoords{0.0f};      ///< uv0, uv1.
+    glm::vec4 color{1.0f};          ///< Linear RGBA.
 };
 
 /// Triangles of one instance: [firstTriangle, firstTriangle + triangleCount).

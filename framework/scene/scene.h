@@ -34,8 +34,8 @@ struct Texture {
 
 /// Which texture a material reads, with which coordinates: uv' = transform * (u, v, 1).
 struct TextureRef {
-    int32_t texture = -1;  ///< Index into Scene::textures; -1: none.
-    uint32_t texCoord = 0; ///< 0 or 1.
+    int32_t texture = -1;   ///< Index into Scene::textures; -1: none.
+    uint32_t texCoord = 0;  ///< 0 or 1.
     std::array<glm::vec3, 2> transform{glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)};
 };
 
@@ -45,14 +45,14 @@ struct Material {
     glm::vec4 baseColor{1.0f};
     float metallic = 1.0f;
     float roughness = 1.0f;
-    float specular = 1.0f;             ///< KHR_materials_specular; 0 with metallic 0 is exactly Lambert.
+    float specular = 1.0f;  ///< KHR_materials_specular; 0 with metallic 0 is exactly Lambert.
     glm::vec3 specularColor{1.0f};
-    float ior = 1.5f;                  ///< KHR_materials_ior.
-    glm::vec3 emission{0.0f};          ///< W/(m² sr): emissiveFactor * KHR_materials_emissive_strength.
+    float ior = 1.5f;          ///< KHR_materials_ior.
+    glm::vec3 emission{0.0f};  ///< W/(m² sr): emissiveFactor * KHR_materials_emissive_strength.
     float normalScale = 1.0f;
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
-    bool doubleSided = false;          ///< Emits on both sides. All materials reflect and block on both.
+    bool doubleSided = false;  ///< Emits on both sides. All materials reflect and block on both.
     TextureRef baseColorTexture;
     TextureRef metallicRoughnessTexture;  ///< G roughness, B metallic.
     TextureRef normalTexture;
@@ -63,11 +63,12 @@ struct Material {
 struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;    ///< Always there after loading (flat where the file has none).
-    std::vector<glm::vec4> tangents;   ///< xyz and handedness w; made by the loader where a normal map needs them.
+    std::vector<glm::vec3> normals;  ///< Always there after loading (flat where the file has none).
+    std::vector<glm::vec4>
+        tangents;  ///< xyz and handedness w; made by the loader where a normal map needs them.
     std::vector<glm::vec2> texCoords0;
     std::vector<glm::vec2> texCoords1;
-    std::vector<glm::vec4> colors;     ///< Linear RGBA, multiplies the base colour.
+    std::vector<glm::vec4> colors;  ///< Linear RGBA, multiplies the base colour.
     std::vector<glm::uvec3> triangles;
     uint32_t material = 0;
 };
@@ -95,11 +96,11 @@ enum class LightType : uint32_t { Point, Spot, Directional };
 struct Light {
     std::string name;
     LightType type = LightType::Point;
-    glm::vec3 intensity{1.0f};       ///< Colour * intensity: W/sr (point, spot) or W/m² (directional).
-    float innerConeAngle = 0.0f;     ///< Radians from the axis, spot only.
+    glm::vec3 intensity{1.0f};    ///< Colour * intensity: W/sr (point, spot) or W/m² (directional).
+    float innerConeAngle = 0.0f;  ///< Radians from the axis, spot only.
     float outerConeAngle = 0.7853982f;
     glm::vec3 position{0.0f};
-    glm::vec3 direction{0, 0, -1};   ///< The way the light travels, unit length.
+    glm::vec3 direction{0, 0, -1};  ///< The way the light travels, unit length.
     int32_t node = -1;
 };
 
@@ -108,16 +109,16 @@ struct Camera {
     std::string name;
     float verticalFovRadians = 1.0f;
     glm::vec3 position{0.0f};
-    glm::vec3 forward{0, 0, -1};     ///< Unit length.
-    glm::vec3 up{0, 1, 0};           ///< Unit length, perpendicular to forward.
+    glm::vec3 forward{0, 0, -1};  ///< Unit length.
+    glm::vec3 up{0, 1, 0};        ///< Unit length, perpendicular to forward.
     int32_t node = -1;
 };
 
 /// Light from infinitely far, seen where a ray leaves the scene.
 struct Environment {
-    glm::vec3 radiance{0.0f};          ///< Multiplies the map; the radiance itself where there is none. W/(m² sr).
-    std::shared_ptr<const ImageF> map; ///< Equirectangular, 3 channels, row 0 at +Y; u = 0.5 looks along -Z,
-                                       ///< u grows towards +X.
+    glm::vec3 radiance{0.0f};  ///< Multiplies the map; the radiance itself where there is none. W/(m² sr).
+    std::shared_ptr<const ImageF> map;  ///< Equirectangular, 3 channels, row 0 at +Y; u = 0.5 looks along -Z,
+                                        ///< u grows towards +X.
 };
 
 enum class AnimatedProperty : uint32_t { Translation, Rotation, Scale };
@@ -137,7 +138,7 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<Material> materials;  ///< At least one.
     std::vector<Mesh> meshes;
-    std::vector<Node> nodes;          ///< Parents before children.
+    std::vector<Node> nodes;  ///< Parents before children.
     std::vector<Instance> instances;
     std::vector<Light> lights;
     std::vector<Camera> cameras;

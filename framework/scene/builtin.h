@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/schema.h"
+#include "scene/scene.h"
+
+namespace voxray {
+
+/// A built-in scene: its name, how it is made of its parameters, and what these are.
+struct BuiltinScene {
+    const char* name;
+    std::shared_ptr<const Scene> (*make)(const Value& params);
+    std::vector<ParameterDoc> (*describe)();
+};
+
+/// The scenes of each file.
+std::vector<BuiltinScene> roomScenes();        ///< cornell, thin_wall, mirror_room
+std::vector<BuiltinScene> closedFormScenes();  ///< furnace, white_room, quad_light, plane
+std::vector<BuiltinScene> movingScenes();      ///< spheres
+
+/// Entry for a parameter struct that has `static constexpr const char* name` and `make(const Params&)`.
+template <typename Params>
+BuiltinScene builtinScene() {
+    return {Params::name, [](const Value& params) { return make(readParams<Params>(params, Params::name)); },
+            [] { return describeParams<Params>(); }};
+}
+
+}  // namespace voxray

@@ -1,0 +1,135 @@
+#include <glm/trigonometric.hpp>
+
+#include "scene/builtin.h"
+#include "scene/shapes.h"
+
+namespace voxray {
+
+enum class CornellLight { Area, Point, Spot, Sun };
+template <>
+struct EnumNames<CornellLight> {
+    static constexpr std::array names{
+        std::pair{CornellLight::Area, "area"}, std::pair{CornellLight::Point, "point"},
+        std::pair{CornellLight::Spot, "spot"}, std::pair{CornellLight::Sun, "sun"}};
+};
+
+enum class ThinWallView { Lit, Dark };
+template <>
+struct EnumNames<ThinWallView> {
+    static constexpr std::array names{std::pair{ThinWallView::Lit, "lit"},
+                                      std::pair{ThinWallView::Dark, "dark"}};
+};
+
+namespace {
+
+struct Cornell {
+    static constexpr const char* name = "cornell";
+    CornellLight lights = CornellLight::Area;
+    bool boxes = true;
+    static constexpr auto schema() {
+        return std::tuple{
+            field("lights", &Cornell::lights,
+                  "Quad below the ceiling, point or spot light there, or sun through the open front."),
+            field("boxes", &Cornell::boxes, "Whether the two boxes stand in the room.")};
+    }
+};
+
+/// The Cornell box (Goral et al. 1984; blocks as measured at Cornell), scaled to 2 m, open towards +Z.
+std::shared_ptr<const Scene> make(const Cornell& params) {
+    SceneBuilder b(Cornell::name);
+    const uint32_t grey = b.lambert("grey", glm::vec3(0.73f));
+    const uint32_t red = b.lambert("red", {0.63f, 0.065f, 0.05f});
+    const uint32_t green = b.lambert("green", {0.14f, 0.45f, 0.091f});
+    b.room({-1, 0, -1}, {1, 2, 1}, {red, green, grey, grey, grey, SceneBuilder::none});
+    if (params.boxes) {
+        b.box("tall box", {-0.326f, 0, -0.257f}, {0.594f, 1.189f, 0.594f}, glm::radians(17.2f), grey);
+        b.box("short box", {0.333f, 0, 0.398f}, {0.594f, 0.594f, 0.594f}, glm::radians(-16.6f), grey);
+    }
+    switch (params.lights) {
+        case CornellLight::Area: {
+            const uint32_t lamp = b.lambert("lamp", glm::vec3(0.73f), glm::vec3(20.0f));
+            b.quad("lamp", {-0.235f, 1.99f, -0.19f}, {0.47f, 0, 0}, {0, 0, 0.38f}, lamp);
+            break;
+        }
+        case CornellLight::Point:
+            b.pointLight({0, 1.8f, 0}, glm::vec3(2.0f));
+            break;
+        case CornellLight::Spot:
+            b.spotLight({0, 1.8f, 0}, {0, -1, 0}, 30, 45, glm::vec3(6.0f));
+            break;
+        case CornellLight::Sun:
+            b.directionalLight({0.25f, -0.6f, -1}, glm::vec3(4.0f));
+            break;
+    }
+    b.camera({0, 1, 3.8f}, {0, 1, 0}, 40);
+    return b.finish();
+}
+
+struct ThinWall {
+    static constexpr const char* name = "thin_wall";
+    float thickness = 0.05f;
+    ThinWallView view = ThinWallView::Dark;
+    static constexpr auto schema() {
+        return std::tuple{field("thickness", &ThinWall::thickness,
+                                "Thickness of the wall between the rooms, in metres.", 0.001f, 1.0f),
+                          field("view", &ThinWall::view, "The room that the camera stands in.")};
+    }
+};
+
+/// Two sealed rooms of 2 m side by side, a light in the one at -X. The other is exactly black.
+std::shared_ptr<const Scene> make(const ThinWall& params) {
+    SceneBuilder b(ThinWall::name);
+    const uint32_t white = b.lambert("white", glm::vec3(0.8f));
+    const float half = 0.5f * params.thickness;
+    b.room({-half - 2, 0, -1}, {-half, 2, 1}, {white, white, white, white, white, white});
+    b.room({half, 0, -1}, {half + 2, 2, 1}, {white, white, white, white, white, white});
+    b.pointLight({-half - 1, 1.5f, 0}, glm::vec3(1.0f));
+    const float side = params.view == ThinWallView::Dark ? 1.0f : -1.0f;
+    b.camera({side * (half + 1.9f), 1, 0}, {0, 1, 0}, 70);
+    return b.finish();
+}
+
+struct MirrorRoom {
+    static constexpr const char* name = "mirror_room";
+    uint32_t count = 5;
+    static constexpr auto schema() {
+        return std::tuple{
+            field("count", &MirrorRoom::count, "Spheres in the row before the mirror.", 1u, 16u)};
+    }
+};
+
+/// A room of 4 m x 2.5 m x 4 m whose wall at -Z is a perfect mirror, a row of coloured spheres before it.
+std::shared_ptr<const Scene> make(const MirrorRoom& params) {
+    SceneBuilder b(MirrorRoom::name);
+    const uint32_t white = b.lambert("white", glm::vec3(0.7f));
+    const uint32_t blue = b.lambert("blue", {0.1f, 0.2f, 0.6f});
+    const uint32_t orange = b.lambert("orange", {0.7f, 0.35f, 0.08f});
+    Material perfect;
+    perfect.name = "mirror";
+    perfect.roughness = 0;
+    const uint32_t mirror = b.material(perfect);
+    b.room({-2, 0, -2}, {2, 2.5f, 2}, {blue, orange, white, white, mirror, white});
+
+    // The spheres share the width of the room.
+    const float step = 3.6f / float(params.count);
+    const float radius = std::min(0.3f, 0.4f * step);
+    for (uint32_t i = 0; i < params.count; ++i) {
+        const float x = -1.8f + (float(i) + 0.5f) * step;
+        const float hue = float(i) / float(params.count);
+        const glm::vec3 albedo = 0.4f + 0.35f * glm::cos(6.2831853f * (hue + glm::vec3(0, 0.667f, 0.333f)));
+        const uint32_t color = b.lambert("sphere", albedo);
+        b.place(b.mesh(sphereMesh("sphere", {x, radius, -0.8f}, radius, 4, color, false, true)));
+    }
+    const uint32_t lamp = b.lambert("lamp", glm::vec3(0.7f), glm::vec3(10.0f));
+    b.quad("lamp", {-0.5f, 2.49f, -0.5f}, {1, 0, 0}, {0, 0, 1}, lamp);
+    b.camera({0, 1.2f, 1.9f}, {0, 0.8f, -2}, 60);
+    return b.finish();
+}
+
+}  // namespace
+
+std::vector<BuiltinScene> roomScenes() {
+    return {builtinScene<Cornell>(), builtinScene<ThinWall>(), builtinScene<MirrorRoom>()};
+}
+
+}  // namespace voxray
