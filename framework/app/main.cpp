@@ -1,1 +1,81 @@
-int main() { return 0; }
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "base/error.h"
+#include "base/suggest.h"
+
+namespace {
+
+using namespace voxray;
+
+constexpr int kFailed = 1;
+constexpr int kBadUsage = 2;
+
+int complain(const std::string& message, int status) {
+    fmt::print(stderr, "voxray: error: {}\n", message);
+    return status;
+}
+
+/// The launcher has two commands of its own; a user who asks the program for one gets the hint.
+void checkCommandName(const CLI::App& app, const std::string& word) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (command->get_name() == word) return;
+        names.push_back(command->get_name());
+    }
+    if (word == "test" || word == "bench")
+        throw UsageError("'{0}' is a command of the launcher: ./voxray {0}", word);
+    throw UsageError("unknown command '{}'{}", word, didYouMean(word, names));
+}
+
+/// CLI11's messages span lines at times; an error is one line.
+std::string oneLine(std::string text) {
+    for (char& c : text)
+        if (c == '\n') c = ' ';
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    return text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"Voxray: voxel global illumination, measured against a path-traced reference.", "voxray"};
+    app.set_version_flag("--version", "voxray " VOXRAY_VERSION);
+    app.require_subcommand(1);
+    app.footer("Also: ./voxray test [FILTER] runs the tests, ./voxray bench [FILTER] the benchmarks.");
+
+    int status = 0;
+    addValidateCommand(app, status);
+    addCompareCommand(app, status);
+    addPassesCommand(app, status);
+    addDevicesCommand(app, status);
+    addDoctorCommand(app, status);
+
+    try {
+        if (argc < 2) {
+            fmt::print(stderr, "{}", app.help());
+            return kBadUsage;
+        }
+        if (argv[1][0] != '-') checkCommandName(app, argv[1]);
+        app.parse(argc, argv);
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+            return complain("cannot write to the standard output", kFailed);
+        return status;
+    } catch (const CLI::Success& asked) {  // --help, --version
+        return app.exit(asked);
+    } catch (const CLI::ParseError& error) {
+        return complain(oneLine(error.what()) + "; see voxray --help", kBadUsage);
+    } catch (const UsageError& error) {
+        return complain(error.what(), kBadUsage);
+    } catch (const std::bad_alloc&) {
+        return complain("out of memory", kFailed);
+    } catch (const std::exception& error) {
+        return complain(error.what(), kFailed);
+    }
+}

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+/// The commands of `voxray`. Each function adds one to the program; its callback writes the exit status:
+/// 0 done, 1 something failed, 2 bad usage or config, 130 interrupted. Callbacks throw Error and UsageError.
+namespace voxray {
+
+void addRunCommand(CLI::App& app, int& status);
+void addValidateCommand(CLI::App& app, int& status);
+void addSchemaCommand(CLI::App& app, int& status);
+void addExportSceneCommand(CLI::App& app, int& status);
+void addCompareCommand(CLI::App& app, int& status);
+void addPassesCommand(CLI::App& app, int& status);
+void addDevicesCommand(CLI::App& app, int& status);
+void addDoctorCommand(CLI::App& app, int& status);
+
+}  // namespace voxray

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/commands.h"
+#include "base/error.h"
+#include "base/value.h"
+#include "image/image.h"
+#include "image/metrics.h"
+
+namespace voxray {
+
+namespace {
+
+struct CompareOptions {
+    std::filesystem::path test;
+    std::filesystem::path reference;
+    std::filesystem::path flipMap;
+    float exposureStops = 0;
+    bool json = false;
+};
+
+struct Row {
+    std::string name;
+    Scores scores;
+};
+
+using Metric = std::pair<const char*, double Scores::*>;
+constexpr Metric kMetrics[] = {{"flip", &Scores::flip},           {"flip_ldr", &Scores::flipLdr},
+                               {"ssim", &Scores::ssim},           {"psnr_db", &Scores::psnrDb},
+                               {"nrmse", &Scores::nrmse},         {"relmse", &Scores::relmse},
+                               {"mean_ratio", &Scores::meanRatio}};
+
+/// The image that says nothing but the mean of the reference, channel by channel.
+ImageF constantOfMean(const ImageF& reference) {
+    std::vector<double> sums(reference.channels, 0.0);
+    for (size_t i = 0; i < reference.data.size(); ++i) sums[i % reference.channels] += reference.data[i];
+    ImageF constant(reference.width, reference.height, reference.channels);
+    for (size_t i = 0; i < constant.data.size(); ++i)
+        constant.data[i] = float(sums[i % reference.channels] / double(reference.pixelCount()));
+    return constant;
+}
+
+void printTable(const std::vector<Row>& rows) {
+    fmt::print("{:<10}", "");
+    for (const auto& [name, member] : kMetrics) fmt::print(" {:>10}", name);
+    fmt::print("\n");
+    for (const Row& row : rows) {
+        fmt::print("{:<10}", row.name);
+        for (const auto& [name, member] : kMetrics) fmt::print(" {:>10.5g}", row.scores.*member);
+        fmt::print("\n");
+    }
+}
+
+/// Numbers that JSON has no word for (the PSNR of equal images) become null.
+void printJson(const std::vector<Row>& rows, const CompareOptions& options, const FlipExposures& exposures) {
+    const auto number = [](double value) {
+        return std::isfinite(value) ? Value::fromScalar(fmt::format("{:.9g}", value)) : Value();
+    };
+    Value out = Value::map();
+    out.set("test", Value::fromScalar(options.test.string(), true));
+    out.set("reference", Value::fromScalar(options.reference.string(), true));
+    for (const Row& row : rows) {
+        Value scores = Value::map();
+        for (const auto& [name, member] : kMetrics) scores.set(name, number(row.scores.*member));
+        out.set(row.name == "test" ? "scores" : row.name, std::move(scores));
+    }
+    Value range = Value::map();
+    range.set("start", number(exposures.start));
+    range.set("stop", number(exposures.stop));
+    range.set("count", number(exposures.count));
+    out.set("flip_exposures", std::move(range));
+    out.set("exposure_stops", number(options.exposureStops));
+    fmt::print("{}\n", out.json());
+}
+
+void compare(const CompareOptions& options) {
+    const ImageF test = readImage(options.test);
+    const ImageF reference = readImage(options.reference);
+    if (test.width != reference.width || test.height != reference.height)
+        throw Error("{} is {}x{} and {} is {}x{}: images to compare are of one size", options.test.string(),
+                    test.width, test.height, options.reference.string(), reference.width, reference.height);
+
+    // The same exposures for all three rows, chosen from the reference alone.
+    ScoreOptions scoring;
+    scoring.exposureStops = options.exposureStops;
+    scoring.flipExposures = flipExposures(reference);
+    ImageF map;
+    const ImageF black(reference.width, reference.height, reference.channels);
+    const std::vector<Row> rows = {{"test", score(test, reference, scoring, &map)},
+                                   {"black", score(black, reference, scoring)},
+                                   {"constant", score(constantOfMean(reference), reference, scoring)}};
+    if (!options.flipMap.empty()) writePng(options.flipMap, map);
+
+    if (options.json)
+        printJson(rows, options, scoring.flipExposures);
+    else
+        printTable(rows);
+}
+
+}  // namespace
+
+void addCompareCommand(CLI::App& app, int&) {
+    CLI::App* command = app.add_subcommand(
+        "compare",
+        "Metrics of an image against a reference, with a black and a constant image's beside them.");
+    auto options = std::make_shared<CompareOptions>();
+    command->add_option("TEST", options->test, "Image to judge (EXR, HDR, PNG, JPEG).")->required();
+    command->add_option("REFERENCE", options->reference, "Image that is right.")->required();
+    command->add_flag("--json", options->json, "Print JSON.");
+    command->add_option("--flip-map", options->flipMap, "Write the HDR-FLIP error map to this PNG.");
+    command
+        ->add_option(
+            "--exposure", options->exposureStops,
+            "Stops by which the previews are brightened before FLIP (LDR), SSIM and PSNR. Default 0.")
+        ->check(CLI::Range(-32.0f, 32.0f));
+    command->callback([options] { compare(*options); });
+}
+
+}  // namespace voxray

@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "base/error.h"
+#include "vulkan/device.h"
+
+namespace voxray {
+
+namespace {
+
+/// The ray tracers that a device can run; the CPU's needs no feature of it.
+std::string tracersOf(const DeviceInfo& device) {
+    std::string names;
+    if (device.rayQuery) names += "ray_query, ";
+    if (device.rayPipeline) names += "ray_pipeline, ";
+    return names + "embree";
+}
+
+void printDevice(const DeviceInfo& device) {
+    const auto yesNo = [](bool value) { return value ? "yes" : "no"; };
+    fmt::print("{} ({})\n", device.name, device.isCpu ? "CPU" : "GPU");
+    fmt::print("  driver            {}\n", device.driver);
+    if (!device.missing.empty()) {
+        fmt::print("  does not qualify  it lacks {}\n", fmt::join(device.missing, ", "));
+        return;
+    }
+    fmt::print("  ray tracers       {}\n", tracersOf(device));
+    fmt::print("  geometry shader   {}\n", yesNo(device.geometryShader));
+    fmt::print("  64-bit atomics    {}\n", yesNo(device.shaderInt64Atomics));
+    fmt::print("  float atomics     {}\n", yesNo(device.floatAtomics));
+}
+
+/// Prints all devices. @throws Error where none qualifies.
+void printDevices() {
+    const std::vector<DeviceInfo> devices = listDevices();
+    for (const DeviceInfo& device : devices) printDevice(device);
+    if (devices.empty())
+        throw Error(
+            "no Vulkan device found; install a Vulkan driver (for a machine without a GPU: Mesa's lavapipe, "
+            "package mesa-vulkan-drivers, version 25 or later)");
+    const bool any =
+        std::any_of(devices.begin(), devices.end(), [](const DeviceInfo& d) { return d.missing.empty(); });
+    if (!any)
+        throw Error(
+            "no Vulkan device qualifies: above stands what each lacks; a newer driver may have it, or "
+            "Mesa's lavapipe, package mesa-vulkan-drivers, version 25 or later");
+}
+
+}  // namespace
+
+void addDevicesCommand(CLI::App& app, int&) {
+    CLI::App* command = app.add_subcommand(
+        "devices", "List Vulkan devices, their features and the ray tracers that each can run.");
+    command->callback([] { printDevices(); });
+}
+
+void addDoctorCommand(CLI::App& app, int&) {
+    CLI::App* command = app.add_subcommand("doctor", "Tell what this machine has and lacks.");
+    command->callback([] {
+        fmt::print("Devices, best first:\n");
+        printDevices();
+        fmt::print("\nNothing is missing.\n");
+    });
+}
+
+}  // namespace voxray

@@ -1,0 +1,13 @@
+# The house's own rules: who includes whom, formatting, left-overs, documentation, sanitized parsers.
+set(HOUSE ${CMAKE_CURRENT_SOURCE_DIR}/house)
+foreach(check layers format hygiene docs)
+  add_test(NAME house.${check} COMMAND /usr/bin/python3 ${HOUSE}/${check}.py ${CMAKE_SOURCE_DIR})
+endforeach()
+set_tests_properties(house.format PROPERTIES SKIP_RETURN_CODE 77)
+add_test(NAME house.selftest COMMAND /usr/bin/python3 -m unittest -q selftest WORKING_DIRECTORY ${HOUSE})
+
+foreach(area scene config)
+  add_test(NAME sanitized.${area}_mutation
+    COMMAND ${CMAKE_SOURCE_DIR}/scripts/sanitized-tests.sh run tests_${area}_mutation)
+  set_tests_properties(sanitized.${area}_mutation PROPERTIES TIMEOUT 600)
+endforeach()

@@ -1,0 +1,51 @@
+#!/usr/bin/python3
+"""Checks the documentation against the tree.
+
+Links to files lead somewhere; every package has its reason in docs/dependencies.md; a block of code under
+"<!-- file: PATH -->" is that file, word for word. docs.py [ROOT]; exit status 1 where one is not so.
+"""
+import os
+import re
+import sys
+
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+QUOTED = re.compile(r"<!-- file: (\S+) -->\n```\w*\n(.*?)```\n", re.S)
+
+
+def pages(root):
+    yield from (name for name in sorted(os.listdir(root)) if name.endswith(".md"))
+    yield from ("docs/" + name for name in sorted(os.listdir(os.path.join(root, "docs"))) if name.endswith(".md"))
+
+
+def read(root, path):
+    with open(os.path.join(root, path), encoding="utf-8") as file:
+        return file.read()
+
+
+def check(root):
+    problems = []
+    for page in pages(root):
+        text = read(root, page)
+        for target in LINK.findall(text):
+            path = target.split("#")[0]
+            if re.match(r"\w+:", target) or not path:
+                continue
+            if not os.path.exists(os.path.join(root, os.path.dirname(page), path)):
+                problems.append(f"{page}: link to {target}, which is not there")
+        for path, quoted in QUOTED.findall(text):
+            if not os.path.isfile(os.path.join(root, path)) or read(root, path) != quoted:
+                problems.append(f"{page}: the block of {path} is not what the file says")
+    reasons = read(root, "docs/dependencies.md")
+    for line in read(root, "scripts/packages.txt").splitlines():
+        if line.startswith("#") or not line.strip():
+            continue
+        package = line.split("|")[2].strip()
+        if f"`{package}`" not in reasons:
+            problems.append(f"docs/dependencies.md: no reason for the package {package}")
+    return problems
+
+
+if __name__ == "__main__":
+    found = check(sys.argv[1] if len(sys.argv) > 1 else ".")
+    print("\n".join(found) or "docs: links, packages and quoted files are as they say")
+    sys.exit(1 if found else 0)

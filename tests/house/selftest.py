@@ -1,0 +1,155 @@
+#!/usr/bin/python3
+"""The house checks find what they are for: each rule against a tree that breaks it, and one that does not."""
+import os
+import tempfile
+import unittest
+
+import docs
+import hygiene
+import layers
+
+
+class Tree(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = folder.name
+
+    def write(self, path, text, executable=False):
+        whole = os.path.join(self.root, path)
+        os.makedirs(os.path.dirname(whole), exist_ok=True)
+        with open(whole, "w", encoding="utf-8") as file:
+            file.write(text)
+        os.chmod(whole, 0o755 if executable else 0o644)
+
+
+class Layers(Tree):
+    def setUp(self):
+        super().setUp()
+        for path in ("framework/base/error.h", "framework/vulkan/device.h", "framework/image/image.h",
+                     "framework/scene/scene.h", "framework/trace/ray.h", "framework/graph/pass.h",
+                     "framework/experiment/runner.h", "framework/app/commands.h", "passes/register_passes.h",
+                     "passes/one/one.h", "passes/two/two.h", "passes/two/two.glsl", "passes/common/common.h",
+                     "shaders/shared/types.h", "tests/unit/helper.h"):
+            self.write(path, "#pragma once\n")
+
+    def refused(self, path, include):
+        self.write(path, f"// A comment.\n#include {include}\n")
+        problems = layers.check(self.root)
+        self.assertEqual(len(problems), 1, (path, include, problems))
+        self.assertTrue(problems[0].startswith(path + ":2: "), problems)
+        os.remove(os.path.join(self.root, path))
+
+    def allowed(self, path, include):
+        self.write(path, f"#include {include}\n")
+        self.assertEqual(layers.check(self.root), [])
+        os.remove(os.path.join(self.root, path))
+
+    def test_layers(self):
+        self.refused("framework/base/x.cpp", '"vulkan/device.h"')
+        self.refused("framework/base/x.cpp", '"scene/scene.h"')
+        self.refused("framework/vulkan/x.cpp", '"scene/scene.h"')
+        self.refused("framework/vulkan/x.cpp", '"graph/pass.h"')
+        self.refused("framework/image/x.cpp", '"scene/scene.h"')
+        self.refused("framework/scene/x.cpp", '"trace/ray.h"')
+        self.refused("framework/scene/x.cpp", '"vulkan/device.h"')
+        self.refused("framework/trace/x.cpp", '"graph/pass.h"')
+        self.refused("framework/graph/x.cpp", '"experiment/runner.h"')
+        self.refused("framework/experiment/x.cpp", '"app/commands.h"')
+        self.refused("framework/novel/x.cpp", '"base/error.h"')
+        self.refused("framework/scene/x.cpp", '"../trace/ray.h"')
+        self.allowed("framework/scene/x.cpp", '"image/image.h"')
+        self.allowed("framework/trace/x.cpp", '"shaders/shared/types.h"')
+        self.allowed("framework/app/x.cpp", '"experiment/runner.h"')
+
+    def test_passes(self):
+        self.refused("framework/experiment/x.cpp", '"passes/register_passes.h"')
+        self.refused("framework/graph/x.cpp", '"passes/common/common.h"')
+        self.refused("passes/one/x.cpp", '"passes/two/two.h"')
+        self.refused("passes/one/x.comp", '"passes/two/two.glsl"')
+        self.refused("passes/one/x.cpp", '"../two/two.h"')
+        self.refused("passes/common/x.cpp", '"passes/one/one.h"')
+        self.refused("passes/one/x.cpp", '"experiment/runner.h"')
+        self.refused("shaders/x.glsl", '"passes/two/two.glsl"')
+        self.refused("passes/one/x.cpp", '"tests/unit/helper.h"')
+        self.allowed("passes/one/x.cpp", '"passes/common/common.h"')
+        self.allowed("passes/one/x.cpp", '"one.h"')
+        self.allowed("passes/register_passes.cpp", '"passes/two/two.h"')
+        self.allowed("framework/app/x.cpp", '"passes/register_passes.h"')
+
+    def test_third_party(self):
+        self.refused("framework/experiment/x.cpp", "<tiny_gltf.h>")
+        self.refused("framework/trace/x.cpp", "<embree3/rtcore.h>")
+        self.refused("framework/scene/x.cpp", "<OpenImageIO/imageio.h>")
+        self.refused("framework/experiment/x.cpp", "<yaml-cpp/yaml.h>")
+        self.refused("framework/graph/x.cpp", "<vulkan/vulkan.h>")
+        self.refused("passes/one/x.cpp", "<vulkan/vulkan.h>")
+        self.refused("framework/trace/x.cpp", "<glslang/Public/ShaderLang.h>")
+        self.refused("framework/experiment/x.cpp", "<CLI/CLI.hpp>")
+        self.refused("framework/trace/x.cpp", '"tiny_gltf.h"')
+        self.refused("framework/image/x.cpp", "<gtest/gtest.h>")
+        self.refused("tests/unit/x.cpp", "<benchmark/benchmark.h>")
+        self.allowed("framework/scene/x.cpp", "<tiny_gltf.h>")
+        self.allowed("framework/trace/embree_scene.cpp", "<embree3/rtcore.h>")
+        self.allowed("tests/bench/x.cpp", "<embree3/rtcore.h>")
+        self.allowed("framework/vulkan/x.cpp", "<vulkan/vulkan.h>")
+
+
+class Hygiene(Tree):
+    def problems(self):
+        return hygiene.check(self.root)[0]
+
+    def test_clean_tree(self):
+        self.write("framework/base/x.cpp", "int x;\n" * hygiene.WANTED)
+        self.write("scripts/x.sh", "#!/usr/bin/env bash\ntrue\n", executable=True)
+        self.assertEqual(hygiene.check(self.root), ([], []))
+
+    def test_length(self):
+        self.write("framework/base/x.cpp", "int x;\n" * (hygiene.WANTED + 1))
+        self.assertEqual(self.problems(), [])
+        self.assertEqual(len(hygiene.check(self.root)[1]), 1)
+        self.write("framework/base/x.cpp", "int x;\n" * (hygiene.MOST + 1))
+        self.assertEqual(len(self.problems()), 1)
+
+    def test_words(self):
+        for text in ("// TO" "DO: later", "# FIX" "ME", "see deb.debian" ".org/x", "index: pypi" ".org", "cd /wo" "rk/main"):
+            self.write("docs/x.md", "fine\n" + text + "\n")
+            problems = self.problems()
+            self.assertEqual(len(problems), 1, text)
+            self.assertTrue(problems[0].startswith("docs/x.md:2: "), problems)
+
+    def test_scripts(self):
+        self.write("run", "#!/usr/bin/env bash\nif true; then\n", executable=True)
+        self.assertEqual(len(self.problems()), 1)
+        self.write("run", "#!/usr/bin/env bash\ntrue\n", executable=False)
+        self.assertEqual(len(self.problems()), 1)
+
+
+class Docs(Tree):
+    def setUp(self):
+        super().setUp()
+        self.write("scripts/packages.txt", "# when | probe | Debian\nrun | command g++ 11 | g++ | g++ | gcc-c++ | gcc\n")
+        self.write("docs/dependencies.md", "| `g++` | compiles |\n")
+        self.write("README.md", "[why](docs/dependencies.md#top) ![x](docs/dependencies.md)\n")
+
+    def test_clean_tree(self):
+        self.assertEqual(docs.check(self.root), [])
+
+    def test_dead_link(self):
+        self.write("docs/page.md", "See [this](nowhere.md).\n")
+        self.assertEqual(len(docs.check(self.root)), 1)
+
+    def test_package_without_a_reason(self):
+        self.write("docs/dependencies.md", "| `gcc` | compiles |\n")
+        self.assertEqual(len(docs.check(self.root)), 1)
+
+    def test_quoted_file_that_changed(self):
+        self.write("code.cpp", "int a;\n")
+        self.write("docs/page.md", "<!-- file: code.cpp -->\n```cpp\nint a;\n```\n")
+        self.assertEqual(docs.check(self.root), [])
+        self.write("code.cpp", "int b;\n")
+        self.assertEqual(len(docs.check(self.root)), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
