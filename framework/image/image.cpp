@@ -72,18 +72,37 @@ std::vector<T> readPixels(OIIO::ImageInput& input, const std::string& name, int 
     return values;
 }
 
-// A cut-off JPEG decodes to grey without complaint: look for its end marker.
-bool jpegEnds(std::span<const uint8_t> bytes) {
-    static constexpr uint8_t endOfImage[] = {0xff, 0xd9};
-    return std::find_end(bytes.begin(), bytes.end(), std::begin(endOfImage), std::end(endOfImage)) !=
-           bytes.end();
-}
 bool isJpeg(std::span<const uint8_t> bytes) {
     return bytes.size() > 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
 }
 bool isPng(std::span<const uint8_t> bytes) {
     static constexpr uint8_t magic[] = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
     return bytes.size() > sizeof magic && std::equal(std::begin(magic), std::end(magic), bytes.begin());
+}
+
+// A cut-off JPEG decodes to grey without complaint: look for its end marker.
+bool jpegEnds(std::span<const uint8_t> bytes) {
+    static constexpr uint8_t endOfImage[] = {0xff, 0xd9};
+    return std::find_end(bytes.begin(), bytes.end(), std::begin(endOfImage), std::end(endOfImage)) !=
+           bytes.end();
+}
+
+// Walks a PNG's chunks (length, type, data, checksum) up to IEND.
+bool pngEnds(std::span<const uint8_t> bytes) {
+    for (size_t at = 8; bytes.size() - at >= 12;) {
+        const size_t length = size_t(bytes[at]) << 24 | size_t(bytes[at + 1]) << 16 |
+                              size_t(bytes[at + 2]) << 8 | size_t(bytes[at + 3]);
+        if (bytes.size() - at - 12 < length) return false;
+        if (std::string_view(reinterpret_cast<const char*>(&bytes[at + 4]), 4) == "IEND") return true;
+        at += 12 + length;
+    }
+    return false;
+}
+
+// The decoders speak on stderr, or stay silent, where a file ends early: refuse such files before.
+void checkComplete(std::span<const uint8_t> bytes, const std::string& name) {
+    if ((isJpeg(bytes) && !jpegEnds(bytes)) || (isPng(bytes) && !pngEnds(bytes)))
+        throw Error("{}: is broken or truncated: its end is missing", name);
 }
 
 // Colour under transparent pixels stays as the file has it.
@@ -116,9 +135,7 @@ void writeWhole(const fs::path& path, const char* format, const OIIO::ImageSpec&
 
 ImageF readImage(const fs::path& path) {
     const std::string name = path.string();
-    const std::vector<uint8_t> bytes = readFile(path);
-    if (isJpeg(bytes) && !jpegEnds(bytes))
-        throw Error("{}: is broken or truncated: a JPEG without its end", name);
+    checkComplete(readFile(path), name);
     try {
         // Open, and refuse what is no flat picture before any memory is taken.
         const OIIO::ImageSpec config = openOptions();
@@ -158,7 +175,7 @@ ImageF readImage(const fs::path& path) {
 DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name) {
     const bool png = isPng(encoded);
     if (!png && !isJpeg(encoded)) throw Error("{}: is neither PNG nor JPEG", name);
-    if (!png && !jpegEnds(encoded)) throw Error("{}: is broken or truncated: a JPEG without its end", name);
+    checkComplete(encoded, name);
     try {
         // Open from memory.
         OIIO::Filesystem::IOMemReader reader(const_cast<uint8_t*>(encoded.data()), encoded.size());
@@ -225,10 +242,10 @@ void writePng(const fs::path& path, const ImageF& display) {
 
 ImageF preview(const ImageF& linear, float exposureStops) {
     ImageF display = linear;
-    const float scale = std::exp2(exposureStops);
+    const double scale = std::exp2(double(exposureStops));
     parallelRanges(display.data.size(), 1 << 14, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i)
-            display.data[i] = srgbEncode(std::clamp(display.data[i] * scale, 0.0f, 1.0f));
+            display.data[i] = float(srgbEncode(std::clamp(double(display.data[i]) * scale, 0.0, 1.0)));
     });
     return display;
 }

@@ -6,7 +6,9 @@
 #include "image/image.h"
 
 /// Image metrics as pure functions, all as CONVENTIONS.md has them. `test` and `reference` are 3-channel
-/// linear images of equal size. @throws Error where sizes differ, or a pixel is NaN or infinite.
+/// images of equal size, linear where the name does not say display. Every function is deterministic,
+/// whatever the number of threads. @throws Error where sizes differ, an image is empty or a pixel is NaN or
+/// infinite.
 namespace voxray {
 
 /// Mean and per-pixel map of one error.
@@ -15,37 +17,52 @@ struct ErrorMap {
     ImageF map;  ///< 1 channel.
 };
 
-/// Mean of the test over mean of the reference.
+/// Largest score of psnr(), that of equal images: results stay finite numbers.
+inline constexpr double psnrCap = 100;
+/// Largest magnitude of meanRatio(), and its value where only the reference is black.
+inline constexpr double meanRatioCap = 1e6;
+
+/// Mean of the test over mean of the reference, over all channels, within ±meanRatioCap; 1 where both are 0.
 double meanRatio(const ImageF& test, const ImageF& reference);
-/// mean((x-r)² / (r²+0.01)) after dividing both images by the reference's mean.
+/// mean((x-r)² / (r²+0.01)) after dividing both images by the reference's mean (by 1 where that is not above
+/// 0).
 double relMse(const ImageF& test, const ImageF& reference);
-/// sqrt(mean((x-r)²)) after dividing both images by the reference's mean.
+/// sqrt(mean((x-r)²)) after dividing both images by the reference's mean (by 1 where that is not above 0).
 double nRmse(const ImageF& test, const ImageF& reference);
-/// PSNR in dB of two display images in [0, 1] with peak 1.
+/// PSNR in dB of two display images in [0, 1] with peak 1; at most psnrCap.
 double psnr(const ImageF& testDisplay, const ImageF& referenceDisplay);
-/// SSIM on luma of two display images in [0, 1]: Gaussian window 11, sigma 1.5.
+/// SSIM (Wang et al. 2004) on luma (Rec.709 weights on display values) of two display images in [0, 1]:
+/// Gaussian window 11, sigma 1.5, population covariance, K1 = 0.01, K2 = 0.03. The mean is taken where the
+/// window lies wholly in the image; an axis shorter than 11 pixels is not cropped but its edge repeated.
 double ssim(const ImageF& testDisplay, const ImageF& referenceDisplay);
 
-/// LDR-FLIP (Andersson et al. 2020) of two sRGB display images in [0, 1].
-/// @param pixelsPerDegree 67.02 is the published default (0.7 m from a 0.7 m wide 3840-pixel monitor).
-ErrorMap flipLdr(const ImageF& testDisplay, const ImageF& referenceDisplay, double pixelsPerDegree = 67.0206);
+/// The published viewing condition of FLIP: 0.7 m from a 0.7 m wide monitor of 3840 pixels, 3840 π / 180.
+inline constexpr double flipPixelsPerDegree = 67.02064327658225;
 
-/// Exposures of HDR-FLIP (Andersson et al. 2021), in stops.
+/// LDR-FLIP (Andersson et al. 2020) of two sRGB display images, clamped to [0, 1]. Errors are in [0, 1].
+ErrorMap flipLdr(const ImageF& testDisplay, const ImageF& referenceDisplay,
+                 double pixelsPerDegree = flipPixelsPerDegree);
+
+/// Exposures of HDR-FLIP (Andersson et al. 2021), in stops: `count` of them, evenly from start to stop.
 struct FlipExposures {
     double start = 0;
     double stop = 0;
     int count = 2;
 };
-/// The published choice of start and stop from the reference's luminances (ACES tone map).
+/// The published choice (2021, section 3.2): the ACES curve lifts the reference's largest luminance to 0.85
+/// at `start` and its median (upper one of an even number) at `stop`; count = max(2, ceil(stop - start)).
+/// Where the median is black, that of the pixels that are not; {0, 0, 2} for a black image.
 FlipExposures flipExposures(const ImageF& reference);
-/// HDR-FLIP of two linear images: largest LDR-FLIP over the exposures.
+/// HDR-FLIP of two linear images: each pixel's largest LDR-FLIP over the exposures. Negative values count as
+/// 0.
+/// @throws Error also where the exposures are not finite or not in order, or their count is below 1.
 ErrorMap flipHdr(const ImageF& test, const ImageF& reference, const FlipExposures& exposures,
-                 double pixelsPerDegree = 67.0206);
+                 double pixelsPerDegree = flipPixelsPerDegree);
 
 /// One row of scores. All are taken of the same pair.
 struct Scores {
-    double flip = 0;       ///< HDR-FLIP.
-    double flipLdr = 0;    ///< LDR-FLIP of the previews.
+    double flip = 0;     ///< HDR-FLIP.
+    double flipLdr = 0;  ///< LDR-FLIP of the previews.
     double ssim = 0;
     double psnrDb = 0;
     double nrmse = 0;
@@ -57,6 +74,12 @@ struct ScoreOptions {
     FlipExposures flipExposures;  ///< Pinned, so that results can be compared between runs.
 };
 /// @param flipMap receives the HDR-FLIP map where not null.
-Scores score(const ImageF& test, const ImageF& reference, const ScoreOptions& options, ImageF* flipMap = nullptr);
+Scores score(const ImageF& test, const ImageF& reference, const ScoreOptions& options,
+             ImageF* flipMap = nullptr);
+
+/// The two images that every table is read against, sized like the reference: all black, and the reference's
+/// mean colour everywhere.
+ImageF blackLike(const ImageF& reference);
+ImageF constantLike(const ImageF& reference);
 
 }  // namespace voxray

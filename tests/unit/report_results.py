@@ -1,4 +1,4 @@
-"""Makes up result folders for the tests of the report, as a run would leave them. Run as a program, it writes one."""
+"""Makes up result folders as a run would leave them. As a program, it writes one: report_results.py DIR."""
 
 from __future__ import annotations
 
@@ -33,7 +33,8 @@ def variant(name: str, frame_ms: float, error: float, indirect: float | None = N
 
 def failed(name: str, error: str, **sweep) -> dict:
     """A row of results.csv of a failed variant."""
-    return {"variant": name, "status": "failed", "error": error, "device": "llvmpipe", "tracer": "embree", **sweep}
+    return {"variant": name, "status": "failed", "error": error, "device": "llvmpipe", "tracer": "embree",
+            **sweep}
 
 
 def manifest(sweep_keys: list[str]) -> dict:
@@ -41,17 +42,17 @@ def manifest(sweep_keys: list[str]) -> dict:
     baselines = {name: {**scores(error), **{f"indirect_{k}": v for k, v in scores(error * 1.2).items()}}
                  for name, error in (("black", 1.6), ("constant", 0.9))}
     return {"voxray_version": "0.1.0", "commit": "a042f5e", "started": "2026-01-01T10:00:00Z",
-            "finished": "2026-01-01T10:03:00Z", "device": "llvmpipe", "driver": "Mesa 25.0", "tracer": "embree",
-            "validation": False, "sweep_keys": sweep_keys, "seed": 7,
+            "finished": "2026-01-01T10:03:00Z", "device": "llvmpipe", "driver": "Mesa 25.0",
+            "tracer": "embree", "validation": False, "sweep_keys": sweep_keys, "seed": 7,
             "config": {"name": "synthetic", "scene": {"file": "cornell", "lights": [{"point": [0, 1, 0]}]},
                        "graph": [{"pass": "gbuffer"}, {"pass": "voxelize", "resolution": 64}]},
             "image": {"width": SIZE[0], "height": SIZE[1]}, "exposure_stops": 0.0,
             "flip_exposures": {"start": -2.0, "stop": 3.0, "count": 5},
-            "reference": {"pass": "path_trace", "spp": 64, "seconds": 12.5, "cached": False, "hash": "0123abcd",
-                          "nrmse_noise": 0.01, "relmse_noise": 0.001, "indirect_nrmse_noise": 0.02,
+            "reference": {"pass": "path_trace", "spp": 64, "seconds": 12.5, "cached": False,
+                          "hash": "0123abcd", "nrmse_noise": 0.01, "relmse_noise": 0.001, "indirect_nrmse_noise": 0.02,
                           "indirect_relmse_noise": 0.002},
-            "baselines": baselines, "auto": {"tracer": "embree"}, "warnings": [], "versions": {"glslang": "15"},
-            "machine": {"cpu": "a CPU", "cores": 2}}
+            "baselines": baselines, "auto": {"tracer": "embree"}, "warnings": [],
+            "versions": {"glslang": "15"}, "machine": {"cpu": "a CPU", "cores": 2}}
 
 
 def passes(rows: list[dict]) -> list[dict]:
@@ -82,10 +83,10 @@ def save_image(path: Path, error: float, size: tuple[int, int], grey: bool = Fal
 def write_results(directory: Path, rows: list[dict], run: dict | None, *, reference: bool = True,
                   indirect: bool = True, images: bool = True, size: tuple[int, int] = SIZE) -> Path:
     """Writes a results folder; `run` is its manifest, None for none."""
-    sweep = [key for row in rows[:1] for key in row if key not in ("variant", "status", "error", "device", "tracer",
-             *COSTS, *SCORES) and not key.startswith("indirect_")]
-    columns = ["variant", "status", "error", "device", "tracer", *sweep, *COSTS, *SCORES,
-               *(f"indirect_{key}" for key in SCORES)]
+    text = ("variant", "status", "error", "device", "tracer")
+    numbers = (*COSTS, *SCORES, *(f"indirect_{key}" for key in SCORES))
+    sweep = [key for row in rows[:1] for key in row if key not in (*text, *numbers)]
+    columns = [*text, *sweep, *numbers]
     directory.mkdir(parents=True, exist_ok=True)
     _write_csv(directory / "results.csv", columns, rows)
     _write_csv(directory / "passes.csv", ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays",
@@ -93,7 +94,8 @@ def write_results(directory: Path, rows: list[dict], run: dict | None, *, refere
     if run is not None:
         (directory / "manifest.json").write_text(json.dumps(run), encoding="utf-8")
 
-    folders = [("reference", 0.0)] * reference + [(r["variant"], r["nrmse"]) for r in rows if r["status"] == "ok"]
+    folders = [("reference", 0.0)] * reference
+    folders += [(row["variant"], row["nrmse"]) for row in rows if row["status"] == "ok"]
     for folder, error in folders if images else []:
         for name in ("final", "indirect") if indirect else ("final",):
             save_image(directory / "images" / folder / f"{name}.png", error, size)
@@ -112,12 +114,12 @@ def _write_csv(path: Path, columns: list[str], rows: list[dict]) -> None:
 def sweep_of_two_keys() -> list[dict]:
     """Six variants, two of them tied, one worse than a constant image, and a failed one."""
     table = ((64, "light_rays", 12.0, 0.62, 0.95), (128, "light_rays", 21.0, 0.35, 0.50),
-             (256, "light_rays", 60.0, 0.211, 0.300), (64, "rsm", 9.0, 0.70, 1.3), (128, "rsm", 16.0, 0.44, 0.61),
-             (256, "rsm", 44.0, 0.217, 0.310))
+             (256, "light_rays", 60.0, 0.211, 0.300), (64, "rsm", 9.0, 0.70, 1.3),
+             (128, "rsm", 16.0, 0.44, 0.61), (256, "rsm", 44.0, 0.217, 0.310))
     rows = [variant(f"{inject}-{resolution}", ms, error, indirect, **{"voxelize.resolution": resolution,
                     "inject": inject}) for resolution, inject, ms, error, indirect in table]
-    return rows + [failed("rsm-2048", "pass 'voxelize': needs 34.4 GiB, the device has 7.7 GiB; lower resolution",
-                          **{"voxelize.resolution": 2048, "inject": "rsm"})]
+    error = "pass 'voxelize': needs 34.4 GiB, the device has 7.7 GiB; lower resolution"
+    return rows + [failed("rsm-2048", error, **{"voxelize.resolution": 2048, "inject": "rsm"})]
 
 
 if __name__ == "__main__":
