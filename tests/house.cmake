@@ -11,3 +11,8 @@ foreach(area scene config)
     COMMAND ${CMAKE_SOURCE_DIR}/scripts/sanitized-tests.sh run tests_${area}_mutation)
   set_tests_properties(sanitized.${area}_mutation PROPERTIES TIMEOUT 600)
 endforeach()
+
+# The template of docs/writing-a-pass.md, built and run as a real pass.
+voxray_tests(template
+  SOURCES house/template/tint.cpp house/template/tint_test.cpp
+  DEPENDS voxray_graph)

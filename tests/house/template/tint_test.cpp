@@ -1,0 +1,99 @@
+#include "tests/house/template/tint.h"
+
+#include <gtest/gtest.h>
+
+#include "graph/graph.h"
+#include "scene/load.h"
+
+namespace voxray {
+namespace {
+
+/// Stands in for the chain before the pass: an image of one known value.
+class KnownImage final : public Pass {
+ public:
+    static constexpr const char* kName = "known_image";
+    static constexpr const char* kHelp = "An image of radiance (1, 2, 3).";
+    struct Params {
+        static constexpr auto schema() { return std::tuple{}; }
+    };
+    explicit KnownImage(const Params&) {}
+    Phase phase() const override { return Phase::Frame; }
+    void declare(PassBuilder& builder) override {
+        source_ = builder.write<FrameImage>("source", "The image.");
+    }
+    void plan(PassPlan& plan) override { desc_.extent = {plan.frame.width, plan.frame.height, 1}; }
+    void prepare(PassSetup& setup) override {
+        setup.get(source_).image = Image(setup.device, "known", desc_);
+    }
+    void record(PassContext& context) override {
+        context.stream.clear(context.get(source_).image, VkClearColorValue{{1.0f, 2.0f, 3.0f, 1.0f}});
+    }
+
+ private:
+    Port<FrameImage> source_;
+    ImageDesc desc_;
+};
+
+Registry registryWithTint() {
+    Registry registry;
+    registry.add<KnownImage>();
+    registry.add<Tint>();
+    return registry;
+}
+
+Value entry(const std::string& pass) {
+    Value map = Value::map();
+    map.set("pass", Value::fromScalar(pass));
+    return map;
+}
+
+TEST(TemplatePass, MultipliesEveryPixelByTheColour) {
+    Value tint = entry("tint");
+    Value color = Value::list();
+    for (const char* factor : {"0.5", "0.25", "2"}) color.items.push_back(Value::fromScalar(factor));
+    tint.set("color", color);
+    Value list = Value::list();
+    list.items = {entry("known_image"), tint};
+    Graph graph(registryWithTint(), list);
+
+    Device device({.name = "", .validation = true});
+    const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, {});
+    CommandStream stream(device);
+    const SceneState state = evaluate(makeBuiltinScene("cornell", Value()), 0.0);
+    const GpuScene scene = makeGpuScene(device, stream, state);
+    ShaderCompiler tracerCompiler(VOXRAY_SOURCE_DIR, {});
+    const std::unique_ptr<RayTracer> tracer =
+        makeRayTracer(TracerKind::Embree, device, tracerCompiler, state);
+
+    // An odd size: the last work groups hang over the edge.
+    Frame frame;
+    frame.scene = &state;
+    frame.width = 13;
+    frame.height = 9;
+    graph.plan(frame, device.info(), device.memoryLimitBytes());
+    graph.prepare(frame, device, compiler, stream);
+    graph.run(Phase::Frame, frame, device, stream, *tracer, scene, 0, true);
+
+    const Image* image = graph.image("final");
+    ASSERT_NE(image, nullptr);
+    const Buffer pixels(device, "pixels", 13 * 9 * 4 * sizeof(float), MemoryKind::Readback);
+    stream.copy(*image, pixels);
+    const std::vector<float> values = stream.readAs<float>(pixels, 13 * 9 * 4);
+    for (size_t p = 0; p < 13 * 9; ++p) {
+        ASSERT_EQ(values[p * 4 + 0], 0.5f) << p;
+        ASSERT_EQ(values[p * 4 + 1], 0.5f) << p;
+        ASSERT_EQ(values[p * 4 + 2], 6.0f) << p;
+    }
+    for (const std::string& message : device.validationMessages()) ADD_FAILURE() << message;
+}
+
+TEST(TemplatePass, RefusesAParameterOutOfRange) {
+    Value tint = entry("tint");
+    tint.set("color", Value::fromScalar("-1"));
+    Value list = Value::list();
+    list.items = {entry("known_image"), tint};
+    EXPECT_THROW(Graph(registryWithTint(), list), UsageError);
+}
+
+}  // namespace
+}  // namespace voxray
