@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr uint64_t maxPixels = 1ull << 28;
+constexpr int maxSide = 1 << 16;
 
 // Reasons of a library can span lines; an Error is one line.
 std::string oneLine(std::string text) {
@@ -31,9 +32,10 @@ void checkSpec(const OIIO::ImageSpec& spec, const std::string& name) {
     if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0)
         throw Error("{}: is not a picture ({} x {} x {}, {} channels)", name, spec.width, spec.height,
                     spec.depth, spec.nchannels);
-    if (uint64_t(spec.width) * uint64_t(spec.height) > maxPixels)
-        throw Error("{}: {} x {} pixels are more than the {} that Voxray reads", name, spec.width,
-                    spec.height, maxPixels);
+    if (uint64_t(spec.width) * uint64_t(spec.height) > maxPixels ||
+        std::max(spec.width, spec.height) > maxSide)
+        throw Error("{}: {} x {} pixels are too many: at most {}, and {} on a side", name, spec.width,
+                    spec.height, maxPixels, maxSide);
 }
 
 // The channels [begin, begin + count) that hold the colour: R, G, B by name, else the first ones.

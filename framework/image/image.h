@@ -25,8 +25,8 @@ struct ImageF {
 };
 
 /// Reads EXR, HDR, PNG or JPEG as float. 8-bit sRGB files are decoded to linear; alpha is dropped from
-/// 4-channel files, grey becomes 3 equal channels.
-/// @throws Error for a missing, broken or oversized file.
+/// 4-channel files, grey becomes 3 equal channels: the result has 3.
+/// @throws Error for a missing, broken, truncated or oversized (above 2^28 pixels or 65536 on a side) file.
 ImageF readImage(const std::filesystem::path& path);
 
 /// A decoded 8-bit RGBA texture, still in the file's own encoding (no sRGB decode). Row 0 at the top.
@@ -35,13 +35,17 @@ struct DecodedImage {
     uint32_t height = 0;
     std::vector<uint8_t> rgba;
 };
-/// Decodes a PNG or JPEG from memory. @throws Error.
+/// Decodes a PNG or JPEG from memory: 16 bits are reduced to 8, grey and palette become RGB, a missing alpha
+/// 255; alpha is not multiplied in. @param name names the picture in errors. @throws Error as readImage().
 DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name);
 
-/// Writes a float32 EXR, whole or not at all. 1 or 3 channels.
+/// Writes a float32 EXR (ZIP; channels R, G, B or Y), whole or not at all. Equal images give equal files.
+/// @throws Error where the image is empty or has neither 1 nor 3 channels, or the file cannot be written.
 void writeExr(const std::filesystem::path& path, const ImageF& image);
 
-/// Writes an 8-bit PNG of display values in [0, 1] (already encoded), whole or not at all. 1 or 3 channels.
+/// Writes an 8-bit PNG of display values in [0, 1] (already encoded; others are clamped), whole or not at
+/// all.
+/// @throws Error as writeExr(), and where a value is NaN.
 void writePng(const std::filesystem::path& path, const ImageF& display);
 
 /// Preview: scales by 2^exposure, clamps to [0, 1], applies the sRGB transfer function.

@@ -121,11 +121,132 @@ TEST_F(ImageFiles, DamagedFilesAreErrors) {
     EXPECT_THROW(readImage(folder_), Error);
 }
 
+TEST_F(ImageFiles, ChangedBytesGiveAnErrorOrAPicture) {
+    writeExr(file("whole.exr"), gradient(21, 30, 3));
+    writePng(file("whole.png"), gradient(21, 30, 3));
+    uint32_t random = 1;
+    for (const char* extension : {".exr", ".png"}) {
+        const std::vector<uint8_t> whole = readFile(file((std::string("whole") + extension).c_str()));
+        const fs::path changed = file((std::string("changed") + extension).c_str());
+        for (int i = 0; i < 200; ++i) {
+            // Change up to three bytes, half the time in the header.
+            std::vector<uint8_t> bytes = whole;
+            for (int k = 0; k <= i % 3; ++k) {
+                random = random * 1664525u + 1013904223u;
+                const size_t range = i % 2 ? bytes.size() : std::min<size_t>(bytes.size(), 400);
+                bytes[(random >> 8) % range] = uint8_t(random >> 24);
+            }
+            store(changed, bytes, bytes.size());
+            try {
+                const ImageF image = readImage(changed);
+                EXPECT_EQ(image.data.size(), image.pixelCount() * 3);
+            } catch (const Error& error) {
+                EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+            }
+        }
+    }
+}
+
 TEST_F(ImageFiles, AHugeClaimIsRefused) {
     // 65535 x 65535 pixels in a few bytes of PNG.
     const std::vector<uint8_t> png = fromHex(
-        "89504e470d0a1a0a 0000000d49484452 0000ffff 0000ffff 0802000000 00000000 0000000049454e44ae426082");
-    EXPECT_THROW(decodeImage(png, "huge.png"), Error);
+        "89504e470d0a1a0a 0000000d49484452 0000ffff0000ffff0802000000 39674e07"
+        "0000000849444154 789c030000000001 480689d2 0000000049454e44ae426082");
+    try {
+        decodeImage(png, "huge.png");
+        FAIL() << "decoded";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("huge.png: 65535 x 65535 pixels"), std::string::npos)
+            << error.what();
+    }
+}
+
+// Small files, made by hand, of every kind that glTF textures come in.
+struct Encoded {
+    const char* kind;
+    const char* hex;
+    std::vector<uint8_t> rgba;  // First pixels
+    int tolerance;
+};
+
+class Decoding : public testing::TestWithParam<Encoded> {};
+
+TEST_P(Decoding, GivesTheFilesOwnBytes) {
+    const Encoded& encoded = GetParam();
+    const DecodedImage image = decodeImage(fromHex(encoded.hex), encoded.kind);
+    ASSERT_EQ(image.rgba.size(), size_t(image.width) * image.height * 4);
+    ASSERT_GE(image.rgba.size(), encoded.rgba.size());
+    for (size_t i = 0; i < encoded.rgba.size(); ++i)
+        EXPECT_NEAR(image.rgba[i], encoded.rgba[i], encoded.tolerance) << "byte " << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, Decoding,
+    testing::Values(Encoded{"palette_with_alpha",
+                            "89504e470d0a1a0a0000000d4948445200000002000000010803000000c3fc8fb800000006504c54"
+                            "450a141ec8643277a0b39c"
+                            "0000000274524e53ff40936b71da0000000b49444154789c636060040000040002bf7a3f4a000000"
+                            "0049454e44ae426082",
+                            {10, 20, 30, 255, 200, 100, 50, 64},
+                            0},
+                    Encoded{"grey_and_alpha",
+                            "89504e470d0a1a0a0000000d49484452000000020000000108040000005e2bb7010000000d494441"
+                            "54789c63486960670000"
+                            "032300ec60b685c80000000049454e44ae426082",
+                            {100, 100, 100, 128, 7, 7, 7, 0},
+                            0},
+                    Encoded{"rgb_of_16_bits",
+                            "89504e470d0a1a0a0000000d4948445200000001000000011002000000c0e78f9d0000000f494441"
+                            "54789c63f8ffbfa1819111"
+                            "000e7f0301a25288120000000049454e44ae426082",
+                            {255, 128, 1, 255},
+                            0},
+                    Encoded{"grey_of_1_bit",
+                            "89504e470d0a1a0a0000000d49484452000000020000000101000000"
+                            "00dc5942270000000a49444154789c636800000082008177cd72b60000000049454e44ae426082",
+                            {255, 255, 255, 255, 0, 0, 0, 255},
+                            0},
+                    Encoded{"rgba_with_gamma",
+                            "89504e470d0a1a0a0000000d49484452000000010000000108060000001f15c4890000000467414d"
+                            "41000186a031e8965f0000"
+                            "000d49444154789c63389162c4050004bf0169326d012c0000000049454e44ae426082",
+                            {200, 100, 50, 10},
+                            0},
+                    Encoded{"jpeg_grey",
+                            "ffd8ffe000104a46494600010100000100010000ffdb004300030202030202030303030403030405"
+                            "0805050404050a070706080c"
+                            "0a0c0c0b0a0b0b0d0e12100d0e110e0b0b1016101113141515150c0f171816141812141514ffc000"
+                            "0b080008000801011100ffc4"
+                            "0014000100000000000000000000000000000008ffc4001410010000000000000000000000000000"
+                            "0000ffda0008010100003f00"
+                            "3bbfffd9",
+                            {77, 77, 77, 255},
+                            2},
+                    Encoded{"jpeg_colour",
+                            "ffd8ffe000104a46494600010100000100010000ffdb004300030202030202030303030403030405"
+                            "0805050404050a070706080c"
+                            "0a0c0c0b0a0b0b0d0e12100d0e110e0b0b1016101113141515150c0f171816141812141514ffdb00"
+                            "430103040405040509050509"
+                            "140d0b0d141414141414141414141414141414141414141414141414141414141414141414141414"
+                            "1414141414141414141414"
+                            "141414141414141414ffc00011080010001003012200021101031101ffc400150001010000000000"
+                            "0000000000000000000007ff"
+                            "c40014100100000000000000000000000000000000ffc40015010101000000000000000000000000"
+                            "00000608ffc40014110100"
+                            "000000000000000000000000000000ffda000c03010002110311003f00850034b75fffd9",
+                            {200, 30, 60, 255},
+                            3}),
+    [](const auto& param) { return std::string(param.param.kind); });
+
+TEST(DecodeImage, RefusesCutAndForeignBytes) {
+    // Every proper prefix of a file is refused.
+    const std::vector<uint8_t> png = fromHex(
+        "89504e470d0a1a0a0000000d49484452000000020000000108040000005e2bb7010000000d49444154789c63486960670000"
+        "032300ec60b685c80000000049454e44ae426082");
+    for (size_t size = 0; size < png.size(); ++size)
+        EXPECT_THROW(decodeImage(std::span(png).first(size), "cut.png"), Error) << size;
+    EXPECT_THROW(decodeImage(fromHex("ffd8ffe000104a464946000101"), "cut.jpg"), Error);
+    EXPECT_THROW(decodeImage(fromHex("474946383961010001000000"), "a.gif"), Error);
 }
 
 TEST_F(ImageFiles, WhatCannotBeWrittenIsAnErrorAndLeavesNothing) {
