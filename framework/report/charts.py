@@ -18,7 +18,8 @@ from report.judge import pareto_front
 from report.load import BASELINES, LIGHTS, Metric, Results
 from report.style import CATEGORY_COLORS, RAMP_COLORS, Style
 
-_FONT_SIZE = 8.0
+_FONT_SIZE = 9.0
+_SIDES = ((1, 0), (1, 1), (-1, -1), (1, -1), (-1, 0), (-1, 1), (0, 1), (0, -1))  # of a point, the best first
 _INKS = ("fg", "muted", "grid", "card", *CATEGORY_COLORS, *RAMP_COLORS)
 # Matplotlib knows no CSS variables: each is drawn in a colour that stands for it, and replaced afterwards.
 _STAND_INS = {name: f"#fe01{index:02x}" for index, name in enumerate(_INKS)}
@@ -56,8 +57,8 @@ class Chart:
 
 def cost_error_chart(results: Results, metric: Metric, light: str, with_build: bool, styles: dict[str, Style],
                      labels: dict[str, str], anchors: dict[str, str], chart_id: str) -> Chart | None:
-    """Draws time against one error on two log axes, with the Pareto front, the reference's own noise and what a
-    black and a constant image score. None where no variant has both numbers above zero.
+    """Draws time against one error on two log axes, the Pareto front, the reference's own noise, and what
+    a black and a constant image score. None where no variant has both numbers above zero.
 
     @param with_build Adds the build's time to the frame's.
     @param labels, anchors For each variant, the text at its point and the id that its point links to.
@@ -73,16 +74,16 @@ def cost_error_chart(results: Results, metric: Metric, light: str, with_build: b
     with matplotlib.rc_context(_RC), warnings.catch_warnings():
         # The browser has the letters that matplotlib's own font lacks.
         warnings.filterwarnings("ignore", message="Glyph")
-        figure = Figure(figsize=(5.0, 3.7), dpi=72, layout="constrained")  # SVG has 72 units an inch
-        axes = figure.add_subplot()
+        figure = Figure(figsize=(5.0, 3.7), dpi=72)  # matplotlib's SVG has 72 units an inch
+        axes = figure.add_axes((0.14, 0.13, 0.84, 0.85))
         time = "build + one frame" if with_build else "one frame"
         _set_up_axis(axes.xaxis, [p.low for p in points] + [p.high for p in points])
         _set_up_axis(axes.yaxis, [p.error for p in points] + [level[1] for level in levels])
         axes.set_xlabel(f"time of {time}, ms (median; left is faster)")
         axes.set_ylabel(f"{metric.label}, {light} light (lower is better)")
         _draw_levels(axes, levels)
-        _draw_points(axes, points, styles, chart_id)
-        _place_labels(figure, axes, points, levels)
+        front = _draw_points(axes, points, styles, chart_id)
+        _place_labels(axes, points, front, levels)
         svg = _to_svg(figure)
 
     caption = f"{metric.label} of the {light} light against the time of {time}."
@@ -129,11 +130,12 @@ def _set_up_axis(axis, values: list[float]) -> None:
 def _draw_levels(axes, levels) -> None:
     for name, value, dashes in levels:
         axes.axhline(value, color=_STAND_INS["muted"], linestyle=dashes, linewidth=1.0)
-        axes.annotate(name, (0.995, value), (0, 2), xycoords=("axes fraction", "data"), ha="right", va="bottom",
-                      textcoords="offset points", color=_STAND_INS["muted"], fontsize=_FONT_SIZE - 1)
+        axes.annotate(name, (0.995, value), (0, 2), xycoords=("axes fraction", "data"), ha="right",
+                      va="bottom", textcoords="offset points", color=_STAND_INS["muted"],
+                      fontsize=_FONT_SIZE - 1)
 
 
-def _draw_points(axes, points: list[Point], styles: dict[str, Style], chart_id: str) -> None:
+def _draw_points(axes, points: list[Point], styles: dict[str, Style], chart_id: str) -> list[Point]:
     # The Pareto front is a staircase: what no variant reaches lies below and left of it.
     front = [points[i] for i in pareto_front([(p.cost, p.error) for p in points])]
     axes.step([p.cost for p in front], [p.error for p in front], where="post", color=_STAND_INS["muted"],
@@ -145,12 +147,11 @@ def _draw_points(axes, points: list[Point], styles: dict[str, Style], chart_id: 
                         markeredgecolor=_STAND_INS["card"], markeredgewidth=0.8, zorder=3)[0]
         dot.set_gid(f"{chart_id}-point-{i}")
         dot.set_url(f"#{point.anchor}")
+    return front
 
 
-def _place_labels(figure, axes, points: list[Point], levels) -> None:
+def _place_labels(axes, points: list[Point], front: list[Point], levels) -> None:
     # Each label takes the side of its point where it covers least of what is drawn already.
-    figure.draw_without_rendering()
-    figure.set_layout_engine("none")
     frame = axes.get_window_extent()
     centers = [axes.transData.transform((p.cost, p.error)) for p in points]
     taken = [_Box(x - 5, y - 5, x + 5, y + 5) for x, y in centers]
@@ -158,10 +159,13 @@ def _place_labels(figure, axes, points: list[Point], levels) -> None:
         y = axes.transData.transform((1, value))[1]
         width = 0.5 * (_FONT_SIZE - 1) * len(name)
         taken.append(_Box(frame.x1 - width, y, frame.x1, y + _FONT_SIZE))
+    steps = [axes.transData.transform((p.cost, p.error)) for p in front]
+    for (x0, y0), (x1, y1) in zip(steps, steps[1:]):
+        taken += [_Box(x0, y0 - 2, x1, y0 + 2), _Box(x1 - 2, y1, x1 + 2, y0)]
     for point, (x, y) in zip(points, centers):
         width, height = 0.56 * _FONT_SIZE * len(point.label), _FONT_SIZE
         best, best_cost = None, math.inf
-        for preference, (dx, dy) in enumerate([(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)]):
+        for preference, (dx, dy) in enumerate(_SIDES):
             reach = 6 if dx == 0 or dy == 0 else 4
             left = x + dx * reach - (width / 2 if dx == 0 else width if dx < 0 else 0)
             bottom = y + dy * reach - (height / 2 if dy == 0 else height if dy < 0 else 0)
@@ -196,7 +200,7 @@ def _to_svg(figure: Figure) -> str:
     for axes in figure.axes:
         axes.patch.set_visible(False)
     out = io.StringIO()
-    FigureCanvasSVG(figure).print_svg(out, metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+    FigureCanvasSVG(figure).print_svg(out, metadata={"Date": None})
     return out.getvalue()
 
 
@@ -205,8 +209,8 @@ def _adopt(svg: str, points: list[Point], chart_id: str, caption: str) -> str:
     svg = svg[svg.index("<svg"):].replace("\n", " ")
     svg = re.sub(r"<metadata>.*?</metadata>|<style.*?</style>", "", svg)
     box = re.search(r'viewBox="([^"]*)"', svg).group(1)
-    svg = re.sub(r"<svg[^>]*>", f'<svg class="chart" viewBox="{box}" role="img" aria-label="{escape(caption)}" '
-                 'xmlns:xlink="http://www.w3.org/1999/xlink">', svg, count=1)
+    opening = f'<svg class="chart" viewBox="{box}" role="img" aria-label="{escape(caption)}">'
+    svg = re.sub(r"<svg[^>]*>", lambda _: opening, svg, count=1)
     svg = re.sub(r"font: ([\d.]+)px [^;\"]*", r"font-size: \1px", svg)
 
     # Ids are made unique to the chart, colours become the page's, points get their numbers as tooltips.

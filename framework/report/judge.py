@@ -1,4 +1,4 @@
-"""What the numbers say: the best of a column, what ties with it, what a black image beats, the Pareto front."""
+"""What the numbers say: the best of a column, its ties, what a black image beats, the Pareto front."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def score_marks(results: Results, metric: Metric, column: str) -> dict[str, str]
     """Marks of one score: variant -> "best" or "tie".
 
     A tie differs from the best by no more than the reference's own noise: another reference of the same
-    quality could have ranked the two the other way round. No marks where fewer than two variants have a score.
+    quality could have ranked the two the other way round. No marks where fewer than two variants have one.
     """
     ranks = results.ok.set_index("variant")[column].map(metric.rank).dropna()
     if len(ranks) < 2:
@@ -23,7 +23,7 @@ def score_marks(results: Results, metric: Metric, column: str) -> dict[str, str]
     noise = results.noise(column)
     margin = noise if math.isfinite(noise) else 0.0
     best = ranks.min()
-    marks = {name: "tie" for name, rank in ranks.items() if rank - best <= margin}
+    marks = {name: "tie" for name, rank in ranks.items() if rank <= best + margin}
     marks[ranks.idxmin()] = "best"
     # Equal to the last digit is no less the best.
     marks.update({name: "best" for name, rank in ranks.items() if rank == best})
@@ -56,7 +56,7 @@ def beaten_by(results: Results, metric: Metric, column: str, value: float) -> li
 
 
 def pareto_front(points: list[tuple[float, float]]) -> list[int]:
-    """Indices of the (cost, error) points that no other point beats in one and equals in the other, by cost."""
+    """The indices of the (cost, error) points that no other dominates, by rising cost."""
     front: list[int] = []
     lowest = math.inf
     for index in sorted(range(len(points)), key=lambda i: points[i]):
@@ -76,6 +76,7 @@ def summary(results: Results, light: str, prefix: str) -> list[str]:
         sentences.append(f"{_count(failed, 'variant')} failed, and the table says why.")
 
     # The best of each error, with what cannot be told from it.
+    worse: dict[str, list[str]] = {}
     for metric in METRICS[:3]:
         column = prefix + metric.key
         scores = results.ok.set_index("variant")[column].dropna()
@@ -85,9 +86,13 @@ def summary(results: Results, light: str, prefix: str) -> list[str]:
         ties = [name for name in score_marks(results, metric, column) if name != best]
         tied = f", which cannot be told from {_names(ties)}" if ties else ""
         sentences.append(f"Lowest {metric.label} of the {light} light: {best} with {scores[best]:.3g}{tied}.")
-        worse = [name for name, value in scores.items() if beaten_by(results, metric, column, value)]
-        if worse:
-            sentences.append(f"A black or a constant image has a lower {metric.label} than {_names(worse)}.")
+        for name, value in scores.items():
+            if beaten_by(results, metric, column, value):
+                worse.setdefault(name, []).append(metric.label)
+    for measures in dict.fromkeys(map(tuple, worse.values())):
+        names = [name for name, its in worse.items() if tuple(its) == measures]
+        better = f"A black or a constant image has a lower {_names(list(measures))}"
+        sentences.append(f"{better} than {_names(names)}.")
 
     times = results.ok.set_index("variant")["frame_ms_median"].dropna()
     if not times.empty:

@@ -1,4 +1,4 @@
-"""Reads the result files of a run (docs/reading-a-report.md lists them); knows nothing of how to show them."""
+"""Reads the result files of a run (docs/reading-a-report.md lists them), and no more."""
 
 from __future__ import annotations
 
@@ -194,9 +194,9 @@ def _read_manifest(path: Path, warnings: list[str]) -> dict:
     try:
         manifest = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        warnings.append(f"manifest.json cannot be read, so where these results come from is not shown: {error}")
+        warnings.append(f"manifest.json cannot be read, so no provenance is shown: {error}")
         return {}
     if not isinstance(manifest, dict):
-        warnings.append("manifest.json is not a JSON object, so where these results come from is not shown.")
+        warnings.append("manifest.json is not a JSON object, so no provenance is shown.")
         return {}
     return manifest

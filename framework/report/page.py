@@ -10,56 +10,17 @@ from pathlib import Path
 import jinja2
 import pandas as pd
 
-from report import charts, images, judge, style, text
-from report.load import BASELINES, IMAGES, LIGHTS, METRICS, Metric, ReportError, Results, number, section
+from report import charts, images, judge, style, table, text
+from report.load import IMAGES, LIGHTS, METRICS, ReportError, Results, section
 
 _HERE = Path(__file__).parent
 _CHART_METRICS = METRICS[:3]
 _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's row numbers
 _MOST_NAMED_POINTS = 12
-_COSTS = {  # column -> heading, unit, how to write it
-    "build_ms": ("build", "ms", text.figures),
-    "frame_ms_median": ("frame", "ms", text.figures),
-    "memory_bytes": ("memory", "", text.size),
-    "rays": ("rays", "", text.count),
-}
-
-
-@dataclass(frozen=True)
-class Column:
-    """A column of the results table. `light` is "" where the column holds for both lights."""
-
-    key: str
-    heading: str
-    title: str
-    light: str = ""
-    align_text: bool = False
-
-
-@dataclass(frozen=True)
-class Cell:
-    """`sort` is a number or a text to sort by; `mark` is "", "best", "tie" or "worse"."""
-
-    text: str
-    sort: str = ""
-    light: str = ""
-    mark: str = ""
-    title: str = ""
-    is_text: bool = False
-
-
-@dataclass(frozen=True)
-class Row:
-    number: str
-    name: str
-    anchor: str
-    cells: list[Cell]
-    error: str = ""
 
 
 @dataclass(frozen=True)
 class Segment:
-    label: str
     color: str
     percent: float
     title: str
@@ -103,17 +64,17 @@ def render(results: Results) -> str:
     numbers = {name: str(i) for i, name in enumerate(names, 1)}
     styles, legends = style.variant_styles(results)
     colors = style.pass_colors(results)
-    columns = _columns(results, lights)
+    columns = table.columns_of(results, lights)
     chart_groups, not_drawn = _charts(results, lights, styles, numbers, anchors)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     light = lights[-1]
     return environment.get_template("template.html.j2").render(
-        title=_title(results), lights=lights, light=light, summary=judge.summary(results, light, LIGHTS[light]),
-        setting=_setting(results), columns=columns, metrics=METRICS,
-        rows=[_row(results, row, columns, numbers, anchors) for _, row in results.variants.iterrows()],
-        baselines=_baselines(results, columns), noise=_noise_row(results, columns), charts=chart_groups,
-        not_drawn=not_drawn, legends=legends, markers=style.MARKERS, pass_colors=colors,
+        title=_title(results), setting=_setting(results), lights=lights, light=light,
+        summary=judge.summary(results, light, LIGHTS[light]), columns=columns, metrics=METRICS,
+        rows=table.variant_rows(results, columns, numbers, anchors),
+        baselines=table.baseline_rows(results, columns), noise=table.noise_row(results, columns),
+        charts=chart_groups, not_drawn=not_drawn, legends=legends, markers=style.MARKERS, pass_colors=colors,
         bars=_bars(results, colors, numbers, anchors), reference=_reference(results, lights, warnings),
         variants=[_variant(results, row, lights, colors, numbers, anchors, warnings)
                   for _, row in results.variants.iterrows()],
@@ -148,86 +109,6 @@ def _setting(results: Results) -> str:
                        " The run had not ended when this page was made.")
 
 
-# --- the table -------------------------------------------------------------------------------------------------
-
-
-def _columns(results: Results, lights: list[str]) -> list[Column]:
-    columns = [Column(key, key, "varied by the sweep", align_text=not judge.is_numeric(results.variants[key]))
-               for key in results.sweep_keys]
-    columns += [Column(key, key, f"{key} that the variant ran on", align_text=True) for key in ("device", "tracer")
-                if results.variants[key].nunique() > 1]
-    titles = {"build_ms": "once a scene or light", "frame_ms_median": "median of the measured frames; lower is better",
-              "memory_bytes": "device memory; lower is better", "rays": "rays traced in one frame and the build"}
-    columns += [Column(key, f"{heading}, {unit}" if unit else heading, titles[key])
-                for key, (heading, unit, _) in _COSTS.items()]
-    arrows = {"low": "↓", "high": "↑", "one": "→1"}
-    for light in lights:
-        for metric in METRICS:
-            column = LIGHTS[light] + metric.key
-            known = results.ok[column].notna().any() or any(
-                math.isfinite(results.baseline(name, column)) for name in BASELINES)
-            if known:
-                unit = f", {metric.unit}" if metric.unit else ""
-                columns.append(Column(column, f"{metric.label}{unit} {arrows[metric.better]}",
-                                      f"{metric.meaning} ({light} light)", light))
-    return columns
-
-
-def _metric(column: Column) -> Metric:
-    return next(m for m in METRICS if LIGHTS[column.light] + m.key == column.key)
-
-
-def _row(results: Results, row: pd.Series, columns: list[Column], numbers, anchors) -> Row:
-    cells = []
-    for column in columns:
-        value = row[column.key]
-        if column.light:
-            cells.append(_score_cell(results, row["variant"], column, value))
-        elif column.key in _COSTS:
-            mark = "" if column.key == "rays" else judge.cost_marks(results, column.key).get(row["variant"], "")
-            spread = f"p05 {text.figures(row['frame_ms_p05'])}, p95 {text.figures(row['frame_ms_p95'])} ms"
-            cells.append(Cell(_COSTS[column.key][2](value), _sort(value), mark=mark,
-                              title=spread if column.key == "frame_ms_median" else ""))
-        else:
-            cells.append(Cell(value, value, is_text=column.align_text))
-    failed = row["status"] != "ok"
-    error = (row["error"] or f"status is '{row['status']}', with no error text") if failed else ""
-    return Row(numbers[row["variant"]], row["variant"], anchors[row["variant"]], cells, error)
-
-
-def _score_cell(results: Results, name: str, column: Column, value: float) -> Cell:
-    metric = _metric(column)
-    mark = judge.score_marks(results, metric, column.key).get(name, "")
-    worse = judge.beaten_by(results, metric, column.key, value)
-    title = f"worse than a {' and a '.join(worse)} image" if worse else ""
-    return Cell(text.figures(value), _sort(value), column.light, "worse" if worse else mark, title)
-
-
-def _baselines(results: Results, columns: list[Column]) -> list[Row]:
-    rows = []
-    for name in BASELINES:
-        if section(section(results.manifest, "baselines"), name):
-            cells = [Cell(text.figures(results.baseline(name, c.key)) if c.light else "", light=c.light)
-                     for c in columns]
-            rows.append(Row("", f"a {name} image", "", cells))
-    return rows
-
-
-def _noise_row(results: Results, columns: list[Column]) -> Row | None:
-    noises = {c.key: results.noise(c.key) for c in columns if c.light}
-    if not any(math.isfinite(value) for value in noises.values()):
-        return None
-    return Row("", "the reference's own noise", "",
-               [Cell(text.figures(noises[c.key]) if c.light else "", light=c.light) for c in columns])
-
-
-def _sort(value: float) -> str:
-    return "" if math.isnan(value) else repr(float(value))
-
-
-# --- charts and bars -------------------------------------------------------------------------------------------
-
-
 def _charts(results: Results, lights, styles, numbers, anchors) -> tuple[list[dict], list[str]]:
     # A number stands at a point where the names are too long or too many to read.
     names = list(results.ok["variant"])
@@ -260,28 +141,28 @@ def _bars(results: Results, colors, numbers, anchors) -> list[dict]:
         bars = []
         for _, row in rows.iterrows():
             name = row["variant"]
-            segments = [Segment(part, colors.get(part, "muted"), 100 * ms / longest, f"{part}: {text.figures(ms)} ms")
+            segments = [Segment(colors.get(part, "muted"), 100 * ms / longest,
+                                f"{part}: {text.figures(ms)} ms")
                         for part, ms in parts[name].items()]
             bars.append(Bar(numbers[name], name, anchors[name], f"{text.figures(row[column])} ms", segments))
         groups.append({"heading": heading, "bars": bars})
     rows = results.ok[results.ok["memory_bytes"].fillna(0) > 0]
-    bars = [Bar(numbers[row["variant"]], row["variant"], anchors[row["variant"]], text.size(row["memory_bytes"]),
-                [Segment("memory", "c0", 100 * row["memory_bytes"] / rows["memory_bytes"].max(),
-                         text.size(row["memory_bytes"]))]) for _, row in rows.iterrows()]
+    bars = []
+    for name, bytes_used in zip(rows["variant"], rows["memory_bytes"]):
+        used = text.size(bytes_used)
+        segments = [Segment("muted", 100 * bytes_used / rows["memory_bytes"].max(), used)]
+        bars.append(Bar(numbers[name], name, anchors[name], used, segments))
     groups.append({"heading": "Device memory", "bars": bars})
     return [group for group in groups if group["bars"]]
 
 
 def _pass_times(results: Results, row: pd.Series, phase: str, column: str) -> dict[str, float]:
-    table = results.passes
-    mine = table[(table["variant"] == row["variant"]) & (table["phase"] == phase) & (table["ms_median"] > 0)]
+    rows = results.passes
+    mine = rows[(rows["variant"] == row["variant"]) & (rows["phase"] == phase) & (rows["ms_median"] > 0)]
     times = mine.groupby("pass", sort=False)["ms_median"].sum().to_dict()
     # Whatever no pass accounts for is shown as such; a sum of medians can also exceed the whole's median.
     rest = row[column] - sum(times.values())
     return {**times, "outside the passes": rest} if rest > 0 else times
-
-
-# --- images, passes and provenance -----------------------------------------------------------------------------
 
 
 def _picture(results: Results, folder: str, name: str, embed, warnings: list[str]) -> images.Picture | None:
@@ -295,9 +176,10 @@ def _picture(results: Results, folder: str, name: str, embed, warnings: list[str
 
 def _reference(results: Results, lights, warnings) -> dict:
     manifest = section(results.manifest, "reference")
-    facts = [(key.replace("_", " "), text.figures(number(value)) if isinstance(value, float) else str(value))
-             for key, value in manifest.items() if not isinstance(value, (dict, list))]
-    views = [(light, _picture(results, "reference", IMAGES[light][0], images.embed, warnings)) for light in lights]
+    facts = [(key.replace("_", " "), text.figures(value) if isinstance(value, float) else text.plain(value))
+             for key, value in manifest.items()]
+    views = [(light, _picture(results, "reference", IMAGES[light][0], images.embed, warnings))
+             for light in lights]
     if not any(picture for _, picture in views):
         warnings.append("The reference's image is missing, so variants cannot be compared with it by eye.")
     return {"facts": facts, "views": views}
@@ -309,7 +191,8 @@ def _variant(results: Results, row: pd.Series, lights, colors, numbers, anchors,
         return Variant(numbers[name], name, anchors[name], [],
                        row["error"] or f"status is '{row['status']}', with no error text", [])
     views = [View(light, _picture(results, name, IMAGES[light][0], images.embed, warnings),
-                  _picture(results, name, IMAGES[light][1], images.embed_error, warnings)) for light in lights]
+                  _picture(results, name, IMAGES[light][1], images.embed_error, warnings))
+             for light in lights]
     if not any(view.image for view in views):
         warnings.append(f"Variant {name} has no image in its results.")
     facts = [("frame", f"{text.figures(row['frame_ms_median'])} ms (p05 {text.figures(row['frame_ms_p05'])}, "
@@ -319,18 +202,19 @@ def _variant(results: Results, row: pd.Series, lights, colors, numbers, anchors,
 
 
 def _pass_rows(results: Results, name: str, colors) -> list[dict]:
-    table = results.passes[results.passes["variant"] == name]
-    longest = table["ms_median"].max() if len(table) else math.nan
+    rows = results.passes[results.passes["variant"] == name]
+    longest = rows["ms_median"].max() if len(rows) else math.nan
     return [{"name": row["pass"], "phase": row["phase"], "color": colors[row["pass"]],
              "percent": 100 * row["ms_median"] / longest if row["ms_median"] > 0 else 0.0,
-             "cells": [text.figures(row["ms_median"]), text.figures(row["ms_p05"]), text.figures(row["ms_p95"]),
-                       text.count(row["rays"]), text.count(row["voxel_steps"]), text.size(row["memory_bytes"])]}
-            for _, row in table.iterrows()]
+             "cells": [*(text.figures(row[key]) for key in ("ms_median", "ms_p05", "ms_p95")),
+                       text.count(row["rays"]), text.count(row["voxel_steps"]),
+                       text.size(row["memory_bytes"])]}
+            for _, row in rows.iterrows()]
 
 
 def _provenance(results: Results) -> list[tuple[str, str]]:
     facts = []
     for key, value in results.manifest.items():
         if key not in ("config", "warnings", "baselines", "reference"):
-            facts.append((key.replace("_", " "), text.yaml_like(value) if isinstance(value, (dict, list)) else str(value)))
+            facts.append((key.replace("_", " "), text.plain(value)))
     return facts

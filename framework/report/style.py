@@ -1,6 +1,6 @@
 """Which colour and marker stands for a variant or a pass, the same in every chart and legend of a page.
 
-Colours are names of the CSS variables of style.css, so that a chart follows the reader's light or dark scheme.
+Colours are names of CSS variables of style.css, so that a chart follows the reader's light or dark scheme.
 """
 
 from __future__ import annotations
@@ -54,7 +54,8 @@ def variant_styles(results: Results) -> tuple[dict[str, Style], list[Legend]]:
 
     colors = _colors(table[keys[0]])
     shapes = list(MARKERS)
-    shape_of = {value: shapes[i % len(shapes)] for i, value in enumerate(_values(table[keys[1]]))} if keys[1:] else {}
+    second = _values(table[keys[1]]) if keys[1:] else []
+    shape_of = {value: shapes[i % len(shapes)] for i, value in enumerate(second)}
     legends = [Legend(keys[0], [LegendEntry(value, Style(color, "o")) for value, color in colors.items()])]
     if shape_of:
         legends.append(Legend(keys[1], [LegendEntry(v, Style("muted", m)) for v, m in shape_of.items()]))

@@ -58,6 +58,11 @@ def yaml_like(value, indent: int = 0) -> str:
     return _scalar(value)
 
 
+def plain(value) -> str:
+    """A JSON value for a reader: text without quotes, everything else YAML-like."""
+    return value if isinstance(value, str) else yaml_like(value)
+
+
 def _is_short(value) -> bool:
     items = value.values() if isinstance(value, dict) else value
     leaves = not any(isinstance(item, (dict, list)) for item in items)

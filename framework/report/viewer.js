@@ -15,7 +15,7 @@
 
     function set(changes, remember = true) {
         for (const [key, value] of Object.entries(changes)) if (isValid(key, value)) state[key] = value;
-        for (const key of ["light", "show", "time"]) root.dataset[key] = state[key];
+        for (const key of ["light", "show", "time", "zoom"]) root.dataset[key] = state[key];
         root.style.setProperty("--split", `${state.split}%`);
         root.style.setProperty("--zoom", state.zoom);
         for (const key of Object.keys(choices)) {
@@ -52,11 +52,11 @@
     }
 
     // A variant's image becomes a viewer where there is a reference to lay over it.
-    function addTag(canvas, side, text) {
+    function addTag(figure, side, text) {
         const tag = document.createElement("span");
         tag.className = `tag ${side}`;
         tag.textContent = text;
-        canvas.append(tag);
+        figure.append(tag);
     }
     for (const stage of document.querySelectorAll(".viewer")) {
         const reference = document.getElementById(stage.dataset.reference);
@@ -73,8 +73,8 @@
         const line = document.createElement("div");
         line.className = "line";
         canvas.append(overlay, line);
-        addTag(canvas, "left", "variant");
-        addTag(canvas, "right", "reference");
+        addTag(stage.parentElement, "left", "variant");
+        addTag(stage.parentElement, "right", "reference");
         for (const [name, value] of Object.entries({ role: "slider", tabindex: "0", "aria-valuemin": "0", "aria-valuemax": "100" })) {
             stage.setAttribute(name, value);
         }

@@ -49,8 +49,8 @@ def manifest(sweep_keys: list[str]) -> dict:
             "image": {"width": SIZE[0], "height": SIZE[1]}, "exposure_stops": 0.0,
             "flip_exposures": {"start": -2.0, "stop": 3.0, "count": 5},
             "reference": {"pass": "path_trace", "spp": 64, "seconds": 12.5, "cached": False,
-                          "hash": "0123abcd", "nrmse_noise": 0.01, "relmse_noise": 0.001, "indirect_nrmse_noise": 0.02,
-                          "indirect_relmse_noise": 0.002},
+                          "hash": "0123abcd", "nrmse_noise": 0.01, "relmse_noise": 0.001,
+                          "indirect_nrmse_noise": 0.02, "indirect_relmse_noise": 0.002},
             "baselines": baselines, "auto": {"tracer": "embree"}, "warnings": [],
             "versions": {"glslang": "15"}, "machine": {"cpu": "a CPU", "cores": 2}}
 

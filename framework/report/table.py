@@ -1,0 +1,137 @@
+"""The results table: columns are sweep keys, costs and scores; rows are variants, baselines and the noise."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import pandas as pd
+
+from report import judge, text
+from report.load import BASELINES, LIGHTS, METRICS, Metric, Results, section
+
+
+@dataclass(frozen=True)
+class _Cost:
+    heading: str
+    title: str
+    write: Callable[[float], str]
+
+
+_COSTS = {
+    "build_ms": _Cost("build, ms", "once a scene or light; lower is better", text.figures),
+    "frame_ms_median": _Cost("frame, ms", "median of the measured frames; lower is better", text.figures),
+    "memory_bytes": _Cost("memory", "device memory; lower is better", text.size),
+    "rays": _Cost("rays", "rays traced", text.count),
+}
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of the results table. Scores have a metric; `light` is "" where it holds for both lights."""
+
+    key: str
+    heading: str
+    title: str
+    light: str = ""
+    align_text: bool = False
+    metric: Metric | None = None
+
+
+@dataclass(frozen=True)
+class Cell:
+    """`sort` is a number or a text to sort by; `mark` is "", "best", "tie" or "worse"."""
+
+    text: str
+    sort: str = ""
+    light: str = ""
+    mark: str = ""
+    title: str = ""
+    is_text: bool = False
+
+
+@dataclass(frozen=True)
+class Row:
+    number: str
+    name: str
+    anchor: str
+    cells: list[Cell]
+    error: str = ""
+
+
+def columns_of(results: Results, lights: list[str]) -> list[Column]:
+    """The columns after the number and the name, without scores that no variant and no baseline has."""
+    columns = [Column(key, key, "varied by the sweep", align_text=not judge.is_numeric(results.variants[key]))
+               for key in results.sweep_keys]
+    columns += [Column(key, key, f"{key} that the variant ran on", align_text=True)
+                for key in ("device", "tracer") if results.variants[key].nunique() > 1]
+    columns += [Column(key, cost.heading, cost.title) for key, cost in _COSTS.items()]
+    arrows = {"low": "↓", "high": "↑", "one": "→1"}
+    for light in lights:
+        for metric in METRICS:
+            column = LIGHTS[light] + metric.key
+            known = results.ok[column].notna().any() or any(
+                math.isfinite(results.baseline(name, column)) for name in BASELINES)
+            if known:
+                unit = f", {metric.unit}" if metric.unit else ""
+                columns.append(Column(column, f"{metric.label}{unit} {arrows[metric.better]}",
+                                      f"{metric.meaning} ({light} light)", light, metric=metric))
+    return columns
+
+
+def variant_rows(results: Results, columns: list[Column], numbers: dict[str, str],
+                 anchors: dict[str, str]) -> list[Row]:
+    """The variants' rows, marked with the best of each column, its ties, and what a black image beats."""
+    marks = {column.key: _marks(results, column) for column in columns}
+    rows = []
+    for _, row in results.variants.iterrows():
+        name = row["variant"]
+        cells = [_cell(results, row, column, marks[column.key].get(name, "")) for column in columns]
+        failed = row["status"] != "ok"
+        error = (row["error"] or f"status is '{row['status']}', with no error text") if failed else ""
+        rows.append(Row(numbers[name], name, anchors[name], cells, error))
+    return rows
+
+
+def _marks(results: Results, column: Column) -> dict[str, str]:
+    if column.metric:
+        return judge.score_marks(results, column.metric, column.key)
+    return judge.cost_marks(results, column.key) if column.key in judge.COST_COLUMNS else {}
+
+
+def _cell(results: Results, row: pd.Series, column: Column, mark: str) -> Cell:
+    value = row[column.key]
+    if column.metric:
+        worse = judge.beaten_by(results, column.metric, column.key, value)
+        title = f"worse than a {' and a '.join(worse)} image" if worse else ""
+        return Cell(text.figures(value), _sort(value), column.light, "worse" if worse else mark, title)
+    if column.key in _COSTS:
+        spread = f"p05 {text.figures(row['frame_ms_p05'])}, p95 {text.figures(row['frame_ms_p95'])} ms"
+        title = spread if column.key == "frame_ms_median" else ""
+        return Cell(_COSTS[column.key].write(value), _sort(value), mark=mark, title=title)
+    return Cell(value, value, is_text=column.align_text)
+
+
+def baseline_rows(results: Results, columns: list[Column]) -> list[Row]:
+    """What a black and a constant image score, as far as the run measured it."""
+    rows = []
+    for name in BASELINES:
+        if section(section(results.manifest, "baselines"), name):
+            cells = [Cell(text.figures(results.baseline(name, c.key)) if c.light else "", light=c.light)
+                     for c in columns]
+            rows.append(Row("", f"a {name} image", "", cells))
+    return rows
+
+
+def noise_row(results: Results, columns: list[Column]) -> Row | None:
+    """The reference's own noise in each score's unit; None where the run measured none."""
+    noises = {c.key: results.noise(c.key) for c in columns if c.light}
+    if not any(math.isfinite(value) for value in noises.values()):
+        return None
+    return Row("", "the reference's own noise", "",
+               [Cell(text.figures(noises[c.key]) if c.light else "", light=c.light) for c in columns])
+
+
+def _sort(value: float) -> str:
+    return "" if math.isnan(value) else repr(float(value))

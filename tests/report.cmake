@@ -1,0 +1,5 @@
+# The report needs Debian's Python with numpy, pandas, matplotlib and Jinja2, which is not always the first on PATH.
+add_test(NAME report.unit
+  COMMAND /usr/bin/python3 -m unittest -v report_test
+  WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}/tests/unit)
+set_tests_properties(report.unit PROPERTIES TIMEOUT 300)
