@@ -1,1 +1,17 @@
 # Tests of experiment.
+voxray_tests(config
+  SOURCES unit/config_test.cpp unit/config_sweep_test.cpp
+  DEPENDS voxray_config)
+
+# The config reader over mutated files, with sanitizers whatever the build type: its sources are few.
+set(CONFIG_FOLDER ${CMAKE_SOURCE_DIR}/framework/experiment)
+set(BASE_FOLDER ${CMAKE_SOURCE_DIR}/framework/base)
+voxray_tests(config_mutation
+  SOURCES unit/config_mutation_test.cpp
+    ${CONFIG_FOLDER}/config.cpp ${CONFIG_FOLDER}/overrides.cpp ${CONFIG_FOLDER}/scene_settings.cpp
+    ${CONFIG_FOLDER}/sweep.cpp ${CONFIG_FOLDER}/yaml.cpp
+    ${BASE_FOLDER}/files.cpp ${BASE_FOLDER}/suggest.cpp ${BASE_FOLDER}/value.cpp
+  DEPENDS voxray_options fmt::fmt glm::glm Vulkan::Headers yaml-cpp nlohmann_json::nlohmann_json PkgConfig::XXHASH)
+set(SANITIZERS -fsanitize=address,undefined -fno-sanitize-recover=undefined)
+target_compile_options(tests_config_mutation PRIVATE ${SANITIZERS} -O1 -g)
+target_link_options(tests_config_mutation PRIVATE ${SANITIZERS})

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/value.h"
+
+/// Changes to a config before it is read: profiles, `--set`, sweeps. All name a place by a dotted path:
+///   image.width            a key of the config
+///   voxelize.resolution    a parameter of the pass with that id
+///   inject                 a whole pass: a name, or a map with `pass`; the id stays
+///   sweep.inject           an axis of the sweep (the rest of the path is the axis' own path)
+namespace voxray {
+
+/// Keys of a config's top level.
+const std::vector<std::string>& configKeys();
+
+/// The id of an entry of `graph`: its `id`, else its `pass`; "" where it has neither.
+std::string passId(const Value& entry);
+
+enum class Merge {
+    Maps,    ///< A map is merged into the map that is there, key by key (profiles, --set).
+    Replace  ///< The new value stands alone (sweeps).
+};
+
+/// Sets what `path` names to `value`; null takes it out. Errors are located at `value.where`.
+/// @throws UsageError for a path that leads nowhere, with the nearest valid one.
+void applyOverride(Value& config, const std::string& path, const Value& value, Merge merge = Merge::Maps);
+
+/// Applies the named block of `profiles`. @throws UsageError for an unknown profile.
+void applyProfile(Value& config, const std::string& name);
+
+/// Applies "path=value", the value being YAML. @throws UsageError where there is no '=' or the YAML is bad.
+void applyAssignment(Value& config, const std::string& assignment);
+
+}  // namespace voxray

@@ -1,0 +1,197 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/schema.h"
+#include "base/value.h"
+#include "scene/scene.h"
+#include "trace/ray_tracer.h"
+
+/// The typed blocks of a config. Names, ranges, defaults and help of its scalar keys stand here and nowhere
+/// else.
+namespace voxray {
+
+template <>
+struct EnumNames<TracerKind> {
+    static constexpr std::array names{
+        std::pair{TracerKind::Auto, "auto"}, std::pair{TracerKind::RayQuery, "ray_query"},
+        std::pair{TracerKind::RayPipeline, "ray_pipeline"}, std::pair{TracerKind::Embree, "embree"}};
+};
+
+enum class MaterialMode { AsIs, Lambert };
+template <>
+struct EnumNames<MaterialMode> {
+    static constexpr std::array names{std::pair{MaterialMode::AsIs, "as_is"},
+                                      std::pair{MaterialMode::Lambert, "lambert"}};
+};
+
+/// Largest coordinate (m), intensity (W/sr, W/m²) and radiance (W/(m² sr)) that a config may name.
+inline constexpr float kMaxCoordinate = 1e6f;
+inline constexpr float kMaxLight = 1e12f;
+
+/// Top-level scalars.
+struct GeneralSettings {
+    std::string name;
+    uint64_t seed = 0;
+    TracerKind tracer = TracerKind::Auto;
+    static constexpr auto schema() {
+        return std::tuple{
+            field("name", &GeneralSettings::name,
+                  "Name of the experiment and of its results folder: letters, digits, '_', '-', '.'."),
+            field("seed", &GeneralSettings::seed, "Seed of all random numbers.", uint64_t(0),
+                  uint64_t(INT64_MAX)),
+            field("tracer", &GeneralSettings::tracer,
+                  "Ray-tracing backend; auto takes the GPU's where it has one, else Embree.")};
+    }
+};
+
+/// `image`.
+struct ImageSettings {
+    uint32_t width = 640;
+    uint32_t height = 360;
+    float exposureStops = 0;
+    static constexpr auto schema() {
+        return std::tuple{
+            field("width", &ImageSettings::width, "Width in pixels.", 1u, 8192u),
+            field("height", &ImageSettings::height, "Height in pixels.", 1u, 8192u),
+            field("exposure_stops", &ImageSettings::exposureStops,
+                  "Exposure of previews and LDR metrics: radiance is scaled by 2^stops.", -30.0f, 30.0f)};
+    }
+};
+
+/// `measure`, but for the list `metrics`.
+struct MeasureSettings {
+    uint32_t frames = 20;
+    uint32_t warmup = 3;
+    uint32_t buildRepeats = 1;
+    uint64_t memoryLimitMb = 0;
+    std::vector<std::string> metrics;  ///< As in the config: names out of metricNames().
+    static constexpr auto schema() {
+        return std::tuple{
+            field("frames", &MeasureSettings::frames, "Frames that are timed. The first of them is judged.",
+                  1u, 100000u),
+            field("warmup", &MeasureSettings::warmup, "Frames before them that are not timed.", 0u, 100000u),
+            field("build_repeats", &MeasureSettings::buildRepeats,
+                  "Timed runs of the build passes, after one that is not timed.", 1u, 1000u),
+            field("memory_limit_mb", &MeasureSettings::memoryLimitMb,
+                  "Device memory in MiB that a graph may take; 0: what the device has.", uint64_t(0),
+                  uint64_t(1) << 24)};
+    }
+};
+
+/// Names for `measure.metrics`.
+std::vector<std::string> metricNames();
+
+/// `scene`, but for `camera`, `lights` and `environment`.
+struct SceneOptions {
+    std::string file;
+    std::string builtin;
+    bool keepFileLights = true;
+    MaterialMode materials = MaterialMode::AsIs;
+    double time = 0;
+    static constexpr auto schema() {
+        return std::tuple{
+            field("file", &SceneOptions::file, "A .glb or .gltf file, looked for in the scene folders."),
+            field("builtin", &SceneOptions::builtin, "A built-in scene; its own parameters stand beside it."),
+            field("keep_file_lights", &SceneOptions::keepFileLights,
+                  "Keep the scene's own punctual lights; false leaves those of `lights` alone. Emissive "
+                  "surfaces "
+                  "always stay."),
+            field("materials", &SceneOptions::materials,
+                  "as_is, or lambert: drop specular and metal, keep base colour and emission."),
+            field("time", &SceneOptions::time, "Time in seconds at which animation is frozen.", 0.0, 1e6)};
+    }
+};
+
+/// `scene.camera` as a map.
+struct CameraSettings {
+    glm::vec3 position{0.0f};
+    glm::vec3 target{0.0f};
+    glm::vec3 up{0, 1, 0};
+    float fovDegrees = 60;
+    static constexpr auto schema() {
+        constexpr glm::vec3 low(-kMaxCoordinate), high(kMaxCoordinate);
+        return std::tuple{
+            field("position", &CameraSettings::position, "Where the camera stands, metres.", low, high),
+            field("target", &CameraSettings::target, "The point that it looks at, metres.", low, high),
+            field("up", &CameraSettings::up, "Which way is up in the picture.", low, high),
+            field("fov_deg", &CameraSettings::fovDegrees, "Vertical field of view in degrees.", 1.0f,
+                  179.0f)};
+    }
+};
+
+/// Entries of `scene.lights`, told apart by their first key.
+struct DirectionalLightSettings {
+    glm::vec3 direction{0, -1, 0};
+    glm::vec3 irradiance{1.0f};
+    static constexpr auto schema() {
+        return std::tuple{field("directional", &DirectionalLightSettings::direction,
+                                "The way the light travels, any length but 0.", glm::vec3(-kMaxCoordinate),
+                                glm::vec3(kMaxCoordinate)),
+                          field("irradiance", &DirectionalLightSettings::irradiance,
+                                "On a surface that faces it, W/m².", glm::vec3(0.0f), glm::vec3(kMaxLight))};
+    }
+};
+struct PointLightSettings {
+    glm::vec3 position{0.0f};
+    glm::vec3 intensity{1.0f};
+    static constexpr auto schema() {
+        return std::tuple{field("point", &PointLightSettings::position, "Where the light is, metres.",
+                                glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate)),
+                          field("intensity", &PointLightSettings::intensity, "W/sr.", glm::vec3(0.0f),
+                                glm::vec3(kMaxLight))};
+    }
+};
+struct SpotLightSettings {
+    glm::vec3 position{0.0f};
+    glm::vec3 direction{0, -1, 0};
+    glm::vec3 intensity{1.0f};
+    float innerDegrees = 0;
+    float outerDegrees = 45;
+    static constexpr auto schema() {
+        return std::tuple{
+            field("spot", &SpotLightSettings::position, "Where the light is, metres.",
+                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate)),
+            field("direction", &SpotLightSettings::direction, "The way its axis points, any length but 0.",
+                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate)),
+            field("intensity", &SpotLightSettings::intensity, "On the axis, W/sr.", glm::vec3(0.0f),
+                  glm::vec3(kMaxLight)),
+            field("inner_deg", &SpotLightSettings::innerDegrees,
+                  "Angle from the axis, in degrees, up to which it shines in full.", 0.0f, 90.0f),
+            field("outer_deg", &SpotLightSettings::outerDegrees,
+                  "Angle from the axis, in degrees, beyond which it doesn't shine.", 0.0f, 90.0f)};
+    }
+};
+
+/// `scene.environment` as a map.
+struct EnvironmentSettings {
+    std::string map;
+    glm::vec3 scale{1.0f};
+    static constexpr auto schema() {
+        return std::tuple{
+            field("map", &EnvironmentSettings::map, "An equirectangular EXR or HDR file, row 0 at +Y."),
+            field("scale", &EnvironmentSettings::scale,
+                  "Multiplies the map; the radiance itself, W/(m² sr), where there is no map.",
+                  glm::vec3(0.0f), glm::vec3(kMaxLight))};
+    }
+};
+
+/// `scene`, read.
+struct SceneSettings {
+    SceneOptions options;
+    Value builtinParameters = Value::map();
+    std::string cameraName;  ///< Empty: `camera`, or the scene's first camera.
+    std::optional<CameraSettings> camera;
+    std::vector<Light> lights;
+    std::optional<EnvironmentSettings> environment;  ///< Empty: the scene's own.
+    TextLocation where, sourceWhere, cameraWhere, environmentWhere;
+};
+
+/// Reads the block `scene`. Touches no file. @throws UsageError with file, line and the nearest valid word.
+SceneSettings readSceneSettings(const Value& map);
+
+}  // namespace voxray

@@ -1,0 +1,221 @@
+#include "experiment/config.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "base/files.h"
+#include "experiment/overrides.h"
+#include "experiment/yaml.h"
+
+using namespace voxray;
+
+namespace {
+
+const char* const kValid = R"(name: demo
+scene:
+  builtin: cornell
+  lights: point
+  camera: {position: [0, 1, 4], target: [0, 1, 0], fov_deg: 40}
+image: {width: 64, height: 32}
+seed: 7
+graph:
+  - {pass: gbuffer}
+  - {pass: voxelize, resolution: 64}
+  - {pass: inject_light_rays, id: inject, rays: 100}
+reference: {pass: path_trace, spp: 16}
+sweep:
+  voxelize.resolution: [32, 64]
+measure: {frames: 2, metrics: [flip, relmse]}
+profiles:
+  small:
+    image: {width: 16}
+    reference.spp: 4
+    sweep.voxelize.resolution: [8, 16]
+    sweep.inject.rays: [1, 2]
+)";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+}
+
+// The message of the UsageError that reading `yaml` gives, "" where it reads.
+std::string errorOf(const std::string& yaml, const ConfigOptions& options = {}) {
+    try {
+        parseExperiment(yaml, "demo.yaml", options);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+void expectError(const std::string& yaml, std::initializer_list<const char*> parts,
+                 const ConfigOptions& options = {}) {
+    const std::string message = errorOf(yaml, options);
+    for (const char* part : parts) EXPECT_NE(message.find(part), std::string::npos) << "'" << message << "'";
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+}  // namespace
+
+TEST(Config, ReadsEveryBlock) {
+    const Experiment e = parseExperiment(kValid, "demo.yaml");
+    EXPECT_EQ(e.setup.general.name, "demo");
+    EXPECT_EQ(e.setup.general.seed, 7u);
+    EXPECT_EQ(e.setup.scene.options.builtin, "cornell");
+    EXPECT_EQ(e.setup.scene.builtinParameters.find("lights")->scalar, "point");
+    EXPECT_TRUE(e.setup.scene.lights.empty());
+    EXPECT_FLOAT_EQ(e.setup.scene.camera->fovDegrees, 40);
+    EXPECT_EQ(e.setup.image.width, 64u);
+    EXPECT_EQ(e.measure.frames, 2u);
+    EXPECT_EQ(e.measure.metrics, (std::vector<std::string>{"flip", "relmse"}));
+    EXPECT_EQ(e.setup.graph.items.size(), 3u);
+    EXPECT_EQ(e.sweep.members.size(), 1u);
+    EXPECT_EQ(e.config.find("profiles"), nullptr);
+}
+
+TEST(Config, ErrorsNamePlaceAndNearestWord) {
+    expectError(replaced(kValid, "image:", "imgae:"), {"demo.yaml:6: ", "'imgae'", "did you mean 'image'?"});
+    expectError(replaced(kValid, "width: 64", "widht: 64"), {"demo.yaml:6: ", "did you mean 'width'?"});
+    expectError(replaced(kValid, "width: 64", "width: wide"),
+                {"demo.yaml:6: ", "image.width", "whole number"});
+    expectError(replaced(kValid, "width: 64", "width: 0"), {"demo.yaml:6: ", "out of range [1, 8192]"});
+    expectError(replaced(kValid, "width: 64", "width: -3"), {"demo.yaml:6: ", "out of range"});
+    expectError(replaced(kValid, "seed: 7", "seed: .nan"), {"demo.yaml:7: ", "whole number"});
+    expectError(replaced(kValid, "fov_deg", "fov_degree"), {"demo.yaml:5: ", "did you mean 'fov_deg'?"});
+    expectError(replaced(kValid, "relmse]", "relmsee]"), {"demo.yaml:15: ", "did you mean 'relmse'?"});
+    expectError(replaced(kValid, "[32, 64]", "64"), {"demo.yaml:14: ", "list of values"});
+    expectError(replaced(kValid, "name: demo", "name: ../demo"), {"demo.yaml:1: ", "can't name a folder"});
+    expectError(replaced(kValid, "builtin: cornell", "builtin: cornell\n  file: a.glb"), {"both"});
+    expectError(replaced(kValid, "id: inject", "id: image"), {"demo.yaml:11: ", "key of the config"});
+    expectError(replaced(kValid, "target: [0, 1, 0]", "target: [0, 1, 4]"), {"demo.yaml:5: ", "same point"});
+    expectError(replaced(kValid, "position: [0, 1, 4]", "position: [0, .inf, 4]"),
+                {"demo.yaml:5: ", "number"});
+    expectError(replaced(kValid, "graph:", "measure: {}\ngraph:"), {"demo.yaml:16: ", "appears twice"});
+    expectError("name: x\n", {"demo.yaml:1: ", "'scene' is missing"});
+    expectError("", {"demo.yaml:1: "});
+    expectError("[1, 2]", {"demo.yaml:1: ", "a config is a map"});
+}
+
+TEST(Config, Lights) {
+    const auto withLights = [](const std::string& lights) {
+        return "name: x\nscene:\n  file: a.glb\n  lights:\n" + lights + "graph: [{pass: a}]\n";
+    };
+    const Experiment e = parseExperiment(
+        withLights(
+            "    - {directional: [0, -2, 0], irradiance: [10, 9, 8]}\n"
+            "    - {point: [1, 2, 3], intensity: 5}\n"
+            "    - {spot: [0, 1, 0], direction: [0, 0, 3], intensity: 2, inner_deg: 10, outer_deg: 30}\n"),
+        "x");
+    ASSERT_EQ(e.setup.scene.lights.size(), 3u);
+    EXPECT_EQ(e.setup.scene.lights[0].type, LightType::Directional);
+    EXPECT_EQ(e.setup.scene.lights[0].direction, glm::vec3(0, -1, 0));
+    EXPECT_EQ(e.setup.scene.lights[1].intensity, glm::vec3(5.0f));
+    EXPECT_EQ(e.setup.scene.lights[2].direction, glm::vec3(0, 0, 1));
+    EXPECT_NEAR(e.setup.scene.lights[2].outerConeAngle, 0.5235988f, 1e-6f);
+
+    expectError(withLights("    - {piont: [0, 0, 0]}\n"), {"demo.yaml:5: ", "did you mean 'point'?"});
+    expectError(withLights("    - {directional: [0, 0, 0]}\n"), {"demo.yaml:5: ", "must not be zero"});
+    expectError(withLights("    - {spot: [0, 0, 0], inner_deg: 50}\n"), {"demo.yaml:5: ", "inner_deg"});
+    expectError(withLights("    - {point: [0, 0, 0], irradiance: 3}\n"), {"demo.yaml:5: ", "'irradiance'"});
+    expectError(withLights("    - {point: [0, 0, 0], intensity: -3}\n"), {"demo.yaml:5: ", "out of range"});
+}
+
+TEST(Config, Environment) {
+    const auto with = [](const std::string& environment) {
+        return parseExperiment(
+                   "name: x\nscene: {file: a.glb, environment: " + environment + "}\ngraph: [{pass: a}]", "x")
+            .setup.scene.environment;
+    };
+    EXPECT_EQ(with("none")->scale, glm::vec3(0.0f));
+    EXPECT_EQ(with("0.5")->scale, glm::vec3(0.5f));
+    EXPECT_EQ(with("[1, 2, 3]")->scale, glm::vec3(1, 2, 3));
+    EXPECT_EQ(with("sky.exr")->map, "sky.exr");
+    EXPECT_EQ(with("{map: sky.exr, scale: 2}")->scale, glm::vec3(2.0f));
+    EXPECT_THROW(with("{mpa: sky.exr}"), UsageError);
+}
+
+TEST(Config, ProfileMergesMapsAndFollowsPaths) {
+    const Experiment e = parseExperiment(kValid, "demo.yaml", {"small", {}});
+    EXPECT_EQ(e.setup.image.width, 16u);
+    EXPECT_EQ(e.setup.image.height, 32u);
+    EXPECT_EQ(e.reference.find("spp")->scalar, "4");
+    EXPECT_EQ(e.sweep.find("voxelize.resolution")->text(), "[8, 16]");
+    EXPECT_EQ(e.sweep.find("inject.rays")->text(), "[1, 2]");
+
+    expectError(kValid, {"demo.yaml:16: ", "no profile 'smal'", "did you mean 'small'?"}, {"smal", {}});
+    // A broken profile is found without being asked for
+    expectError(replaced(kValid, "reference.spp", "referense.spp"),
+                {"demo.yaml:19: ", "did you mean 'reference'?"});
+    expectError(replaced(kValid, "image: {width: 16}", "image: {widht: 16}"),
+                {"demo.yaml:18: ", "did you mean 'width'?"});
+}
+
+TEST(Config, Assignments) {
+    const Experiment e = parseExperiment(
+        kValid, "demo.yaml",
+        {"",
+         {"voxelize.resolution=128", "image.width=320", "reference.spp=3", "scene.camera.fov_deg=50",
+          "inject={pass: inject_rsm, write: max}", "sweep.voxelize.resolution=null", "measure={frames: 9}"}});
+    EXPECT_EQ(e.setup.graph.items[1].find("resolution")->scalar, "128");
+    EXPECT_EQ(e.setup.image.width, 320u);
+    EXPECT_EQ(e.reference.find("spp")->scalar, "3");
+    EXPECT_FLOAT_EQ(e.setup.scene.camera->fovDegrees, 50);
+    EXPECT_FLOAT_EQ(e.setup.scene.camera->position.z, 4);
+    EXPECT_EQ(e.setup.graph.items[2].text(), "{pass: inject_rsm, write: max, id: inject}");
+    EXPECT_TRUE(e.sweep.members.empty());
+    EXPECT_EQ(e.measure.frames, 9u);
+    EXPECT_EQ(e.measure.metrics.size(), 2u);
+    EXPECT_TRUE(parseExperiment(kValid, "x", {"", {"reference=null"}}).reference.isNull());
+
+    expectError(kValid, {"--set voxelise.resolution=1: ", "did you mean 'voxelize'?"},
+                {"", {"voxelise.resolution=1"}});
+    expectError(kValid, {"--set image.widht=1: ", "did you mean 'width'?"}, {"", {"image.widht=1"}});
+    expectError(kValid, {"--set image.width=wide: ", "whole number"}, {"", {"image.width=wide"}});
+    expectError(kValid, {"path=value"}, {"", {"image.width"}});
+    expectError(kValid, {"--set image.width=[", "bad YAML"}, {"", {"image.width=["}});
+    expectError(kValid, {"has no keys"}, {"", {"seed.x=1"}});
+}
+
+TEST(Yaml, LimitsAndSyntax) {
+    const auto failure = [](const std::string& text) -> std::string {
+        try {
+            parseYaml(text, "f.yaml");
+        } catch (const UsageError& error) {
+            return error.what();
+        }
+        return {};
+    };
+    EXPECT_NE(failure("a: 1\nb: [1,\n").find("f.yaml:"), std::string::npos);
+    EXPECT_NE(failure("a: 1\na: 2\n").find("f.yaml:2: 'a' appears twice"), std::string::npos);
+    EXPECT_NE(failure("? [1, 2]\n: 3\n").find("a key must be a word"), std::string::npos);
+    EXPECT_NE(failure("a: 1\n---\nb: 2\n").find("second document"), std::string::npos);
+    EXPECT_NE(failure("a: !!int 3\n").find("tags"), std::string::npos);
+    EXPECT_NE(failure("a: \xff\n").find("UTF-8"), std::string::npos);
+    EXPECT_NE(failure(std::string(100, '[') + std::string(100, ']')).find("64 levels"), std::string::npos);
+    EXPECT_NE(failure(std::string(50000, '[')).find("f.yaml"), std::string::npos);
+    EXPECT_NE(failure("&a [*a]").find("64 levels"), std::string::npos);
+    EXPECT_NE(failure(std::string((1 << 20) + 1, ' ')).find("1 MiB"), std::string::npos);
+
+    std::string bomb = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+    for (int i = 1; i < 9; ++i) {
+        bomb += fmt::format("a{}: &a{} [", i, i);
+        for (int k = 0; k < 10; ++k) bomb += fmt::format("{}*a{}", k ? ", " : "", i - 1);
+        bomb += "]\n";
+    }
+    EXPECT_NE(failure(bomb).find("100000 values"), std::string::npos);
+    EXPECT_EQ(failure("a: &x 1\nb: *x\n"), "");
+    EXPECT_THROW(readYaml("/nowhere/x.yaml"), UsageError);
+}
+
+TEST(Yaml, ScalarsKeepQuotesAndLines) {
+    const Value value = parseYaml("a: 1\nb:\n  c: '1'\n  d: null\n", "f.yaml");
+    EXPECT_FALSE(value.find("a")->quoted);
+    EXPECT_TRUE(value.find("b")->find("c")->quoted);
+    EXPECT_TRUE(value.find("b")->find("d")->isNull());
+    EXPECT_EQ(value.find("b")->where.line, 2);
+    EXPECT_EQ(value.find("b")->find("d")->where.line, 4);
+    EXPECT_THROW(value.find("b")->find("c")->asInteger("c"), UsageError);
+}
