@@ -1,4 +1,4 @@
-// Access to the scene's triangles, materials, textures and lights. Bindings 0 to 6 of set 0 and set 1.
+// Access to the scene's triangles, materials, textures and lights. Bindings 0 to 7 of set 0 and set 1.
 #ifndef VOXRAY_SCENE_GLSL
 #define VOXRAY_SCENE_GLSL
 
@@ -14,6 +14,7 @@ layout(set = 0, binding = 3, scalar) readonly buffer SceneTriangleMaterials { ui
 layout(set = 0, binding = 4, scalar) readonly buffer SceneMaterials { GpuMaterial data[]; } sceneMaterials;
 layout(set = 0, binding = 5, scalar) readonly buffer SceneLights { GpuLight data[]; } sceneLights;
 layout(set = 0, binding = 6, scalar) readonly buffer SceneEmitters { GpuEmitter data[]; } sceneEmitters;
+layout(set = 0, binding = 7) uniform sampler2D sceneEnvironment;
 layout(set = 1, binding = 0) uniform sampler2D sceneTextures[];
 
 uvec3 triangleVertices(uint triangle) {
@@ -105,6 +106,13 @@ vec3 shadingNormal(GpuMaterial m, SurfacePoint s, float level) {
 float spotFalloff(GpuLight light, float cosAngle) {
     const float t = clamp((cosAngle - light.cosOuter) / max(0.001, light.cosInner - light.cosOuter), 0.0, 1.0);
     return t * t;
+}
+
+// Radiance that arrives from infinitely far against a direction. Row 0 of the map is at +Y, its middle at -Z.
+vec3 environmentRadiance(vec3 direction) {
+    const float pi = 3.14159265358979;
+    const vec2 uv = vec2(0.5 + atan(direction.x, -direction.z) / (2.0 * pi), acos(clamp(direction.y, -1.0, 1.0)) / pi);
+    return textureLod(sceneEnvironment, uv, 0.0).rgb;
 }
 
 #endif

@@ -23,7 +23,7 @@ struct TextLocation {
 /// What a user did wrong or the machine refused, in one line that says what to do.
 /// Programmer errors are asserted instead.
 class Error : public std::runtime_error {
-public:
+ public:
     template <typename... Args>
     explicit Error(fmt::format_string<Args...> text, Args&&... args)
         : std::runtime_error(fmt::format(text, std::forward<Args>(args)...)) {}
@@ -31,14 +31,13 @@ public:
     /// The same, prefixed with the place: "config.yaml:12: ...".
     template <typename... Args>
     Error(const TextLocation& where, fmt::format_string<Args...> text, Args&&... args)
-        : std::runtime_error(
-              (where.file.empty() ? std::string() : where.str() + ": ") +
-              fmt::format(text, std::forward<Args>(args)...)) {}
+        : std::runtime_error((where.file.empty() ? std::string() : where.str() + ": ") +
+                             fmt::format(text, std::forward<Args>(args)...)) {}
 };
 
 /// Bad usage or a bad config: nothing was run. Commands turn it into exit status 2.
 class UsageError : public Error {
-public:
+ public:
     using Error::Error;
 };
 

@@ -75,13 +75,18 @@ void writeFileAtomically(const fs::path& path, std::string_view content) {
 
 fs::path cacheFolder() {
     if (const char* folder = std::getenv("VOXRAY_CACHE"); folder && *folder) return folder;
-    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder) return fs::path(folder) / "voxray";
+    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder)
+        return fs::path(folder) / "voxray";
     if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "voxray";
     return fs::temp_directory_path() / "voxray-cache";
 }
 
-Hasher::Hasher() : state_(XXH3_createState()) { XXH3_128bits_reset(static_cast<XXH3_state_t*>(state_)); }
-Hasher::~Hasher() { XXH3_freeState(static_cast<XXH3_state_t*>(state_)); }
+Hasher::Hasher() : state_(XXH3_createState()) {
+    XXH3_128bits_reset(static_cast<XXH3_state_t*>(state_));
+}
+Hasher::~Hasher() {
+    XXH3_freeState(static_cast<XXH3_state_t*>(state_));
+}
 
 Hasher& Hasher::add(const void* data, size_t bytes) {
     XXH3_128bits_update(static_cast<XXH3_state_t*>(state_), data, bytes);

@@ -28,7 +28,7 @@ std::filesystem::path cacheFolder();
 
 /// 128-bit content hash as 32 hexadecimal digits.
 class Hasher {
-public:
+ public:
     Hasher();
     ~Hasher();
     Hasher(const Hasher&) = delete;
@@ -43,7 +43,7 @@ public:
     }
     std::string hex() const;
 
-private:
+ private:
     void* state_;
 };
 

@@ -54,10 +54,10 @@ constexpr Field<Owner, T> field(const char* name, T Owner::*member, const char* 
 /// What help pages and JSON Schema say of one parameter.
 struct ParameterDoc {
     std::string name;
-    std::string type;     ///< "boolean", "integer", "number", "string", "choice", "rgb"
+    std::string type;  ///< "boolean", "integer", "number", "string", "choice", "rgb"
     std::string help;
-    std::string defaults; ///< Default as YAML text.
-    std::string min, max; ///< Empty where there is no range.
+    std::string defaults;  ///< Default as YAML text.
+    std::string min, max;  ///< Empty where there is no range.
     std::vector<std::string> choices;
 };
 
@@ -82,10 +82,12 @@ void readInto(T& out, const Value& value, const std::string& what) {
                 return;
             }
         }
-        throw UsageError(value.where, "{}: unknown value '{}'{}", what, text, didYouMean(text, choicesOf<T>()));
+        throw UsageError(value.where, "{}: unknown value '{}'{}", what, text,
+                         didYouMean(text, choicesOf<T>()));
     } else if constexpr (std::is_integral_v<T>) {
         const int64_t number = value.asInteger(what);
-        if (number < int64_t(std::numeric_limits<T>::min()) || uint64_t(number < 0 ? 0 : number) > uint64_t(std::numeric_limits<T>::max()))
+        if (number < int64_t(std::numeric_limits<T>::min()) ||
+            uint64_t(number < 0 ? 0 : number) > uint64_t(std::numeric_limits<T>::max()))
             throw UsageError(value.where, "{}: {} is out of range", what, number);
         out = T(number);
     } else if constexpr (std::is_floating_point_v<T>) {
@@ -123,12 +125,18 @@ std::string textOf(const T& value) {
 
 template <typename T>
 constexpr const char* typeName() {
-    if constexpr (std::is_same_v<T, bool>) return "boolean";
-    else if constexpr (std::is_enum_v<T>) return "choice";
-    else if constexpr (std::is_integral_v<T>) return "integer";
-    else if constexpr (std::is_floating_point_v<T>) return "number";
-    else if constexpr (std::is_same_v<T, glm::vec3>) return "rgb";
-    else return "string";
+    if constexpr (std::is_same_v<T, bool>)
+        return "boolean";
+    else if constexpr (std::is_enum_v<T>)
+        return "choice";
+    else if constexpr (std::is_integral_v<T>)
+        return "integer";
+    else if constexpr (std::is_floating_point_v<T>)
+        return "number";
+    else if constexpr (std::is_same_v<T, glm::vec3>)
+        return "rgb";
+    else
+        return "string";
 }
 
 template <typename T>
@@ -169,7 +177,8 @@ P readParams(const Value& map, const std::string& owner, const std::vector<std::
         const auto& [key, value] = map.members[i];
         bool known = false;
         for (const std::string& name : valid) known = known || name == key;
-        if (!known) throw UsageError(value.where, "{}: unknown parameter '{}'{}", owner, key, didYouMean(key, valid));
+        if (!known)
+            throw UsageError(value.where, "{}: unknown parameter '{}'{}", owner, key, didYouMean(key, valid));
         forEachField<P>([&, &key = key, &value = value](const auto& f) {
             if (key != f.name) return;
             const std::string what = owner + "." + key;

@@ -8,10 +8,14 @@ namespace {
 
 std::string describe(const Value& value) {
     switch (value.kind) {
-        case Value::Kind::Null: return "nothing";
-        case Value::Kind::Scalar: return "'" + value.scalar + "'";
-        case Value::Kind::List: return "a list";
-        case Value::Kind::Map: return "a map";
+        case Value::Kind::Null:
+            return "nothing";
+        case Value::Kind::Scalar:
+            return "'" + value.scalar + "'";
+        case Value::Kind::List:
+            return "a list";
+        case Value::Kind::Map:
+            return "a map";
     }
     return {};
 }
@@ -29,14 +33,26 @@ std::string quotedJson(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {
         switch (c) {
-            case '"': out += "\\\""; break;
-            case '\\': out += "\\\\"; break;
-            case '\n': out += "\\n"; break;
-            case '\t': out += "\\t"; break;
-            case '\r': out += "\\r"; break;
+            case '"':
+                out += "\\\"";
+                break;
+            case '\\':
+                out += "\\\\";
+                break;
+            case '\n':
+                out += "\\n";
+                break;
+            case '\t':
+                out += "\\t";
+                break;
+            case '\r':
+                out += "\\r";
+                break;
             default:
-                if (static_cast<unsigned char>(c) < 0x20) out += fmt::format("\\u{:04x}", int(c));
-                else out += c;
+                if (static_cast<unsigned char>(c) < 0x20)
+                    out += fmt::format("\\u{:04x}", int(c));
+                else
+                    out += c;
         }
     }
     return out + "\"";
@@ -59,8 +75,12 @@ void writeJson(const Value& value, int indent, int depth, std::string& out) {
     const std::string newline = indent < 0 ? "" : "\n" + std::string(size_t(indent * (depth + 1)), ' ');
     const std::string lastNewline = indent < 0 ? "" : "\n" + std::string(size_t(indent * depth), ' ');
     switch (value.kind) {
-        case Value::Kind::Null: out += "null"; return;
-        case Value::Kind::Scalar: out += isJsonLiteral(value) ? value.scalar : quotedJson(value.scalar); return;
+        case Value::Kind::Null:
+            out += "null";
+            return;
+        case Value::Kind::Scalar:
+            out += isJsonLiteral(value) ? value.scalar : quotedJson(value.scalar);
+            return;
         case Value::Kind::List:
             out += "[";
             for (size_t i = 0; i < value.items.size(); ++i) {
@@ -72,7 +92,8 @@ void writeJson(const Value& value, int indent, int depth, std::string& out) {
         case Value::Kind::Map:
             out += "{";
             for (size_t i = 0; i < value.members.size(); ++i) {
-                out += (i ? "," : "") + newline + quotedJson(value.members[i].first) + (indent < 0 ? ":" : ": ");
+                out +=
+                    (i ? "," : "") + newline + quotedJson(value.members[i].first) + (indent < 0 ? ":" : ": ");
                 writeJson(value.members[i].second, indent, depth + 1, out);
             }
             out += (value.members.empty() ? "" : lastNewline) + "}";
@@ -108,7 +129,9 @@ const Value* Value::find(std::string_view key) const {
     return nullptr;
 }
 
-Value* Value::find(std::string_view key) { return const_cast<Value*>(std::as_const(*this).find(key)); }
+Value* Value::find(std::string_view key) {
+    return const_cast<Value*>(std::as_const(*this).find(key));
+}
 
 Value& Value::set(std::string_view key, Value value) {
     if (kind == Kind::Null) kind = Kind::Map;
@@ -148,8 +171,10 @@ std::string Value::asString(std::string_view what) const {
 
 std::string Value::text() const {
     switch (kind) {
-        case Kind::Null: return "null";
-        case Kind::Scalar: return quoted ? quotedJson(scalar) : scalar;
+        case Kind::Null:
+            return "null";
+        case Kind::Scalar:
+            return quoted ? quotedJson(scalar) : scalar;
         case Kind::List: {
             std::string out = "[";
             for (size_t i = 0; i < items.size(); ++i) out += (i ? ", " : "") + items[i].text();

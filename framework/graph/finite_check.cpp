@@ -17,9 +17,11 @@ constexpr uint32_t kGroupsPerDispatch = 65535;
 
 FiniteCheck::FiniteCheck(Device& device, const ShaderCompiler& compiler)
     : image2d_(makeComputeProgram(device, compiler.compile("framework/graph/finite_image.comp"))),
-      image3d_(makeComputeProgram(device, compiler.compile("framework/graph/finite_image.comp", {{"IMAGE_3D", "1"}}))),
+      image3d_(makeComputeProgram(
+          device, compiler.compile("framework/graph/finite_image.comp", {{"IMAGE_3D", "1"}}))),
       buffer_(makeComputeProgram(device, compiler.compile("framework/graph/finite_buffer.comp"))),
-      sampler_(device, Filter::Nearest, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE),
+      sampler_(device, Filter::Nearest, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+               VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE),
       count_(device, "finite check", sizeof(uint32_t), MemoryKind::Device) {}
 
 uint32_t FiniteCheck::badTexels(CommandStream& stream, const Image& image) {
@@ -42,6 +44,8 @@ uint32_t FiniteCheck::badFloats(CommandStream& stream, const Buffer& buffer) {
     return readCount(stream);
 }
 
-uint32_t FiniteCheck::readCount(CommandStream& stream) { return stream.readAs<uint32_t>(count_, 1)[0]; }
+uint32_t FiniteCheck::readCount(CommandStream& stream) {
+    return stream.readAs<uint32_t>(count_, 1)[0];
+}
 
 }  // namespace voxray

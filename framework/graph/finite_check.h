@@ -10,7 +10,7 @@ namespace voxray {
 
 /// Counts NaN and infinite values on the device.
 class FiniteCheck {
-public:
+ public:
     FiniteCheck(Device& device, const ShaderCompiler& compiler);
 
     /// Number of texels (level 0) with a NaN or infinite component. The image must have a float format.
@@ -18,7 +18,7 @@ public:
     /// Number of NaN or infinite floats.
     uint32_t badFloats(CommandStream& stream, const Buffer& buffer);
 
-private:
+ private:
     uint32_t readCount(CommandStream& stream);
     Program image2d_, image3d_, buffer_;
     Sampler sampler_;

@@ -32,7 +32,8 @@ Graph& Graph::operator=(Graph&&) noexcept = default;
 
 std::vector<Graph::PassInfo> Graph::passes() const {
     std::vector<PassInfo> infos;
-    for (const GraphNode& node : impl_->nodes) infos.push_back({node.id, node.kind->name, node.pass->phase()});
+    for (const GraphNode& node : impl_->nodes)
+        infos.push_back({node.id, node.kind->name, node.pass->phase()});
     return infos;
 }
 
@@ -70,12 +71,15 @@ std::vector<uint64_t> Graph::plan(const Frame& frame, const DeviceInfo& device, 
     }
     constexpr double kMiB = 1024.0 * 1024.0;
     if (total > memoryLimitBytes)
-        throw Error("the graph needs about {:.1f} MiB, the limit is {:.1f} MiB; the largest part is {} with {:.1f} MiB",
-                    double(total) / kMiB, double(memoryLimitBytes) / kMiB, largest, double(largestBytes) / kMiB);
+        throw Error(
+            "the graph needs about {:.1f} MiB, the limit is {:.1f} MiB; the largest part is {} with {:.1f} "
+            "MiB",
+            double(total) / kMiB, double(memoryLimitBytes) / kMiB, largest, double(largestBytes) / kMiB);
     return bytesByPass;
 }
 
-void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler, CommandStream& stream) {
+void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler,
+                    CommandStream& stream) {
     impl_->finiteCheck.emplace(device, compiler);
     for (size_t n = 0; n < impl_->nodes.size(); ++n) {
         GraphNode& node = impl_->nodes[n];
@@ -88,7 +92,8 @@ void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& co
 }
 
 std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& device, CommandStream& stream,
-                                   RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex, bool checkFinite) {
+                                   RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex,
+                                   bool checkFinite) {
     struct Stamps {
         size_t sample;
         uint32_t begin, end;
@@ -122,7 +127,8 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         if (checkFinite) impl_->checkOutputs(node, stream);
     }
     stream.finish();
-    for (const Stamps& s : stamps) samples[s.sample].milliseconds = stream.millisecondsBetween(s.begin, s.end);
+    for (const Stamps& s : stamps)
+        samples[s.sample].milliseconds = stream.millisecondsBetween(s.begin, s.end);
     return samples;
 }
 
@@ -134,8 +140,8 @@ void Graph::Impl::checkOutputs(const GraphNode& node, CommandStream& stream) {
         for (const Image* image : resource.checkedImages()) {
             if (!*image) continue;
             if (const uint32_t bad = finiteCheck->badTexels(stream, *image))
-                throw Error("pass '{}' wrote NaN or infinity to '{}' ({}, {} texels)", node.id, port.name, image->name(),
-                            bad);
+                throw Error("pass '{}' wrote NaN or infinity to '{}' ({}, {} texels)", node.id, port.name,
+                            image->name(), bad);
         }
         for (const Buffer* buffer : resource.checkedBuffers()) {
             if (!*buffer) continue;
@@ -146,7 +152,9 @@ void Graph::Impl::checkOutputs(const GraphNode& node, CommandStream& stream) {
     }
 }
 
-std::vector<uint64_t> Graph::memoryBytes() const { return impl_->memoryBytes; }
+std::vector<uint64_t> Graph::memoryBytes() const {
+    return impl_->memoryBytes;
+}
 
 const Image* Graph::image(const std::string& portName) const {
     const Image* found = nullptr;

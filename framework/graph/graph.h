@@ -22,13 +22,13 @@ struct PassSample {
 /// (default: the pass's name) and `inputs` (port: "id.port" or "id"), and the pass's own parameters.
 /// An input without an entry in `inputs` takes the nearest earlier pass that writes a port of its name.
 class Graph {
-public:
+ public:
     /// Keys of a graph entry that are not parameters of the pass.
     static const std::vector<std::string>& reservedKeys();
 
     /// Reads, wires and sorts the graph; touches no device.
-    /// @throws UsageError with file and line: unknown pass or parameter, value out of range, duplicate id, missing or
-    /// mistyped port, cycle.
+    /// @throws UsageError with file and line: unknown pass or parameter, value out of range, duplicate id,
+    /// missing or mistyped port, cycle.
     Graph(const Registry& registry, const Value& passList);
     ~Graph();
     Graph(Graph&&) noexcept;
@@ -49,7 +49,8 @@ public:
 
     /// Checks sizes against the scene and the device and predicts memory, before any allocation.
     /// @return bytes by pass, in the order of passes().
-    /// @throws Error where a pass can't do what is asked, or the sum is over `memoryLimitBytes` (names the largest).
+    /// @throws Error where a pass can't do what is asked, or the sum is over `memoryLimitBytes` (names the
+    /// largest).
     std::vector<uint64_t> plan(const Frame& frame, const DeviceInfo& device, uint64_t memoryLimitBytes);
 
     /// Makes programs and resources. After plan(), with the same frame.
@@ -59,7 +60,8 @@ public:
     /// (outside the measured time). @throws Error naming the pass.
     /// @return a sample for each pass of that phase, in the order of passes().
     std::vector<PassSample> run(Phase phase, const Frame& frame, Device& device, CommandStream& stream,
-                                RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex, bool checkFinite);
+                                RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex,
+                                bool checkFinite);
 
     /// Device bytes held by each pass, in the order of passes().
     std::vector<uint64_t> memoryBytes() const;
@@ -67,7 +69,7 @@ public:
     /// The image that the last pass with this output port wrote, or nullptr.
     const Image* image(const std::string& portName) const;
 
-private:
+ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -6,6 +6,7 @@
 #include <typeindex>
 #include <vector>
 
+#include "base/schema.h"
 #include "scene/geometry.h"
 #include "trace/gpu_scene.h"
 #include "trace/ray_tracer.h"
@@ -14,8 +15,9 @@
 #include "vulkan/memory.h"
 #include "vulkan/program.h"
 
-/// What a technique implements. Life of a pass: `declare` its ports (pure) -> the graph is wired and sorted ->
-/// `plan` sizes (pure; predicts memory) -> `prepare` programs and resources -> `record`, once (build) or per frame.
+/// What a technique implements. Life of a pass: `declare` its ports (pure) -> the graph is wired and sorted
+/// -> `plan` sizes (pure; predicts memory) -> `prepare` programs and resources -> `record`, once (build) or
+/// per frame.
 namespace voxray {
 
 /// What passes hand to each other: a plain struct of buffers and images. Producers fill in its description in
@@ -53,8 +55,9 @@ struct PortInfo {
 
 /// Collects the ports of a pass.
 class PassBuilder {
-public:
-    /// Reads what an earlier pass writes under this name (or under the name that the config's `inputs` gives).
+ public:
+    /// Reads what an earlier pass writes under this name (or under the name that the config's `inputs`
+    /// gives).
     template <typename T>
     Port<T> read(std::string name, std::string help) {
         return add<T>({std::move(name), std::move(help), false, false, typeid(T)});
@@ -71,7 +74,7 @@ public:
     }
     const std::vector<PortInfo>& ports() const { return ports_; }
 
-private:
+ private:
     template <typename T>
     Port<T> add(PortInfo info) {
         ports_.push_back(std::move(info));
@@ -91,7 +94,7 @@ struct Frame {
 
 /// Access to the resources that a pass's ports are bound to.
 class PortAccess {
-public:
+ public:
     explicit PortAccess(const std::vector<Resource*>& resources) : resources_(resources) {}
     template <typename T>
     T& get(Port<T> port) const {
@@ -102,13 +105,13 @@ public:
         return resources_[size_t(port.index)] != nullptr;
     }
 
-private:
+ private:
     const std::vector<Resource*>& resources_;
 };
 
 /// Sizes and limits, known before any memory is taken.
 class PassPlan : public PortAccess {
-public:
+ public:
     PassPlan(const std::vector<Resource*>& resources, const Frame& f, const DeviceInfo& d)
         : PortAccess(resources), frame(f), device(d) {}
     const Frame& frame;
@@ -125,7 +128,7 @@ public:
 
 /// For making programs, buffers and images.
 class PassSetup : public PortAccess {
-public:
+ public:
     PassSetup(const std::vector<Resource*>& resources, const Frame& f, Device& d, const ShaderCompiler& c,
               CommandStream& s)
         : PortAccess(resources), frame(f), device(d), compiler(c), stream(s) {}
@@ -137,9 +140,9 @@ public:
 
 /// For running.
 class PassContext : public PortAccess {
-public:
-    PassContext(const std::vector<Resource*>& resources, const Frame& f, Device& d, CommandStream& s, RayTracer& t,
-                const GpuScene& g, uint32_t index)
+ public:
+    PassContext(const std::vector<Resource*>& resources, const Frame& f, Device& d, CommandStream& s,
+                RayTracer& t, const GpuScene& g, uint32_t index)
         : PortAccess(resources), frame(f), device(d), stream(s), tracer(t), scene(g), frameIndex(index) {}
     const Frame& frame;
     Device& device;
@@ -153,9 +156,10 @@ public:
 };
 
 /// A stage of a graph. A pass class also has `struct Params` with a schema, a constructor from Params, and
-/// `static constexpr const char* kName, *kHelp` (what it does, what biases it, what makes it noisy, its source).
+/// `static constexpr const char* kName, *kHelp` (what it does, what biases it, what makes it noisy, its
+/// source).
 class Pass {
-public:
+ public:
     virtual ~Pass() = default;
     virtual Phase phase() const = 0;
     /// Names the ports. No device work.

@@ -23,12 +23,13 @@ struct PassKind {
                                         const std::vector<std::string>& reserved)>
         create;
     /// The map with every default filled in, reserved keys left out.
-    std::function<Value(const Value& map, const std::string& id, const std::vector<std::string>& reserved)> resolve;
+    std::function<Value(const Value& map, const std::string& id, const std::vector<std::string>& reserved)>
+        resolve;
 };
 
 /// All kinds of passes, filled by registerPasses (passes/register_passes.h).
 class Registry {
-public:
+ public:
     /// P: see Pass.
     template <typename P>
     void add() {
@@ -53,7 +54,7 @@ public:
     /// @throws UsageError with "did you mean" at `where`.
     const PassKind& require(const std::string& name, const TextLocation& where) const;
 
-private:
+ private:
     std::vector<PassKind> kinds_;
 };
 

@@ -25,8 +25,10 @@ std::optional<size_t> outputNamed(const GraphNode& node, const std::string& name
     return {};
 }
 
-GraphNode readNode(const Registry& registry, const Value& entry, const std::vector<std::string>& reservedKeys) {
-    if (!entry.isMap()) throw UsageError(entry.where, "graph: each entry is a map with a 'pass', e.g. {{pass: gbuffer}}");
+GraphNode readNode(const Registry& registry, const Value& entry,
+                   const std::vector<std::string>& reservedKeys) {
+    if (!entry.isMap())
+        throw UsageError(entry.where, "graph: each entry is a map with a 'pass', e.g. {{pass: gbuffer}}");
     const Value* passName = entry.find("pass");
     if (!passName) {
         std::string hint;
@@ -63,8 +65,8 @@ Source explicitSource(const std::vector<GraphNode>& nodes, const GraphNode& read
         std::vector<std::string> outputs;
         for (const PortInfo& p : nodes[n].ports)
             if (p.output) outputs.push_back(p.name);
-        throw UsageError(reference.where, "{}.inputs.{}: '{}' writes no '{}'{}", reader.id, port.name, id, portName,
-                         didYouMean(portName, outputs));
+        throw UsageError(reference.where, "{}.inputs.{}: '{}' writes no '{}'{}", reader.id, port.name, id,
+                         portName, didYouMean(portName, outputs));
     }
     throw UsageError(reference.where, "{}.inputs.{}: no pass has the id '{}'{}", reader.id, port.name, id,
                      didYouMean(id, idsOf(nodes)));
@@ -78,14 +80,16 @@ std::optional<Source> implicitSource(const std::vector<GraphNode>& nodes, size_t
     if (port.optional) return {};
     for (size_t n = reader + 1; n < nodes.size(); ++n)
         if (outputNamed(nodes[n], port.name))
-            throw UsageError(nodes[reader].where, "{}: reads '{}', which '{}' writes only later; move '{}' up",
-                             nodes[reader].id, port.name, nodes[n].id, nodes[n].id);
+            throw UsageError(nodes[reader].where,
+                             "{}: reads '{}', which '{}' writes only later; move '{}' up", nodes[reader].id,
+                             port.name, nodes[n].id, nodes[n].id);
     std::string writers;
     for (const PassKind& kind : registry.kinds())
         for (const PortInfo& p : kind.ports)
             if (p.output && p.name == port.name) writers += (writers.empty() ? "" : ", ") + kind.name;
-    throw UsageError(nodes[reader].where, "{}: missing port '{}' ({}); no pass before it writes it{}", nodes[reader].id,
-                     port.name, port.help, writers.empty() ? "" : "; these can: " + writers);
+    throw UsageError(nodes[reader].where, "{}: missing port '{}' ({}); no pass before it writes it{}",
+                     nodes[reader].id, port.name, port.help,
+                     writers.empty() ? "" : "; these can: " + writers);
 }
 
 void checkInputKeys(const GraphNode& node, const Value& inputs) {
@@ -95,12 +99,13 @@ void checkInputKeys(const GraphNode& node, const Value& inputs) {
         if (!port.output) names.push_back(port.name);
     for (const auto& [key, value] : inputs.members)
         if (std::find(names.begin(), names.end(), key) == names.end())
-            throw UsageError(value.where, "{}.inputs: '{}' is not an input of {}{}", node.id, key, node.kind->name,
-                             didYouMean(key, names));
+            throw UsageError(value.where, "{}.inputs: '{}' is not an input of {}{}", node.id, key,
+                             node.kind->name, didYouMean(key, names));
 }
 
 /// Writers before readers; ties in the list's order. @throws UsageError naming the passes of a cycle.
-std::vector<size_t> sorted(const std::vector<GraphNode>& nodes, const std::vector<std::set<size_t>>& dependencies) {
+std::vector<size_t> sorted(const std::vector<GraphNode>& nodes,
+                           const std::vector<std::set<size_t>>& dependencies) {
     std::vector<size_t> order;
     std::set<size_t> done;
     while (order.size() < nodes.size()) {
@@ -140,7 +145,8 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
         nodes.push_back(readNode(registry, entry, reservedKeys));
         for (size_t n = 0; n + 1 < nodes.size(); ++n)
             if (nodes[n].id == nodes.back().id)
-                throw UsageError(entry.where, "graph: two passes have the id '{}'; give one another 'id'", nodes[n].id);
+                throw UsageError(entry.where, "graph: two passes have the id '{}'; give one another 'id'",
+                                 nodes[n].id);
     }
 
     // Outputs are owned by the pass that writes them.
@@ -167,8 +173,8 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
             if (!source) continue;
             const GraphNode& writer = nodes[source->node];
             if (writer.ports[source->port].type != port.type)
-                throw UsageError(nodes[n].where, "{}: port '{}' can't read '{}.{}', which is of another type", nodes[n].id,
-                                 port.name, writer.id, writer.ports[source->port].name);
+                throw UsageError(nodes[n].where, "{}: port '{}' can't read '{}.{}', which is of another type",
+                                 nodes[n].id, port.name, writer.id, writer.ports[source->port].name);
             nodes[n].resources[p] = writer.resources[source->port];
             dependencies[n].insert(source->node);
         }

@@ -16,7 +16,7 @@ struct GraphNode {
     const PassKind* kind = nullptr;
     std::unique_ptr<Pass> pass;
     std::vector<PortInfo> ports;
-    std::vector<Resource*> resources;               ///< By port; null for an optional input that nothing writes.
+    std::vector<Resource*> resources;  ///< By port; null for an optional input that nothing writes.
     std::vector<std::unique_ptr<Resource>> outputs;  ///< What this pass owns.
     Value resolved;                                  ///< The config's entry with defaults filled in.
     TextLocation where;

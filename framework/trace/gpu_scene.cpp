@@ -13,7 +13,8 @@ namespace {
 static_assert(sizeof(gpu::GpuVertexAttributes) == sizeof(VertexAttributes));
 
 gpu::GpuTextureRef toGpu(const TextureRef& ref) {
-    return {ref.texture < 0 ? NO_TEXTURE : uint32_t(ref.texture), ref.texCoord, ref.transform[0], ref.transform[1]};
+    return {ref.texture < 0 ? NO_TEXTURE : uint32_t(ref.texture), ref.texCoord, ref.transform[0],
+            ref.transform[1]};
 }
 
 gpu::GpuMaterial toGpu(const Material& m) {
@@ -37,18 +38,17 @@ gpu::GpuMaterial toGpu(const Material& m) {
 }
 
 gpu::GpuLight toGpu(const Light& light) {
-    return {light.intensity,
-            uint32_t(light.type),
-            light.position,
-            std::cos(light.innerConeAngle),
-            light.direction,
-            std::cos(light.outerConeAngle)};
+    return {light.intensity, uint32_t(light.type),          light.position, std::cos(light.innerConeAngle),
+            light.direction, std::cos(light.outerConeAngle)};
 }
 
-float luminance(glm::vec3 c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+float luminance(glm::vec3 c) {
+    return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
+}
 
-// Emissive triangles with the chance of picking each, in proportion to emission (without its texture) times area.
-std::vector<gpu::GpuEmitter> findEmitters(const SceneState& state, float& powerWatts) {
+// Emissive triangles with the chance of picking each, in proportion to emission (without its texture) times
+// area.
+std::vector<gpu::GpuEmitter> findEmitters(const SceneState& state) {
     const Geometry& g = state.geometry;
     std::vector<gpu::GpuEmitter> emitters;
     std::vector<double> powers;
@@ -58,8 +58,8 @@ std::vector<gpu::GpuEmitter> findEmitters(const SceneState& state, float& powerW
         const float radiance = luminance(material.emission);
         if (!(radiance > 0)) continue;
         const glm::uvec3 v = g.triangles[t];
-        const float area =
-            0.5f * glm::length(glm::cross(g.positions[v.y] - g.positions[v.x], g.positions[v.z] - g.positions[v.x]));
+        const float area = 0.5f * glm::length(glm::cross(g.positions[v.y] - g.positions[v.x],
+                                                         g.positions[v.z] - g.positions[v.x]));
         if (!(area > 0)) continue;
         emitters.push_back({t, area, 0, 0});
         powers.push_back(double(radiance) * area * 3.14159265358979 * (material.doubleSided ? 2 : 1));
@@ -71,15 +71,17 @@ std::vector<gpu::GpuEmitter> findEmitters(const SceneState& state, float& powerW
         emitters[i].probability = float(powers[i] / total);
         emitters[i].cumulativePower = i + 1 == emitters.size() ? 1.0f : float(running / total);
     }
-    powerWatts = float(total);
     return emitters;
 }
 
 VkSamplerAddressMode toVulkan(Wrap wrap) {
     switch (wrap) {
-        case Wrap::Repeat: return VK_SAMPLER_ADDRESS_MODE_REPEAT;
-        case Wrap::ClampToEdge: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-        case Wrap::MirroredRepeat: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+        case Wrap::Repeat:
+            return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+        case Wrap::ClampToEdge:
+            return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        case Wrap::MirroredRepeat:
+            return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
     }
     return VK_SAMPLER_ADDRESS_MODE_REPEAT;
 }
@@ -89,7 +91,8 @@ ImageDesc describe(const Texture& texture) {
     desc.format = texture.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
     desc.extent = {texture.width, texture.height, 1};
     desc.mipLevels = uint32_t(std::bit_width(std::max(texture.width, texture.height)));
-    desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    desc.usage =
+        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     return desc;
 }
 
@@ -110,6 +113,21 @@ Image uploadedTexture(Device& device, CommandStream& stream, const Texture& text
     return image;
 }
 
+// The environment's radiance, its scale baked in. RGBA32F.
+ImageF environmentImage(const Environment& environment) {
+    if (!environment.map) {
+        ImageF constant(1, 1, 4, 1.0f);
+        for (int c = 0; c < 3; ++c) constant.data[size_t(c)] = environment.radiance[c];
+        return constant;
+    }
+    const ImageF& map = *environment.map;
+    ImageF scaled(map.width, map.height, 4, 1.0f);
+    for (size_t i = 0; i < map.pixelCount(); ++i)
+        for (size_t c = 0; c < 3; ++c)
+            scaled.data[4 * i + c] = map.data[map.channels * i + c] * environment.radiance[int(c)];
+    return scaled;
+}
+
 }  // namespace
 
 uint64_t gpuSceneBytes(const SceneState& state) {
@@ -122,10 +140,15 @@ uint64_t gpuSceneBytes(const SceneState& state) {
 }
 
 std::vector<Binding> GpuScene::bindings(std::initializer_list<Binding> more) const {
-    std::vector<Binding> all{{"scenePositions", positions}, {"sceneAttributes", attributes},
-                             {"sceneTriangles", triangles}, {"sceneTriangleMaterials", triangleMaterials},
-                             {"sceneMaterials", materials}, {"sceneLights", lights},
-                             {"sceneEmitters", emitters},   {"sceneTextures", textures}};
+    std::vector<Binding> all{{"scenePositions", positions},
+                             {"sceneAttributes", attributes},
+                             {"sceneTriangles", triangles},
+                             {"sceneTriangleMaterials", triangleMaterials},
+                             {"sceneMaterials", materials},
+                             {"sceneLights", lights},
+                             {"sceneEmitters", emitters},
+                             {"sceneTextures", textures},
+                             {"sceneEnvironment", environment, environmentSampler}};
     all.insert(all.end(), more.begin(), more.end());
     return all;
 }
@@ -149,9 +172,21 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
     for (const Light& light : state.lights) lights.push_back(toGpu(light));
     scene.lights = uploaded(device, stream, "scene lights", lights);
     scene.lightCount = uint32_t(lights.size());
-    const std::vector<gpu::GpuEmitter> emitters = findEmitters(state, scene.emittedPower);
+    const std::vector<gpu::GpuEmitter> emitters = findEmitters(state);
     scene.emitters = uploaded(device, stream, "scene emitters", emitters);
     scene.emitterCount = uint32_t(emitters.size());
+
+    // The environment.
+    const ImageF environment = environmentImage(state.scene->environment);
+    ImageDesc desc;
+    desc.extent = {environment.width, environment.height, 1};
+    scene.environment = Image(device, "environment", desc);
+    scene.environmentSampler = Sampler(device, Filter::Linear, VK_SAMPLER_ADDRESS_MODE_REPEAT,
+                                       VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
+    const Buffer pixels = uploaded(device, stream, "environment staging", environment.data);
+    stream.copy(pixels, scene.environment);
+    stream.finish();
+    scene.hasEnvironment = state.scene->environment.radiance != glm::vec3(0.0f);
 
     // Textures with their mip levels; one white texel stands in where a scene has none.
     std::vector<TextureArray::Entry> entries;
@@ -162,7 +197,8 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
         scene.images.push_back(uploadedTexture(device, stream, texture));
         scene.samplers.emplace_back(device, Filter::Linear, toVulkan(texture.wrapU), toVulkan(texture.wrapV));
     }
-    for (size_t i = 0; i < scene.images.size(); ++i) entries.push_back({&scene.images[i], &scene.samplers[i]});
+    for (size_t i = 0; i < scene.images.size(); ++i)
+        entries.push_back({&scene.images[i], &scene.samplers[i]});
     scene.textures = TextureArray(device, entries);
     stream.finish();
     return scene;

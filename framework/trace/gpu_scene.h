@@ -19,11 +19,13 @@ struct GpuScene {
     Buffer lights;             ///< GpuLight each; at least one element is allocated.
     Buffer emitters;           ///< GpuEmitter each: emissive triangles; at least one element is allocated.
     TextureArray textures;     ///< All with full mip chains.
+    Image environment;         ///< Equirectangular radiance, 1x1 for a constant one; black without one.
+    Sampler environmentSampler;
 
     uint32_t triangleCount = 0;
     uint32_t lightCount = 0;
     uint32_t emitterCount = 0;
-    float emittedPower = 0;    ///< Of all emitters, luminance in W.
+    bool hasEnvironment = false;
 
     std::vector<Image> images;
     std::vector<Sampler> samplers;

@@ -16,32 +16,34 @@ namespace voxray {
 enum class TracerKind { Auto, RayQuery, RayPipeline, Embree };
 
 /// Traces whole streams of rays. Buffers hold at least `count` Ray (32 bytes) and Hit (16 bytes) or uint32_t
-/// (occluded: 1 or 0) elements. Calls are recorded into the command stream; the Embree backend submits what is
-/// recorded, waits, traces on the CPU and goes on recording.
+/// (occluded: 1 or 0) elements. Calls are recorded into the command stream; the Embree backend submits what
+/// is recorded, waits, traces on the CPU and goes on recording.
 class RayTracer {
-public:
+ public:
     virtual ~RayTracer() = default;
 
     /// "ray_query", "ray_pipeline" or "embree".
     virtual std::string_view name() const = 0;
-    virtual void closestHit(CommandStream& stream, const Buffer& rays, const Buffer& hits, uint32_t count) = 0;
-    virtual void occluded(CommandStream& stream, const Buffer& rays, const Buffer& results, uint32_t count) = 0;
+    virtual void closestHit(CommandStream& stream, const Buffer& rays, const Buffer& hits,
+                            uint32_t count) = 0;
+    virtual void occluded(CommandStream& stream, const Buffer& rays, const Buffer& results,
+                          uint32_t count) = 0;
     /// Bytes of acceleration structures.
     virtual size_t memoryBytes() const = 0;
 
     /// Rays traced since construction.
     uint64_t raysTraced() const { return raysTraced_; }
 
-protected:
+ protected:
     uint64_t raysTraced_ = 0;
 };
 
-/// What `auto` becomes on this device: ray_query on a GPU that has it, ray_pipeline on a GPU with ray pipelines
-/// only, else embree.
+/// What `auto` becomes on this device: ray_query on a GPU that has it, ray_pipeline on a GPU with ray
+/// pipelines only, else embree.
 TracerKind resolveTracer(TracerKind wanted, const Device& device);
 
-/// @throws Error naming the missing feature where the device lacks what `kind` needs. `state` must outlive the
-/// tracer.
+/// @throws Error naming the missing feature where the device lacks what `kind` needs. `state` must outlive
+/// the tracer.
 std::unique_ptr<RayTracer> makeRayTracer(TracerKind kind, Device& device, ShaderCompiler& compiler,
                                          const SceneState& state);
 

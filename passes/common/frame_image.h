@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "graph/pass.h"
+
+namespace voxray {
+
+/// What every image of the frame's size and format is made from.
+inline ImageDesc frameImageDesc(const Frame& frame) {
+    ImageDesc desc;
+    desc.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    desc.extent = {frame.width, frame.height, 1};
+    return desc;
+}
+
+/// A sampler for reading images texel by texel.
+inline Sampler texelSampler(Device& device) {
+    return Sampler(device, Filter::Nearest, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                   VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
+}
+
+}  // namespace voxray

@@ -1,0 +1,61 @@
+#version 460
+// Exclusive prefix sum of population counts in three dispatches: sums of blocks of 1024 words (SUM_BLOCKS), their scan
+// by one work group (SCAN_BLOCKS), and the scan within each block (SCAN_WORDS).
+layout(local_size_x = 256) in;
+
+layout(set = 0, binding = 0) readonly buffer Source { uint words[]; } source;
+layout(set = 0, binding = 1) writeonly buffer Result { uint before[]; } result;
+layout(set = 0, binding = 2) buffer BlockSums { uint sums[]; } blockSums;
+layout(push_constant) uniform Push {
+    uint count;
+    uint blocks;
+} push;
+
+shared uint partial[256];
+
+// Inclusive scan of one value a thread over the work group (Hillis and Steele).
+uint scanGroup(uint value) {
+    const uint i = gl_LocalInvocationID.x;
+    partial[i] = value;
+    barrier();
+    for (uint step_ = 1u; step_ < 256u; step_ <<= 1) {
+        const uint other = i >= step_ ? partial[i - step_] : 0u;
+        barrier();
+        partial[i] += other;
+        barrier();
+    }
+    return partial[i];
+}
+
+uint bitsOf(uint word) { return word < push.count ? uint(bitCount(source.words[word])) : 0u; }
+
+void main() {
+    const uint i = gl_LocalInvocationID.x;
+#ifdef SCAN_BLOCKS
+    // One work group walks over all block sums, 256 at a time.
+    uint carried = 0u;
+    for (uint first = 0u; first < push.blocks; first += 256u) {
+        const uint block = first + i;
+        const uint value = block < push.blocks ? blockSums.sums[block] : 0u;
+        const uint inclusive = scanGroup(value);
+        if (block < push.blocks) blockSums.sums[block] = carried + inclusive - value;
+        carried += partial[255];
+        barrier();
+    }
+    if (i == 0u) blockSums.sums[push.blocks] = carried;
+#else
+    const uint first = gl_WorkGroupID.x * 1024u + i * 4u;
+    const uvec4 bits = uvec4(bitsOf(first), bitsOf(first + 1u), bitsOf(first + 2u), bitsOf(first + 3u));
+    const uint own = bits.x + bits.y + bits.z + bits.w;
+    const uint inclusive = scanGroup(own);
+#ifdef SUM_BLOCKS
+    if (i == 255u) blockSums.sums[gl_WorkGroupID.x] = inclusive;
+#else
+    uint running = blockSums.sums[gl_WorkGroupID.x] + inclusive - own;
+    for (uint k = 0u; k < 4u; ++k) {
+        if (first + k < push.count) result.before[first + k] = running;
+        running += bits[k];
+    }
+#endif
+#endif
+}

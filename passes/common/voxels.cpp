@@ -1,0 +1,39 @@
+#include "passes/common/voxels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxray {
+
+gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution) {
+    const glm::vec3 extent = boundsMax - boundsMin;
+    const float longest = std::max({extent.x, extent.y, extent.z, 1e-6f});
+    gpu::VoxelGrid grid{};
+    grid.voxelSize = longest / (float(resolution) - 0.25f);
+    for (int axis = 0; axis < 3; ++axis) {
+        const float voxels = std::ceil(extent[axis] / grid.voxelSize + 0.25f - 1e-4f);
+        grid.resolution[axis] = std::clamp(uint32_t(std::max(voxels, 1.0f)), 1u, resolution);
+    }
+    // The scene in the middle of the grid.
+    grid.origin = 0.5f * (boundsMin + boundsMax) - 0.5f * grid.voxelSize * glm::vec3(grid.resolution);
+    grid.wordsPerRow = (grid.resolution.x + 31) / 32;
+    return grid;
+}
+
+uint64_t estimateSurfaceVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
+    const double cell = grid.voxelSize;
+    double voxels = 0;
+    for (const glm::uvec3 t : geometry.triangles) {
+        const glm::dvec3 a = geometry.positions[t.x], b = geometry.positions[t.y],
+                         c = geometry.positions[t.z];
+        const double area = 0.5 * glm::length(glm::cross(b - a, c - a)) / (cell * cell);
+        const double perimeter = (glm::length(b - a) + glm::length(c - b) + glm::length(a - c)) / cell;
+        // A plane of unit area meets 1.5 voxels on average over its orientations; edges share voxels with
+        // neighbours.
+        voxels += 1.5 * area + std::min(0.25 * perimeter, 1.0);
+    }
+    const double all = double(grid.resolution.x) * grid.resolution.y * grid.resolution.z;
+    return uint64_t(std::min(voxels, all)) + 1;
+}
+
+}  // namespace voxray

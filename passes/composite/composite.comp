@@ -1,0 +1,16 @@
+#version 460
+// final = emission + direct + indirect. A part that no pass writes is bound as one black texel.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 0) uniform sampler2D emission;
+layout(set = 0, binding = 1) uniform sampler2D direct;
+layout(set = 0, binding = 2) uniform sampler2D indirect;
+layout(set = 0, binding = 3, rgba32f) writeonly uniform image2D result;
+
+vec3 texel(sampler2D image, ivec2 pixel) { return texelFetch(image, min(pixel, textureSize(image, 0) - 1), 0).rgb; }
+
+void main() {
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(result)))) return;
+    imageStore(result, pixel, vec4(texel(emission, pixel) + texel(direct, pixel) + texel(indirect, pixel), 1.0));
+}

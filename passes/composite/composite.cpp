@@ -1,0 +1,38 @@
+#include "passes/composite/composite.h"
+
+#include "passes/common/dispatch.h"
+#include "passes/common/frame_image.h"
+
+namespace voxray {
+
+void Composite::declare(PassBuilder& builder) {
+    gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
+    direct_ = builder.readOptional<FrameImage>("direct", "radiance reflected of direct light");
+    indirect_ = builder.readOptional<FrameImage>("indirect", "radiance reflected of indirect light");
+    final_ = builder.write<FrameImage>("final", "radiance towards the camera");
+}
+
+void Composite::plan(PassPlan& plan) {
+    plan.reserve("final image", imageBytes(frameImageDesc(plan.frame)));
+}
+
+void Composite::prepare(PassSetup& setup) {
+    setup.get(final_).image = Image(setup.device, "final", frameImageDesc(setup.frame));
+    program_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/composite/composite.comp"));
+    sampler_ = texelSampler(setup.device);
+    black_ = Image(setup.device, "black", ImageDesc{});
+    setup.stream.clear(black_, {});
+}
+
+void Composite::record(PassContext& context) {
+    const Image& direct = context.has(direct_) ? context.get(direct_).image : black_;
+    const Image& indirect = context.has(indirect_) ? context.get(indirect_).image : black_;
+    context.stream.dispatch(program_,
+                            {{"emission", context.get(gbuffer_).emission, sampler_},
+                             {"direct", direct, sampler_},
+                             {"indirect", indirect, sampler_},
+                             {"result", context.get(final_).image}},
+                            {}, pixelGroups(context.frame.width, context.frame.height));
+}
+
+}  // namespace voxray

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "passes/common/gbuffer.h"
+
+namespace voxray {
+
+/// final = emission + direct + indirect.
+class Composite final : public Pass {
+ public:
+    static constexpr const char* kName = "composite";
+    static constexpr const char* kHelp =
+        "Adds up what the camera sees: emitted light (or the environment), direct and indirect light. A part "
+        "that no pass "
+        "writes counts as black.";
+    struct Params {
+        static constexpr auto schema() { return std::tuple{}; }
+    };
+
+    explicit Composite(const Params&) {}
+    Phase phase() const override { return Phase::Frame; }
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    Port<GBuffer> gbuffer_;
+    Port<FrameImage> direct_, indirect_, final_;
+    Program program_;
+    Sampler sampler_;
+    Image black_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "passes/common/gbuffer.h"
+
+namespace voxray {
+
+/// Direct light per pixel by shadow rays through the stream interface: one ray a pixel to each point, spot
+/// and directional light, `samples` rays to the emissive surfaces and to the environment.
+class DirectShadowRays final : public Pass {
+ public:
+    static constexpr const char* kName = "direct_shadow_rays";
+    static constexpr const char* kHelp =
+        "Direct light by shadow rays from every pixel to every light. Exact for point, spot and directional "
+        "lights; noisy by "
+        "`samples` for emissive surfaces (picked by power, uniform over area) and for the environment (by "
+        "cosine). Lambert "
+        "surfaces only. Compare with direct_voxels.";
+    struct Params {
+        uint32_t samples = 4;
+        static constexpr auto schema() {
+            return std::tuple{field(
+                "samples", &Params::samples,
+                "Shadow rays a pixel to all emissive surfaces together, and as many to the environment.", 1u,
+                4096u)};
+        }
+    };
+
+    explicit DirectShadowRays(const Params& params) : params_(params) {}
+    Phase phase() const override { return Phase::Frame; }
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    Params params_;
+    Port<GBuffer> gbuffer_;
+    Port<FrameImage> direct_;
+    Program aim_, add_;
+    Sampler sampler_;
+    Buffer rays_, carried_, occluded_;
+};
+
+}  // namespace voxray

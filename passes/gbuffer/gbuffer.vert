@@ -1,0 +1,31 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/scene.glsl"
+
+layout(push_constant, scalar) uniform Push {
+    mat4 viewProjection;
+    vec3 cameraPosition;
+    float padding;
+} push;
+
+layout(location = 0) out vec3 position;
+layout(location = 1) out vec3 normal;
+layout(location = 2) out vec4 tangent;
+layout(location = 3) out vec4 texCoords;
+layout(location = 4) out vec4 color;
+layout(location = 5) flat out vec3 geometricNormal;
+layout(location = 6) flat out uint material;
+
+void main() {
+    const uint triangle = uint(gl_VertexIndex) / 3u, corner = uint(gl_VertexIndex) % 3u;
+    const vec2 barycentrics = vec2(corner == 1u ? 1.0 : 0.0, corner == 2u ? 1.0 : 0.0);
+    const SurfacePoint s = surfacePoint(triangle, barycentrics);
+    position = s.position;
+    normal = s.normal;
+    tangent = s.tangent;
+    texCoords = s.texCoords;
+    color = s.color;
+    geometricNormal = s.geometricNormal;
+    material = s.material;
+    gl_Position = push.viewProjection * vec4(s.position, 1.0);
+}

@@ -1,0 +1,42 @@
+// Mean irradiance of surfaces near a point from the flux that their voxels hold. Bindings 11 and 12 of set 0.
+#ifndef VOXRAY_VOXEL_IRRADIANCE_GLSL
+#define VOXRAY_VOXEL_IRRADIANCE_GLSL
+
+#include "shaders/voxels.glsl"
+
+// W, by voxel and facing direction +x -x +y -y +z -z, 3 floats each.
+layout(set = 0, binding = 11, scalar) readonly buffer VoxelFlux { float data[]; } voxelFlux;
+
+// Irradiance (W/m²) on a surface at `position` with unit normal `normal`.
+//
+// A voxel knows the flux that its surfaces catch and their area, both split by facing direction. Both are interpolated
+// with tent weights of `radius` voxels, and their ratio taken last: a voxel that a surface only grazes weighs little, and
+// a half-lit one is half bright. Where no voxel within reach faces that way the reach doubles, up to twice.
+vec3 voxelIrradiance(VoxelGrid g, vec3 position, vec3 normal, float radius) {
+    const vec3 weightByAxis = normal * normal;
+    const uvec3 face = uvec3(normal.x < 0.0 ? 1u : 0u, normal.y < 0.0 ? 3u : 2u, normal.z < 0.0 ? 5u : 4u);
+    for (int attempt = 0; attempt < 3; ++attempt, radius *= 2.0) {
+        const vec3 centre = (position - g.origin) / g.voxelSize - 0.5;
+        const ivec3 first = max(ivec3(ceil(centre - radius)), ivec3(0));
+        const ivec3 last = min(ivec3(floor(centre + radius)), ivec3(g.resolution) - 1);
+        vec3 flux = vec3(0.0);
+        float area = 0.0;
+        for (int z = first.z; z <= last.z; ++z)
+            for (int y = first.y; y <= last.y; ++y)
+                for (int x = first.x; x <= last.x; ++x) {
+                    const uint voxel = voxelNumber(g, ivec3(x, y, z));
+                    if (voxel == NO_VOXEL) continue;
+                    const vec3 tent = max(1.0 - abs(vec3(x, y, z) - centre) / radius, 0.0);
+                    const vec3 weight = weightByAxis * (tent.x * tent.y * tent.z);
+                    area += dot(weight, voxelMaterials.data[voxel].axisArea);
+                    for (int axis = 0; axis < 3; ++axis) {
+                        const uint at = (voxel * 6u + face[axis]) * 3u;
+                        flux += weight[axis] * vec3(voxelFlux.data[at], voxelFlux.data[at + 1u], voxelFlux.data[at + 2u]);
+                    }
+                }
+        if (area > 1e-6) return flux / (area * g.voxelSize * g.voxelSize);
+    }
+    return vec3(0.0);
+}
+
+#endif
