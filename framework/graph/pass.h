@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <typeindex>
@@ -90,6 +91,8 @@ struct Frame {
     uint32_t width = 0;
     uint32_t height = 0;
     uint64_t seed = 0;
+    /// Called by passes that take long with the part that is done, 0 to 1; false asks them to stop with an Error.
+    std::function<bool(double)> progress;
 };
 
 /// Access to the resources that a pass's ports are bound to.
