@@ -158,7 +158,7 @@ def _place_labels(axes, points: list[Point], front: list[Point], levels) -> None
     for name, value, _ in levels:
         y = axes.transData.transform((1, value))[1]
         width = 0.5 * (_FONT_SIZE - 1) * len(name)
-        taken.append(_Box(frame.x1 - width, y, frame.x1, y + _FONT_SIZE))
+        taken += [_Box(frame.x1 - width, y, frame.x1, y + _FONT_SIZE), _Box(frame.x0, y - 2, frame.x1, y + 2)]
     steps = [axes.transData.transform((p.cost, p.error)) for p in front]
     for (x0, y0), (x1, y1) in zip(steps, steps[1:]):
         taken += [_Box(x0, y0 - 2, x1, y0 + 2), _Box(x1 - 2, y1, x1 + 2, y0)]

@@ -6,7 +6,7 @@ import math
 
 import pandas as pd
 
-from report.load import BASELINES, METRICS, Metric, Results
+from report.load import BASELINES, LIGHTS, METRICS, Metric, Results
 
 COST_COLUMNS = ("build_ms", "frame_ms_median", "memory_bytes")
 
@@ -66,19 +66,19 @@ def pareto_front(points: list[tuple[float, float]]) -> list[int]:
     return front
 
 
-def summary(results: Results, light: str, prefix: str) -> list[str]:
+def summary(results: Results, light: str) -> list[str]:
     """Sentences on the best error, the fastest variant and what failed; `light` is "indirect" or "total"."""
     total, finished = len(results.variants), len(results.ok)
     if total == 0:
         return ["No variant has finished yet."]
     sentences = [f"{finished} of {_count(total, 'variant')} finished."]
     if failed := total - finished:
-        sentences.append(f"{_count(failed, 'variant')} failed, and the table says why.")
+        sentences.append(f"{_count(failed, 'variant')} failed; the reason stands below the table.")
 
     # The best of each error, with what cannot be told from it.
     worse: dict[str, list[str]] = {}
     for metric in METRICS[:3]:
-        column = prefix + metric.key
+        column = LIGHTS[light] + metric.key
         scores = results.ok.set_index("variant")[column].dropna()
         if scores.empty:
             continue

@@ -11,7 +11,7 @@ import jinja2
 import pandas as pd
 
 from report import charts, images, judge, style, table, text
-from report.load import IMAGES, LIGHTS, METRICS, ReportError, Results, section
+from report.load import IMAGES, METRICS, ReportError, Results, section
 
 _HERE = Path(__file__).parent
 _CHART_METRICS = METRICS[:3]
@@ -68,10 +68,10 @@ def render(results: Results) -> str:
     chart_groups, not_drawn = _charts(results, lights, styles, numbers, anchors)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    light = lights[-1]
+    environment.filters["breakable"] = text.breakable
     return environment.get_template("template.html.j2").render(
-        title=_title(results), setting=_setting(results), lights=lights, light=light,
-        summary=judge.summary(results, light, LIGHTS[light]), columns=columns, metrics=METRICS,
+        title=_title(results), setting=_setting(results), lights=lights, light=lights[-1],
+        summaries={light: judge.summary(results, light) for light in lights}, columns=columns, metrics=METRICS,
         rows=table.variant_rows(results, columns, numbers, anchors),
         baselines=table.baseline_rows(results, columns), noise=table.noise_row(results, columns),
         charts=chart_groups, not_drawn=not_drawn, legends=legends, markers=style.MARKERS, pass_colors=colors,

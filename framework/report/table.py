@@ -75,7 +75,7 @@ def columns_of(results: Results, lights: list[str]) -> list[Column]:
                 math.isfinite(results.baseline(name, column)) for name in BASELINES)
             if known:
                 unit = f", {metric.unit}" if metric.unit else ""
-                columns.append(Column(column, f"{metric.label}{unit} {arrows[metric.better]}",
+                columns.append(Column(column, f"{metric.label}{unit}\u00a0{arrows[metric.better]}",
                                       f"{metric.meaning} ({light} light)", light, metric=metric))
     return columns
 

@@ -6,6 +6,8 @@ import json
 import math
 import re
 
+from markupsafe import Markup, escape
+
 _PLAIN = re.compile(r"[A-Za-z_/.][\w ./+-]*")
 
 
@@ -37,6 +39,11 @@ def size(value: float) -> str:
         if abs(value) >= step:
             return f"{figures(value / step)} {unit}"
     return figures(value) + ("" if math.isnan(value) else " B")
+
+
+def breakable(value: str) -> Markup:
+    """`value` as HTML that may be broken after the marks between its words; copied, it is `value` again."""
+    return Markup(re.sub(r"([,=._/])", r"\1<wbr>", str(escape(value))))
 
 
 def yaml_like(value, indent: int = 0) -> str:

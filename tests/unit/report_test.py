@@ -23,7 +23,7 @@ from report import images, judge, make_report, page, text  # noqa: E402
 from report.load import METRICS, ReportError, load  # noqa: E402
 from PIL import Image  # noqa: E402
 
-_VOID = {"meta", "img", "input", "br", "path", "rect", "use", "hr", "link"}
+_VOID = {"meta", "img", "input", "br", "wbr", "path", "rect", "use", "hr", "link"}
 _NRMSE = METRICS[0]
 
 
@@ -308,6 +308,7 @@ class Writing(ReportTest):
                          ["0.0123", "12.3", "1\u202f234", "0", "–", "∞", "1.00e-09"])
         self.assertEqual(text.size(3 * 2**20), "3.00 MiB")
         self.assertEqual(text.count(262144), "262 k")
+        self.assertEqual(text.breakable("a.b=<i>"), "a.<wbr>b=<wbr>&lt;i&gt;")
 
     def test_config_as_yaml_like_text(self):
         config = {"name": "x y", "image": {"width": 8}, "list": [1, 2], "graph": [{"pass": "a", "n": 1}],
