@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Reading a run's results
 #
-# Loads a results folder with pandas and redraws its chart of speed against error. It renders nothing: make the
-# results first, with `./voxray run CONFIG`. Run it cell by cell in an editor that knows `# %%`, or whole:
+# Loads a results folder with pandas and redraws its chart of speed against error. It renders nothing: make
+# the results first, with `./voxray run CONFIG`. Run it cell by cell in an editor that knows `# %%`, or whole:
 #
 #     /usr/bin/python3 notebooks/read_results.py results/quickstart [chart.png]
 
@@ -50,19 +50,21 @@ if len(frame):
 
 # %% [markdown]
 # ## Speed against error
-# Left is faster, lower is closer to the reference. Points nearer to each other than the dotted line is high differ by
-# less than the reference's own noise.
+# Left is faster, lower is closer to the reference. The staircase is the Pareto front. An error near the dotted
+# line is mostly the reference's own.
 
 # %%
 error = prefix + "nrmse"
 points = results.ok[(results.ok["frame_ms_median"] > 0) & (results.ok[error] > 0)]
 figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
-groups = points.groupby(results.sweep_keys[0], sort=False) if results.sweep_keys else [("all variants", points)]
+groups = [("all variants", points)]
+if results.sweep_keys:
+    groups = points.groupby(results.sweep_keys[0], sort=False)
 for value, group in groups:
     axes.scatter(group["frame_ms_median"], group[error], label=str(value), zorder=3)
 for _, row in points.iterrows():
-    axes.annotate(row["variant"], (row["frame_ms_median"], row[error]), (4, 4), textcoords="offset points",
-                  fontsize=8, parse_math=False)
+    axes.annotate(row["variant"], (row["frame_ms_median"], row[error]), (4, 4),
+                  textcoords="offset points", fontsize=8, parse_math=False)
 
 # The Pareto front, the reference's noise, and what a black and a constant image score.
 front = points.iloc[pareto_front(list(zip(points["frame_ms_median"], points[error])))]

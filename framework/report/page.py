@@ -71,7 +71,8 @@ def render(results: Results) -> str:
     environment.filters["breakable"] = text.breakable
     return environment.get_template("template.html.j2").render(
         title=_title(results), setting=_setting(results), lights=lights, light=lights[-1],
-        summaries={light: judge.summary(results, light) for light in lights}, columns=columns, metrics=METRICS,
+        summaries={light: judge.summary(results, light) for light in lights},
+        columns=columns, metrics=METRICS,
         rows=table.variant_rows(results, columns, numbers, anchors),
         baselines=table.baseline_rows(results, columns), noise=table.noise_row(results, columns),
         charts=chart_groups, not_drawn=not_drawn, legends=legends, markers=style.MARKERS, pass_colors=colors,

@@ -7,6 +7,7 @@ import contextlib
 import io
 import math
 import re
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -121,6 +122,14 @@ class FullRun(unittest.TestCase):
         links = self.page.attributes("href") + self.page.attributes("xlink:href")
         self.assertGreater(len(links), 12 * 6)
         self.assertLessEqual(set(links), targets)
+
+    def test_notebook_reads_the_same_results(self):
+        picture = self.directory / "chart.png"
+        notebook = _ROOT / "notebooks/read_results.py"
+        done = subprocess.run([sys.executable, notebook, self.directory, picture],
+                              capture_output=True, text=True, check=True)
+        self.assertLess(done.stdout.index("light_rays-256"), done.stdout.index("rsm-64"))  # by rising error
+        self.assertGreater(Image.open(picture).size[0], 500)
 
     def test_same_results_make_the_same_page(self):
         self.assertEqual(self.source, page.render(load(self.directory)))
