@@ -1,1 +1,4 @@
-# Tests of graph.
+# Tests of the graph, of the passes and of what they share with shaders.
+voxray_tests(chain
+  SOURCES gpu/shared_structs_test.cpp physics/injection_test.cpp physics/voxelize_test.cpp
+  DEPENDS voxray_experiment voxray_passes)

@@ -156,15 +156,14 @@ std::vector<uint64_t> Graph::memoryBytes() const {
     return impl_->memoryBytes;
 }
 
-const Image* Graph::image(const std::string& portName) const {
-    const Image* found = nullptr;
+const Resource* Graph::find(const std::string& portName, std::type_index type) const {
+    const Resource* found = nullptr;
     for (const GraphNode& node : impl_->nodes) {
         size_t output = 0;
         for (const PortInfo& port : node.ports) {
             if (!port.output) continue;
             const Resource* resource = node.outputs[output++].get();
-            if (port.name != portName || port.type != typeid(FrameImage)) continue;
-            found = &static_cast<const FrameImage*>(resource)->image;
+            if (port.name == portName && port.type == type) found = resource;
         }
     }
     return found;

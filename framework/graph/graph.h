@@ -66,10 +66,18 @@ class Graph {
     /// Device bytes held by each pass, in the order of passes().
     std::vector<uint64_t> memoryBytes() const;
 
-    /// The image that the last pass with this output port wrote, or nullptr.
-    const Image* image(const std::string& portName) const;
+    /// What the last pass with an output port of this name and type wrote, or nullptr.
+    template <typename T>
+    const T* resource(const std::string& portName) const {
+        return static_cast<const T*>(find(portName, typeid(T)));
+    }
+    const Image* image(const std::string& portName) const {
+        const FrameImage* frameImage = resource<FrameImage>(portName);
+        return frameImage ? &frameImage->image : nullptr;
+    }
 
  private:
+    const Resource* find(const std::string& portName, std::type_index type) const;
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

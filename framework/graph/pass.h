@@ -91,7 +91,8 @@ struct Frame {
     uint32_t width = 0;
     uint32_t height = 0;
     uint64_t seed = 0;
-    /// Called by passes that take long with the part that is done, 0 to 1; false asks them to stop with an Error.
+    /// Called by passes that take long with the part that is done, 0 to 1; false asks them to stop with an
+    /// Error.
     std::function<bool(double)> progress;
 };
 

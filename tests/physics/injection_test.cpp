@@ -1,0 +1,124 @@
+// Light injection and gathering against closed forms, and against the path tracer.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "passes/common/voxels.h"
+#include "tests/gpu/chain.h"
+
+namespace voxray::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Flux over all voxels and directions, green channel, W.
+double totalFlux(Chain& chain, const Buffer& flux) {
+    const std::vector<float> values = chain.read<float>(flux);
+    double sum = 0;
+    for (size_t i = 1; i < values.size(); i += 3) sum += values[i];
+    return sum;
+}
+
+const VoxelIrradiance& irradiance(const Chain& chain) {
+    return *chain.graph().resource<VoxelIrradiance>("irradiance");
+}
+
+TEST(Injection, ClosedRoomCatchesAllLight) {
+    // A point light of I W/sr in a closed room: 4 pi I arrives at its walls.
+    Chain chain(
+        "white_room", "{albedo: 0.5, intensity: 2}",
+        "[{pass: voxelize, resolution: 24}, {pass: inject_light_rays, rays_per_light: 65536, bounces: 0}]");
+    EXPECT_NEAR(totalFlux(chain, irradiance(chain).direct) / (4 * kPi * 2), 1.0, 1e-4);
+    EXPECT_EQ(totalFlux(chain, irradiance(chain).indirect), 0.0);
+}
+
+TEST(Injection, BouncesSumToTheGeometricSeries) {
+    // Walls of albedo a reflect a of all that arrives: indirect flux = direct * (a + a² + ... + a^bounces).
+    Chain chain(
+        "white_room", "{albedo: 0.5, intensity: 2}",
+        "[{pass: voxelize, resolution: 24}, {pass: inject_light_rays, rays_per_light: 262144, bounces: 3}]");
+    const double expected = 4 * kPi * 2 * (0.5 + 0.25 + 0.125);
+    EXPECT_NEAR(totalFlux(chain, irradiance(chain).indirect) / expected, 1.0, 0.01);
+}
+
+TEST(Injection, EmissiveFurnaceReachesItsClosedForm) {
+    // Every surface emits e and reflects a: the irradiance is pi e / (1 - a) everywhere, of which pi e is
+    // direct.
+    Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
+                "[{pass: gbuffer}, {pass: voxelize, resolution: 16, samples: 4}, "
+                "{pass: inject_light_rays, rays_per_light: 1048576, bounces: 24}, {pass: gather_irradiance, "
+                "radius: 2}, "
+                "{pass: direct_voxels, radius: 2}, {pass: composite}]");
+    EXPECT_NEAR(mean(chain.image("direct")), 0.6, 0.02 * 0.6);
+    EXPECT_NEAR(mean(chain.image("final")), 1 / (1 - 0.6), 0.02 / (1 - 0.6));
+}
+
+TEST(Injection, IsLinearInLight) {
+    const std::string graph =
+        "[{pass: voxelize, resolution: 16}, {pass: inject_light_rays, rays_per_light: 16384, bounces: 2}]";
+    Chain one("white_room", "{intensity: 1}", graph), seven("white_room", "{intensity: 7}", graph);
+    EXPECT_NEAR(totalFlux(seven, irradiance(seven).indirect) / totalFlux(one, irradiance(one).indirect), 7.0,
+                1e-4);
+}
+
+TEST(Injection, IsDeterministic) {
+    const auto run = [] {
+        Chain chain("cornell", "{lights: point}",
+                    "[{pass: voxelize, resolution: 32}, {pass: inject_light_rays, rays_per_light: 65536}]");
+        return chain.read<uint32_t>(irradiance(chain).indirect);
+    };
+    EXPECT_EQ(run(), run());
+}
+
+TEST(DirectShadowRays, MatchClosedFormsOnAPlane) {
+    // Punctual lights are exact: the same image as the path tracer's, which has its own closed-form tests,
+    // with rays through pixel centres instead of pixel means.
+    for (const std::string light : {"point", "spot", "directional"}) {
+        Chain chain("plane", "{light: " + light + "}",
+                    "[{pass: gbuffer}, {pass: direct_shadow_rays}, {pass: composite}]", 64, 64);
+        Chain reference("plane", "{light: " + light + "}", "[{pass: path_trace, spp: 64, bounces: 0}]", 64,
+                        64);
+        EXPECT_NEAR(mean(chain.image("final")) / mean(reference.image("final")), 1.0, 0.003) << light;
+    }
+}
+
+TEST(DirectShadowRays, AreaLightConvergesToTheReference) {
+    Chain chain("quad_light", "{}",
+                "[{pass: gbuffer}, {pass: direct_shadow_rays, samples: 64}, {pass: composite}]", 32, 32);
+    Chain reference("quad_light", "{}", "[{pass: path_trace, spp: 64, bounces: 0}]", 32, 32);
+    EXPECT_NEAR(mean(chain.image("final")) / mean(reference.image("final")), 1.0, 0.01);
+}
+
+TEST(DirectVoxels, ApproachShadowRaysAsVoxelsShrink) {
+    const auto error = [](uint32_t resolution) {
+        Chain chain(
+            "plane", "{light: point}",
+            "[{pass: gbuffer}, {pass: voxelize, samples: 4, resolution: " + std::to_string(resolution) +
+                "}, {pass: inject_light_rays, rays_per_light: 1048576, bounces: 0}, "
+                "{pass: direct_voxels}, {pass: composite}]");
+        Chain exact("plane", "{light: point}",
+                    "[{pass: gbuffer}, {pass: direct_shadow_rays}, {pass: composite}]");
+        const ImageF a = chain.image("final"), b = exact.image("final");
+        double sum = 0;
+        for (size_t i = 0; i < a.data.size(); ++i) sum += std::abs(a.data[i] - b.data[i]);
+        return sum / double(b.data.size()) / mean(b);
+    };
+    const double coarse = error(8), fine = error(64);
+    EXPECT_LT(fine, coarse);
+    EXPECT_LT(fine, 0.05);
+}
+
+TEST(Chain, CornellIndirectMatchesTheReference) {
+    Chain chain("cornell", "{lights: point}",
+                "[{pass: gbuffer}, {pass: voxelize, resolution: 64}, "
+                "{pass: inject_light_rays, rays_per_light: 1048576, bounces: 8}, {pass: gather_irradiance}, "
+                "{pass: direct_shadow_rays}, {pass: composite}]",
+                64, 64);
+    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 256, bounces: 8}]", 64, 64);
+    EXPECT_NEAR(mean(chain.image("final")) / mean(reference.image("final")), 1.0, 0.02);
+    EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.03);
+}
+
+}  // namespace
+}  // namespace voxray::test
