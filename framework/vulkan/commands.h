@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
-#include <initializer_list>
 #include <glm/vec3.hpp>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,8 +22,8 @@
 
 namespace voxray {
 
-/// A resource bound to a shader's name. An Image binds as storage image (level 0, or `level`); give a sampler to
-/// bind it as sampled image.
+/// A resource bound to a shader's name. An Image binds as storage image (level 0, or `level`); give a sampler
+/// to bind it as sampled image.
 struct Binding {
     std::string_view name;
     std::variant<const Buffer*, const Image*, const TextureArray*, VkAccelerationStructureKHR> resource;
@@ -31,7 +31,8 @@ struct Binding {
     uint32_t level = 0;
 
     Binding(std::string_view n, const Buffer& b) : name(n), resource(&b) {}
-    Binding(std::string_view n, const Image& i, uint32_t mipLevel = 0) : name(n), resource(&i), level(mipLevel) {}
+    Binding(std::string_view n, const Image& i, uint32_t mipLevel = 0)
+        : name(n), resource(&i), level(mipLevel) {}
     Binding(std::string_view n, const Image& i, const Sampler& s) : name(n), resource(&i), sampler(&s) {}
     Binding(std::string_view n, const TextureArray& t) : name(n), resource(&t) {}
     Binding(std::string_view n, VkAccelerationStructureKHR a) : name(n), resource(a) {}
@@ -48,7 +49,7 @@ struct PushConstants {
     }
 };
 
-/// Targets of a raster pass. All have the extent of the viewport.
+/// Targets of a raster pass. All have at least the extent of the viewport.
 struct RasterTargets {
     struct Color {
         const Image* image;
@@ -56,14 +57,16 @@ struct RasterTargets {
     };
     std::vector<Color> colors;
     const Image* depth = nullptr;  ///< Cleared to 1.
-    glm::uvec3 extent{0, 0, 1};    ///< Viewport; may be larger than no targets at all.
+    glm::uvec3 extent{0, 0, 1};  ///< Viewport, from (0, 0); also what is rendered where there are no targets.
 };
 
-/// Records commands and runs them. Each call is ordered after all calls before it (a full memory barrier between
-/// them), so passes need no barriers of their own. Every binding that the program reflects must be given, and no other:
+/// Records commands and runs them. Each call is ordered after all calls before it (a full memory barrier
+/// between them), so passes need no barriers of their own. Every binding that the program reflects must be
+/// given, and no other, and resources must outlive finish(). What was recorded but not finished is dropped
+/// with the stream.
 /// @throws Error naming the program and the binding.
 class CommandStream {
-public:
+ public:
     explicit CommandStream(Device& device);
     ~CommandStream();
     CommandStream(const CommandStream&) = delete;
@@ -74,27 +77,40 @@ public:
     /// Runs a compute program over `groups` work groups. A group count of 0 in any axis records nothing.
     void dispatch(const Program& program, std::initializer_list<Binding> bindings, PushConstants push,
                   glm::uvec3 groups);
-    void dispatch(const Program& program, std::span<const Binding> bindings, PushConstants push, glm::uvec3 groups);
+    void dispatch(const Program& program, std::span<const Binding> bindings, PushConstants push,
+                  glm::uvec3 groups);
     /// Draws `vertexCount` vertices, `instanceCount` times.
     void draw(const Program& program, std::initializer_list<Binding> bindings, PushConstants push,
               const RasterTargets& targets, uint32_t vertexCount, uint32_t instanceCount = 1);
+    void draw(const Program& program, std::span<const Binding> bindings, PushConstants push,
+              const RasterTargets& targets, uint32_t vertexCount, uint32_t instanceCount = 1);
 
-    void fill(const Buffer& buffer, uint32_t word);                         ///< The whole buffer.
-    void clear(const Image& image, VkClearColorValue value);                ///< All levels.
-    void copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset = 0, uint64_t toOffset = 0);
-    void copy(const Image& from, const Buffer& to);                         ///< Level 0, tightly packed.
+    void fill(const Buffer& buffer, uint32_t word);           ///< The whole buffer.
+    void clear(const Image& image, VkClearColorValue value);  ///< All levels.
+    void copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset = 0,
+              uint64_t toOffset = 0);
+    void copy(const Image& from, const Buffer& to, uint32_t level = 0);  ///< One level, tightly packed.
     void copy(const Buffer& from, const Image& to, uint32_t level = 0);
-    void makeMipLevels(const Image& image);                                 ///< Box-filters level 0 down, by blits.
+    /// Filters level 0 down by linear blits: a box filter where extents are even. 2D and 3D.
+    /// @throws Error for a format without linear blits.
+    void makeMipLevels(const Image& image);
 
-    /// Host data into a device buffer through a staging buffer that lives until finish().
+    /// Host data into a device buffer, through staging buffers that live until finish(); more than 64 MiB of
+    /// them are not kept: the stream then submits and waits.
     void upload(const Buffer& to, std::span<const std::byte> data, uint64_t toOffset = 0);
     template <typename T>
     void upload(const Buffer& to, const std::vector<T>& data) {
         upload(to, std::as_bytes(std::span(data)));
     }
 
-    /// Records raw commands (acceleration structures, traceRays) between barriers.
+    /// Host texels, tightly packed, into one level of an image.
+    void upload(const Image& to, std::span<const std::byte> data, uint32_t level = 0);
+
+    /// Records raw commands (acceleration structures) between barriers.
     void record(const std::function<void(VkCommandBuffer)>& commands);
+    /// The same with a program, its bindings and push constants bound first (vkCmdTraceRaysKHR).
+    void record(const Program& program, std::span<const Binding> bindings, PushConstants push,
+                const std::function<void(VkCommandBuffer)>& commands);
 
     /// Names what follows in captures, until the matching end.
     void beginLabel(const std::string& name);
@@ -102,7 +118,8 @@ public:
 
     /// A time stamp on the device once all earlier work is done; the index is valid until resetTimestamps().
     uint32_t timestamp();
-    /// Milliseconds between two stamps, after finish(). Includes host work done in between by the Embree backend.
+    /// Milliseconds between two stamps, after finish(). Includes host work done in between by the Embree
+    /// backend.
     double millisecondsBetween(uint32_t first, uint32_t second) const;
     void resetTimestamps();
 
@@ -119,7 +136,7 @@ public:
         return out;
     }
 
-private:
+ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -1,1 +1,314 @@
-// To be written.
+#include "vulkan/device.h"
+
+#include <algorithm>
+#include <cctype>
+#include <mutex>
+
+#include "base/error.h"
+#include "vulkan/structure.h"
+#include "vulkan/support.h"
+
+namespace voxray {
+namespace {
+
+constexpr double kMiB = 1024.0 * 1024.0;
+constexpr uint32_t kMaxTextures = 4096;
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return text;
+}
+
+std::string join(const std::vector<std::string>& words) {
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// The best device that qualifies and whose name contains `wanted`.
+DeviceSupport choose(std::vector<DeviceSupport> devices, const std::string& wanted) {
+    if (devices.empty())
+        throw Error("no Vulkan device found; install a driver (mesa-vulkan-drivers has one for CPUs)");
+    std::vector<std::string> names;
+    for (const DeviceSupport& device : devices) names.push_back(device.info.name);
+    std::vector<std::string> refused;
+    for (DeviceSupport& device : devices) {
+        if (lower(device.info.name).find(lower(wanted)) == std::string::npos) continue;
+        if (device.info.missing.empty()) return std::move(device);
+        refused.push_back(fmt::format("'{}' lacks {}", device.info.name, join(device.info.missing)));
+    }
+    if (refused.empty())
+        throw Error("no Vulkan device's name contains '{}'; devices: {}", wanted, join(names));
+    throw Error("no Vulkan device qualifies: {}", fmt::join(refused, "; "));
+}
+
+}  // namespace
+
+struct Device::Impl {
+    explicit Impl(bool validation) : instance(validation) {}
+    ~Impl() {
+        if (device) vkDeviceWaitIdle(device);
+        if (textureSetLayout) vkDestroyDescriptorSetLayout(device, textureSetLayout, nullptr);
+        if (commandPool) vkDestroyCommandPool(device, commandPool, nullptr);
+        if (device) vkDestroyDevice(device, nullptr);
+    }
+
+    void createDevice();
+    void createTextureSetLayout();
+    void readProperties();
+
+    Instance instance;
+    DeviceSupport support;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    VkCommandPool commandPool = VK_NULL_HANDLE;
+    VkDescriptorSetLayout textureSetLayout = VK_NULL_HANDLE;
+    uint32_t maxTextures = kMaxTextures;
+    VkPhysicalDeviceProperties properties{};
+    VkPhysicalDeviceMemoryProperties memoryProperties{};
+    VkPhysicalDeviceRayTracingPipelinePropertiesKHR rayPipeline =
+        structure<VkPhysicalDeviceRayTracingPipelinePropertiesKHR>(
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR);
+    VkPhysicalDeviceAccelerationStructurePropertiesKHR accelerationStructure =
+        structure<VkPhysicalDeviceAccelerationStructurePropertiesKHR>(
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR);
+
+    mutable std::mutex memoryMutex;
+    uint64_t memoryLimit = 0;
+    uint64_t memoryUsed = 0;
+    std::map<std::string, uint64_t> memoryByResource;
+};
+
+void Device::Impl::createDevice() {
+    const float priority = 1.0f;
+    auto queueInfo = structure<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
+    queueInfo.queueFamilyIndex = support.queueFamily;
+    queueInfo.queueCount = 1;
+    queueInfo.pQueuePriorities = &priority;
+    std::vector<const char*> extensions;
+    for (const std::string& name : support.extensions) extensions.push_back(name.c_str());
+    auto create =
+        structure<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &support.features->core);
+    create.queueCreateInfoCount = 1;
+    create.pQueueCreateInfos = &queueInfo;
+    create.enabledExtensionCount = uint32_t(extensions.size());
+    create.ppEnabledExtensionNames = extensions.data();
+    check(vkCreateDevice(support.physical, &create, nullptr, &device), "vkCreateDevice");
+    vkGetDeviceQueue(device, support.queueFamily, 0, &queue);
+
+    auto pool = structure<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
+    pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+    pool.queueFamilyIndex = support.queueFamily;
+    check(vkCreateCommandPool(device, &pool, nullptr, &commandPool), "vkCreateCommandPool");
+}
+
+void Device::Impl::createTextureSetLayout() {
+    const VkPhysicalDeviceLimits& limits = properties.limits;
+    maxTextures = std::min({kMaxTextures, limits.maxPerStageDescriptorSampledImages,
+                            limits.maxPerStageDescriptorSamplers, limits.maxDescriptorSetSampledImages,
+                            limits.maxDescriptorSetSamplers});
+    VkDescriptorSetLayoutBinding binding{};
+    binding.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    binding.descriptorCount = maxTextures;
+    binding.stageFlags = VK_SHADER_STAGE_ALL;
+    const VkDescriptorBindingFlags flags =
+        VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT | VK_DESCRIPTOR_BINDING_VARIABLE_DESCRIPTOR_COUNT_BIT;
+    VkDescriptorSetLayoutBindingFlagsCreateInfo bindingFlags{
+        VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO, nullptr, 1, &flags};
+    auto create = structure<VkDescriptorSetLayoutCreateInfo>(
+        VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, &bindingFlags);
+    create.bindingCount = 1;
+    create.pBindings = &binding;
+    check(vkCreateDescriptorSetLayout(device, &create, nullptr, &textureSetLayout),
+          "vkCreateDescriptorSetLayout");
+}
+
+void Device::Impl::readProperties() {
+    auto all =
+        structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, nullptr);
+    if (support.info.rayPipeline) {
+        rayPipeline.pNext = all.pNext;
+        all.pNext = &rayPipeline;
+    }
+    if (support.info.rayQuery || support.info.rayPipeline) {
+        accelerationStructure.pNext = all.pNext;
+        all.pNext = &accelerationStructure;
+    }
+    vkGetPhysicalDeviceProperties2(support.physical, &all);
+    properties = all.properties;
+    rayPipeline.pNext = accelerationStructure.pNext = nullptr;
+
+    // The limit is the largest heap of the device's own memory.
+    vkGetPhysicalDeviceMemoryProperties(support.physical, &memoryProperties);
+    for (uint32_t i = 0; i < memoryProperties.memoryHeapCount; ++i) {
+        const VkMemoryHeap& heap = memoryProperties.memoryHeaps[i];
+        if (heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) memoryLimit = std::max(memoryLimit, heap.size);
+    }
+}
+
+Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>(options.validation)) {
+    impl_->support = choose(inspectDevices(impl_->instance.handle()), options.name);
+    impl_->createDevice();
+    impl_->readProperties();
+    impl_->createTextureSetLayout();
+}
+
+Device::~Device() = default;
+
+const DeviceInfo& Device::info() const {
+    return impl_->support.info;
+}
+VkInstance Device::instance() const {
+    return impl_->instance.handle();
+}
+VkPhysicalDevice Device::physical() const {
+    return impl_->support.physical;
+}
+VkDevice Device::handle() const {
+    return impl_->device;
+}
+VkQueue Device::queue() const {
+    return impl_->queue;
+}
+uint32_t Device::queueFamily() const {
+    return impl_->support.queueFamily;
+}
+const VkPhysicalDeviceProperties& Device::properties() const {
+    return impl_->properties;
+}
+const VkPhysicalDeviceMemoryProperties& Device::memoryProperties() const {
+    return impl_->memoryProperties;
+}
+const VkPhysicalDeviceRayTracingPipelinePropertiesKHR& Device::rayPipelineProperties() const {
+    return impl_->rayPipeline;
+}
+const VkPhysicalDeviceAccelerationStructurePropertiesKHR& Device::accelerationStructureProperties() const {
+    return impl_->accelerationStructure;
+}
+VkDescriptorSetLayout Device::textureSetLayout() const {
+    return impl_->textureSetLayout;
+}
+uint32_t Device::maxTextures() const {
+    return impl_->maxTextures;
+}
+bool Device::hasDebugLabels() const {
+    return impl_->instance.hasDebugUtils();
+}
+uint32_t Device::timestampBits() const {
+    return impl_->support.timestampBits;
+}
+
+PFN_vkVoidFunction Device::functionAddress(const char* name) const {
+    const PFN_vkVoidFunction address = vkGetDeviceProcAddr(impl_->device, name);
+    if (!address) throw Error("device '{}' has no {}", info().name, name);
+    return address;
+}
+
+void Device::runNow(const std::function<void(VkCommandBuffer)>& commands) {
+    auto allocate = structure<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+    allocate.commandPool = impl_->commandPool;
+    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocate.commandBufferCount = 1;
+    VkCommandBuffer buffer = VK_NULL_HANDLE;
+    check(vkAllocateCommandBuffers(impl_->device, &allocate, &buffer), "vkAllocateCommandBuffers");
+    auto begin = structure<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vkBeginCommandBuffer(buffer, &begin), "vkBeginCommandBuffer");
+    commands(buffer);
+    check(vkEndCommandBuffer(buffer), "vkEndCommandBuffer");
+    auto submit = structure<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &buffer;
+    check(vkQueueSubmit(impl_->queue, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit");
+    check(vkQueueWaitIdle(impl_->queue), "vkQueueWaitIdle");
+    vkFreeCommandBuffers(impl_->device, impl_->commandPool, 1, &buffer);
+}
+
+std::vector<std::string> Device::validationMessages() const {
+    ValidationLog& log = impl_->instance.log();
+    const std::lock_guard lock(log.mutex);
+    return log.messages;
+}
+
+uint64_t Device::memoryLimitBytes() const {
+    const std::lock_guard lock(impl_->memoryMutex);
+    return impl_->memoryLimit;
+}
+
+uint64_t Device::memoryUsedBytes() const {
+    const std::lock_guard lock(impl_->memoryMutex);
+    return impl_->memoryUsed;
+}
+
+void Device::setMemoryLimitBytes(uint64_t bytes) {
+    const std::lock_guard lock(impl_->memoryMutex);
+    impl_->memoryLimit = bytes;
+}
+
+void Device::reserveMemory(uint64_t bytes, const std::string& name) {
+    const std::lock_guard lock(impl_->memoryMutex);
+    const uint64_t used = impl_->memoryUsed, limit = impl_->memoryLimit;
+    if (used > limit || bytes > limit - used)
+        throw Error(
+            "'{}' needs {:.1f} MiB of device memory; {:.1f} MiB of at most {:.1f} MiB are in use; lower "
+            "resolutions or raise the memory limit",
+            name, double(bytes) / kMiB, double(used) / kMiB, double(limit) / kMiB);
+    impl_->memoryUsed += bytes;
+    impl_->memoryByResource[name] += bytes;
+}
+
+void Device::releaseMemory(uint64_t bytes, const std::string& name) {
+    const std::lock_guard lock(impl_->memoryMutex);
+    impl_->memoryUsed -= bytes;
+    const auto entry = impl_->memoryByResource.find(name);
+    entry->second -= bytes;
+    if (entry->second == 0) impl_->memoryByResource.erase(entry);
+}
+
+std::map<std::string, uint64_t> Device::memoryByResource() const {
+    const std::lock_guard lock(impl_->memoryMutex);
+    return impl_->memoryByResource;
+}
+
+namespace {
+
+const char* nameOf(VkResult result) {
+    switch (result) {
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+            return "VK_ERROR_OUT_OF_HOST_MEMORY";
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+            return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
+        case VK_ERROR_INITIALIZATION_FAILED:
+            return "VK_ERROR_INITIALIZATION_FAILED";
+        case VK_ERROR_DEVICE_LOST:
+            return "VK_ERROR_DEVICE_LOST";
+        case VK_ERROR_LAYER_NOT_PRESENT:
+            return "VK_ERROR_LAYER_NOT_PRESENT";
+        case VK_ERROR_EXTENSION_NOT_PRESENT:
+            return "VK_ERROR_EXTENSION_NOT_PRESENT";
+        case VK_ERROR_FEATURE_NOT_PRESENT:
+            return "VK_ERROR_FEATURE_NOT_PRESENT";
+        case VK_ERROR_INCOMPATIBLE_DRIVER:
+            return "VK_ERROR_INCOMPATIBLE_DRIVER (is a Vulkan driver installed?)";
+        case VK_ERROR_TOO_MANY_OBJECTS:
+            return "VK_ERROR_TOO_MANY_OBJECTS";
+        case VK_ERROR_FORMAT_NOT_SUPPORTED:
+            return "VK_ERROR_FORMAT_NOT_SUPPORTED";
+        case VK_ERROR_FRAGMENTED_POOL:
+            return "VK_ERROR_FRAGMENTED_POOL";
+        case VK_ERROR_OUT_OF_POOL_MEMORY:
+            return "VK_ERROR_OUT_OF_POOL_MEMORY";
+        case VK_NOT_READY:
+            return "VK_NOT_READY";
+        case VK_TIMEOUT:
+            return "VK_TIMEOUT";
+        default:
+            return "another VkResult";
+    }
+}
+
+}  // namespace
+
+void check(VkResult result, const char* what) {
+    if (result != VK_SUCCESS) throw Error("{} failed: {} ({})", what, nameOf(result), int(result));
+}
+
+}  // namespace voxray

@@ -3,6 +3,7 @@
 #include <vulkan/vulkan.h>
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -13,8 +14,8 @@ namespace voxray {
 /// What a Vulkan device can do, as far as Voxray asks.
 struct DeviceInfo {
     std::string name;
-    std::string driver;                ///< Driver name and version text.
-    bool isCpu = false;                ///< Software Vulkan.
+    std::string driver;  ///< Driver name and version text.
+    bool isCpu = false;  ///< Software Vulkan.
     bool rayQuery = false;
     bool rayPipeline = false;
     bool geometryShader = false;
@@ -23,22 +24,22 @@ struct DeviceInfo {
     std::vector<std::string> missing;  ///< Required features it lacks; empty: the device qualifies.
 };
 
-/// All Vulkan devices, best first (discrete GPU, integrated GPU, CPU; those that qualify before those that don't).
-/// Empty where there is no Vulkan.
+/// All Vulkan devices, best first (discrete GPU, integrated GPU, CPU; those that qualify before those that
+/// don't). Empty where there is no Vulkan.
 std::vector<DeviceInfo> listDevices();
 
 struct DeviceOptions {
-    std::string name;         ///< Substring of the device's name, case-insensitive; empty: the best that qualifies.
+    std::string name;  ///< Substring of the device's name, case-insensitive; empty: the best that qualifies.
     bool validation = false;  ///< Turn the Khronos validation layer on.
 };
 
 /// A headless Vulkan 1.3 device with one graphics+compute queue. Required of every device: dynamic rendering,
-/// synchronization2, buffer device addresses, scalar block layout, push descriptors, runtime descriptor arrays
-/// with non-uniform indexing, 64-bit integers, fragment and vertex stores.
+/// synchronization2, buffer device addresses, scalar block layout, push descriptors, runtime descriptor
+/// arrays with non-uniform indexing, 64-bit integers, fragment and vertex stores.
 class Device {
-public:
-    /// @throws Error where no device qualifies, naming for each what it lacks; or where `validation` is asked for
-    /// and the layer is not installed.
+ public:
+    /// @throws Error where no device qualifies, naming for each what it lacks; or where `validation` is asked
+    /// for and the layer is not installed.
     explicit Device(const DeviceOptions& options = {});
     ~Device();
     Device(const Device&) = delete;
@@ -61,6 +62,19 @@ public:
         return reinterpret_cast<Function>(functionAddress(name));
     }
 
+    /// Runs a few commands at once and waits for them. For set-up; passes record into a CommandStream.
+    void runNow(const std::function<void(VkCommandBuffer)>& commands);
+
+    /// Set 1 of every program that reads textures: binding 0, `uniform sampler2D textures[]`, of variable
+    /// length.
+    VkDescriptorSetLayout textureSetLayout() const;
+    uint32_t maxTextures() const;  ///< Upper bound of that length.
+
+    /// Whether VK_EXT_debug_utils is there, so that labels can be recorded.
+    bool hasDebugLabels() const;
+    /// Bits of a time stamp that count.
+    uint32_t timestampBits() const;
+
     /// Messages of the validation layer (warnings and errors) so far. Tests fail on any.
     std::vector<std::string> validationMessages() const;
 
@@ -69,13 +83,13 @@ public:
     uint64_t memoryUsedBytes() const;
     void setMemoryLimitBytes(uint64_t bytes);
     /// Bookkeeping of allocations, called by Buffer and Image.
-    /// @throws Error naming the resource, its size and the limit where the limit would be exceeded.
+    /// @throws Error naming the resource, its size, what is in use and the limit where it would be exceeded.
     void reserveMemory(uint64_t bytes, const std::string& name);
     void releaseMemory(uint64_t bytes, const std::string& name);
     /// Bytes in use now, by resource name.
     std::map<std::string, uint64_t> memoryByResource() const;
 
-private:
+ private:
     PFN_vkVoidFunction functionAddress(const char* name) const;
     struct Impl;
     std::unique_ptr<Impl> impl_;

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "vulkan/device.h"
 
@@ -21,7 +22,7 @@ enum class MemoryKind {
 /// A storage buffer with a device address. Move-only. Usable as storage, indirect, index and vertex buffer,
 /// transfer source and target, and as input of acceleration structures.
 class Buffer {
-public:
+ public:
     Buffer() = default;
     /// @throws Error where the size is 0, over the device's or the configured memory limit.
     Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind = MemoryKind::Device,
@@ -42,7 +43,7 @@ public:
         return {static_cast<T*>(mapped_), mapped_ ? bytes_ / sizeof(T) : 0};
     }
 
-private:
+ private:
     Device* device_ = nullptr;
     std::string name_;
     uint64_t bytes_ = 0;
@@ -65,10 +66,18 @@ struct ImageDesc {
 /// Bytes that an image of this description takes, mip levels included (before the driver's padding).
 uint64_t imageBytes(const ImageDesc& desc);
 
-/// An image with a view of all its levels, kept in VK_IMAGE_LAYOUT_GENERAL from its first use on. Move-only.
+/// Bytes of a texel (a depth texel for depth formats). @throws Error for a format that Voxray doesn't use.
+uint32_t texelBytes(VkFormat format);
+
+/// Depth or colour aspect of a format.
+VkImageAspectFlags aspectOf(VkFormat format);
+
+/// An image with a view of all its levels, in VK_IMAGE_LAYOUT_GENERAL from its creation on. Its content is
+/// undefined until it is written. Move-only.
 class Image {
-public:
+ public:
     Image() = default;
+    /// @throws Error where the device can't make such an image, or the memory limit would be exceeded.
     Image(Device& device, std::string name, const ImageDesc& desc);
     ~Image();
     Image(Image&& other) noexcept;
@@ -77,12 +86,12 @@ public:
     explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
     const std::string& name() const { return name_; }
     const ImageDesc& desc() const { return desc_; }
-    uint64_t bytes() const { return allocatedBytes_; }
+    uint64_t bytes() const { return allocatedBytes_; }  ///< With the driver's padding.
     VkImage handle() const { return handle_; }
     VkImageView view() const { return view_; }
     VkImageView levelView(uint32_t level) const;  ///< One mip level, for storage access.
 
-private:
+ private:
     Device* device_ = nullptr;
     std::string name_;
     ImageDesc desc_;
@@ -97,7 +106,7 @@ enum class Filter { Nearest, Linear };
 
 /// A sampler. Move-only.
 class Sampler {
-public:
+ public:
     Sampler() = default;
     Sampler(Device& device, Filter filter, VkSamplerAddressMode wrapU, VkSamplerAddressMode wrapV);
     ~Sampler();
@@ -105,7 +114,7 @@ public:
     Sampler& operator=(Sampler&& other) noexcept;
     VkSampler handle() const { return handle_; }
 
-private:
+ private:
     Device* device_ = nullptr;
     VkSampler handle_ = VK_NULL_HANDLE;
 };
@@ -113,24 +122,24 @@ private:
 /// Many sampled images under one binding (`uniform sampler2D textures[]`), index by index. Holds at least one
 /// entry. The images and samplers must outlive it.
 class TextureArray {
-public:
+ public:
     struct Entry {
         const Image* image;
         const Sampler* sampler;
     };
     TextureArray() = default;
+    /// @throws Error for no entry or more than Device::maxTextures().
     TextureArray(Device& device, std::span<const Entry> entries);
     ~TextureArray();
     TextureArray(TextureArray&& other) noexcept;
     TextureArray& operator=(TextureArray&& other) noexcept;
 
     VkDescriptorSet set() const { return set_; }
-    VkDescriptorSetLayout layout() const { return layout_; }
+    VkDescriptorSetLayout layout() const { return device_->textureSetLayout(); }
 
-private:
+ private:
     Device* device_ = nullptr;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
-    VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,35 +27,38 @@ struct ShaderBinding {
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 };
 
+/// A compiled shader stage with what reflection found in it. Only what the code uses is listed.
 struct ShaderModule {
     std::string file;  ///< For messages.
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
     std::vector<uint32_t> spirv;
     std::vector<ShaderBinding> bindings;
-    uint32_t pushConstantBytes = 0;
+    uint32_t pushConstantBytes = 0;  ///< Of the block as C++ lays it out: padded to its largest scalar.
+    std::vector<uint32_t> specializationIds;
 };
 
-/// GLSL to SPIR-V with glslang, at run time. Includes are searched relative to the including file, then in the
-/// source root (so that "shaders/..." and "passes/..." work). SPIR-V is cached on disk by the content of all its
-/// sources, the defines and the compiler's version.
+/// GLSL to SPIR-V with glslang, at run time. Includes are searched relative to the including file, then in
+/// the source root (so that "shaders/..." and "passes/..." work). SPIR-V is cached on disk by the content of
+/// all its sources, the defines and the compiler's version.
 class ShaderCompiler {
-public:
+ public:
     /// @param sourceRoot folder that holds shaders/ and passes/; cacheFolder may be empty: no disk cache.
     ShaderCompiler(std::filesystem::path sourceRoot, std::filesystem::path cacheFolder);
 
     /// The stage follows from the extension: .comp .vert .geom .frag .rgen .rmiss .rchit .rahit.
     /// @param file relative to the source root.
-    /// @throws Error with "file:line: message" of each compile error, of the file in which it is.
+    /// @throws Error with "file:line: message" of each compile error, of the file in which it is; or where
+    /// the cache can't be written.
     ShaderModule compile(const std::string& file, const Defines& defines = {}) const;
 
-private:
+ private:
     std::filesystem::path sourceRoot_;
     std::filesystem::path cacheFolder_;
 };
 
 /// A pipeline with its layout, bindings found by reflection. Move-only.
 class Program {
-public:
+ public:
     Program() = default;
     ~Program();
     Program(Program&& other) noexcept;
@@ -69,14 +73,13 @@ public:
     uint32_t pushConstantBytes() const { return pushConstantBytes_; }
     const std::string& name() const { return name_; }
 
-private:
-    friend class ProgramBuilder;
+ private:
+    friend class ProgramBuilder;  // program.cpp
     Device* device_ = nullptr;
     std::string name_;
     VkPipeline pipeline_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorSetLayout pushSetLayout_ = VK_NULL_HANDLE;
-    VkDescriptorSetLayout textureSetLayout_ = VK_NULL_HANDLE;
     VkPipelineBindPoint bindPoint_ = VK_PIPELINE_BIND_POINT_COMPUTE;
     VkShaderStageFlags stages_ = 0;
     std::vector<ShaderBinding> bindings_;
@@ -87,13 +90,14 @@ private:
 using SpecializationConstants = std::map<uint32_t, uint32_t>;
 
 /// @throws Error where the shader uses a feature or a binding kind that is not supported.
-Program makeComputeProgram(Device& device, const ShaderModule& module, const SpecializationConstants& constants = {});
+Program makeComputeProgram(Device& device, const ShaderModule& module,
+                           const SpecializationConstants& constants = {});
 
 /// Fixed state of a raster pipeline. Vertices are pulled from storage buffers: there are no vertex inputs.
 /// Viewport and scissor are dynamic; no blending.
 struct RasterState {
     std::vector<VkFormat> colorFormats;
-    VkFormat depthFormat = VK_FORMAT_UNDEFINED;      ///< UNDEFINED: no depth test.
+    VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< UNDEFINED: no depth test.
     VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
     VkFrontFace frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
@@ -101,5 +105,11 @@ struct RasterState {
 };
 Program makeRasterProgram(Device& device, std::span<const ShaderModule> modules, const RasterState& state,
                           const SpecializationConstants& constants = {});
+
+/// A ray-tracing pipeline. Groups follow from the modules' order: each .rgen and .rmiss is a group of its
+/// own, and all .rchit and .rahit together make one triangle hit group, the last group.
+/// @throws Error where the device has no ray-tracing pipelines.
+Program makeRayTracingProgram(Device& device, std::span<const ShaderModule> modules,
+                              const SpecializationConstants& constants = {});
 
 }  // namespace voxray

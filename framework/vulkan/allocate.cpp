@@ -1,0 +1,94 @@
+#include "vulkan/allocate.h"
+
+#include <bit>
+#include <optional>
+
+#include "base/error.h"
+#include "vulkan/structure.h"
+
+namespace voxray {
+namespace {
+
+constexpr VkMemoryPropertyFlags kHost =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+
+bool sharesMemory(const Device& device) {
+    return device.properties().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU ||
+           device.properties().deviceType == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU;
+}
+
+/// The allowed memory type that has all of `needed` and most of `preferred`; the first one of equals.
+std::optional<uint32_t> findType(const Device& device, uint32_t allowed, VkMemoryPropertyFlags needed,
+                                 VkMemoryPropertyFlags preferred) {
+    const VkPhysicalDeviceMemoryProperties& memory = device.memoryProperties();
+    std::optional<uint32_t> best;
+    int bestScore = -1;
+    for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+        const VkMemoryPropertyFlags flags = memory.memoryTypes[i].propertyFlags;
+        const int score = std::popcount(flags & preferred);
+        if (!(allowed & (1u << i)) || (flags & needed) != needed || score <= bestScore) continue;
+        best = i;
+        bestScore = score;
+    }
+    return best;
+}
+
+}  // namespace
+
+uint64_t maxBufferBytes(const Device& device) {
+    auto limits = structure<VkPhysicalDeviceMaintenance4Properties>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES);
+    auto properties =
+        structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &limits);
+    vkGetPhysicalDeviceProperties2(device.physical(), &properties);
+    return limits.maxBufferSize;
+}
+
+bool isMapped(const Device& device, MemoryKind kind) {
+    return kind != MemoryKind::Device || sharesMemory(device);
+}
+
+VkDeviceMemory allocateMemory(Device& device, const std::string& name,
+                              const VkMemoryRequirements& requirements, MemoryKind kind, bool addressable) {
+    // The driver's limit on one allocation.
+    auto limits = structure<VkPhysicalDeviceMaintenance3Properties>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES);
+    auto properties =
+        structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &limits);
+    vkGetPhysicalDeviceProperties2(device.physical(), &properties);
+    if (requirements.size > limits.maxMemoryAllocationSize)
+        throw Error("'{}' needs {} bytes; device '{}' allows {} in one allocation; lower its resolution",
+                    name, requirements.size, device.info().name, limits.maxMemoryAllocationSize);
+
+    // The memory type: mapped where the host needs it or shares it, cached for reading back.
+    const VkMemoryPropertyFlags needed = isMapped(device, kind) ? kHost : 0;
+    VkMemoryPropertyFlags preferred = 0;
+    if (kind != MemoryKind::Upload) preferred |= VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    if (kind == MemoryKind::Device) preferred = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    const std::optional<uint32_t> type = findType(device, requirements.memoryTypeBits, needed, preferred);
+    if (!type) throw Error("device '{}' has no memory type for '{}'", device.info().name, name);
+
+    // Books first, so that a refusal happens before the driver is asked.
+    device.reserveMemory(requirements.size, name);
+    auto flags = structure<VkMemoryAllocateFlagsInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO);
+    flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+    auto allocate = structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                                    addressable ? &flags : nullptr);
+    allocate.allocationSize = requirements.size;
+    allocate.memoryTypeIndex = *type;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    const VkResult result = vkAllocateMemory(device.handle(), &allocate, nullptr, &memory);
+    if (result != VK_SUCCESS) {
+        device.releaseMemory(requirements.size, name);
+        throw Error("device '{}' refused {} bytes for '{}' ({}); lower resolutions", device.info().name,
+                    requirements.size, name, int(result));
+    }
+    return memory;
+}
+
+void freeMemory(Device& device, const std::string& name, VkDeviceMemory memory, uint64_t bytes) {
+    vkFreeMemory(device.handle(), memory, nullptr);
+    device.releaseMemory(bytes, name);
+}
+
+}  // namespace voxray

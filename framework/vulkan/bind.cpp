@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <vector>
+
+#include "base/error.h"
+#include "base/suggest.h"
+#include "vulkan/commands_impl.h"
+#include "vulkan/structure.h"
+
+namespace voxray {
+namespace {
+
+const char* kindName(VkDescriptorType type) {
+    switch (type) {
+        case VK_DESCRIPTOR_TYPE_STORAGE_BUFFER:
+            return "a buffer";
+        case VK_DESCRIPTOR_TYPE_STORAGE_IMAGE:
+            return "an image without a sampler";
+        case VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER:
+            return "an image with a sampler (a texture array in set 1)";
+        default:
+            return "an acceleration structure";
+    }
+}
+
+/// Every binding of a program with the resource given for it; both ways round complete.
+std::vector<const Binding*> matchBindings(const Program& program, std::span<const Binding> given) {
+    std::vector<const Binding*> matched;
+    std::vector<std::string> names;
+    for (const ShaderBinding& wanted : program.bindings()) {
+        const auto found = std::ranges::find(given, wanted.name, &Binding::name);
+        if (found == given.end()) throw Error("{}: binding '{}' is not given", program.name(), wanted.name);
+        matched.push_back(&*found);
+        names.push_back(wanted.name);
+    }
+    for (const Binding& binding : given) {
+        if (std::ranges::find(names, binding.name) == names.end())
+            throw Error("{}: there is no binding '{}'{}", program.name(), binding.name,
+                        didYouMean(binding.name, names));
+        if (std::ranges::count(given, binding.name, &Binding::name) > 1)
+            throw Error("{}: binding '{}' is given twice", program.name(), binding.name);
+    }
+    return matched;
+}
+
+/// Descriptor writes of one call, with the structures that they point to.
+class Writes {
+ public:
+    Writes(const Device& device, const Program& program, size_t count) : device_(device), program_(program) {
+        buffers_.reserve(count);
+        images_.reserve(count);
+        structures_.reserve(count);
+    }
+
+    void add(const ShaderBinding& wanted, const Binding& given) {
+        auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+        write.dstBinding = wanted.binding;
+        write.descriptorCount = 1;
+        write.descriptorType = wanted.type;
+        if (const auto* buffer = std::get_if<const Buffer*>(&given.resource)) {
+            expect(wanted, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+            write.pBufferInfo = &buffers_.emplace_back(bufferInfo(wanted, **buffer));
+        } else if (const auto* image = std::get_if<const Image*>(&given.resource)) {
+            expect(wanted, given.sampler ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+                                         : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+            const VkImageView view = given.sampler ? (*image)->view() : (*image)->levelView(given.level);
+            const VkSampler sampler = given.sampler ? given.sampler->handle() : VK_NULL_HANDLE;
+            write.pImageInfo = &images_.emplace_back(sampler, view, VK_IMAGE_LAYOUT_GENERAL);
+        } else if (const auto* structure = std::get_if<VkAccelerationStructureKHR>(&given.resource)) {
+            expect(wanted, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
+            write.pNext = &structures_.emplace_back(
+                VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, nullptr, 1u, structure);
+        } else {
+            refuse(wanted);
+        }
+        writes_.push_back(write);
+    }
+
+    const std::vector<VkWriteDescriptorSet>& list() const { return writes_; }
+
+ private:
+    VkDescriptorBufferInfo bufferInfo(const ShaderBinding& wanted, const Buffer& buffer) const {
+        const uint64_t limit = device_.properties().limits.maxStorageBufferRange;
+        if (buffer.bytes() > limit)
+            throw Error(
+                "{}: buffer '{}' bound to '{}' holds {} bytes, but device '{}' binds at most {}; use the "
+                "buffer's address instead (GL_EXT_buffer_reference)",
+                program_.name(), buffer.name(), wanted.name, buffer.bytes(), device_.info().name, limit);
+        if (!buffer) throw Error("{}: the buffer bound to '{}' is empty", program_.name(), wanted.name);
+        return {buffer.handle(), 0, VK_WHOLE_SIZE};
+    }
+
+    void expect(const ShaderBinding& wanted, VkDescriptorType given) const {
+        if (wanted.set != 0 || wanted.type != given) refuse(wanted);
+    }
+    [[noreturn]] void refuse(const ShaderBinding& wanted) const {
+        throw Error("{}: binding '{}' takes {}", program_.name(), wanted.name, kindName(wanted.type));
+    }
+
+    const Device& device_;
+    const Program& program_;
+    std::vector<VkDescriptorBufferInfo> buffers_;
+    std::vector<VkDescriptorImageInfo> images_;
+    std::vector<VkWriteDescriptorSetAccelerationStructureKHR> structures_;
+    std::vector<VkWriteDescriptorSet> writes_;
+};
+
+}  // namespace
+
+void CommandStream::Impl::bind(VkCommandBuffer buffer, const Program& program, std::span<const Binding> given,
+                               PushConstants push) {
+    if (push.bytes != program.pushConstantBytes())
+        throw Error("{}: {} bytes of push constants given, the shader declares {}", program.name(),
+                    push.bytes, program.pushConstantBytes());
+    vkCmdBindPipeline(buffer, program.bindPoint(), program.pipeline());
+    if (push.bytes > 0)
+        vkCmdPushConstants(buffer, program.layout(), program.stages(), 0, push.bytes, push.data);
+
+    // Set 0 is pushed, the texture array is bound as a set of its own.
+    const std::vector<const Binding*> matched = matchBindings(program, given);
+    Writes writes(device, program, matched.size());
+    for (size_t i = 0; i < matched.size(); ++i) {
+        const ShaderBinding& wanted = program.bindings()[i];
+        const auto* textures = std::get_if<const TextureArray*>(&matched[i]->resource);
+        if (wanted.set == 0 || !textures) {
+            writes.add(wanted, *matched[i]);
+            continue;
+        }
+        const VkDescriptorSet set = (*textures)->set();
+        vkCmdBindDescriptorSets(buffer, program.bindPoint(), program.layout(), 1, 1, &set, 0, nullptr);
+    }
+    if (!writes.list().empty())
+        pushDescriptors(buffer, program.bindPoint(), program.layout(), 0, uint32_t(writes.list().size()),
+                        writes.list().data());
+}
+
+}  // namespace voxray

@@ -1,0 +1,65 @@
+#include <utility>
+
+#include "base/error.h"
+#include "vulkan/allocate.h"
+#include "vulkan/memory.h"
+#include "vulkan/structure.h"
+
+namespace voxray {
+
+// Delegating first makes the destructor clean up where the rest throws.
+Buffer::Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind,
+               VkBufferUsageFlags extraUsage)
+    : Buffer() {
+    device_ = &device;
+    name_ = std::move(name);
+    bytes_ = bytes;
+    if (bytes == 0) throw Error("buffer '{}' would hold 0 bytes", name_);
+    if (bytes > maxBufferBytes(device))
+        throw Error("buffer '{}' would hold {} bytes; device '{}' allows {} in one buffer", name_, bytes,
+                    device.info().name, maxBufferBytes(device));
+
+    auto create = structure<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
+    create.size = bytes;
+    create.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+                   VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                   VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+                   VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | extraUsage;
+    if (device.info().rayQuery || device.info().rayPipeline)
+        create.usage |= VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
+    check(vkCreateBuffer(device.handle(), &create, nullptr, &handle_), "vkCreateBuffer");
+
+    VkMemoryRequirements requirements;
+    vkGetBufferMemoryRequirements(device.handle(), handle_, &requirements);
+    memory_ = allocateMemory(device, name_, requirements, kind, true);
+    allocatedBytes_ = requirements.size;
+    check(vkBindBufferMemory(device.handle(), handle_, memory_, 0), "vkBindBufferMemory");
+    const VkBufferDeviceAddressInfo info{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, nullptr, handle_};
+    address_ = vkGetBufferDeviceAddress(device.handle(), &info);
+    if (isMapped(device, kind))
+        check(vkMapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "vkMapMemory");
+}
+
+Buffer::~Buffer() {
+    if (!device_) return;
+    vkDestroyBuffer(device_->handle(), handle_, nullptr);
+    if (memory_) freeMemory(*device_, name_, memory_, allocatedBytes_);
+}
+
+Buffer::Buffer(Buffer&& other) noexcept {
+    *this = std::move(other);
+}
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(name_, other.name_);
+    std::swap(bytes_, other.bytes_);
+    std::swap(allocatedBytes_, other.allocatedBytes_);
+    std::swap(handle_, other.handle_);
+    std::swap(memory_, other.memory_);
+    std::swap(address_, other.address_);
+    std::swap(mapped_, other.mapped_);
+    return *this;
+}
+
+}  // namespace voxray

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vulkan/commands.h"
+
+/// The state of a CommandStream. Internal to the vulkan layer.
+namespace voxray {
+
+struct CommandStream::Impl {
+    explicit Impl(Device& device);
+    ~Impl();
+
+    /// The command buffer, recording, after a full barrier.
+    VkCommandBuffer next();
+    /// The command buffer, recording, without a barrier.
+    VkCommandBuffer open();
+    void finish();
+
+    /// Binds a program with what its shaders name.
+    /// @throws Error naming program and binding where one is missing, unknown or of the wrong kind.
+    void bind(VkCommandBuffer commands, const Program& program, std::span<const Binding> bindings,
+              PushConstants push);
+
+    /// A staging buffer that lives until finish().
+    Buffer& stage(uint64_t bytes);
+
+    Device& device;
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkFence fence = VK_NULL_HANDLE;
+    bool recording = false;
+    std::vector<std::string> labels;  ///< Open ones, outermost first.
+    std::vector<Buffer> staging;
+    uint64_t stagingBytes = 0;
+    std::vector<VkQueryPool> queryPools;
+    uint32_t timestamps = 0;
+    PFN_vkCmdPushDescriptorSetKHR pushDescriptors = nullptr;
+    PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
+};
+
+/// Orders everything after everything before.
+void fullBarrier(VkCommandBuffer commands);
+
+}  // namespace voxray

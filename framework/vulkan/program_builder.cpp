@@ -1,0 +1,156 @@
+#include "vulkan/program_builder.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "vulkan/structure.h"
+
+namespace voxray {
+
+Program::~Program() {
+    if (!device_) return;
+    vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
+    vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
+    vkDestroyDescriptorSetLayout(device_->handle(), pushSetLayout_, nullptr);
+}
+
+Program::Program(Program&& other) noexcept {
+    *this = std::move(other);
+}
+
+Program& Program::operator=(Program&& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(name_, other.name_);
+    std::swap(pipeline_, other.pipeline_);
+    std::swap(layout_, other.layout_);
+    std::swap(pushSetLayout_, other.pushSetLayout_);
+    std::swap(bindPoint_, other.bindPoint_);
+    std::swap(stages_, other.stages_);
+    std::swap(bindings_, other.bindings_);
+    std::swap(pushConstantBytes_, other.pushConstantBytes_);
+    return *this;
+}
+
+ProgramBuilder::ProgramBuilder(Device& device, std::span<const ShaderModule> modules,
+                               const SpecializationConstants& constants, VkPipelineBindPoint bindPoint)
+    : device_(device) {
+    program_.device_ = &device;
+    program_.bindPoint_ = bindPoint;
+    for (const ShaderModule& module : modules) {
+        program_.name_ += (program_.name_.empty() ? "" : " + ") + module.file;
+        program_.stages_ |= module.stage;
+        program_.pushConstantBytes_ = std::max(program_.pushConstantBytes_, module.pushConstantBytes);
+        mergeBindings(module);
+    }
+    checkConstants(modules, constants);
+    makeLayout();
+    makeStages(modules, constants);
+}
+
+ProgramBuilder::~ProgramBuilder() {
+    for (VkShaderModule module : modules_) vkDestroyShaderModule(device_.handle(), module, nullptr);
+}
+
+void ProgramBuilder::mergeBindings(const ShaderModule& module) {
+    for (const ShaderBinding& binding : module.bindings) {
+        bool known = false;
+        for (const ShaderBinding& other : program_.bindings_) {
+            const bool sameSlot = binding.set == other.set && binding.binding == other.binding;
+            if (binding.name == other.name && sameSlot && binding.type == other.type) {
+                known = true;
+            } else if (sameSlot) {
+                throw Error("{}: set {}, binding {} is both '{}' and '{}'", program_.name_, binding.set,
+                            binding.binding, other.name, binding.name);
+            } else if (binding.name == other.name) {
+                throw Error("{}: '{}' is at binding {} and at binding {}", program_.name_, binding.name,
+                            other.binding, binding.binding);
+            }
+        }
+        if (!known) program_.bindings_.push_back(binding);
+    }
+}
+
+void ProgramBuilder::checkConstants(std::span<const ShaderModule> modules,
+                                    const SpecializationConstants& constants) const {
+    for (const auto& [id, value] : constants) {
+        const bool known = std::ranges::any_of(modules, [id = id](const ShaderModule& module) {
+            return std::ranges::find(module.specializationIds, id) != module.specializationIds.end();
+        });
+        if (!known) throw Error("{}: there is no specialization constant {}", program_.name_, id);
+    }
+}
+
+void ProgramBuilder::makeLayout() {
+    // Set 0: one pushed descriptor for each binding, seen by all stages.
+    std::vector<VkDescriptorSetLayoutBinding> pushed;
+    bool hasTextures = false;
+    for (const ShaderBinding& binding : program_.bindings_) {
+        if (binding.set == 0)
+            pushed.push_back({binding.binding, binding.type, 1, program_.stages_, nullptr});
+        else
+            hasTextures = true;
+    }
+    auto push = structure<VkPhysicalDevicePushDescriptorPropertiesKHR>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR);
+    auto properties =
+        structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &push);
+    vkGetPhysicalDeviceProperties2(device_.physical(), &properties);
+    if (pushed.size() > push.maxPushDescriptors)
+        throw Error("{}: {} bindings in set 0; device '{}' allows {}", program_.name_, pushed.size(),
+                    device_.info().name, push.maxPushDescriptors);
+    auto set =
+        structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+    set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
+    set.bindingCount = uint32_t(pushed.size());
+    set.pBindings = pushed.data();
+    check(vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr, &program_.pushSetLayout_),
+          "vkCreateDescriptorSetLayout");
+
+    // Set 1: the scene's textures.
+    const VkDescriptorSetLayout sets[] = {program_.pushSetLayout_, device_.textureSetLayout()};
+    const uint32_t limit = device_.properties().limits.maxPushConstantsSize;
+    if (program_.pushConstantBytes_ > limit)
+        throw Error("{}: {} bytes of push constants; device '{}' allows {}", program_.name_,
+                    program_.pushConstantBytes_, device_.info().name, limit);
+    const VkPushConstantRange range{program_.stages_, 0, program_.pushConstantBytes_};
+    auto create = structure<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
+    create.setLayoutCount = hasTextures ? 2 : 1;
+    create.pSetLayouts = sets;
+    create.pushConstantRangeCount = range.size > 0 ? 1 : 0;
+    create.pPushConstantRanges = &range;
+    check(vkCreatePipelineLayout(device_.handle(), &create, nullptr, &program_.layout_),
+          "vkCreatePipelineLayout");
+}
+
+void ProgramBuilder::makeStages(std::span<const ShaderModule> modules,
+                                const SpecializationConstants& constants) {
+    for (const auto& [id, value] : constants) {
+        entries_.push_back({id, uint32_t(values_.size() * sizeof(uint32_t)), sizeof(uint32_t)});
+        values_.push_back(value);
+    }
+    specialization_ = {uint32_t(entries_.size()), entries_.data(), values_.size() * sizeof(uint32_t),
+                       values_.data()};
+    for (const ShaderModule& module : modules) {
+        auto create = structure<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
+        create.codeSize = module.spirv.size() * sizeof(uint32_t);
+        create.pCode = module.spirv.data();
+        VkShaderModule handle = VK_NULL_HANDLE;
+        check(vkCreateShaderModule(device_.handle(), &create, nullptr, &handle), "vkCreateShaderModule");
+        modules_.push_back(handle);
+        auto stage =
+            structure<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
+        stage.stage = module.stage;
+        stage.module = handle;
+        stage.pName = "main";
+        stage.pSpecializationInfo = &specialization_;
+        stages_.push_back(stage);
+    }
+}
+
+Program ProgramBuilder::finish(VkPipeline pipeline) {
+    program_.pipeline_ = pipeline;
+    return std::move(program_);
+}
+
+}  // namespace voxray

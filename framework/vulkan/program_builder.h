@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "vulkan/program.h"
+
+/// What the three kinds of pipeline share. Internal to the vulkan layer.
+namespace voxray {
+
+/// Builds a Program's layout from its modules and keeps shader modules and specialization data alive until
+/// the pipeline is made.
+class ProgramBuilder {
+ public:
+    /// @throws Error where stages disagree on a binding, a constant is unknown, or limits are exceeded.
+    ProgramBuilder(Device& device, std::span<const ShaderModule> modules,
+                   const SpecializationConstants& constants, VkPipelineBindPoint bindPoint);
+    ~ProgramBuilder();
+    ProgramBuilder(const ProgramBuilder&) = delete;
+    ProgramBuilder& operator=(const ProgramBuilder&) = delete;
+
+    std::span<const VkPipelineShaderStageCreateInfo> stages() const { return stages_; }
+    VkPipelineLayout layout() const { return program_.layout_; }
+
+    /// The program, once its pipeline is made.
+    Program finish(VkPipeline pipeline);
+
+ private:
+    void mergeBindings(const ShaderModule& module);
+    void checkConstants(std::span<const ShaderModule> modules,
+                        const SpecializationConstants& constants) const;
+    void makeLayout();
+    void makeStages(std::span<const ShaderModule> modules, const SpecializationConstants& constants);
+
+    Device& device_;
+    Program program_;
+    std::vector<VkShaderModule> modules_;
+    std::vector<VkSpecializationMapEntry> entries_;
+    std::vector<uint32_t> values_;
+    VkSpecializationInfo specialization_{};
+    std::vector<VkPipelineShaderStageCreateInfo> stages_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,180 @@
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
+#include <glslang/build_info.h>
+
+#include <array>
+#include <cstring>
+#include <list>
+#include <regex>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "vulkan/program.h"
+#include "vulkan/reflect.h"
+#include "vulkan/shader_sources.h"
+
+namespace voxray {
+namespace {
+
+struct Stage {
+    const char* extension;
+    EShLanguage language;
+    VkShaderStageFlagBits flag;
+};
+constexpr std::array kStages{
+    Stage{".comp", EShLangCompute, VK_SHADER_STAGE_COMPUTE_BIT},
+    Stage{".vert", EShLangVertex, VK_SHADER_STAGE_VERTEX_BIT},
+    Stage{".geom", EShLangGeometry, VK_SHADER_STAGE_GEOMETRY_BIT},
+    Stage{".frag", EShLangFragment, VK_SHADER_STAGE_FRAGMENT_BIT},
+    Stage{".rgen", EShLangRayGen, VK_SHADER_STAGE_RAYGEN_BIT_KHR},
+    Stage{".rmiss", EShLangMiss, VK_SHADER_STAGE_MISS_BIT_KHR},
+    Stage{".rchit", EShLangClosestHit, VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR},
+    Stage{".rahit", EShLangAnyHit, VK_SHADER_STAGE_ANY_HIT_BIT_KHR},
+};
+
+const Stage& stageOf(const std::string& file) {
+    const std::string extension = std::filesystem::path(file).extension().string();
+    for (const Stage& stage : kStages)
+        if (extension == stage.extension) return stage;
+    throw Error("{}: unknown kind of shader '{}'", file, extension);
+}
+
+/// Serves includes from sources that were read beforehand, so that what is compiled is what was hashed.
+class Includer final : public glslang::TShader::Includer {
+ public:
+    explicit Includer(const ShaderSources& sources) : sources_(sources) {}
+
+    IncludeResult* includeLocal(const char* header, const char* includer, size_t) override {
+        const auto name = sources_.resolve(header, includer);
+        const auto file = name ? sources_.files().find(*name) : sources_.files().end();
+        if (file == sources_.files().end()) return nullptr;
+        return &results_.emplace_back(file->first, file->second.data(), file->second.size(), nullptr);
+    }
+    void releaseInclude(IncludeResult*) override {}
+
+ private:
+    const ShaderSources& sources_;
+    std::list<IncludeResult> results_;
+};
+
+/// glslang's process-wide tables, set up once.
+void initialiseCompiler() {
+    static const bool ready = glslang::InitializeProcess();
+    if (!ready) throw Error("glslang can't be initialised");
+}
+
+/// glslang's log as "file:line: message" lines, without its summary and the lines that name no place.
+std::string formatLog(const std::string& file, const std::string& log) {
+    static const std::regex place(R"(^(ERROR|WARNING): ([^:]+):(\d+): (.*)$)");
+    std::string out;
+    std::istringstream lines(log);
+    for (std::string line; std::getline(lines, line);) {
+        std::smatch match;
+        if (!std::regex_match(line, match, place) || match[1] != "ERROR") continue;
+        if (match[4].str().find("compilation terminated") != std::string::npos) continue;
+        if (!out.empty()) out += '\n';
+        out += fmt::format("{}:{}: {}", match[2].str(), match[3].str(), match[4].str());
+    }
+    return out.empty() ? fmt::format("{}: {}", file, log) : out;
+}
+
+std::vector<uint32_t> compileGlsl(const std::string& file, const Stage& stage, const ShaderSources& sources,
+                                  const Defines& defines) {
+    initialiseCompiler();
+    const std::string name = std::filesystem::path(file).lexically_normal().generic_string();
+    const std::string& text = sources.files().at(name);
+    std::string preamble = "#extension GL_GOOGLE_include_directive : require\n";
+    for (const auto& [key, value] : defines) preamble += fmt::format("#define {} {}\n", key, value);
+
+    glslang::TShader shader(stage.language);
+    const char* texts[] = {text.c_str()};
+    const int lengths[] = {int(text.size())};
+    const char* names[] = {name.c_str()};
+    shader.setStringsWithLengthsAndNames(texts, lengths, names, 1);
+    shader.setPreamble(preamble.c_str());
+    shader.setEnvInput(glslang::EShSourceGlsl, stage.language, glslang::EShClientVulkan, 100);
+    shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
+    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
+
+    // One stage a program: stages meet only in the pipeline.
+    const auto messages = EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
+    Includer includer(sources);
+    if (!shader.parse(GetDefaultResources(), 460, false, messages, includer))
+        throw Error("{}", formatLog(name, shader.getInfoLog()));
+    glslang::TProgram program;
+    program.addShader(&shader);
+    if (!program.link(messages)) throw Error("{}", formatLog(name, program.getInfoLog()));
+    std::vector<uint32_t> spirv;
+    glslang::SpvOptions options;
+    options.disableOptimizer = true;
+    glslang::GlslangToSpv(*program.getIntermediate(stage.language), spirv, &options);
+    return spirv;
+}
+
+/// Key of a compiled shader: everything that the SPIR-V depends on.
+std::string cacheKey(const std::string& file, const ShaderSources& sources, const Defines& defines) {
+    Hasher hash;
+    hash.add("voxray SPIR-V 1.6").addPlain(GLSLANG_VERSION_MAJOR).addPlain(GLSLANG_VERSION_MINOR);
+    hash.addPlain(GLSLANG_VERSION_PATCH).addPlain(glslang::GetSpirvGeneratorVersion()).add(file);
+    hash.addPlain(sources.files().size());
+    for (const auto& [name, text] : sources.files()) hash.add(name).add(text);
+    for (const auto& [name, value] : defines) hash.add(name).add(value);
+    return hash.hex();
+}
+
+/// A cache file is the hash of the SPIR-V in 32 digits, then the SPIR-V.
+std::vector<uint32_t> readCached(const std::filesystem::path& path) {
+    constexpr size_t kDigits = 32;
+    if (!std::filesystem::is_regular_file(path)) return {};
+    const std::vector<uint8_t> content = readFile(path);
+    if (content.size() <= kDigits || (content.size() - kDigits) % 4 != 0) return {};
+    const uint8_t* words = content.data() + kDigits;
+    const size_t bytes = content.size() - kDigits;
+    const std::string hash = Hasher().add(words, bytes).hex();
+    if (hash.size() != kDigits || std::memcmp(hash.data(), content.data(), kDigits) != 0) return {};
+    std::vector<uint32_t> spirv(bytes / 4);
+    std::memcpy(spirv.data(), words, bytes);
+    return spirv;
+}
+
+void writeCached(const std::filesystem::path& path, const std::vector<uint32_t>& spirv) {
+    std::string content = Hasher().add(spirv.data(), spirv.size() * 4).hex();
+    content.append(reinterpret_cast<const char*>(spirv.data()), spirv.size() * 4);
+    try {
+        std::filesystem::create_directories(path.parent_path());
+        writeFileAtomically(path, std::string_view(content));
+    } catch (const std::exception& error) {
+        throw Error("can't cache shaders: {}; point VOXRAY_CACHE to a folder that can be written",
+                    error.what());
+    }
+}
+
+}  // namespace
+
+ShaderCompiler::ShaderCompiler(std::filesystem::path sourceRoot, std::filesystem::path cacheFolder)
+    : sourceRoot_(std::move(sourceRoot)), cacheFolder_(std::move(cacheFolder)) {}
+
+ShaderModule ShaderCompiler::compile(const std::string& file, const Defines& defines) const {
+    const Stage& stage = stageOf(file);
+    const ShaderSources sources(sourceRoot_, file);
+    ShaderModule module;
+    module.file = file;
+    module.stage = stage.flag;
+
+    // A broken cache file reads as empty and is made again.
+    const bool cached = !cacheFolder_.empty();
+    const std::filesystem::path path =
+        cached ? cacheFolder_ / "spirv" / (cacheKey(file, sources, defines) + ".spv")
+               : std::filesystem::path();
+    if (cached) module.spirv = readCached(path);
+    if (module.spirv.empty()) {
+        module.spirv = compileGlsl(file, stage, sources, defines);
+        if (cached) writeCached(path, module.spirv);
+    }
+    reflect(module);
+    return module;
+}
+
+}  // namespace voxray

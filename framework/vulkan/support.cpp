@@ -1,0 +1,226 @@
+#include "vulkan/support.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/error.h"
+#include "vulkan/structure.h"
+
+namespace voxray {
+namespace {
+
+/// A feature bit that Voxray turns on, by its name in the Vulkan specification.
+struct WantedFeature {
+    const char* name;
+    bool required;
+    VkBool32& (*bit)(FeatureChain&);
+};
+
+#define VOXRAY_FEATURE(member, name, required)                                       \
+    WantedFeature {                                                                  \
+#name, required, [](FeatureChain & f) -> VkBool32& { return f.member.name; } \
+    }
+
+const std::array kFeatures{
+    VOXRAY_FEATURE(core.features, shaderInt64, true),
+    VOXRAY_FEATURE(core.features, fragmentStoresAndAtomics, true),
+    VOXRAY_FEATURE(core.features, vertexPipelineStoresAndAtomics, true),
+    VOXRAY_FEATURE(core.features, shaderStorageImageWriteWithoutFormat, true),
+    VOXRAY_FEATURE(core.features, geometryShader, false),
+    VOXRAY_FEATURE(core.features, shaderStorageImageReadWithoutFormat, false),
+    VOXRAY_FEATURE(core.features, shaderInt16, false),
+    VOXRAY_FEATURE(v11, storageBuffer16BitAccess, false),
+    VOXRAY_FEATURE(v12, bufferDeviceAddress, true),
+    VOXRAY_FEATURE(v12, scalarBlockLayout, true),
+    VOXRAY_FEATURE(v12, runtimeDescriptorArray, true),
+    VOXRAY_FEATURE(v12, shaderSampledImageArrayNonUniformIndexing, true),
+    VOXRAY_FEATURE(v12, descriptorBindingPartiallyBound, true),
+    VOXRAY_FEATURE(v12, descriptorBindingVariableDescriptorCount, true),
+    VOXRAY_FEATURE(v12, descriptorIndexing, false),
+    VOXRAY_FEATURE(v12, shaderBufferInt64Atomics, false),
+    VOXRAY_FEATURE(v12, shaderSharedInt64Atomics, false),
+    VOXRAY_FEATURE(v12, storageBuffer8BitAccess, false),
+    VOXRAY_FEATURE(v12, shaderInt8, false),
+    VOXRAY_FEATURE(v12, shaderFloat16, false),
+    VOXRAY_FEATURE(v13, dynamicRendering, true),
+    VOXRAY_FEATURE(v13, synchronization2, true),
+    VOXRAY_FEATURE(v13, maintenance4, true),
+    VOXRAY_FEATURE(v13, shaderDemoteToHelperInvocation, true),
+    VOXRAY_FEATURE(v13, shaderTerminateInvocation, true),
+    VOXRAY_FEATURE(v13, subgroupSizeControl, false),
+    VOXRAY_FEATURE(v13, computeFullSubgroups, false),
+    VOXRAY_FEATURE(accelerationStructure, accelerationStructure, false),
+    VOXRAY_FEATURE(rayQuery, rayQuery, false),
+    VOXRAY_FEATURE(rayPipeline, rayTracingPipeline, false),
+    VOXRAY_FEATURE(atomicFloat, shaderBufferFloat32Atomics, false),
+    VOXRAY_FEATURE(atomicFloat, shaderBufferFloat32AtomicAdd, false),
+    VOXRAY_FEATURE(atomicFloat, shaderSharedFloat32Atomics, false),
+    VOXRAY_FEATURE(atomicFloat, shaderSharedFloat32AtomicAdd, false),
+};
+
+#undef VOXRAY_FEATURE
+
+constexpr const char* kRequiredExtension = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
+
+const std::array kOptionalExtensions{
+    VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
+    VK_KHR_RAY_QUERY_EXTENSION_NAME, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
+    VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME};
+
+bool contains(const std::vector<std::string>& list, const char* name) {
+    return std::ranges::find(list, name) != list.end();
+}
+
+std::vector<std::string> extensionsOf(VkPhysicalDevice physical) {
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> properties(count);
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, properties.data());
+    std::vector<std::string> names;
+    for (const auto& p : properties) names.emplace_back(p.extensionName);
+    return names;
+}
+
+/// The extensions to turn on: those that are there and whose own dependencies are.
+std::vector<std::string> chooseExtensions(const std::vector<std::string>& available) {
+    std::vector<std::string> chosen;
+    if (contains(available, kRequiredExtension)) chosen.emplace_back(kRequiredExtension);
+    const bool structures = contains(available, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME) &&
+                            contains(available, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME);
+    for (const char* name : kOptionalExtensions) {
+        const bool rayTracing = std::string_view(name) != VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME;
+        if (contains(available, name) && (structures || !rayTracing)) chosen.emplace_back(name);
+    }
+    return chosen;
+}
+
+/// Turns on each wanted feature that `available` has and names the required ones that it lacks.
+std::unique_ptr<FeatureChain> chooseFeatures(FeatureChain& available,
+                                             const std::vector<std::string>& extensions,
+                                             std::vector<std::string>& missing) {
+    auto enabled = std::make_unique<FeatureChain>();
+    for (const WantedFeature& feature : kFeatures) {
+        feature.bit(*enabled) = feature.bit(available);
+        if (feature.required && !feature.bit(available)) missing.emplace_back(feature.name);
+    }
+    enabled->link(extensions);
+    return enabled;
+}
+
+/// Finds a queue family for graphics, compute and time stamps.
+void chooseQueue(DeviceSupport& support) {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(support.physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(support.physical, &count, families.data());
+    constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    for (uint32_t i = 0; i < count; ++i) {
+        if ((families[i].queueFlags & kNeeded) != kNeeded || families[i].timestampValidBits == 0) continue;
+        support.queueFamily = i;
+        support.timestampBits = families[i].timestampValidBits;
+        return;
+    }
+    support.info.missing.emplace_back("a queue with graphics, compute and time stamps");
+}
+
+DeviceSupport inspect(VkPhysicalDevice physical) {
+    DeviceSupport support;
+    support.physical = physical;
+    auto driver =
+        structure<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES);
+    auto properties =
+        structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver);
+    vkGetPhysicalDeviceProperties2(physical, &properties);
+    DeviceInfo& info = support.info;
+    info.name = properties.properties.deviceName;
+    info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+    info.isCpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+
+    // A device older than 1.3 is not asked about 1.3's structures.
+    if (properties.properties.apiVersion < VK_API_VERSION_1_3) {
+        info.missing.emplace_back("Vulkan 1.3");
+        return support;
+    }
+    const std::vector<std::string> available = extensionsOf(physical);
+    if (!contains(available, kRequiredExtension)) info.missing.emplace_back(kRequiredExtension);
+    support.extensions = chooseExtensions(available);
+    FeatureChain offered;
+    offered.link(support.extensions);
+    vkGetPhysicalDeviceFeatures2(physical, &offered.core);
+    support.features = chooseFeatures(offered, support.extensions, info.missing);
+    chooseQueue(support);
+
+    const FeatureChain& enabled = *support.features;
+    const bool structures = enabled.accelerationStructure.accelerationStructure;
+    info.rayQuery = structures && enabled.rayQuery.rayQuery;
+    info.rayPipeline = structures && enabled.rayPipeline.rayTracingPipeline;
+    info.geometryShader = enabled.core.features.geometryShader;
+    info.shaderInt64Atomics = enabled.v12.shaderBufferInt64Atomics;
+    info.floatAtomics = enabled.atomicFloat.shaderBufferFloat32AtomicAdd;
+    return support;
+}
+
+int rank(VkPhysicalDeviceType type) {
+    switch (type) {
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return 0;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return 1;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return 2;
+        default:
+            return 3;
+    }
+}
+
+}  // namespace
+
+void FeatureChain::link(const std::vector<std::string>& extensions) {
+    core.pNext = &v11;
+    v11.pNext = &v12;
+    v12.pNext = &v13;
+    void** tail = &v13.pNext;
+    const auto append = [&](const char* extension, auto& structure) {
+        if (!contains(extensions, extension)) return;
+        *tail = &structure;
+        tail = &structure.pNext;
+    };
+    append(VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, accelerationStructure);
+    append(VK_KHR_RAY_QUERY_EXTENSION_NAME, rayQuery);
+    append(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME, rayPipeline);
+    append(VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME, atomicFloat);
+    *tail = nullptr;
+}
+
+std::vector<DeviceSupport> inspectDevices(VkInstance instance) {
+    uint32_t count = 0;
+    check(vkEnumeratePhysicalDevices(instance, &count, nullptr), "vkEnumeratePhysicalDevices");
+    std::vector<VkPhysicalDevice> physical(count);
+    check(vkEnumeratePhysicalDevices(instance, &count, physical.data()), "vkEnumeratePhysicalDevices");
+
+    // Devices that qualify come first, then the faster kinds; equals keep the loader's order.
+    std::vector<DeviceSupport> devices;
+    for (VkPhysicalDevice device : physical) devices.push_back(inspect(device));
+    const auto key = [](const DeviceSupport& support) {
+        VkPhysicalDeviceProperties properties;
+        vkGetPhysicalDeviceProperties(support.physical, &properties);
+        return std::pair(!support.info.missing.empty(), rank(properties.deviceType));
+    };
+    std::ranges::stable_sort(devices, {}, key);
+    return devices;
+}
+
+std::vector<DeviceInfo> listDevices() {
+    std::vector<DeviceInfo> infos;
+    std::unique_ptr<Instance> instance;
+    try {
+        instance = std::make_unique<Instance>(false);
+    } catch (const Error&) {
+        return infos;  // No Vulkan at all: the list is empty, as documented.
+    }
+    for (DeviceSupport& support : inspectDevices(instance->handle()))
+        infos.push_back(std::move(support.info));
+    return infos;
+}
+
+}  // namespace voxray

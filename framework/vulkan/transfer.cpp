@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "base/error.h"
+#include "vulkan/commands_impl.h"
+
+namespace voxray {
+namespace {
+
+/// Most bytes that wait in staging buffers, and the size of one.
+constexpr uint64_t kStagingBytes = 64ull << 20;
+
+glm::uvec3 levelExtent(const ImageDesc& desc, uint32_t level) {
+    return glm::max(desc.extent >> level, glm::uvec3(1));
+}
+
+uint64_t levelBytes(const ImageDesc& desc, uint32_t level) {
+    const glm::u64vec3 size = levelExtent(desc, level);
+    return size.x * size.y * size.z * texelBytes(desc.format);
+}
+
+VkBufferImageCopy wholeLevel(const Image& image, uint32_t level) {
+    if (level >= image.desc().mipLevels)
+        throw Error("image '{}' has {} levels, not level {}", image.name(), image.desc().mipLevels, level);
+    const glm::uvec3 size = levelExtent(image.desc(), level);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {aspectOf(image.desc().format), level, 0, 1};
+    region.imageExtent = {size.x, size.y, size.z};
+    return region;
+}
+
+void checkRange(const Buffer& buffer, uint64_t offset, uint64_t bytes) {
+    if (offset > buffer.bytes() || bytes > buffer.bytes() - offset)
+        throw Error("buffer '{}' holds {} bytes; {} at {} are out of range", buffer.name(), buffer.bytes(),
+                    bytes, offset);
+}
+
+VkOffset3D corner(glm::uvec3 size) {
+    return {int32_t(size.x), int32_t(size.y), int32_t(size.z)};
+}
+
+}  // namespace
+
+Buffer& CommandStream::Impl::stage(uint64_t bytes) {
+    if (stagingBytes > 0 && stagingBytes + bytes > kStagingBytes) finish();
+    stagingBytes += bytes;
+    return staging.emplace_back(device, "staging", bytes, MemoryKind::Upload);
+}
+
+void CommandStream::fill(const Buffer& buffer, uint32_t word) {
+    vkCmdFillBuffer(impl_->next(), buffer.handle(), 0, VK_WHOLE_SIZE, word);
+}
+
+void CommandStream::clear(const Image& image, VkClearColorValue value) {
+    const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, image.desc().mipLevels, 0, 1};
+    vkCmdClearColorImage(impl_->next(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, &value, 1, &range);
+}
+
+void CommandStream::copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset,
+                         uint64_t toOffset) {
+    checkRange(from, fromOffset, bytes);
+    checkRange(to, toOffset, bytes);
+    if (bytes == 0) return;
+    const VkBufferCopy region{fromOffset, toOffset, bytes};
+    vkCmdCopyBuffer(impl_->next(), from.handle(), to.handle(), 1, &region);
+}
+
+void CommandStream::copy(const Image& from, const Buffer& to, uint32_t level) {
+    const VkBufferImageCopy region = wholeLevel(from, level);
+    checkRange(to, 0, levelBytes(from.desc(), level));
+    vkCmdCopyImageToBuffer(impl_->next(), from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1, &region);
+}
+
+void CommandStream::copy(const Buffer& from, const Image& to, uint32_t level) {
+    const VkBufferImageCopy region = wholeLevel(to, level);
+    checkRange(from, 0, levelBytes(to.desc(), level));
+    vkCmdCopyBufferToImage(impl_->next(), from.handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
+}
+
+void CommandStream::makeMipLevels(const Image& image) {
+    const ImageDesc& desc = image.desc();
+    VkFormatProperties properties;
+    vkGetPhysicalDeviceFormatProperties(impl_->device.physical(), desc.format, &properties);
+    constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT |
+                                             VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+    if ((properties.optimalTilingFeatures & kNeeded) != kNeeded)
+        throw Error("image '{}': device '{}' has no linear blits of format {}", image.name(),
+                    impl_->device.info().name, int(desc.format));
+    for (uint32_t level = 1; level < desc.mipLevels; ++level) {
+        VkImageBlit region{};
+        region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level - 1, 0, 1};
+        region.srcOffsets[1] = corner(levelExtent(desc, level - 1));
+        region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1};
+        region.dstOffsets[1] = corner(levelExtent(desc, level));
+        vkCmdBlitImage(impl_->next(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, image.handle(),
+                       VK_IMAGE_LAYOUT_GENERAL, 1, &region, VK_FILTER_LINEAR);
+    }
+}
+
+void CommandStream::upload(const Buffer& to, std::span<const std::byte> data, uint64_t toOffset) {
+    checkRange(to, toOffset, data.size());
+    while (!data.empty()) {
+        const std::span part = data.first(std::min<size_t>(data.size(), kStagingBytes));
+        const Buffer& staging = impl_->stage(part.size());
+        std::memcpy(staging.mapped(), part.data(), part.size());
+        copy(staging, to, part.size(), 0, toOffset);
+        toOffset += part.size();
+        data = data.subspan(part.size());
+    }
+}
+
+void CommandStream::upload(const Image& to, std::span<const std::byte> data, uint32_t level) {
+    const VkBufferImageCopy whole = wholeLevel(to, level);
+    const uint64_t bytes = levelBytes(to.desc(), level);
+    if (data.size() != bytes)
+        throw Error("image '{}', level {}: {} bytes given, {} needed", to.name(), level, data.size(), bytes);
+
+    // Slices of depth for volumes, blocks of rows for flat images, as many as fit into a staging buffer.
+    const VkExtent3D size = whole.imageExtent;
+    const bool isVolume = size.depth > 1;
+    const uint32_t slices = isVolume ? size.depth : size.height;
+    const uint64_t sliceBytes = bytes / slices;
+    const uint32_t perCopy = uint32_t(std::clamp<uint64_t>(kStagingBytes / sliceBytes, 1, slices));
+    for (uint32_t first = 0; first < slices; first += perCopy) {
+        const uint32_t count = std::min(perCopy, slices - first);
+        const Buffer& staging = impl_->stage(count * sliceBytes);
+        std::memcpy(staging.mapped(), data.data() + first * sliceBytes, count * sliceBytes);
+        VkBufferImageCopy region = whole;
+        (isVolume ? region.imageOffset.z : region.imageOffset.y) = int32_t(first);
+        (isVolume ? region.imageExtent.depth : region.imageExtent.height) = count;
+        vkCmdCopyBufferToImage(impl_->next(), staging.handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1,
+                               &region);
+    }
+}
+
+std::vector<std::byte> CommandStream::read(const Buffer& buffer, uint64_t bytes, uint64_t offset) {
+    checkRange(buffer, offset, bytes);
+    std::vector<std::byte> out(bytes);
+    if (bytes == 0) return out;
+    finish();
+    if (buffer.mapped()) {
+        std::memcpy(out.data(), static_cast<const std::byte*>(buffer.mapped()) + offset, bytes);
+        return out;
+    }
+    const Buffer staging(impl_->device, "staging", std::min(bytes, kStagingBytes), MemoryKind::Readback);
+    for (uint64_t done = 0; done < bytes; done += staging.bytes()) {
+        const uint64_t part = std::min(staging.bytes(), bytes - done);
+        copy(buffer, staging, part, offset + done, 0);
+        finish();
+        std::memcpy(out.data() + done, staging.mapped(), part);
+    }
+    return out;
+}
+
+}  // namespace voxray

@@ -1,0 +1,25 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "vulkan_scale.glsl"
+
+#ifndef OFFSET
+#define OFFSET 0
+#endif
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint kFactor = 1;
+
+layout(set = 0, binding = 0, scalar) readonly buffer Source { uint values[]; } source;
+layout(set = 0, binding = 1, scalar) writeonly buffer Target { uint target[]; };
+layout(set = 0, binding = 2, scalar) writeonly buffer Unused { uint never[]; } unused;
+
+layout(push_constant, scalar) uniform Push {
+    uint count;
+    uint bias;
+} push;
+
+void main() {
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= push.count) return;
+    target[i] = scaled(source.values[i], kFactor) + push.bias + OFFSET;
+}
