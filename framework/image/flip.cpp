@@ -14,14 +14,15 @@
 
 /// FLIP: Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild, "FLIP: A Difference Evaluator for
 /// Alternating Images", 2020; HDR-FLIP: Andersson, Nilsson, Shirley, Akenine-Möller, "Visualizing Errors in
-/// Rendered High Dynamic Range Images", 2021. Section numbers below are those of the 2020 paper.
+/// Rendered High Dynamic Range Images", 2021. A colour pipeline and a feature pipeline meet in the final
+/// error.
 namespace voxray {
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Constants of sections 4.1 and 4.2.
+// Constants of the 2020 paper, with its symbols.
 constexpr double colourExponent = 0.7;    // q_c
 constexpr double colourKnee = 0.4;        // p_c
 constexpr double colourKneeValue = 0.95;  // p_t
@@ -74,7 +75,7 @@ struct Sensitivity {
     std::vector<Term> terms;
 };
 
-// Terms a sqrt(π/b) exp(-π² x² / b), x in degrees (section 4.1.1 and table 1).
+// Terms a sqrt(π/b) exp(-π² x² / b), x in degrees.
 struct SensitivityTerm {
     double a, b;
 };
@@ -130,7 +131,7 @@ struct Filters {
         sensitivities = {sensitivity(achromatic, pixelsPerDegree), sensitivity(redGreen, pixelsPerDegree),
                          sensitivity(blueYellow, pixelsPerDegree)};
 
-        // First and second derivatives of a Gaussian (section 4.2.1).
+        // First and second derivatives of a Gaussian, from trough to peak w wide.
         const double sigma = 0.5 * featureWidth * pixelsPerDegree;
         const int radius = int(std::ceil(3 * sigma));
         gauss = gaussianKernel(sigma, radius);
@@ -197,7 +198,7 @@ Seen look(uint32_t width, uint32_t height, const Filters& filters, const LinearR
     return seen;
 }
 
-// Error of each pixel from what is seen of the two images (sections 4.1.3, 4.2.2 and 4.3).
+// Error of each pixel from what is seen of the two images.
 Plane difference(const Seen& test, const Seen& reference) {
     const double largest =
         std::pow(hyab(huntLabFromRgb({0, 1, 0}), huntLabFromRgb({0, 0, 1})), colourExponent);

@@ -49,7 +49,7 @@ struct FlipExposures {
     double stop = 0;
     int count = 2;
 };
-/// The published choice (2021, section 3.2): the ACES curve lifts the reference's largest luminance to 0.85
+/// The published choice: the ACES curve lifts the reference's largest luminance to 0.85
 /// at `start` and its median (upper one of an even number) at `stop`; count = max(2, ceil(stop - start)).
 /// Where the median is black, that of the pixels that are not; {0, 0, 2} for a black image.
 FlipExposures flipExposures(const ImageF& reference);

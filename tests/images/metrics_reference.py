@@ -1,7 +1,8 @@
 """Image metrics in numpy, written from the papers with direct 2D convolutions, to check Voxray's against.
 
 Usage: metrics_reference.py FILE...
-Each FILE is a pair of linear images: width and height as uint32, then the test's and the reference's float32 RGB.
+Each FILE is a pair of linear images: width and height as uint32, then the RGB of the test and of the reference
+as float32.
 Prints a line "metric value" for each metric of each file, in order.
 """
 
