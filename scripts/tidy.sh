@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# Runs clang-tidy 14 (.clang-tidy) on the named sources, or on all of the framework and the passes.
+# Wants a configured build/release (any ./voxray command makes it). Exit status 77: clang-tidy is not installed.
+set -euo pipefail
+
+cd "$(dirname "$(readlink -f "$0")")/.."
+build=${VOXRAY_BUILD:-build/release}
+program=$(command -v clang-tidy-14) || { echo "clang-tidy-14 is not installed"; exit 77; }
+[ -f "$build/compile_commands.json" ] || { echo "voxray: error: no $build/compile_commands.json: build first" >&2; exit 1; }
+
+files=("$@")
+if [ ${#files[@]} -eq 0 ]; then
+  mapfile -t files < <(find framework passes -name '*.cpp' | sort)
+fi
+# GCC knows warnings that clang doesn't; clang-tidy's own count of hidden warnings is noise.
+printf '%s\0' "${files[@]}" |
+  xargs -0 -n 4 -P "$(getconf _NPROCESSORS_ONLN)" "$program" -p "$build" --quiet --warnings-as-errors='*' \
+    --extra-arg=-Wno-unknown-warning-option 2> >(grep -v 'warnings generated\|^Suppressed\|^Use -header' >&2)

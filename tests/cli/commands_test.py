@@ -1,0 +1,223 @@
+"""Commands that render nothing: usage, compare, passes, devices, validate, schema, export-scene."""
+import glob
+import json
+import os
+import struct
+import subprocess
+import unittest
+
+import numpy as np
+from PIL import Image
+
+from support import PROGRAM, SOURCE, TINY, CommandTest
+
+
+def linear(display):
+    """sRGB, 0..255, to linear."""
+    value = display / 255
+    return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
+
+
+class Usage(CommandTest):
+    def test_help_and_version(self):
+        self.assertIn("validate", self.expect(0, "--help").stdout)
+        self.assertIn("--resume", self.expect(0, "run", "--help").stdout)
+        self.assertRegex(self.expect(0, "--version").stdout, r"^voxray \d+\.\d+\.\d+\n$")
+
+    def test_no_command_shows_help(self):
+        done = self.voxray()
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("validate", done.stderr)
+
+    def test_unknown_command(self):
+        self.assertIn("did you mean 'passes'", self.expect(2, "pases").stderr)
+
+    def test_unknown_option_and_missing_argument(self):
+        self.assertIn("--jsn", self.expect(2, "compare", "a.png", "b.png", "--jsn").stderr)
+        self.assertIn("REFERENCE", self.expect(2, "compare", "a.png").stderr)
+        self.expect(2, "run")
+
+    def test_full_standard_output(self):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([PROGRAM, "passes"], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("voxray: error: cannot write", done.stderr)
+
+
+class Compare(CommandTest):
+    def image(self, name, value, size=(40, 30)):
+        Image.fromarray(np.full((size[1], size[0], 3), value, np.uint8)).save(self.path(name))
+        return name
+
+    def scores(self, *arguments):
+        return json.loads(self.expect(0, "compare", *arguments, "--json").stdout)
+
+    def test_equal_images(self):
+        self.image("a.png", 120)
+        scores = self.scores("a.png", "a.png")["scores"]
+        self.assertEqual((scores["flip"], scores["flip_ldr"], scores["nrmse"], scores["relmse"]), (0, 0, 0, 0))
+        self.assertAlmostEqual(scores["ssim"], 1, places=6)
+        self.assertAlmostEqual(scores["mean_ratio"], 1, places=6)
+        self.assertIsNone(scores["psnr_db"])
+
+    def test_closed_forms(self):
+        self.image("test.png", 90)
+        self.image("reference.png", 180)
+        ratio = linear(90) / linear(180)
+        result = self.scores("test.png", "reference.png")
+        self.assertAlmostEqual(result["scores"]["mean_ratio"], ratio, places=5)
+        self.assertAlmostEqual(result["scores"]["nrmse"], 1 - ratio, places=5)
+        self.assertAlmostEqual(result["scores"]["relmse"], (1 - ratio) ** 2 / 1.01, places=5)
+        self.assertAlmostEqual(result["scores"]["psnr_db"], 20 * np.log10(255 / 90), places=3)
+        self.assertAlmostEqual(result["black"]["nrmse"], 1, places=6)
+        self.assertAlmostEqual(result["constant"]["nrmse"], 0, places=5)
+
+    def test_exposure_changes_display_metrics_only(self):
+        self.image("test.png", 90)
+        self.image("reference.png", 180)
+        plain = self.scores("test.png", "reference.png")["scores"]
+        dark = self.scores("test.png", "reference.png", "--exposure", "-2")["scores"]
+        self.assertEqual(plain["nrmse"], dark["nrmse"])
+        self.assertEqual(plain["flip"], dark["flip"])
+        self.assertNotAlmostEqual(plain["psnr_db"], dark["psnr_db"], places=1)
+
+    def test_table(self):
+        self.image("a.png", 90)
+        lines = self.expect(0, "compare", "a.png", "a.png").stdout.splitlines()
+        self.assertEqual(lines[0].split(), ["flip", "flip_ldr", "ssim", "psnr_db", "nrmse", "relmse", "mean_ratio"])
+        self.assertEqual([line.split()[0] for line in lines[1:]], ["test", "black", "constant"])
+
+    def test_flip_map(self):
+        self.image("test.png", 90)
+        self.image("reference.png", 180)
+        self.expect(0, "compare", "test.png", "reference.png", "--flip-map", "map.png")
+        with Image.open(self.path("map.png")) as written:
+            self.assertEqual(written.size, (40, 30))
+            self.assertGreater(np.asarray(written).mean(), 0)
+
+    def test_bad_images(self):
+        self.image("a.png", 90)
+        self.image("b.png", 90, (10, 10))
+        self.write("broken.png", "not an image")
+        self.assertIn("40x30", self.expect(1, "compare", "a.png", "b.png").stderr)
+        self.assertIn("missing.exr", self.expect(1, "compare", "a.png", "missing.exr").stderr)
+        self.assertIn("broken.png", self.expect(1, "compare", "a.png", "broken.png").stderr)
+        self.expect(1, "compare", "a.png", "a.png", "--flip-map", "no/such/folder/map.png")
+
+
+class Passes(CommandTest):
+    def test_list(self):
+        out = self.expect(0, "passes").stdout
+        for name in ("gbuffer", "voxelize", "inject_light_rays", "gather_irradiance", "composite", "path_trace"):
+            self.assertRegex(out, rf"(?m)^{name} ")
+
+    def test_one(self):
+        out = self.expect(0, "passes", "inject_light_rays").stdout
+        self.assertRegex(out, r"rays_per_light +Rays .*\(262144; integer 1 to 67108864\)")
+        self.assertIn("Outputs:", out)
+
+    def test_unknown(self):
+        self.assertIn("did you mean 'gbuffer'", self.expect(2, "passes", "gbufer").stderr)
+
+
+class Devices(CommandTest):
+    def test_devices(self):
+        self.assertIn("embree", self.expect(0, "devices").stdout)
+        self.assertIn("Nothing is missing", self.expect(0, "doctor").stdout)
+
+    def test_no_driver_is_an_error(self):
+        for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES"):
+            self.environment[name] = self.path("none.json")
+        self.assertIn("voxray: error: no Vulkan device found", self.expect(1, "devices").stderr)
+        self.expect(1, "doctor")
+
+
+class Validate(CommandTest):
+    def bad(self, old, new, *words):
+        self.assertIn(old, TINY)
+        text = TINY.replace(old, new, 1)
+        self.write("bad.yaml", text)
+        line = text[:text.index(new)].count("\n") + 1
+        for command in (("validate", "bad.yaml"), ("run", "bad.yaml", "--out", "out")):
+            error = self.expect(2, *command).stderr
+            for word in (f"bad.yaml:{line}: ", *words):
+                self.assertIn(word, error)
+            self.assertFalse(os.path.exists(self.path("out")), "a bad config leaves no results folder")
+
+    def test_good_config(self):
+        self.write("tiny.yaml", TINY)
+        out = self.expect(0, "validate", "tiny.yaml").stdout
+        self.assertIn("tiny.yaml: valid, 2 variants", out)
+        self.assertIn("--profile smaller: valid", out)
+
+    def test_unknown_keys(self):
+        self.bad("width: 32", "widht: 32", "'widht'", "did you mean 'width'")
+        self.bad("bounces: 2}\n  - {pass: direct", "bonces: 2}\n  - {pass: direct", "did you mean 'bounces'")
+
+    def test_unknown_pass(self):
+        self.bad("pass: voxelize", "pass: voxelise", "did you mean 'voxelize'")
+
+    def test_wrong_type_and_range(self):
+        self.bad("rays_per_light: 4096", "rays_per_light: many", "rays_per_light")
+        self.bad("rays_per_light: 4096", "rays_per_light: 0", "out of range")
+        self.bad("[8, 16]", "[8, -16]", "resolution")
+
+    def test_missing_port(self):
+        self.bad("  - {pass: gbuffer}\n", "", "gbuffer")
+
+    def test_bad_yaml(self):
+        self.bad("graph:\n", "graph: [\n")
+
+    def test_missing_config(self):
+        self.assertIn("nowhere.yaml", self.expect(2, "validate", "nowhere.yaml").stderr)
+        self.assertIn("nowhere.yaml", self.expect(2, "run", "nowhere.yaml").stderr)
+
+    def test_every_fault_is_told(self):
+        self.write("one.yaml", TINY.replace("width", "widht"))
+        self.write("two.yaml", TINY.replace("height", "hieght"))
+        done = self.voxray("validate", "one.yaml", "two.yaml")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("one.yaml", done.stderr)
+        self.assertIn("two.yaml", done.stderr)
+
+    def test_shipped_configs(self):
+        configs = sorted(glob.glob(os.path.join(SOURCE, "configs", "**", "*.yaml"), recursive=True))
+        self.assertTrue(configs)
+        self.expect(0, "validate", *configs)
+
+
+class Schema(CommandTest):
+    def test_schema(self):
+        schema = json.loads(self.expect(0, "schema").stdout)
+        self.assertIn("2020-12", schema["$schema"])
+        self.assertIn("graph", schema["properties"])
+        self.assertIn("rays_per_light", json.dumps(schema))
+
+
+class ExportScene(CommandTest):
+    def document(self, name):
+        data = self.bytes(name)
+        magic, version, length, chunk, kind = struct.unpack_from("<IIIII", data)
+        self.assertEqual((magic, version, length, kind), (0x46546C67, 2, len(data), 0x4E4F534A))
+        return json.loads(data[20:20 + chunk])
+
+    def test_camera_and_lights_are_in_it(self):
+        self.write("tiny.yaml", TINY.replace("{builtin: cornell}", """
+  builtin: cornell
+  camera: {position: [0, 1, 3], target: [0, 1, 0], fov_deg: 50}
+  lights: [{point: [0, 1.5, 0], intensity: [1, 2, 3]}]"""))
+        self.expect(0, "export-scene", "tiny.yaml", "out.glb")
+        document = self.document("out.glb")
+        cameras = [camera["perspective"]["yfov"] for camera in document["cameras"]]
+        self.assertTrue(any(abs(fov - np.radians(50)) < 1e-5 for fov in cameras), cameras)
+        lights = document["extensions"]["KHR_lights_punctual"]["lights"]
+        self.assertTrue(any(light["type"] == "point" for light in lights), lights)
+
+    def test_bad_target(self):
+        self.write("tiny.yaml", TINY)
+        self.expect(1, "export-scene", "tiny.yaml", "no/such/folder/out.glb")
+        self.expect(2, "export-scene", "nowhere.yaml", "out.glb")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,197 @@
+"""`voxray run`, end to end, on a chain of seconds: its files, resuming, interruption, disks that refuse."""
+import os
+import re
+import resource
+import shutil
+import signal
+import unittest
+
+from support import TINY, CommandTest
+
+METRICS = ["flip", "ssim", "psnr_db", "nrmse", "relmse", "mean_ratio", "flip_ldr"]
+RESULT_COLUMNS = (["variant", "status", "error", "device", "tracer", "voxelize.resolution", "build_ms",
+                   "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "rays"] + METRICS +
+                  ["indirect_" + metric for metric in METRICS])
+PASS_COLUMNS = ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes"]
+VARIANTS = ["resolution-8", "resolution-16"]
+
+# As TINY, but each variant takes long enough to be interrupted.
+SLOW = TINY.replace("frames: 2", "frames: 150").replace("[8, 16]", "[8, 12, 16, 24]")
+
+
+class Run(CommandTest):
+    def run_tiny(self, out="out", *more):
+        self.write("tiny.yaml", TINY)
+        return self.expect(0, "run", "tiny.yaml", "--out", out, *more)
+
+    def header(self, *parts):
+        return self.bytes(*parts).split(b"\n")[0].decode().strip().split(",")
+
+    def marker(self, variant, out="out"):
+        return self.path(out, "images", variant, "result.json")
+
+    def check_whole(self, out="out"):
+        """Whatever lies in a results folder is whole: no temporary files, no variant without its result."""
+        self.assertEqual([name for name in self.files(out) if re.search(r"\.(tmp|part)|~$|/\.", name)], [])
+        for row in self.rows(out, "results.csv") if os.path.exists(self.path(out, "results.csv")) else []:
+            if row["status"] != "ok":
+                continue
+            for name in ("final.exr", "indirect.exr", "final.png", "flip.png", "result.json"):
+                self.assertTrue(os.path.getsize(self.path(out, "images", row["variant"], name)) > 0, row["variant"])
+            self.assertTrue(all(row[column] for column in ("build_ms", "nrmse", "indirect_nrmse")), row)
+
+
+class Results(Run):
+    def test_files(self):
+        done = self.run_tiny()
+        self.assertIn("report.html", done.stdout)
+        self.assertEqual(self.header("out", "results.csv"), RESULT_COLUMNS)
+        self.assertEqual(self.header("out", "passes.csv"), PASS_COLUMNS)
+        rows = self.rows("out", "results.csv")
+        self.assertEqual([row["variant"] for row in rows], VARIANTS)
+        self.assertEqual([row["voxelize.resolution"] for row in rows], ["8", "16"])
+        self.assertEqual({row["status"] for row in rows}, {"ok"})
+        for row in rows:
+            self.assertGreater(float(row["frame_ms_median"]), 0)
+            self.assertLessEqual(float(row["frame_ms_p05"]), float(row["frame_ms_p95"]))
+            self.assertGreater(int(row["memory_bytes"]), 0)
+            self.assertGreater(float(row["mean_ratio"]), 0)
+        phases = {row["pass"]: row["phase"] for row in self.rows("out", "passes.csv")}
+        self.assertEqual((phases["inject"], phases["composite"]), ("build", "frame"))
+        self.check_whole()
+
+        manifest = self.json("out", "manifest.json")
+        self.assertEqual(manifest["seed"], 7)
+        self.assertEqual(manifest["sweep_keys"], ["voxelize.resolution"])
+        self.assertEqual(set(manifest["baselines"]), {"black", "constant"})
+        self.assertIn("tracer", manifest["auto"])
+        page = self.bytes("out", "report.html").decode()
+        self.assertIn("resolution-16", page)
+        self.assertNotRegex(page, r"(src|href)=[\"']https?:")
+
+    def test_two_runs_are_bit_identical(self):
+        self.run_tiny("one")
+        self.run_tiny("two")
+        kept = ["variant"] + METRICS + ["indirect_" + metric for metric in METRICS]
+        one, two = ([[row[column] for column in kept] for row in self.rows(out, "results.csv")]
+                    for out in ("one", "two"))
+        self.assertEqual(one, two)
+        for variant in VARIANTS + ["reference"]:
+            for name in ("final.exr", "indirect.exr", "final.png"):
+                self.assertEqual(self.bytes("one", "images", variant, name),
+                                 self.bytes("two", "images", variant, name), (variant, name))
+
+    def test_dry_run_renders_nothing(self):
+        done = self.run_tiny("out", "--dry-run")
+        for variant in VARIANTS:
+            self.assertIn(variant, done.stdout)
+        self.assertFalse(os.path.exists(self.path("out", "results.csv")))
+
+    def test_profile_and_set(self):
+        self.run_tiny("out", "--profile", "smaller", "--set", "measure.frames=1")
+        self.assertEqual(self.json("out", "manifest.json")["image"], {"width": 16, "height": 12})
+        self.assertIn("did you mean 'smaller'",
+                      self.expect(2, "run", "tiny.yaml", "--profile", "smalller").stderr)
+        self.assertIn("did you mean", self.expect(2, "run", "tiny.yaml", "--set", "image.widht=3").stderr)
+
+    def test_default_folder_and_quiet(self):
+        self.write("tiny.yaml", TINY)
+        done = self.expect(0, "run", "tiny.yaml", "--quiet", "--profile", "smaller")
+        self.assertEqual(done.stderr, "")
+        self.assertTrue(os.path.exists(self.path("results", "tiny", "report.html")))
+
+    def test_unknown_device_and_missing_feature(self):
+        self.write("tiny.yaml", TINY)
+        self.assertIn("no-such-device", self.expect(1, "run", "tiny.yaml", "--device", "no-such-device").stderr)
+        self.assertIn("embree", self.expect(2, "run", "tiny.yaml", "--tracer", "embre").stderr)
+
+    def test_failed_variant_keeps_the_others(self):
+        # 512³ voxels don't fit into the limit, 8³ do.
+        self.write("tiny.yaml", TINY.replace("[8, 16]", "[8, 512]").replace("warmup: 1", "warmup: 1, memory_limit_mb: 64"))
+        self.expect(1, "run", "tiny.yaml", "--out", "out")
+        rows = {row["variant"]: row for row in self.rows("out", "results.csv")}
+        self.assertEqual(rows["resolution-8"]["status"], "ok")
+        self.assertEqual(rows["resolution-512"]["status"], "failed")
+        self.assertIn("MiB", rows["resolution-512"]["error"])
+        self.check_whole()
+
+
+class Resume(Run):
+    def times(self, out="out"):
+        return {variant: os.stat(self.marker(variant, out)).st_mtime_ns for variant in os.listdir(self.path(out, "images"))
+                if os.path.exists(self.marker(variant, out))}
+
+    def test_nothing_twice(self):
+        self.run_tiny()
+        before = self.times()
+        self.assertEqual(sorted(before), sorted(VARIANTS))
+        self.run_tiny("out", "--resume")
+        self.assertEqual(self.times(), before)
+        self.run_tiny()
+        self.assertTrue(all(self.times()[variant] > before[variant] for variant in VARIANTS))
+
+    def test_another_experiment_is_refused(self):
+        self.run_tiny()
+        self.write("tiny.yaml", TINY.replace("seed: 7", "seed: 8"))
+        before = self.files("out")
+        self.assertIn("seed", self.voxray("run", "tiny.yaml", "--out", "out", "--resume").stderr)
+        self.assertEqual(self.files("out"), before)
+
+    def interrupt(self, number, status):
+        self.write("slow.yaml", SLOW)
+        process = self.start_until(lambda: os.path.exists(self.marker("resolution-8")),
+                                   "run", "slow.yaml", "--out", "out")
+        process.send_signal(number)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, status, errors)
+        finished = self.times()
+        self.assertTrue(finished)
+        self.assertNotIn("resolution-24", finished, "the run was over before it was interrupted")
+        return finished
+
+    def finish(self, finished):
+        self.expect(0, "run", "slow.yaml", "--out", "out", "--resume")
+        self.assertEqual(len(self.rows("out", "results.csv")), 4)
+        after = self.times()
+        self.assertEqual({variant: after[variant] for variant in finished}, finished)
+        self.check_whole()
+
+    def test_ctrl_c(self):
+        finished = self.interrupt(signal.SIGINT, 130)
+        self.check_whole()
+        self.finish(finished)
+
+    def test_kill(self):
+        self.finish(self.interrupt(signal.SIGKILL, -signal.SIGKILL))
+
+
+class Disk(Run):
+    def test_unwritable_folder(self):
+        self.write("file", "")
+        self.write("tiny.yaml", TINY)
+        done = self.expect(1, "run", "tiny.yaml", "--out", "file/out")
+        self.assertIn("file/out", done.stderr)
+        self.assertEqual(self.bytes("file"), b"")
+
+    def test_full_disk_loses_no_finished_variant(self):
+        self.run_tiny()
+        before = {name: self.bytes("out", name) for name in self.files("out") if name.startswith("images/resolution-8/")}
+        shutil.rmtree(self.path("out", "images", "resolution-16"))
+
+        # No file may grow beyond 2 KiB: every larger one fails in the middle of being written.
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (2048, 2048))
+
+        done = self.expect(1, "run", "tiny.yaml", "--out", "out", "--resume", preexec_fn=limit, restore_signals=False)
+        self.assertIn("voxray: error: ", done.stderr)
+        self.assertEqual({name: self.bytes("out", name) for name in before}, before)
+        self.check_whole()
+
+        self.run_tiny("out", "--resume")
+        self.assertEqual([row["status"] for row in self.rows("out", "results.csv")], ["ok", "ok"])
+        self.check_whole()
+
+
+if __name__ == "__main__":
+    unittest.main()
