@@ -192,7 +192,7 @@ class PartOfARun(ReportTest):
 
 
 class HostileText(ReportTest):
-    NAMES = ('<script>alert(1)</script>', 'a"onload="x', "$\\frac{x}$", "_hidden", "größe=½ 体素", "nan", "001")
+    NAMES = ('<script>alert(1)', 'a"onload="x', "$\\frac{x}$", "_hidden", "größe=½ 体素", "nan", "001")
 
     def test_text_from_files_stays_text(self):
         rows = [made_up.variant(name, 10 + i, 0.1 + 0.1 * i, **{"<b>key</b>": name})
