@@ -1,4 +1,7 @@
 # Tests of the graph, of the passes and of what they share with shaders.
+voxray_tests(graph
+  SOURCES unit/graph_wiring_test.cpp
+  DEPENDS voxray_experiment)
 voxray_tests(chain
   SOURCES gpu/shared_structs_test.cpp physics/injection_test.cpp physics/voxelize_test.cpp
   DEPENDS voxray_experiment voxray_passes)

@@ -1,0 +1,148 @@
+// Wiring and checking of graphs, with passes that do nothing.
+#include <gtest/gtest.h>
+
+#include "experiment/yaml.h"
+#include "graph/graph.h"
+
+namespace voxray {
+namespace {
+
+struct Voxels : Resource {};
+struct Light : Resource {};
+
+// A pass that does nothing but have ports.
+struct Idle : Pass {
+    Phase phase() const override { return Phase::Build; }
+    void plan(PassPlan& plan) override { plan.reserve("scratch", 1u << 20); }
+    void prepare(PassSetup&) override {}
+    void record(PassContext&) override {}
+};
+
+struct MakeVoxels : Idle {
+    static constexpr const char* kName = "make_voxels";
+    static constexpr const char* kHelp = "Writes voxels.";
+    struct Params {
+        uint32_t resolution = 64;
+        bool fine = false;
+        static constexpr auto schema() {
+            return std::tuple{field("resolution", &Params::resolution, "Voxels along a side.", 1u, 512u),
+                              field("fine", &Params::fine, "Twice as fine.")};
+        }
+    };
+    explicit MakeVoxels(const Params&) {}
+    void declare(PassBuilder& builder) override { builder.write<Voxels>("voxels", "the voxels"); }
+};
+
+struct LightVoxels : Idle {
+    static constexpr const char* kName = "light_voxels";
+    static constexpr const char* kHelp = "Reads voxels, writes light.";
+    struct Params {
+        static constexpr auto schema() { return std::tuple{}; }
+    };
+    explicit LightVoxels(const Params&) {}
+    void declare(PassBuilder& builder) override {
+        builder.read<Voxels>("voxels", "voxels to light");
+        builder.readOptional<Light>("light", "light of before");
+        builder.write<Light>("light", "their light");
+    }
+};
+
+struct WrongType : LightVoxels {
+    static constexpr const char* kName = "wrong_type";
+    explicit WrongType(const Params& p) : LightVoxels(p) {}
+    void declare(PassBuilder& builder) override { builder.read<Light>("voxels", "not voxels at all"); }
+};
+
+Registry registry() {
+    Registry r;
+    r.add<MakeVoxels>();
+    r.add<LightVoxels>();
+    r.add<WrongType>();
+    return r;
+}
+
+Graph graph(const std::string& yaml) {
+    return Graph(registry(), parseYaml(yaml, "g.yaml"));
+}
+
+std::string errorOf(const std::string& yaml) {
+    try {
+        graph(yaml);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+#define EXPECT_HAS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+TEST(GraphWiring, TakesTheNearestEarlierWriter) {
+    const Graph g = graph("[{pass: make_voxels}, {pass: light_voxels, id: a}, {pass: light_voxels, id: b}]");
+    const auto passes = g.passes();
+    ASSERT_EQ(passes.size(), 3u);
+    EXPECT_EQ(passes[1].id, "a");
+    EXPECT_EQ(passes[2].id, "b");
+    EXPECT_TRUE(g.writes("light"));
+    EXPECT_FALSE(g.writes("indirect"));
+}
+
+TEST(GraphWiring, SortsWritersBeforeReaders) {
+    const Graph g =
+        graph("- {pass: light_voxels, inputs: {voxels: late}}\n- {pass: make_voxels, id: late}\n");
+    EXPECT_EQ(g.passes()[0].id, "late");
+}
+
+TEST(GraphWiring, RecordsEveryDefault) {
+    const Graph g = graph("[{pass: make_voxels, fine: true}]");
+    EXPECT_EQ(g.resolved().text(), "[{pass: make_voxels, resolution: 64, fine: true}]");
+}
+
+TEST(GraphWiring, NamesPlaceAndNearestWord) {
+    const std::string unknownPass = errorOf("- {pass: make_voxels}\n- {pass: light_voxel}\n");
+    EXPECT_HAS(unknownPass, "g.yaml:2");
+    EXPECT_HAS(unknownPass, "did you mean 'light_voxels'?");
+    const std::string unknownParameter = errorOf("- pass: make_voxels\n  resolutoin: 3\n");
+    EXPECT_HAS(unknownParameter, "g.yaml:2");
+    EXPECT_HAS(unknownParameter, "did you mean 'resolution'?");
+    EXPECT_HAS(errorOf("[{pass: make_voxels, resolution: 513}]"), "out of range [1, 512]");
+    EXPECT_HAS(errorOf("[{pass: make_voxels, resolution: many}]"), "expected a whole number, not 'many'");
+    EXPECT_HAS(errorOf("[{pass: make_voxels, fine: 1}]"), "expected true or false");
+}
+
+TEST(GraphWiring, RefusesBadGraphs) {
+    const std::string missing = errorOf("\n- {pass: light_voxels}\n");
+    EXPECT_HAS(missing, "g.yaml:2");
+    EXPECT_HAS(missing, "missing port 'voxels'");
+    EXPECT_HAS(missing, "these can: make_voxels");
+    EXPECT_HAS(errorOf("[{pass: light_voxels}, {pass: make_voxels}]"), "writes only later");
+    EXPECT_HAS(errorOf("[{pass: make_voxels}, {pass: make_voxels}]"), "two passes have the id 'make_voxels'");
+    EXPECT_HAS(errorOf("[{pass: make_voxels}, {pass: wrong_type}]"), "of another type");
+    EXPECT_HAS(errorOf("[{pass: make_voxels}, {pass: light_voxels, inputs: {voxel: make_voxels}}]"),
+               "did you mean 'voxels'?");
+    EXPECT_HAS(errorOf("[{pass: make_voxels}, {pass: light_voxels, inputs: {voxels: make_voxel}}]"),
+               "did you mean 'make_voxels'?");
+    EXPECT_HAS(errorOf("- {pass: make_voxels}\n"
+                       "- {pass: light_voxels, id: a, inputs: {light: b}}\n"
+                       "- {pass: light_voxels, id: b, inputs: {light: a}}\n"),
+               "cycle between a, b");
+    EXPECT_HAS(errorOf("{pass: make_voxels}"), "expected a list of passes");
+    EXPECT_HAS(errorOf("[gbuffer]"), "each entry is a map");
+}
+
+TEST(GraphPlan, RefusesMoreMemoryThanThereIs) {
+    Graph g = graph("[{pass: make_voxels}, {pass: light_voxels}]");
+    const SceneState state;
+    Frame frame;
+    frame.scene = &state;
+    EXPECT_EQ(g.plan(frame, {}, 2u << 20), (std::vector<uint64_t>{1u << 20, 1u << 20}));
+    try {
+        g.plan(frame, {}, (2u << 20) - 1);
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_HAS(std::string(error.what()), "needs about 2.0 MiB, the limit is 2.0 MiB");
+        EXPECT_HAS(std::string(error.what()), "make_voxels's scratch");
+    }
+}
+
+}  // namespace
+}  // namespace voxray
