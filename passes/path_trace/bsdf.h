@@ -1,0 +1,104 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "passes/path_trace/sampling.h"
+
+/// glTF 2.0 metallic-roughness, appendix B, with KHR_materials_specular and KHR_materials_ior.
+namespace voxray::path_trace {
+
+/// Below this alpha (roughness²) a surface is a perfect mirror: a true delta lobe.
+constexpr float kMirrorAlpha = 1e-3f;
+
+/// A reflection's value times cosine, with the density (per steradian) of sampling it.
+struct BsdfValue {
+    glm::vec3 fCos{0.0f};
+    float pdf = 0.0f;
+};
+
+struct BsdfSample {
+    glm::vec3 direction{0.0f};
+    glm::vec3 weight{0.0f};  ///< f cos / pdf; 0 where the sample is lost below the surface.
+    float pdf = 0.0f;        ///< Per steradian; 0 for a mirror.
+    bool mirror = false;
+};
+
+/// Reflection at a point: a Lambert lobe under a GGX lobe, weighed by Schlick's Fresnel term.
+/// All vectors are unit length and point away from the surface; `n` is the shading normal.
+struct Bsdf {
+    glm::vec3 diffuse{0.0f};    ///< Base colour * (1 - metallic).
+    float alpha = 1.0f;         ///< Roughness squared.
+    glm::vec3 f0{0.0f};         ///< Specular reflectance at normal incidence, metal and dielectric mixed.
+    float f90 = 0.0f;           ///< The same at grazing incidence.
+    float dielectricF0 = 0.0f;  ///< Largest component of the dielectric part: what diffuse light loses.
+    float dielectricF90 = 0.0f;
+
+    /// From a material's factors, textures multiplied in. `specular` and `specularColor` as in the extension.
+    static Bsdf make(const glm::vec3& baseColor, float metallic, float roughness, float specular,
+                     const glm::vec3& specularColor, float ior) {
+        const glm::vec3 dielectric =
+            glm::min(specularColor * square((ior - 1.0f) / (ior + 1.0f)), glm::vec3(1.0f)) * specular;
+        Bsdf b;
+        b.diffuse = baseColor * (1.0f - metallic);
+        b.alpha = roughness * roughness;
+        b.f0 = glm::mix(dielectric, baseColor, metallic);
+        b.f90 = glm::mix(specular, 1.0f, metallic);
+        b.dielectricF0 = maxComponent(dielectric);
+        b.dielectricF90 = specular;
+        return b;
+    }
+
+    bool hasSpecular() const { return f90 > 0.0f; }
+    bool isMirror() const { return alpha < kMirrorAlpha; }
+
+    /// Probability that `sample` takes the specular lobe.
+    float specularProbability(float cosOut) const {
+        if (!hasSpecular()) return 0.0f;
+        const float specularPart = luminance(fresnel(cosOut));
+        const float diffusePart = luminance(diffuse);
+        if (!(diffusePart > 0.0f)) return 1.0f;
+        return std::clamp(specularPart / (specularPart + diffusePart), 0.1f, 0.9f);
+    }
+
+    /// Value for a direction `in` that was chosen without regard to this lobe; mirrors are left out.
+    BsdfValue evaluate(const glm::vec3& out, const glm::vec3& in, const glm::vec3& n) const {
+        const float cosIn = glm::dot(n, in);
+        if (!(cosIn > 0.0f)) return {};
+        if (!hasSpecular()) return {diffuse * (cosIn * kInvPi), cosIn * kInvPi};
+        return evaluateLayers(out, in, n, cosIn);
+    }
+
+    /// Draws a direction: (u, v) places it, `lobe` chooses diffuse or specular.
+    BsdfSample sample(const glm::vec3& out, const glm::vec3& n, float u, float v, float lobe) const {
+        const Frame frame(n);
+        if (!hasSpecular()) {
+            const glm::vec3 local = cosineHemisphere(u, v);
+            return {frame.toWorld(local), diffuse, local.z * kInvPi, false};
+        }
+        return sampleLayers(out, frame, u, v, lobe);
+    }
+
+    /// Schlick's Fresnel reflectance at an angle to the half vector.
+    glm::vec3 fresnel(float cosHalf) const {
+        const float w = schlickWeight(cosHalf);
+        return f0 * (1.0f - w) + glm::vec3(f90 * w);
+    }
+
+    static float schlickWeight(float cosHalf) {
+        const float m = std::clamp(1.0f - cosHalf, 0.0f, 1.0f);
+        return square(square(m)) * m;
+    }
+
+    /// GGX distribution of half vectors times pi; `sin2` is 1 - cosNormal² without its rounding error.
+    static float distribution(float cosNormal, float sin2, float alpha) {
+        const float a2 = alpha * alpha;
+        return a2 / square(cosNormal * cosNormal * a2 + sin2);
+    }
+
+ private:
+    BsdfValue evaluateLayers(const glm::vec3& out, const glm::vec3& in, const glm::vec3& n,
+                             float cosIn) const;
+    BsdfSample sampleLayers(const glm::vec3& out, const Frame& frame, float u, float v, float lobe) const;
+};
+
+}  // namespace voxray::path_trace

@@ -1,0 +1,124 @@
+#include "passes/path_trace/integrator.h"
+
+#include <limits>
+
+namespace voxray::path_trace {
+
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+/// Shadow rays end this part of their way before the light.
+constexpr float kShadowEnd = 1.0f - 4e-6f;
+/// Vertices before Russian roulette starts.
+constexpr uint32_t kSureVertices = 3;
+
+/// What the eight numbers of a vertex's block are for; pairs are (i, i + 4).
+enum Use {
+    LightU = 0,
+    LightV = 4,
+    ReflectionU = 1,
+    ReflectionV = 5,
+    Lobe = 2,
+    LightChoice = 6,
+    Roulette = 3
+};
+
+}  // namespace
+
+Integrator::Integrator(const SceneState& state, const EmbreeScene& tracer, uint32_t bounces,
+                       Strategy strategy)
+    : tracer_(tracer), surfaces_(state), lights_(state, surfaces_), bounces_(bounces), strategy_(strategy) {}
+
+float Integrator::weightOfHit(float reflectionPdf, float lightPdf) const {
+    switch (strategy_) {
+        case Strategy::Mis:
+            return misWeight(reflectionPdf, lightPdf);
+        case Strategy::ReflectionOnly:
+            return 1.0f;
+        case Strategy::LightsOnly:
+            break;
+    }
+    return lightPdf > 0.0f ? 0.0f : 1.0f;
+}
+
+glm::vec3 Integrator::lightAt(const SurfacePoint& point, const glm::vec3& out, const SobolSampler::Block& u,
+                              PathSample& path) const {
+    // Draw a light and weigh what it sends here.
+    const glm::vec3 origin = point.rayOrigin();
+    const LightSample light = lights_.sample(origin, u[LightChoice], u[LightU], u[LightV]);
+    if (!(light.pdf > 0.0f) || !(glm::dot(light.direction, point.faceNormal) > 0.0f)) return glm::vec3(0.0f);
+    const BsdfValue reflection = point.bsdf.evaluate(out, light.direction, point.shadingNormal);
+    glm::vec3 value = reflection.fCos * light.radiance / light.pdf;
+    if (!light.isDelta) {
+        if (strategy_ == Strategy::ReflectionOnly) return glm::vec3(0.0f);
+        if (strategy_ == Strategy::Mis) value *= misWeight(light.pdf, reflection.pdf);
+    }
+    if (!(maxComponent(value) > 0.0f)) return glm::vec3(0.0f);
+
+    // Look whether it arrives.
+    ++path.rays;
+    const Ray shadow = light.isInfinite ? Ray{origin, 0.0f, light.direction, kInfinity}
+                                        : Ray{origin, 0.0f, light.target - origin, kShadowEnd};
+    return tracer_.occluded(shadow) ? glm::vec3(0.0f) : value;
+}
+
+PathSample Integrator::trace(const Ray& cameraRay, const SobolSampler& sampler) const {
+    PathSample path;
+    Ray ray = cameraRay;
+    glm::vec3 throughput(1.0f);
+    float reflectionPdf = 0.0f;
+    bool isMirrored =
+        true;  // The camera, as a mirror, has no density: only the ray itself finds what it sees.
+
+    for (uint32_t vertex = 0;; ++vertex) {
+        // Light that the path runs into. Beyond the second vertex it is indirect.
+        glm::vec3& found = vertex <= 1 ? path.direct : path.indirect;
+        const Hit hit = tracer_.closestHit(ray);
+        ++path.rays;
+        if (hit.triangle == Hit::kMiss) {
+            const EnvironmentLight& environment = lights_.environment();
+            if (!environment.isBlack()) {
+                const float weight =
+                    isMirrored ? 1.0f : weightOfHit(reflectionPdf, lights_.pdfOfEnvironment(ray.direction));
+                found += throughput * environment.radiance(ray.direction) * weight;
+            }
+            return path;
+        }
+        const SurfaceTriangle& triangle = surfaces_.triangle(hit.triangle);
+        if (triangle.light != kNoLight && surfaces_.emitsTowards(triangle, -ray.direction)) {
+            const float weight =
+                isMirrored ? 1.0f
+                           : weightOfHit(reflectionPdf, lights_.pdfOfHit(triangle, ray.direction, hit.t));
+            found += throughput * surfaces_.emission(hit.triangle, hit.u, hit.v) * weight;
+        }
+        if (vertex > bounces_) return path;
+
+        // Direct light at this vertex.
+        SobolSampler::Block u;
+        sampler.block(vertex + 1, u);
+        const SurfacePoint point = surfaces_.at(hit, ray.direction);
+        if (!lights_.empty()) {
+            const glm::vec3 light = throughput * lightAt(point, -ray.direction, u, path);
+            (vertex == 0 ? path.direct : path.indirect) += light;
+        }
+        if (vertex == bounces_ && !lights_.canBeHit()) return path;
+
+        // Scatter; rays that a shading normal sends below the surface are lost.
+        const BsdfSample next =
+            point.bsdf.sample(-ray.direction, point.shadingNormal, u[ReflectionU], u[ReflectionV], u[Lobe]);
+        throughput *= next.weight;
+        const float strength = maxComponent(throughput);
+        if (!(strength > 0.0f) || !(glm::dot(next.direction, point.faceNormal) > 0.0f)) return path;
+
+        // Russian roulette by throughput keeps the mean.
+        if (vertex + 1 >= kSureVertices && strength < 1.0f) {
+            if (u[Roulette] >= strength) return path;
+            throughput /= strength;
+        }
+        ray = {point.rayOrigin(), 0.0f, next.direction, kInfinity};
+        reflectionPdf = next.pdf;
+        isMirrored = next.mirror;
+    }
+}
+
+}  // namespace voxray::path_trace

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "passes/path_trace/lights.h"
+#include "passes/path_trace/path_tracer.h"
+#include "passes/path_trace/sobol.h"
+#include "passes/path_trace/surfaces.h"
+#include "trace/embree_scene.h"
+
+namespace voxray::path_trace {
+
+/// How light is found; all three have the same mean (mirrors and delta lights apart), which a test shows.
+enum class Strategy { Mis, ReflectionOnly, LightsOnly };
+
+/// What one path brought, W/(m² sr).
+struct PathSample {
+    glm::vec3 direct{0.0f};    ///< Emission and direct light at the first hit: N = 0.
+    glm::vec3 indirect{0.0f};  ///< Everything else.
+    uint32_t rays = 0;
+};
+
+/// The light transport equation's estimator: unidirectional paths with next-event estimation.
+class Integrator {
+ public:
+    /// Both arguments must outlive this object.
+    Integrator(const SceneState& state, const EmbreeScene& tracer, uint32_t bounces, Strategy strategy);
+
+    /// Follows a path that starts along `ray` (unit direction). Sampler blocks 1, 2, ... are its own.
+    PathSample trace(const Ray& ray, const SobolSampler& sampler) const;
+
+ private:
+    struct Vertex;
+    glm::vec3 lightAt(const SurfacePoint& point, const glm::vec3& out, const SobolSampler::Block& u,
+                      PathSample& path) const;
+    float weightOfHit(float reflectionPdf, float lightPdf) const;
+
+    const EmbreeScene& tracer_;
+    SurfaceTable surfaces_;
+    LightTable lights_;
+    uint32_t bounces_;
+    Strategy strategy_;
+};
+
+/// Renders as `pathTrace` does, with any strategy.
+PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
+                       const PathTraceOptions& options, const ProgressCallback& progress, Strategy strategy);
+
+}  // namespace voxray::path_trace

@@ -1,0 +1,180 @@
+#include "passes/path_trace/path_tracer.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "passes/path_trace/integrator.h"
+
+namespace voxray {
+
+namespace path_trace {
+
+namespace {
+
+constexpr uint32_t kTile = 16;
+constexpr uint32_t kBatches = 4;
+
+/// Turns points of the image plane into rays.
+class PinholeCamera {
+ public:
+    PinholeCamera(const Camera& camera, uint32_t width, uint32_t height) : origin_(camera.position) {
+        const float tangent = std::tan(0.5f * camera.verticalFovRadians);
+        const glm::vec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
+        const glm::vec3 up = glm::cross(right, camera.forward);
+        perX_ = right * (2.0f * tangent / float(height));
+        perY_ = up * (-2.0f * tangent / float(height));
+        corner_ = camera.forward - perX_ * (0.5f * float(width)) - perY_ * (0.5f * float(height));
+    }
+
+    /// `x` and `y` in pixels from the image's upper left corner.
+    Ray ray(float x, float y) const {
+        return {origin_, 0.0f, glm::normalize(corner_ + perX_ * x + perY_ * y),
+                std::numeric_limits<float>::infinity()};
+    }
+
+ private:
+    glm::vec3 origin_, corner_, perX_, perY_;
+};
+
+/// Sums of one image's pixel over the batches.
+struct PixelSums {
+    std::array<glm::dvec3, kBatches> batch{};
+
+    /// Writes the mean and the variance of the mean, from the spread between batches of `sizes` samples.
+    void write(const std::array<uint32_t, kBatches>& sizes, uint32_t batches, uint32_t spp, float* mean,
+               float* variance) const {
+        for (int c = 0; c < 3; ++c) {
+            double sum = 0.0;
+            for (uint32_t b = 0; b < batches; ++b) sum += batch[b][c];
+            const double average = sum / spp;
+            double spread = average * average;
+            if (batches > 1) {
+                spread = 0.0;
+                for (uint32_t b = 0; b < batches; ++b) {
+                    const double deviation = batch[b][c] - average * sizes[b];
+                    spread += deviation * deviation;
+                }
+                spread *= double(batches) / (double(batches - 1) * spp * spp);
+            }
+            mean[c] = float(average);
+            variance[c] = float(spread);
+        }
+    }
+};
+
+/// Everything that the tiles share.
+struct Job {
+    const Integrator& integrator;
+    const PinholeCamera& camera;
+    const PathTraceOptions& options;
+    std::array<uint32_t, kBatches> batchSizes{};
+    uint32_t batches = 1;
+    PathTraceResult& result;
+
+    /// Renders a pixel; returns the rays that it took.
+    uint64_t renderPixel(uint32_t x, uint32_t y) const {
+        const uint32_t pixel =
+            hashOf(hashOf(uint32_t(options.seed), uint32_t(options.seed >> 32)), y * options.width + x);
+        PixelSums total, indirect;
+        uint64_t rays = 0;
+        for (uint32_t batch = 0; batch < batches; ++batch) {
+            const uint32_t sequence = hashOf(pixel, batch);
+            for (uint32_t i = 0; i < batchSizes[batch]; ++i) {
+                const SobolSampler sampler(sequence, i);
+                SobolSampler::Block u;
+                sampler.block(0, u);
+                const Ray ray = camera.ray(float(x) + u[0], float(y) + u[SobolSampler::kPairs]);
+                const PathSample path = integrator.trace(ray, sampler);
+                const glm::vec3 sum = path.direct + path.indirect;
+                if (!std::isfinite(sum.x + sum.y + sum.z))
+                    throw Error(
+                        "path tracing: a sample of pixel ({}, {}) is not finite: "
+                        "is a light or an emission too bright for a float?",
+                        x, y);
+                total.batch[batch] += sum;
+                indirect.batch[batch] += path.indirect;
+                rays += path.rays;
+            }
+        }
+        total.write(batchSizes, batches, options.spp, result.total.pixel(x, y),
+                    result.totalVariance.pixel(x, y));
+        indirect.write(batchSizes, batches, options.spp, result.indirect.pixel(x, y),
+                       result.indirectVariance.pixel(x, y));
+        return rays;
+    }
+};
+
+/// Counts finished tiles and asks the caller whether to go on.
+class ProgressReporter {
+ public:
+    ProgressReporter(const ProgressCallback& callback, size_t tiles) : callback_(callback), tiles_(tiles) {}
+
+    bool isStopped() const { return stopped_; }
+    void finishTile() {
+        if (!callback_) return;
+        const std::lock_guard lock(mutex_);
+        if (!stopped_ && !callback_(double(++finished_) / double(tiles_))) stopped_ = true;
+    }
+
+ private:
+    const ProgressCallback& callback_;
+    size_t tiles_, finished_ = 0;
+    std::mutex mutex_;
+    std::atomic<bool> stopped_{false};
+};
+
+}  // namespace
+
+PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
+                       const PathTraceOptions& options, const ProgressCallback& progress, Strategy strategy) {
+    const uint32_t width = options.width, height = options.height;
+    if (width == 0 || height == 0)
+        throw Error("path tracing: the image size {}x{} has no pixels", width, height);
+    if (options.spp == 0) throw Error("path tracing: spp must be at least 1");
+
+    PathTraceResult result;
+    for (ImageF* image : {&result.total, &result.indirect, &result.totalVariance, &result.indirectVariance})
+        *image = ImageF(width, height, 3);
+    const Integrator integrator(state, tracer, options.bounces, strategy);
+    const PinholeCamera pinhole(camera, width, height);
+
+    // Share the samples out to independent batches.
+    Job job{.integrator = integrator, .camera = pinhole, .options = options, .result = result};
+    job.batches = std::min(options.spp, kBatches);
+    for (uint32_t b = 0; b < job.batches; ++b)
+        job.batchSizes[b] = uint32_t((uint64_t(options.spp) * (b + 1)) / job.batches -
+                                     (uint64_t(options.spp) * b) / job.batches);
+
+    // Every pixel is computed alone, so tiles may run in any order.
+    const size_t tilesX = (width + kTile - 1) / kTile, tiles = tilesX * ((height + kTile - 1) / kTile);
+    ProgressReporter reporter(progress, tiles);
+    std::atomic<uint64_t> rays{0};
+    parallelRanges(tiles, 1, [&](size_t begin, size_t end) {
+        for (size_t tile = begin; tile < end && !reporter.isStopped(); ++tile) {
+            const auto x0 = uint32_t(tile % tilesX) * kTile, y0 = uint32_t(tile / tilesX) * kTile;
+            uint64_t tileRays = 0;
+            for (uint32_t y = y0; y < std::min(y0 + kTile, height); ++y)
+                for (uint32_t x = x0; x < std::min(x0 + kTile, width); ++x) tileRays += job.renderPixel(x, y);
+            rays += tileRays;
+            reporter.finishTile();
+        }
+    });
+    if (reporter.isStopped()) throw Error("path tracing was stopped");
+    result.rays = rays;
+    return result;
+}
+
+}  // namespace path_trace
+
+PathTraceResult pathTrace(const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
+                          const PathTraceOptions& options, const ProgressCallback& progress) {
+    return path_trace::render(state, tracer, camera, options, progress, path_trace::Strategy::Mis);
+}
+
+}  // namespace voxray

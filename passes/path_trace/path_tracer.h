@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "image/image.h"
+#include "scene/geometry.h"
+#include "trace/embree_scene.h"
+
+namespace voxray {
+
+/// What the reference path tracer renders.
+struct PathTraceOptions {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    uint32_t spp = 64;     ///< Paths a pixel; powers of two are sampled best.
+    uint32_t bounces = 8;  ///< Scattering events after direct light at the first hit.
+    uint64_t seed = 0;     ///< Another seed: another, independent estimate.
+};
+
+/// Radiance, 3 channels, W/(m² sr), and the variance of each pixel's mean. The variance is measured between
+/// independent randomisations of the samples (4; from 2 spp on, as many as there are samples up to 4), so it
+/// is honest for low-discrepancy samples. With 1 spp nothing is known: it is the mean squared, an error of
+/// 100 %.
+struct PathTraceResult {
+    ImageF total;
+    ImageF indirect;  ///< Total less emission and direct light at the first hit.
+    ImageF totalVariance;
+    ImageF indirectVariance;
+    uint64_t rays = 0;
+};
+
+/// Called now and then with the part that is done, 0 to 1, never twice at once. False stops the rendering.
+using ProgressCallback = std::function<bool(double)>;
+
+/// Renders by path tracing: next-event estimation, multiple importance sampling, Owen-scrambled Sobol points.
+/// Same arguments, same image, bit for bit, whatever the number of threads. Conventions and limits:
+/// docs/path-tracing.md.
+/// @throws Error where the size or spp is 0, where `progress` stopped it, or where a sample is not finite.
+PathTraceResult pathTrace(const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
+                          const PathTraceOptions& options, const ProgressCallback& progress = {});
+
+}  // namespace voxray

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+/// Owen-scrambled Sobol points, two dimensions at a time, padded to any number of dimensions: each pair has
+/// its own shuffle of the sample order and its own scramble. Burley 2020, "Practical Hash-based Owen
+/// Scrambling"; the hash is Vegdahl's revision of Laine and Karras 2011.
+namespace voxray::path_trace {
+
+inline uint32_t reverseBits(uint32_t x) {
+    x = ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
+    x = ((x & 0x33333333u) << 2) | ((x >> 2) & 0x33333333u);
+    x = ((x & 0x0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0fu);
+    return (x << 24) | ((x & 0xff00u) << 8) | ((x >> 8) & 0xff00u) | (x >> 24);
+}
+
+/// Owen scrambling of a number whose bits are in reversed order: each bit is flipped depending on the bits
+/// below it.
+inline uint32_t scrambleReversed(uint32_t x, uint32_t seed) {
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return x;
+}
+
+/// The second Sobol dimension of a sample index, bits reversed: Pascal's triangle modulo 2.
+inline uint32_t secondDimensionReversed(uint32_t index) {
+    index ^= (index & 0xaaaaaaaau) >> 1;
+    index ^= (index & 0xccccccccu) >> 2;
+    index ^= (index & 0xf0f0f0f0u) >> 4;
+    index ^= (index & 0xff00ff00u) >> 8;
+    index ^= index >> 16;
+    return index;
+}
+
+/// A well mixed 32-bit hash (murmur3's finaliser).
+inline uint32_t mixBits(uint32_t x) {
+    x ^= x >> 16;
+    x *= 0x85ebca6bu;
+    x ^= x >> 13;
+    x *= 0xc2b2ae35u;
+    x ^= x >> 16;
+    return x;
+}
+
+inline uint32_t hashOf(uint32_t a, uint32_t b) {
+    return mixBits(a ^ (mixBits(b + 0x9e3779b9u) * 0x9e3779b1u));
+}
+
+/// A number in [0, 1) from the upper 24 bits: exact in float and never 1.
+inline float unitFloat(uint32_t bits) {
+    return float(int32_t(bits >> 8)) * 0x1p-24f;
+}
+
+/// One sequence of points in [0, 1)^d, one point a sample index.
+class SobolSampler {
+ public:
+    static constexpr int kPairs = 4;
+    using Block = std::array<float, 2 * kPairs>;  ///< x of pair 0 ... 3, then y of pair 0 ... 3.
+
+    /// `seed` selects the sequence; `index` the point on it.
+    SobolSampler(uint32_t seed, uint32_t index) : seed_(seed), reversedIndex_(reverseBits(index)) {}
+
+    /// Eight dimensions, four independent pairs; each pair is a (0,2)-sequence in the index.
+    void block(uint32_t number, Block& out) const {
+        const uint32_t base = hashOf(seed_, number);
+        uint32_t bits[2 * kPairs];
+        for (uint32_t p = 0; p < kPairs; ++p) {
+            const uint32_t seed = mixBits(base + p * 0x9e3779b9u);
+            const uint32_t index = reverseBits(scrambleReversed(reversedIndex_, seed));
+            bits[p] = scrambleReversed(index, seed * 0x2c1b3c6du + 0x297a2d39u);
+            bits[kPairs + p] =
+                scrambleReversed(secondDimensionReversed(index), seed * 0x7feb352du + 0x846ca68bu);
+        }
+        for (uint32_t d = 0; d < 2 * kPairs; ++d) out[d] = unitFloat(reverseBits(bits[d]));
+    }
+
+ private:
+    uint32_t seed_;
+    uint32_t reversedIndex_;
+};
+
+}  // namespace voxray::path_trace

@@ -1,0 +1,142 @@
+#include "passes/path_trace/surfaces.h"
+
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "base/parallel.h"
+#include "trace/texture_lookup.h"
+
+namespace voxray::path_trace {
+
+namespace {
+
+/// Rays start this many times the largest coordinate off their surface: some 30 roundings of a float.
+constexpr float kOffsetScale = 2e-6f;
+constexpr float kLeastCosine = 1e-3f;
+
+float largestCoordinate(const glm::vec3& p) {
+    return std::max(std::fabs(p.x), std::max(std::fabs(p.y), std::fabs(p.z)));
+}
+
+bool readsTextures(const Material& m) {
+    return m.baseColorTexture.texture >= 0 || m.metallicRoughnessTexture.texture >= 0 ||
+           m.normalTexture.texture >= 0;
+}
+
+/// The normal of a normal map in world space; the interpolated one where the map or the tangent is
+/// degenerate.
+glm::vec3 mapNormal(const glm::vec3& normal, const glm::vec4& tangent, const glm::vec4& texel, float scale) {
+    const glm::vec3 t(tangent), b = glm::cross(normal, t) * tangent.w;
+    const glm::vec3 mapped = t * ((2.0f * texel.x - 1.0f) * scale) + b * ((2.0f * texel.y - 1.0f) * scale) +
+                             normal * (2.0f * texel.z - 1.0f);
+    const float length2 = glm::dot(mapped, mapped);
+    return length2 > 1e-12f && std::isfinite(length2) ? mapped / std::sqrt(length2) : normal;
+}
+
+}  // namespace
+
+SurfaceTable::SurfaceTable(const SceneState& state) : state_(&state) {
+    const Geometry& geometry = state.geometry;
+    for (const Material& m : state.scene->materials)
+        materials_.push_back(
+            {Bsdf::make(glm::vec3(m.baseColor), m.metallic, m.roughness, m.specular, m.specularColor, m.ior),
+             &m, m.emissiveTexture.texture >= 0});
+
+    triangles_.resize(geometry.triangles.size());
+    parallelRanges(triangles_.size(), 4096, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const glm::uvec3 corners = geometry.triangles[i];
+            const glm::vec3 a = geometry.positions[corners.x];
+            const glm::vec3 b = geometry.positions[corners.y];
+            const glm::vec3 c = geometry.positions[corners.z];
+            SurfaceTriangle& t = triangles_[i];
+            t.corner = a;
+            t.edge1 = b - a;
+            t.edge2 = c - a;
+            t.material = geometry.triangleMaterials[i];
+            t.offset = kOffsetScale *
+                       std::max(largestCoordinate(a), std::max(largestCoordinate(b), largestCoordinate(c)));
+
+            // The normal in double: slivers underflow a float.
+            const glm::dvec3 n = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
+            const double length = glm::length(n);
+            if (length > 0.0) t.normal = glm::vec3(n / length);
+
+            // Most triangles need nothing but their material's constants.
+            bool simple = !readsTextures(*materials_[t.material].source);
+            for (const uint32_t corner : {corners.x, corners.y, corners.z}) {
+                const VertexAttributes& vertex = geometry.attributes[corner];
+                simple = simple && glm::vec3(vertex.color) == glm::vec3(1.0f) &&
+                         std::fabs(glm::dot(vertex.normal, t.normal)) > 1.0f - 1e-6f;
+            }
+            t.isSimple = simple ? 1 : 0;
+        }
+    });
+}
+
+SurfacePoint SurfaceTable::at(const Hit& hit, const glm::vec3& direction) const {
+    const SurfaceTriangle& t = triangles_[hit.triangle];
+    SurfacePoint point;
+    point.position = t.corner + t.edge1 * hit.u + t.edge2 * hit.v;
+    point.offset = t.offset;
+    point.faceNormal = glm::dot(t.normal, direction) > 0.0f ? -t.normal : t.normal;
+    point.shadingNormal = point.faceNormal;
+    point.bsdf = materials_[t.material].bsdf;
+    if (!t.isSimple) shadeInDetail(hit, point);
+
+    // A shading normal that leans away from the ray has no specular lobe: bend it back.
+    if (point.bsdf.hasSpecular()) {
+        const float cosOut = -glm::dot(point.shadingNormal, direction);
+        if (cosOut < kLeastCosine)
+            point.shadingNormal = glm::normalize(point.shadingNormal - direction * (kLeastCosine - cosOut));
+    }
+    return point;
+}
+
+void SurfaceTable::shadeInDetail(const Hit& hit, SurfacePoint& point) const {
+    const Geometry& geometry = state_->geometry;
+    const glm::uvec3 corners = geometry.triangles[hit.triangle];
+    const VertexAttributes& a = geometry.attributes[corners.x];
+    const VertexAttributes& b = geometry.attributes[corners.y];
+    const VertexAttributes& c = geometry.attributes[corners.z];
+    const Material& m = *materials_[triangles_[hit.triangle].material].source;
+    const glm::vec4 texCoords = interpolate(a.texCoords, b.texCoords, c.texCoords, hit.u, hit.v);
+
+    // Normal: interpolated, mapped, turned to the side of the ray.
+    glm::vec3 normal = interpolate(a.normal, b.normal, c.normal, hit.u, hit.v);
+    const float length2 = glm::dot(normal, normal);
+    normal = length2 > 1e-12f ? normal / std::sqrt(length2) : point.faceNormal;
+    const float side = glm::dot(normal, point.faceNormal) < 0.0f ? -1.0f : 1.0f;
+    if (m.normalTexture.texture >= 0)
+        normal = mapNormal(normal, interpolate(a.tangent, b.tangent, c.tangent, hit.u, hit.v),
+                           lookUp(m.normalTexture, texCoords), m.normalScale);
+    point.shadingNormal = normal * side;
+
+    // Reflection: factors times textures times vertex colour.
+    glm::vec3 baseColor =
+        glm::vec3(m.baseColor) * glm::vec3(interpolate(a.color, b.color, c.color, hit.u, hit.v));
+    if (m.baseColorTexture.texture >= 0) baseColor *= glm::vec3(lookUp(m.baseColorTexture, texCoords));
+    float metallic = m.metallic, roughness = m.roughness;
+    if (m.metallicRoughnessTexture.texture >= 0) {
+        const glm::vec4 texel = lookUp(m.metallicRoughnessTexture, texCoords);
+        roughness *= texel.g;
+        metallic *= texel.b;
+    }
+    point.bsdf = Bsdf::make(baseColor, metallic, roughness, m.specular, m.specularColor, m.ior);
+}
+
+glm::vec3 SurfaceTable::texturedEmission(uint32_t triangle, float u, float v) const {
+    const Geometry& geometry = state_->geometry;
+    const glm::uvec3 corners = geometry.triangles[triangle];
+    const Material& m = *materials_[triangles_[triangle].material].source;
+    const glm::vec4 texCoords =
+        interpolate(geometry.attributes[corners.x].texCoords, geometry.attributes[corners.y].texCoords,
+                    geometry.attributes[corners.z].texCoords, u, v);
+    return m.emission * glm::vec3(lookUp(m.emissiveTexture, texCoords));
+}
+
+glm::vec4 SurfaceTable::lookUp(const TextureRef& ref, const glm::vec4& texCoords) const {
+    return sampleTexture(state_->scene->textures[size_t(ref.texture)], textureCoordinates(ref, texCoords));
+}
+
+}  // namespace voxray::path_trace
