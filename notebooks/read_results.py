@@ -50,8 +50,8 @@ if len(frame):
 
 # %% [markdown]
 # ## Speed against error
-# Left is faster, lower is closer to the reference. The staircase is the Pareto front. An error near the dotted
-# line is mostly the reference's own.
+# Left is faster, lower is closer to the reference. The staircase is the Pareto front. An error near the
+# dotted line is mostly the reference's own.
 
 # %%
 error = prefix + "nrmse"

@@ -87,6 +87,20 @@ class Results:
 
         return ["total"] + (["indirect"] if present("indirect") else [])
 
+    def references(self) -> list[dict]:
+        """The records of the run's references; more than one where the sweep varies what is lit or seen."""
+        listed = self.manifest.get("references")
+        records = [r for r in listed if isinstance(r, dict)] if isinstance(listed, list) else []
+        return records or [section(self.manifest, "reference")]
+
+    def reference_folder(self, variant: str) -> str | None:
+        """The folder below images/ of a variant's reference, None where several are and none is named."""
+        records = self.references()
+        if len(records) > 1:
+            mine = [isinstance(r.get("variants"), list) and variant in r["variants"] for r in records]
+            records = [record for record, is_mine in zip(records, mine) if is_mine]
+        return str(records[0].get("folder") or "reference") if records else None
+
     def noise(self, column: str) -> float:
         """The reference's own noise in a score's unit, NaN where the run did not measure it."""
         return number(section(self.manifest, "reference").get(column + "_noise"))
@@ -136,7 +150,11 @@ def load(directory: str | Path) -> Results:
     sweep_keys = [str(key) for key in declared if str(key) in variants.columns]
     own = manifest.get("warnings")
     warnings = [str(text) for text in own] + warnings if isinstance(own, list) else warnings
-    return Results(directory, variants, passes, manifest, sweep_keys, warnings)
+    results = Results(directory, variants, passes, manifest, sweep_keys, warnings)
+    if (count := len(results.references())) > 1:
+        warnings.append(f"The variants have {count} different references, so their scores are not of one "
+                        "image; noise and the black and constant images are the first one's.")
+    return results
 
 
 def _read_table(path: Path) -> pd.DataFrame:

@@ -17,6 +17,8 @@ _HERE = Path(__file__).parent
 _CHART_METRICS = METRICS[:3]
 _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's row numbers
 _MOST_NAMED_POINTS = 12
+# Of the manifest:
+_SHOWN_ELSEWHERE = ("config", "warnings", "baselines", "reference", "references", "variants")
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,8 @@ class Variant:
     error: str
     views: list[View]
     passes: list[dict] = field(default_factory=list)
+    reference: str = ""
+    graph: str = ""
 
 
 def render(results: Results) -> str:
@@ -176,12 +180,14 @@ def _picture(results: Results, folder: str, name: str, embed, warnings: list[str
 
 
 def _reference(results: Results, lights, warnings) -> dict:
-    manifest = section(results.manifest, "reference")
+    records = results.references()
     facts = [(key.replace("_", " "), text.figures(value) if isinstance(value, float) else text.plain(value))
-             for key, value in manifest.items()]
-    views = [(light, _picture(results, "reference", IMAGES[light][0], images.embed, warnings))
-             for light in lights]
-    if not any(picture for _, picture in views):
+             for key, value in records[0].items()]
+    folders = list(dict.fromkeys(str(record.get("folder") or "reference") for record in records))
+    views = [{"folder": folder, "light": light,
+              "picture": _picture(results, folder, IMAGES[light][0], images.embed, warnings)}
+             for folder in folders for light in lights]
+    if not any(view["picture"] for view in views):
         warnings.append("The reference's image is missing, so variants cannot be compared with it by eye.")
     return {"facts": facts, "views": views}
 
@@ -199,7 +205,9 @@ def _variant(results: Results, row: pd.Series, lights, colors, numbers, anchors,
     facts = [("frame", f"{text.figures(row['frame_ms_median'])} ms (p05 {text.figures(row['frame_ms_p05'])}, "
               f"p95 {text.figures(row['frame_ms_p95'])})"), ("build", f"{text.figures(row['build_ms'])} ms"),
              ("memory", text.size(row["memory_bytes"])), ("rays", text.count(row["rays"]))]
-    return Variant(numbers[name], name, anchors[name], facts, "", views, _pass_rows(results, name, colors))
+    graph = section(results.manifest, "variants").get(name)
+    return Variant(numbers[name], name, anchors[name], facts, "", views, _pass_rows(results, name, colors),
+                   results.reference_folder(name) or "", text.yaml_like(graph) if graph else "")
 
 
 def _pass_rows(results: Results, name: str, colors) -> list[dict]:
@@ -216,6 +224,6 @@ def _pass_rows(results: Results, name: str, colors) -> list[dict]:
 def _provenance(results: Results) -> list[tuple[str, str]]:
     facts = []
     for key, value in results.manifest.items():
-        if key not in ("config", "warnings", "baselines", "reference"):
+        if key not in _SHOWN_ELSEWHERE:
             facts.append((key.replace("_", " "), text.plain(value)))
     return facts

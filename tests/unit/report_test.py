@@ -129,7 +129,8 @@ class FullRun(unittest.TestCase):
         done = subprocess.run([sys.executable, notebook, self.directory, picture],
                               capture_output=True, text=True, check=True)
         self.assertLess(done.stdout.index("light_rays-256"), done.stdout.index("rsm-64"))  # by rising error
-        self.assertGreater(Image.open(picture).size[0], 500)
+        with Image.open(picture) as image:
+            self.assertGreater(image.size[0], 500)
 
     def test_same_results_make_the_same_page(self):
         self.assertEqual(self.source, page.render(load(self.directory)))
@@ -183,6 +184,20 @@ class PartOfARun(ReportTest):
         shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
         for message in ("is not a whole PNG file", "passes.csv lacks a column", "manifest.json cannot be"):
             self.assertIn(message, shown.text)
+
+    def test_each_variant_is_shown_beside_its_own_reference(self):
+        run = made_up.manifest([])
+        run["references"] = [{**run["reference"], "folder": "reference", "variants": ["a"]},
+                             {**run["reference"], "folder": "reference.2", "variants": ["b"]}]
+        run["variants"] = {"a": [{"pass": "gbuffer"}]}
+        rows = [made_up.variant(name, 10, 0.3) for name in ("a", "b", "c")]
+        made_up.save_image(self.directory / "images/reference.2/final.png", 0.5, made_up.SIZE)
+        shown = self.make(rows, run, indirect=False)
+        self.assertEqual(shown.attributes("data-reference"),
+                         ["reference-total", "reference.2-total", "-total"])
+        self.assertLessEqual({"reference-total", "reference.2-total"}, set(shown.attributes("id")))
+        self.assertIn("2 different references", shown.text)
+        self.assertIn("- pass: gbuffer", shown.text)
 
     def test_manifest_of_odd_types(self):
         run = {"config": [1], "baselines": 3, "reference": None, "sweep_keys": "x", "warnings": {"a": 1},
