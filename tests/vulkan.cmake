@@ -1,5 +1,6 @@
 # Tests of vulkan.
 voxray_tests(vulkan
-  SOURCES gpu/vulkan_compute.cpp gpu/vulkan_device.cpp
+  SOURCES
+    gpu/vulkan_compiler.cpp gpu/vulkan_compute.cpp gpu/vulkan_device.cpp gpu/vulkan_memory.cpp gpu/vulkan_raster.cpp
   DEPENDS voxray_vulkan)
 target_include_directories(tests_vulkan PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

@@ -62,8 +62,8 @@ struct RasterTargets {
 
 /// Records commands and runs them. Each call is ordered after all calls before it (a full memory barrier
 /// between them), so passes need no barriers of their own. Every binding that the program reflects must be
-/// given, and no other, and resources must outlive finish(). What was recorded but not finished is dropped
-/// with the stream.
+/// given, and no other; programs and resources must outlive finish(). What was recorded but not finished is
+/// dropped with the stream.
 /// @throws Error naming the program and the binding.
 class CommandStream {
  public:

@@ -1,3 +1,5 @@
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 #include <numeric>
 
 #include "gpu/vulkan_fixture.h"
@@ -37,6 +39,103 @@ TEST_F(VulkanCompute, DefinesAndSpecializationConstantsReachTheShader) {
     const Program program = computeProgram("vulkan_scale.comp", {{"OFFSET", "100"}}, {{0, 3}});
     const std::vector<uint32_t> result = run(program, {kCount, 0});
     for (uint32_t i = 0; i < kCount; ++i) ASSERT_EQ(result[i], 3 * i + 100);
+}
+
+TEST_F(VulkanCompute, UnknownSpecializationConstantIsNamed) {
+    expectContains(errorOf([] { computeProgram("vulkan_scale.comp", {}, {{9, 1}}); }), "constant 9");
+}
+
+TEST_F(VulkanCompute, ReflectsWhatTheCodeUses) {
+    const ShaderModule module = compiler().compile("tests/gpu/vulkan_scale.comp");
+    ASSERT_EQ(module.bindings.size(), 2u);  // `unused` is declared only.
+    EXPECT_EQ(module.pushConstantBytes, sizeof(Push));
+    EXPECT_EQ(module.specializationIds, std::vector<uint32_t>{0});
+}
+
+TEST_F(VulkanCompute, WrongBindingsAreNamed) {
+    const Program program = computeProgram("vulkan_scale.comp");
+    const Buffer buffer(device(), "buffer", 4 * kCount);
+    const Image image(device(), "image", {});
+    CommandStream stream(device());
+    const auto dispatch = [&](std::initializer_list<Binding> bindings) {
+        return errorOf([&] { stream.dispatch(program, bindings, Push{kCount, 0}, {1, 1, 1}); });
+    };
+    const std::string missing = dispatch({{"source", buffer}});
+    expectContains(missing, "vulkan_scale.comp");
+    expectContains(missing, "'Target'");
+    expectContains(dispatch({{"source", buffer}, {"Target", buffer}, {"sauce", buffer}}), "'sauce'");
+    expectContains(dispatch({{"source", buffer}, {"Target", buffer}, {"Target", buffer}}), "twice");
+    expectContains(dispatch({{"source", image}, {"Target", buffer}}), "'source' takes a buffer");
+}
+
+TEST_F(VulkanCompute, WrongPushConstantSizeIsNamed) {
+    const Program program = computeProgram("vulkan_scale.comp");
+    const Buffer buffer(device(), "buffer", 4 * kCount);
+    CommandStream stream(device());
+    const std::string error = errorOf([&] {
+        stream.dispatch(program, {{"source", buffer}, {"Target", buffer}}, uint32_t(1), {1, 1, 1});
+    });
+    expectContains(error, "4 bytes of push constants given, the shader declares 8");
+}
+
+TEST_F(VulkanCompute, NoGroupsRecordNothingAndTooManyAreRefused) {
+    const Program program = computeProgram("vulkan_scale.comp");
+    CommandStream stream(device());
+    stream.dispatch(program, {}, {}, {0, 1, 1});
+    const uint32_t limit = device().properties().limits.maxComputeWorkGroupCount[1];
+    expectContains(errorOf([&] { stream.dispatch(program, {}, {}, {1, limit + 1, 1}); }), "work groups");
+}
+
+TEST_F(VulkanCompute, SamplesATextureAndATextureArray) {
+    // Two texels, red and green, looked up half-way and at the second texel's centre.
+    const ImageDesc desc{.format = VK_FORMAT_R32G32B32A32_SFLOAT, .extent = {2, 1, 1}};
+    const Image redGreen(device(), "red green", desc), blue(device(), "blue", desc);
+    const Sampler linear(device(), Filter::Linear, VK_SAMPLER_ADDRESS_MODE_REPEAT,
+                         VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
+    const Sampler nearest(device(), Filter::Nearest, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                          VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
+    const std::vector<glm::vec4> texels{{1, 0, 0, 1}, {0, 1, 0, 1}};
+    CommandStream stream(device());
+    stream.upload(redGreen, std::as_bytes(std::span(texels)));
+    stream.clear(blue, {{0, 0, 1, 1}});
+    stream.finish();
+
+    const std::vector<TextureArray::Entry> entries{{&blue, &linear}, {&redGreen, &nearest}};
+    const TextureArray textures(device(), entries);
+    const Program program = computeProgram("vulkan_sample.comp");
+    const Buffer target(device(), "target", 3 * sizeof(glm::vec4));
+    stream.dispatch(program, {{"picture", redGreen, linear}, {"Target", target}, {"textures", textures}},
+                    glm::vec2(0.5f, 0.5f), {3, 1, 1});
+    const std::vector<glm::vec4> result = stream.readAs<glm::vec4>(target, 3);
+    EXPECT_NEAR(result[0].r, 0.5f, 1e-2f);
+    EXPECT_NEAR(result[0].g, 0.5f, 1e-2f);
+    EXPECT_EQ(result[1], glm::vec4(0, 0, 1, 1));
+    EXPECT_EQ(result[2], glm::vec4(0, 1, 0, 1));
+
+    // A plain image is no texture array.
+    const std::string error = errorOf([&] {
+        stream.dispatch(program,
+                        {{"picture", redGreen, linear}, {"Target", target}, {"textures", blue, linear}},
+                        glm::vec2(0), {3, 1, 1});
+    });
+    expectContains(error, "'textures' takes");
+}
+
+TEST_F(VulkanCompute, EmptyTextureArrayIsRefused) {
+    expectContains(errorOf([] { TextureArray(device(), {}); }), "at least one");
+}
+
+TEST_F(VulkanCompute, WritesAVolume) {
+    const glm::uvec3 size(5, 3, 7);
+    const Program program = computeProgram("vulkan_volume.comp");
+    const Image volume(device(), "volume", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .extent = size});
+    const Buffer target(device(), "target", imageBytes(volume.desc()));
+    CommandStream stream(device());
+    stream.dispatch(program, {{"volume", volume}}, {}, {2, 1, 2});
+    stream.copy(volume, target);
+    const std::vector<glm::vec4> texels = stream.readAs<glm::vec4>(target, 5 * 3 * 7);
+    for (uint32_t i = 0; i < texels.size(); ++i)
+        ASSERT_EQ(texels[i], glm::vec4(i % 5, i / 5 % 3, i / 15, 1)) << i;
 }
 
 }  // namespace

@@ -1,0 +1,133 @@
+#include <filesystem>
+#include <fstream>
+
+#include "base/files.h"
+#include "gpu/vulkan_fixture.h"
+
+namespace voxray {
+namespace {
+
+/// Shaders in a folder of their own.
+class ShaderCompile : public testing::Test {
+ protected:
+    void SetUp() override {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        root_ = std::filesystem::path(testing::TempDir()) / (std::string("voxray_") + test->name());
+        std::filesystem::remove_all(root_);
+        std::filesystem::create_directories(root_ / "passes/one");
+        std::filesystem::create_directories(root_ / "shaders");
+        write("shaders/common.glsl",
+              "#include \"detail.glsl\"\nfloat twice(float x) { return detail(x); }\n");
+        write("shaders/detail.glsl", "float detail(float x) { return x * 2.0; }\n");
+        write("passes/one/one.comp",
+              "#version 460\n"
+              "#include \"shaders/common.glsl\"\n"
+              "layout(local_size_x = 1) in;\n"
+              "layout(set = 0, binding = 0) buffer Target { float value; } target;\n"
+              "void main() { target.value = twice(SCALE); }\n");
+    }
+    void TearDown() override { std::filesystem::remove_all(root_); }
+
+    void write(const std::string& file, const std::string& text) const {
+        std::ofstream(root_ / file) << text;
+    }
+    ShaderModule compile(const Defines& defines = {{"SCALE", "1.0"}}) const {
+        return ShaderCompiler(root_, root_ / "cache").compile("passes/one/one.comp", defines);
+    }
+    std::vector<std::filesystem::path> cacheFiles() const {
+        std::vector<std::filesystem::path> files;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root_ / "cache"))
+            if (entry.is_regular_file()) files.push_back(entry.path());
+        return files;
+    }
+
+    std::filesystem::path root_;
+};
+
+TEST_F(ShaderCompile, IncludesAreFoundBesideTheFileAndFromTheRoot) {
+    const ShaderModule module = compile();
+    EXPECT_EQ(module.stage, VK_SHADER_STAGE_COMPUTE_BIT);
+    ASSERT_EQ(module.bindings.size(), 1u);
+    EXPECT_EQ(module.bindings[0].name, "target");
+}
+
+TEST_F(ShaderCompile, ErrorNamesFileAndLine) {
+    write("passes/one/one.comp", "#version 460\nvoid main() {\n    int x = missing;\n}\n");
+    const std::string error = errorOf([&] { compile(); });
+    EXPECT_EQ(error.rfind("passes/one/one.comp:3: ", 0), 0u) << error;
+    expectContains(error, "missing");
+}
+
+TEST_F(ShaderCompile, ErrorInAnIncludeNamesTheInclude) {
+    write("shaders/detail.glsl", "// A comment.\nfloat detail(float x) { return y; }\n");
+    expectContains(errorOf([&] { compile(); }), "shaders/detail.glsl:2: ");
+}
+
+TEST_F(ShaderCompile, MissingIncludeIsNamed) {
+    write("shaders/common.glsl", "\n#include \"nowhere.glsl\"\n");
+    const std::string error = errorOf([&] { compile(); });
+    expectContains(error, "shaders/common.glsl:2: ");
+    expectContains(error, "nowhere.glsl");
+}
+
+TEST_F(ShaderCompile, MissingFileAndUnknownStageAreNamed) {
+    const ShaderCompiler compiler(root_, {});
+    expectContains(errorOf([&] { compiler.compile("passes/two.comp"); }), "two.comp");
+    expectContains(errorOf([&] { compiler.compile("passes/one/one.txt"); }), "one.txt");
+}
+
+TEST_F(ShaderCompile, UnsupportedBindingsAreNamed) {
+    write("passes/one/one.comp",
+          "#version 460\nlayout(set = 0, binding = 0) uniform Numbers { vec4 a; } numbers;\n"
+          "layout(set = 0, binding = 1) buffer Target { vec4 value; } target;\n"
+          "void main() { target.value = numbers.a; }\n");
+    expectContains(errorOf([&] { compile(); }), "uniform buffer");
+    write("passes/one/one.comp",
+          "#version 460\nlayout(set = 2, binding = 0) buffer Target { vec4 value; } target;\n"
+          "void main() { target.value = vec4(1); }\n");
+    expectContains(errorOf([&] { compile(); }), "'target' (set 2");
+}
+
+TEST_F(ShaderCompile, CacheIsKeyedByContentIncludesAndDefines) {
+    const std::vector<uint32_t> first = compile().spirv;
+    EXPECT_EQ(cacheFiles().size(), 1u);
+    EXPECT_EQ(compile().spirv, first);
+    EXPECT_EQ(cacheFiles().size(), 1u);
+    EXPECT_NE(compile({{"SCALE", "2.0"}}).spirv, first);
+    EXPECT_EQ(cacheFiles().size(), 2u);
+    write("shaders/detail.glsl", "float detail(float x) { return x * 3.0; }\n");
+    EXPECT_NE(compile().spirv, first);
+    EXPECT_EQ(cacheFiles().size(), 3u);
+}
+
+TEST_F(ShaderCompile, CacheIsReadBack) {
+    // SPIR-V of another define under this one's key shows that the cache was read.
+    const std::vector<uint32_t> first = compile().spirv;
+    const std::filesystem::path path = cacheFiles()[0];
+    std::filesystem::remove(path);
+    const std::vector<uint32_t> second = compile({{"SCALE", "2.0"}}).spirv;
+    std::filesystem::rename(cacheFiles()[0], path);
+    EXPECT_EQ(compile().spirv, second);
+}
+
+TEST_F(ShaderCompile, CorruptCacheFileIsMadeAgain) {
+    const std::vector<uint32_t> spirv = compile().spirv;
+    const std::filesystem::path path = cacheFiles()[0];
+    const std::string good = readTextFile(path);
+    std::string flipped = good;
+    flipped[good.size() / 2] ^= 1;
+    for (const std::string& bad :
+         {flipped, good.substr(0, good.size() - 4), std::string("x"), std::string()}) {
+        std::ofstream(path, std::ios::trunc | std::ios::binary) << bad;
+        EXPECT_EQ(compile().spirv, spirv);
+        EXPECT_EQ(readTextFile(path), good);
+    }
+}
+
+TEST_F(ShaderCompile, UnwritableCacheSaysWhatToDo) {
+    std::ofstream(root_ / "cache") << "a file, not a folder";
+    expectContains(errorOf([&] { compile(); }), "VOXRAY_CACHE");
+}
+
+}  // namespace
+}  // namespace voxray

@@ -1,0 +1,18 @@
+#version 460
+#extension GL_EXT_nonuniform_qualifier : require
+
+layout(local_size_x = 1) in;
+layout(set = 0, binding = 0) uniform sampler2D picture;
+layout(set = 0, binding = 1) writeonly buffer Target {
+    vec4 target[];
+};
+layout(set = 1, binding = 0) uniform sampler2D textures[];
+
+layout(push_constant) uniform Push {
+    vec2 uv;
+};
+
+void main() {
+    const uint i = gl_GlobalInvocationID.x;
+    target[i] = i == 0 ? textureLod(picture, uv, 0.0) : textureLod(textures[nonuniformEXT(i - 1)], uv, 0.0);
+}
