@@ -1,0 +1,66 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "scene/tiny_gltf.h"
+
+namespace voxray {
+
+/// The text with control characters replaced by spaces and cut to 200 bytes, so that it fits in one line.
+std::string oneLine(std::string text);
+
+/// A parsed glTF file, and what all who read from it need: checked indices, errors that name the file,
+/// warnings, and a bound on the memory that a small file can ask for.
+class GltfFile {
+ public:
+    /// Reads and parses; buffers are loaded, images are fetched but not decoded.
+    /// URIs reach files in the file's own folder and below only.
+    /// @throws Error
+    explicit GltfFile(const std::filesystem::path& path);
+
+    const tinygltf::Model& model() const { return model_; }
+    /// File bytes of an image (PNG, JPEG); empty where its file is missing.
+    const std::vector<uint8_t>& encodedImage(size_t index) const { return encodedImages_[index]; }
+
+    template <typename... Args>
+    [[noreturn]] void fail(fmt::format_string<Args...> text, Args&&... args) const {
+        throw Error("{}: {}", name_, oneLine(fmt::format(text, std::forward<Args>(args)...)));
+    }
+
+    /// Adds a line to the warnings, once.
+    template <typename... Args>
+    void warn(fmt::format_string<Args...> text, Args&&... args) {
+        addWarning(oneLine(fmt::format(text, std::forward<Args>(args)...)));
+    }
+    const std::vector<std::string>& warnings() const { return warnings_; }
+
+    /// An element that an index in the file points to. @throws Error where there is none.
+    template <typename T>
+    const T& at(const std::vector<T>& array, int64_t index, const char* what) const {
+        if (index < 0 || uint64_t(index) >= array.size())
+            fail("{} {} is used, but the file has {} of them", what, index, array.size());
+        return array[size_t(index)];
+    }
+
+    /// Counts memory before it is allocated. @throws Error where all of it together exceeds half of the
+    /// machine's memory.
+    void reserve(uint64_t count, uint64_t bytesEach);
+
+ private:
+    void addWarning(std::string line);
+
+    std::string name_;
+    tinygltf::Model model_;
+    std::vector<std::vector<uint8_t>> encodedImages_;
+    std::vector<std::string> warnings_;
+    std::set<std::string> knownWarnings_;
+    uint64_t reservedBytes_ = 0;
+};
+
+}  // namespace voxray

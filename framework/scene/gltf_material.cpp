@@ -1,0 +1,182 @@
+#include "scene/gltf_material.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "scene/gltf_values.h"
+
+namespace voxray {
+namespace {
+
+constexpr const char* emissiveStrength = "KHR_materials_emissive_strength";
+constexpr const char* specular = "KHR_materials_specular";
+constexpr const char* textureTransform = "KHR_texture_transform";
+
+}  // namespace
+
+Wrap MaterialReader::wrap(int mode) {
+    switch (mode) {
+        case TINYGLTF_TEXTURE_WRAP_REPEAT:
+            return Wrap::Repeat;
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return Wrap::ClampToEdge;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return Wrap::MirroredRepeat;
+        default:
+            file_.fail("texture wrap mode {} is not one of glTF's", mode);
+    }
+}
+
+TextureRef MaterialReader::texture(int index, int texCoord, const tinygltf::ExtensionMap& extensions,
+                                   bool srgb, const std::string& what) {
+    TextureRef ref;
+    if (index < 0) return ref;
+    const tinygltf::Model& model = file_.model();
+    const tinygltf::Texture& source = file_.at(model.textures, index, "texture");
+    if (source.source < 0) {
+        file_.warn("{}: texture {} has no image in a supported format; left out", what, index);
+        return ref;
+    }
+    file_.at(model.images, source.source, "image");
+    Wrap wrapU = Wrap::Repeat;
+    Wrap wrapV = Wrap::Repeat;
+    if (source.sampler >= 0) {
+        const tinygltf::Sampler& sampler = file_.at(model.samplers, source.sampler, "sampler");
+        wrapU = wrap(sampler.wrapS);
+        wrapV = wrap(sampler.wrapT);
+    }
+
+    // One texture for each image, encoding and pair of wrap modes.
+    const auto [entry, added] =
+        textures_.try_emplace({source.source, srgb, wrapU, wrapV}, int32_t(scene_.textures.size()));
+    if (added) {
+        Texture texture;
+        texture.name = oneLine(model.images[size_t(source.source)].name);
+        texture.srgb = srgb;
+        texture.wrapU = wrapU;
+        texture.wrapV = wrapV;
+        scene_.textures.push_back(std::move(texture));
+        images_.push_back(source.source);
+    }
+    ref.texture = entry->second;
+
+    // uv' = offset + rotation * scale * uv; the rotation is counter-clockwise with v growing downwards.
+    glm::vec2 offset(0);
+    glm::vec2 scale(1);
+    float rotation = 0;
+    float set = float(texCoord);
+    readExtensionVector(file_, extensions, textureTransform, "offset", -maxNumber, maxNumber, offset);
+    readExtensionVector(file_, extensions, textureTransform, "scale", -maxNumber, maxNumber, scale);
+    readExtension(file_, extensions, textureTransform, "rotation", -maxNumber, maxNumber, rotation);
+    readExtension(file_, extensions, textureTransform, "texCoord", 0, 1e6, set);
+    const float c = std::cos(rotation);
+    const float s = std::sin(rotation);
+    ref.transform = {glm::vec3(c * scale.x, s * scale.y, offset.x),
+                     glm::vec3(-s * scale.x, c * scale.y, offset.y)};
+    if (set == 0 || set == 1)
+        ref.texCoord = uint32_t(set);
+    else
+        file_.warn("{}: TEXCOORD_{} is not supported; TEXCOORD_0 is used", what, set);
+    return ref;
+}
+
+Material MaterialReader::read(int index) {
+    Material m;
+    if (index < 0) {
+        m.name = "default";
+        return m;
+    }
+    const tinygltf::Material& source = file_.at(file_.model().materials, index, "material");
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    m.name = oneLine(source.name);
+    const std::string what = fmt::format("material {} '{}'", index, m.name);
+
+    // Factors.
+    readVector(file_, pbr.baseColorFactor, m.baseColor, 0, maxNumber, what + ": baseColorFactor");
+    m.metallic = checkedFloat(file_, pbr.metallicFactor, 0, 1, what + ": metallicFactor");
+    m.roughness = checkedFloat(file_, pbr.roughnessFactor, 0, 1, what + ": roughnessFactor");
+    readExtension(file_, source.extensions, specular, "specularFactor", 0, 1, m.specular);
+    readExtensionVector(file_, source.extensions, specular, "specularColorFactor", 0, maxNumber,
+                        m.specularColor);
+    readExtension(file_, source.extensions, "KHR_materials_ior", "ior", 0, 1000, m.ior);
+    float strength = 1;
+    readExtension(file_, source.extensions, emissiveStrength, "emissiveStrength", 0, maxNumber, strength);
+    readVector(file_, source.emissiveFactor, m.emission, 0, maxNumber, what + ": emissiveFactor");
+    for (int i = 0; i < 3; ++i)
+        m.emission[i] =
+            checkedFloat(file_, double(m.emission[i]) * strength, 0, maxNumber, what + ": emission");
+    m.doubleSided = source.doubleSided;
+
+    // Alpha.
+    m.alphaCutoff = checkedFloat(file_, source.alphaCutoff, 0, maxNumber, what + ": alphaCutoff");
+    if (source.alphaMode == "MASK")
+        m.alphaMode = AlphaMode::Mask;
+    else if (source.alphaMode == "BLEND")
+        m.alphaMode = AlphaMode::Blend;
+    else if (source.alphaMode != "OPAQUE")
+        file_.fail("{}: alphaMode '{}' is not one of glTF's", what, source.alphaMode);
+    if (m.alphaMode == AlphaMode::Blend) file_.warn("{}: alphaMode BLEND is rendered as opaque", what);
+
+    // Textures.
+    const tinygltf::TextureInfo& color = pbr.baseColorTexture;
+    const tinygltf::TextureInfo& rough = pbr.metallicRoughnessTexture;
+    const tinygltf::NormalTextureInfo& normal = source.normalTexture;
+    const tinygltf::TextureInfo& emissive = source.emissiveTexture;
+    m.baseColorTexture = texture(color.index, color.texCoord, color.extensions, true, what);
+    m.metallicRoughnessTexture = texture(rough.index, rough.texCoord, rough.extensions, false, what);
+    m.normalTexture = texture(normal.index, normal.texCoord, normal.extensions, false, what);
+    m.emissiveTexture = texture(emissive.index, emissive.texCoord, emissive.extensions, true, what);
+    m.normalScale = checkedFloat(file_, normal.scale, -maxNumber, maxNumber, what + ": normalTexture.scale");
+
+    // What is left out.
+    if (source.extensions.contains("KHR_materials_unlit"))
+        file_.warn("{}: KHR_materials_unlit is rendered as an ordinary, lit material", what);
+    for (const char* member : {"specularTexture", "specularColorTexture"})
+        if (extensionMember(source.extensions, specular, member) != nullptr)
+            file_.warn("{}: {} of {} is left out; its factor is used", what, member, specular);
+    return m;
+}
+
+uint32_t MaterialReader::material(int index) {
+    const auto [entry, added] =
+        materials_.try_emplace(std::max(index, -1), uint32_t(scene_.materials.size()));
+    if (added) scene_.materials.push_back(read(index));
+    return entry->second;
+}
+
+void MaterialReader::decodeTextures() {
+    // Decode each image once, all at the same time; the first error in the file's order is the one reported.
+    std::vector<int> images = images_;
+    std::sort(images.begin(), images.end());
+    images.erase(std::unique(images.begin(), images.end()), images.end());
+    std::vector<DecodedImage> decoded(images.size());
+    std::vector<std::string> errors(images.size());
+    parallelRanges(images.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const size_t image = size_t(images[i]);
+            const std::string name =
+                oneLine(fmt::format("image {} '{}'", image, file_.model().images[image].name));
+            const std::vector<uint8_t>& bytes = file_.encodedImage(image);
+            try {
+                if (bytes.empty())
+                    throw Error("{}: file '{}' is missing", name, file_.model().images[image].uri);
+                decoded[i] = decodeImage(bytes, name.c_str());
+            } catch (const Error& error) {
+                errors[i] = error.what();
+            }
+        }
+    });
+    for (const std::string& error : errors)
+        if (!error.empty()) file_.fail("{}", error);
+
+    // Copy them into the textures.
+    for (size_t i = 0; i < images_.size(); ++i) {
+        const auto found = std::lower_bound(images.begin(), images.end(), images_[i]);
+        const DecodedImage& image = decoded[size_t(found - images.begin())];
+        scene_.textures[i].width = image.width;
+        scene_.textures[i].height = image.height;
+        scene_.textures[i].rgba = image.rgba;
+    }
+}
+
+}  // namespace voxray

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/gltf_file.h"
+#include "scene/scene.h"
+
+namespace voxray {
+
+/// Reads the nodes of the default scene (else scene 0, else all roots), parents first.
+/// @return for each node of the scene its index in the file
+/// @throws Error for cycles, nodes with two parents, transforms that are not finite.
+std::vector<int> readNodes(GltfFile& file, Scene& scene);
+
+/// Reads all animations of those nodes, played together.
+/// @param fileNodes as readNodes returned them
+void readAnimations(GltfFile& file, const std::vector<int>& fileNodes, Scene& scene);
+
+/// Adds the camera and the light of a node.
+void readCameraAndLight(GltfFile& file, const tinygltf::Node& source, int32_t node, Scene& scene);
+
+}  // namespace voxray
