@@ -32,8 +32,7 @@ Graph& Graph::operator=(Graph&&) noexcept = default;
 
 std::vector<Graph::PassInfo> Graph::passes() const {
     std::vector<PassInfo> infos;
-    for (const GraphNode& node : impl_->nodes)
-        infos.push_back({node.id, node.kind->name, node.pass->phase()});
+    for (const GraphNode& node : impl_->nodes) infos.push_back({node.id, node.kind, node.pass->phase()});
     return infos;
 }
 

@@ -36,18 +36,19 @@ GraphNode readNode(const Registry& registry, const Value& entry,
         throw UsageError(entry.where, "graph: entry without 'pass'{}", hint);
     }
     GraphNode node;
-    node.kind = &registry.require(passName->asString("graph.pass"), passName->where);
+    const PassKind& kind = registry.require(passName->asString("graph.pass"), passName->where);
     const Value* id = entry.find("id");
-    node.id = id ? id->asString("graph.id") : node.kind->name;
+    node.id = id ? id->asString("graph.id") : kind.name;
     node.where = entry.where;
-    node.pass = node.kind->create(entry, node.id, reservedKeys);
-    node.ports = node.kind->ports;
+    node.kind = kind.name;
+    node.pass = kind.create(entry, node.id, reservedKeys);
+    node.ports = kind.ports;
 
     // What the manifest records: the reserved keys as they are, then every parameter.
     node.resolved = Value::map();
     for (const std::string& key : reservedKeys)
         if (const Value* value = entry.find(key)) node.resolved.set(key, *value);
-    const Value parameters = node.kind->resolve(entry, node.id, reservedKeys);
+    const Value parameters = kind.resolve(entry, node.id, reservedKeys);
     for (const auto& [key, value] : parameters.members) node.resolved.set(key, value);
     return node;
 }
@@ -99,8 +100,8 @@ void checkInputKeys(const GraphNode& node, const Value& inputs) {
         if (!port.output) names.push_back(port.name);
     for (const auto& [key, value] : inputs.members)
         if (std::find(names.begin(), names.end(), key) == names.end())
-            throw UsageError(value.where, "{}.inputs: '{}' is not an input of {}{}", node.id, key,
-                             node.kind->name, didYouMean(key, names));
+            throw UsageError(value.where, "{}.inputs: '{}' is not an input of {}{}", node.id, key, node.kind,
+                             didYouMean(key, names));
 }
 
 /// Writers before readers; ties in the list's order. @throws UsageError naming the passes of a cycle.

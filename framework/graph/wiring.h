@@ -13,7 +13,7 @@ namespace voxray {
 /// One pass of a graph with what its ports are bound to.
 struct GraphNode {
     std::string id;
-    const PassKind* kind = nullptr;
+    std::string kind;  ///< Name in the registry.
     std::unique_ptr<Pass> pass;
     std::vector<PortInfo> ports;
     std::vector<Resource*> resources;  ///< By port; null for an optional input that nothing writes.
