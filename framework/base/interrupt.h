@@ -1,0 +1,27 @@
+#pragma once
+
+#include "base/error.h"
+
+namespace voxray {
+
+/// Thrown by long work that stopped because interruptRequested() turned true.
+class Interrupted : public Error {
+ public:
+    Interrupted() : Error("interrupted") {}
+};
+
+/// Whether SIGINT or SIGTERM came while an InterruptScope lives. Long work (a reference's tiles, frames) asks
+/// now and then and throws Interrupted.
+bool interruptRequested();
+
+/// While it lives, SIGINT and SIGTERM set a flag instead of ending the process; a second signal ends it.
+/// One at a time.
+class InterruptScope {
+ public:
+    InterruptScope();
+    ~InterruptScope();
+    InterruptScope(const InterruptScope&) = delete;
+    InterruptScope& operator=(const InterruptScope&) = delete;
+};
+
+}  // namespace voxray

@@ -1,0 +1,189 @@
+#include "experiment/manifest.h"
+
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "base/files.h"
+
+namespace voxray {
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json scoresJson(const Scores& scores, const std::string& prefix) {
+    Json json;
+    const std::vector<std::string> texts = scoreTexts(scores, metricNames());
+    for (size_t i = 0; i < texts.size(); ++i) {
+        const Json number = Json::parse(texts[i], nullptr, false);
+        json[prefix + scoreColumns()[i]] = number.is_number() ? number : Json(texts[i]);
+    }
+    return json;
+}
+
+Json baselineJson(const Scores& total, const Scores& indirect) {
+    Json json = scoresJson(total, "");
+    json.update(scoresJson(indirect, "indirect_"));
+    return json;
+}
+
+Json exposuresJson(const FlipExposures& e) {
+    return {{"start", e.start}, {"stop", e.stop}, {"count", e.count}};
+}
+
+Json referenceJson(const ReferenceRecord& r, const Value& pass) {
+    Json json;
+    if (pass.isMap()) json = Json::parse(pass.json());
+    json["folder"] = r.folder;
+    json["hash"] = r.hash;
+    json["seconds"] = r.seconds;
+    json["cached"] = r.cached;
+    json["nrmse_noise"] = r.noise.nrmse;
+    json["relmse_noise"] = r.noise.relmse;
+    json["indirect_nrmse_noise"] = r.indirectNoise.nrmse;
+    json["indirect_relmse_noise"] = r.indirectNoise.relmse;
+    return json;
+}
+
+Scores scoresFrom(const Json& json, const std::string& prefix) {
+    const auto number = [&](const char* name) {
+        const Json& value = json.at(prefix + name);
+        return value.is_number() ? value.get<double>() : std::stod(value.get<std::string>());
+    };
+    Scores s;
+    s.flip = number("flip");
+    s.flipLdr = number("flip_ldr");
+    s.ssim = number("ssim");
+    s.psnrDb = number("psnr_db");
+    s.nrmse = number("nrmse");
+    s.relmse = number("relmse");
+    s.meanRatio = number("mean_ratio");
+    return s;
+}
+
+FlipExposures exposuresFrom(const Json& json) {
+    return {json.at("start").get<double>(), json.at("stop").get<double>(), json.at("count").get<int>()};
+}
+
+std::string cpuName() {
+    std::istringstream lines(readTextFile("/proc/cpuinfo"));
+    for (std::string line; std::getline(lines, line);)
+        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+    return "unknown";
+}
+
+}  // namespace
+
+std::string manifestJson(const ManifestData& data) {
+    const Experiment& experiment = *data.experiment;
+    Json json;
+    json["voxray_version"] = data.version;
+    json["commit"] = data.commit;
+    json["started"] = data.started;
+    json["finished"] = data.finished.empty() ? Json(nullptr) : Json(data.finished);
+    json["device"] = data.device.name;
+    json["driver"] = data.device.driver;
+    json["tracer"] = data.tracer;
+    json["validation"] = data.validation;
+    json["config_file"] = experiment.file.filename().string();
+    json["config"] = Json::parse(experiment.config.json());
+    json["sweep_keys"] = Json::array();
+    for (const auto& member : experiment.sweep.members) json["sweep_keys"].push_back(member.first);
+    json["seed"] = experiment.setup.general.seed;
+    const ImageSettings& image = experiment.setup.image;
+    json["image"] = {{"width", image.width}, {"height", image.height}};
+    json["exposure_stops"] = image.exposureStops;
+    Value measure = writeParams(experiment.measure);
+    json["measure"] = Json::parse(measure.json());
+    json["measure"]["metrics"] = experiment.measure.metrics;
+
+    // The report judges by the first reference
+    if (!data.references.empty()) {
+        const ReferenceRecord& first = data.references[0];
+        json["flip_exposures"] = exposuresJson(first.exposures);
+        json["reference"] = referenceJson(first, data.referencePass);
+        json["baselines"] = {{"black", baselineJson(first.black, first.indirectBlack)},
+                             {"constant", baselineJson(first.constant, first.indirectConstant)}};
+    }
+    json["references"] = Json::array();
+    for (const ReferenceRecord& r : data.references) {
+        Json entry = referenceJson(r, data.referencePass);
+        entry["flip_exposures"] = exposuresJson(r.exposures);
+        entry["indirect_flip_exposures"] = exposuresJson(r.indirectExposures);
+        entry["baselines"] = {{"black", baselineJson(r.black, r.indirectBlack)},
+                              {"constant", baselineJson(r.constant, r.indirectConstant)}};
+        json["references"].push_back(entry);
+    }
+    json["auto"] = {{"tracer", data.tracer}, {"device", data.device.name}};
+    json["requested"] = {{"tracer", schema_detail::textOf(experiment.setup.general.tracer)},
+                         {"device", data.requestedDevice.empty() ? "best" : data.requestedDevice}};
+    json["variants"] = Json::object();
+    for (const auto& [name, graph] : data.graphs) json["variants"][name] = Json::parse(graph.json());
+    json["warnings"] = data.warnings;
+    json["versions"] = {{"voxray", data.version}, {"driver", data.device.driver}, {"compiler", __VERSION__}};
+    json["machine"] = {{"cpu", cpuName()}, {"cores", std::thread::hardware_concurrency()}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<ReferenceRecord> referencesOf(const std::string& manifestText) {
+    std::vector<ReferenceRecord> records;
+    try {
+        for (const Json& json : Json::parse(manifestText).at("references")) {
+            ReferenceRecord r;
+            r.folder = json.at("folder").get<std::string>();
+            r.hash = json.at("hash").get<std::string>();
+            r.seconds = json.at("seconds").get<double>();
+            r.cached = json.at("cached").get<bool>();
+            r.noise = {json.at("nrmse_noise").get<double>(), json.at("relmse_noise").get<double>()};
+            r.indirectNoise = {json.at("indirect_nrmse_noise").get<double>(),
+                               json.at("indirect_relmse_noise").get<double>()};
+            r.exposures = exposuresFrom(json.at("flip_exposures"));
+            r.indirectExposures = exposuresFrom(json.at("indirect_flip_exposures"));
+            const Json& baselines = json.at("baselines");
+            r.black = scoresFrom(baselines.at("black"), "");
+            r.indirectBlack = scoresFrom(baselines.at("black"), "indirect_");
+            r.constant = scoresFrom(baselines.at("constant"), "");
+            r.indirectConstant = scoresFrom(baselines.at("constant"), "indirect_");
+            records.push_back(r);
+        }
+    } catch (const std::exception&) {
+        return {};
+    }
+    return records;
+}
+
+std::string commitOf(const fs::path& sourceRoot) {
+    try {
+        // A worktree's .git is a file that names the folder
+        fs::path git = sourceRoot / ".git";
+        const auto firstLine = [](const fs::path& path) {
+            const std::string text = readTextFile(path);
+            return text.substr(0, text.find('\n'));
+        };
+        if (!fs::is_directory(git)) git = sourceRoot / firstLine(git).substr(8);
+        const std::string head = firstLine(git / "HEAD");
+        if (head.rfind("ref: ", 0) != 0) return head;
+        const std::string branch = head.substr(5);
+        if (fs::exists(git / branch)) return firstLine(git / branch);
+        std::istringstream packed(readTextFile(git / "packed-refs"));
+        for (std::string line; std::getline(packed, line);)
+            if (line.size() > 41 && line.substr(41) == branch) return line.substr(0, 40);
+    } catch (const std::exception&) {
+        return "unknown";
+    }
+    return "unknown";
+}
+
+std::string utcNow() {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text;
+}
+
+}  // namespace voxray

@@ -1,0 +1,119 @@
+#include "experiment/measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/interrupt.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kFirstWarmupFrame = 1000000;
+
+/// Samples of one phase over its repeats.
+class PhaseSamples {
+ public:
+    void add(const std::vector<PassSample>& run) {
+        byPass_.resize(run.size());
+        double sum = 0;
+        for (size_t i = 0; i < run.size(); ++i) {
+            byPass_[i].push_back(run[i].milliseconds);
+            sum += run[i].milliseconds;
+        }
+        sums_.push_back(sum);
+        if (first_.empty()) first_ = run;
+    }
+    Percentiles sum() const { return percentiles(sums_); }
+    PassCost cost(size_t pass) const {
+        PassCost cost;
+        if (pass >= first_.size()) return cost;
+        cost.milliseconds = percentiles(byPass_[pass]);
+        cost.rays = first_[pass].rays;
+        cost.voxelSteps = first_[pass].voxelSteps;
+        return cost;
+    }
+
+ private:
+    std::vector<std::vector<double>> byPass_;
+    std::vector<double> sums_;
+    std::vector<PassSample> first_;
+};
+
+}  // namespace
+
+Percentiles percentiles(std::vector<double> values) {
+    if (values.empty()) return {};
+    std::sort(values.begin(), values.end());
+    const auto at = [&](double fraction) {
+        const double place = fraction * double(values.size() - 1);
+        const size_t below = size_t(place), above = std::min(below + 1, values.size() - 1);
+        return values[below] + (values[above] - values[below]) * (place - double(below));
+    };
+    return {at(0.05), at(0.5), at(0.95)};
+}
+
+ImageF downloadImage(Device& device, CommandStream& stream, const Image& image) {
+    const ImageDesc& desc = image.desc();
+    if (desc.format != VK_FORMAT_R32G32B32A32_SFLOAT)
+        throw Error("image '{}' is not RGBA32F and can't be judged", image.name());
+    const uint64_t pixels = uint64_t(desc.extent.x) * desc.extent.y;
+    const Buffer buffer(device, image.name() + " readback", pixels * 16, MemoryKind::Readback);
+    stream.copy(image, buffer);
+    const std::vector<float> rgba = stream.readAs<float>(buffer, pixels * 4);
+    ImageF out(desc.extent.x, desc.extent.y, 3);
+    for (uint64_t i = 0; i < pixels; ++i)
+        for (uint64_t c = 0; c < 3; ++c) out.data[i * 3 + c] = rgba[i * 4 + c];
+    return out;
+}
+
+Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureSettings& settings,
+                         const std::function<void(double)>& progress) {
+    const double steps = double(1 + settings.buildRepeats + settings.warmup + settings.frames);
+    double done = 0;
+    const auto run = [&](Phase phase, uint32_t frameIndex, bool checkFinite) {
+        if (interruptRequested()) throw Interrupted();
+        auto samples = graph.run(phase, target.frame, target.device, target.stream, target.tracer,
+                                 target.scene, frameIndex, checkFinite);
+        if (interruptRequested()) throw Interrupted();
+        progress(++done / steps);
+        return samples;
+    };
+
+    // Build: once cold and checked, then timed
+    PhaseSamples build, frames;
+    run(Phase::Build, 0, true);
+    for (uint32_t i = 0; i < settings.buildRepeats; ++i) build.add(run(Phase::Build, 0, false));
+
+    // Frames: the first measured one is judged
+    Measurement result;
+    for (uint32_t i = 0; i < settings.warmup; ++i) run(Phase::Frame, kFirstWarmupFrame + i, false);
+    for (uint32_t i = 0; i < settings.frames; ++i) {
+        frames.add(run(Phase::Frame, i, i == 0 || i + 1 == settings.frames));
+        if (i > 0) continue;
+        const Image* final = graph.image("final");
+        if (!final || !*final) throw Error("no pass wrote the image 'final'");
+        result.final = downloadImage(target.device, target.stream, *final);
+        if (const Image* indirect = graph.image("indirect"); indirect && *indirect)
+            result.indirect = downloadImage(target.device, target.stream, *indirect);
+    }
+
+    // Cost of each pass, in the graph's order
+    const std::vector<uint64_t> memory = graph.memoryBytes();
+    const std::vector<Graph::PassInfo> passes = graph.passes();
+    size_t nextBuild = 0, nextFrame = 0;
+    for (size_t i = 0; i < passes.size(); ++i) {
+        const bool isBuild = passes[i].phase == Phase::Build;
+        PassCost cost = isBuild ? build.cost(nextBuild++) : frames.cost(nextFrame++);
+        cost.id = passes[i].id;
+        cost.phase = passes[i].phase;
+        cost.memoryBytes = memory[i];
+        result.memoryBytes += cost.memoryBytes;
+        result.rays += cost.rays;
+        result.passes.push_back(cost);
+    }
+    result.buildMs = build.sum().median;
+    result.frameMs = frames.sum();
+    return result;
+}
+
+}  // namespace voxray

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/settings.h"
+#include "graph/graph.h"
+#include "image/image.h"
+
+namespace voxray {
+
+/// Spread of repeated timings.
+struct Percentiles {
+    double p05 = 0;
+    double median = 0;
+    double p95 = 0;
+};
+/// Linear interpolation between the sorted values; zeros for none.
+Percentiles percentiles(std::vector<double> values);
+
+/// What one pass cost.
+struct PassCost {
+    std::string id;
+    Phase phase = Phase::Frame;
+    Percentiles milliseconds;
+    uint64_t rays = 0;        ///< In one run.
+    uint64_t voxelSteps = 0;  ///< In one run.
+    uint64_t memoryBytes = 0;
+};
+
+/// What one variant cost and made.
+struct Measurement {
+    std::vector<PassCost> passes;
+    double buildMs = 0;        ///< Median of the build passes' sum.
+    Percentiles frameMs;       ///< Of the frame passes' sum.
+    uint64_t memoryBytes = 0;  ///< Held by the passes; the scene itself is not counted.
+    uint64_t rays = 0;         ///< Of one build and one frame.
+    ImageF final;              ///< 3 channels, of the first measured frame.
+    std::optional<ImageF> indirect;
+};
+
+/// What a graph runs on.
+struct GraphTarget {
+    const Frame& frame;
+    Device& device;
+    CommandStream& stream;
+    RayTracer& tracer;
+    const GpuScene& scene;
+};
+
+/// Runs a prepared graph: the build passes once untimed and then `buildRepeats` times, warm-up frames,
+/// measured frames. Measured frames are numbered from 0, warm-up frames from 1,000,000; the image of frame 0
+/// is judged, so it does not depend on how many frames are measured. Outputs are checked for NaN and
+/// infinity, outside of the timings, in the first build and in the first and last measured frame.
+/// @param progress called with the fraction done.
+/// @throws Interrupted, Error of a pass.
+Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureSettings& settings,
+                         const std::function<void(double)>& progress);
+
+/// Level 0 of an RGBA32F image; alpha is dropped.
+ImageF downloadImage(Device& device, CommandStream& stream, const Image& image);
+
+}  // namespace voxray

@@ -1,0 +1,144 @@
+#include "experiment/reference.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "base/files.h"
+#include "base/interrupt.h"
+
+namespace voxray {
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Raise it when the reference's meaning changes: older caches are then left alone.
+constexpr int kReferenceVersion = 1;
+
+struct Part {
+    const char* name;  ///< Of the port and of the cached file.
+    ImageF ReferenceImages::*member;
+};
+constexpr Part kParts[] = {{"final", &ReferenceImages::final},
+                           {"indirect", &ReferenceImages::indirect},
+                           {"variance", &ReferenceImages::variance},
+                           {"indirect_variance", &ReferenceImages::indirectVariance}};
+
+double meanOf(const ImageF& image) {
+    double sum = 0;
+    for (const float value : image.data) sum += value;
+    return image.data.empty() ? 0 : sum / double(image.data.size());
+}
+
+bool isFinite(const ImageF& image) {
+    for (const float value : image.data)
+        if (!std::isfinite(value)) return false;
+    return true;
+}
+
+}  // namespace
+
+NoiseFloor noiseFloor(const ImageF& mean, const ImageF& variance) {
+    // As the metrics do, in units of the reference's mean
+    const double scale = meanOf(mean);
+    if (!(scale > 0)) return {};
+    double squares = 0, relative = 0;
+    for (size_t i = 0; i < mean.data.size(); ++i) {
+        const double r = mean.data[i] / scale, v = variance.data[i] / (scale * scale);
+        squares += v;
+        relative += v / (r * r + 0.01);
+    }
+    const double count = double(mean.data.size());
+    return {std::sqrt(squares / count), relative / count};
+}
+
+ImageF blackLike(const ImageF& reference) {
+    return ImageF(reference.width, reference.height, 3);
+}
+
+ImageF constantLike(const ImageF& reference) {
+    double sums[3] = {};
+    for (size_t i = 0; i < reference.data.size(); ++i) sums[i % 3] += reference.data[i];
+    ImageF constant(reference.width, reference.height, 3);
+    for (size_t i = 0; i < constant.data.size(); ++i)
+        constant.data[i] = float(sums[i % 3] / double(reference.pixelCount()));
+    return constant;
+}
+
+uint64_t referenceSeed(uint64_t seed) {
+    return seed ^ 0x9e3779b97f4a7c15ull;
+}
+
+ReferenceImages renderReference(Graph& graph, const GraphTarget& target) {
+    const auto start = std::chrono::steady_clock::now();
+    for (const Phase phase : {Phase::Build, Phase::Frame}) {
+        graph.run(phase, target.frame, target.device, target.stream, target.tracer, target.scene, 0, true);
+        if (interruptRequested()) throw Interrupted();
+    }
+    ReferenceImages reference;
+    reference.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (const Part& part : kParts) {
+        const Image* image = graph.image(part.name);
+        if (!image || !*image) throw Error("the reference wrote no '{}'", part.name);
+        reference.*(part.member) = downloadImage(target.device, target.stream, *image);
+    }
+    return reference;
+}
+
+std::string referenceHash(const std::string& sceneKey, const Value& resolvedPass, const ImageSettings& image,
+                          uint64_t seed) {
+    Hasher hasher;
+    hasher.addPlain(kReferenceVersion).add(sceneKey).add(resolvedPass.text());
+    return hasher.addPlain(image.width).addPlain(image.height).addPlain(seed).hex();
+}
+
+std::optional<ReferenceImages> ReferenceCache::load(const std::string& hash, uint32_t width,
+                                                    uint32_t height) const {
+    const fs::path folder = folder_ / hash;
+    std::error_code code;
+    if (!fs::exists(folder / "reference.json", code)) return {};
+    try {
+        ReferenceImages reference;
+        reference.hash = hash;
+        reference.cached = true;
+        for (const Part& part : kParts) {
+            ImageF image = readImage(folder / (std::string(part.name) + ".exr"));
+            if (image.width != width || image.height != height || image.channels != 3 || !isFinite(image))
+                return {};
+            reference.*(part.member) = std::move(image);
+        }
+        reference.seconds =
+            nlohmann::json::parse(readTextFile(folder / "reference.json")).at("seconds").get<double>();
+        return reference;
+    } catch (const std::exception&) {
+        // A damaged cache costs time, not results
+        return {};
+    }
+}
+
+void ReferenceCache::store(const ReferenceImages& reference) const {
+    const fs::path folder = folder_ / reference.hash;
+    const fs::path temporary = folder_ / (".tmp-" + reference.hash + "-" + std::to_string(::getpid()));
+    std::error_code ignored;
+    try {
+        fs::remove_all(temporary);
+        fs::create_directories(temporary);
+        for (const Part& part : kParts)
+            writeExr(temporary / (std::string(part.name) + ".exr"), reference.*(part.member));
+        const nlohmann::json meta{{"seconds", reference.seconds}};
+        writeFileAtomically(temporary / "reference.json", meta.dump(1) + "\n");
+        fs::remove_all(folder);
+        fs::rename(temporary, folder);
+    } catch (const fs::filesystem_error& error) {
+        fs::remove_all(temporary, ignored);
+        throw Error("{}: {}", folder.string(), error.code().message());
+    } catch (...) {
+        fs::remove_all(temporary, ignored);
+        throw;
+    }
+}
+
+}  // namespace voxray

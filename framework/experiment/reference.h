@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "experiment/measure.h"
+#include "image/image.h"
+#include "image/metrics.h"
+
+namespace voxray {
+
+/// What variants are judged by. Variances are those of each pixel's mean.
+struct ReferenceImages {
+    ImageF final, indirect, variance, indirectVariance;  ///< 3 channels each.
+    double seconds = 0;                                  ///< That rendering took, when it was rendered.
+    bool cached = false;
+    std::string hash;
+};
+
+/// Expected error of a noisy image against its own expectation, in the units of the metrics.
+struct NoiseFloor {
+    double nrmse = 0;
+    double relmse = 0;
+};
+/// From the variance of each pixel's mean, both images 3 channels.
+NoiseFloor noiseFloor(const ImageF& mean, const ImageF& variance);
+
+/// A black image and one of the reference's mean colour everywhere: what any method must beat.
+ImageF blackLike(const ImageF& reference);
+ImageF constantLike(const ImageF& reference);
+
+/// The seed that the reference renders with: not the variants' own, so that a path-traced variant does not
+/// share the reference's samples.
+uint64_t referenceSeed(uint64_t seed);
+
+/// Renders a one-pass graph, prepared, that writes final, indirect, variance and indirect_variance.
+/// @throws Interrupted; Error of the pass.
+ReferenceImages renderReference(Graph& graph, const GraphTarget& target);
+
+/// Key of a reference: the scene (SceneLoader::key), the resolved pass, image size and seed.
+std::string referenceHash(const std::string& sceneKey, const Value& resolvedPass, const ImageSettings& image,
+                          uint64_t seed);
+
+/// Keeps references under <folder>/<hash>/, each folder whole or absent.
+class ReferenceCache {
+ public:
+    explicit ReferenceCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    /// Empty where it isn't there, or is damaged or of another size: it is then rendered anew.
+    std::optional<ReferenceImages> load(const std::string& hash, uint32_t width, uint32_t height) const;
+    /// @throws Error where it can't be written.
+    void store(const ReferenceImages& reference) const;
+
+ private:
+    std::filesystem::path folder_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,196 @@
+#include "experiment/results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace voxray {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A score: its column, its name in `measure.metrics` (empty: always written) and where it is kept.
+struct ScoreColumn {
+    const char* name;
+    const char* metric;
+    double Scores::*member;
+};
+constexpr ScoreColumn kScoreColumns[] = {
+    {"flip", "flip", &Scores::flip},        {"ssim", "ssim", &Scores::ssim},
+    {"psnr_db", "psnr", &Scores::psnrDb},   {"nrmse", "nrmse", &Scores::nrmse},
+    {"relmse", "relmse", &Scores::relmse},  {"mean_ratio", "mean_ratio", &Scores::meanRatio},
+    {"flip_ldr", "flip", &Scores::flipLdr},
+};
+
+// JSON has no infinity: PSNR of equal images is written as text.
+Json numberJson(double value) {
+    return std::isfinite(value) ? Json(value) : Json(numberText(value));
+}
+double numberFrom(const Json& json) {
+    if (!json.is_string()) return json.get<double>();
+    const std::string text = json.get<std::string>();
+    return text == "inf" ? HUGE_VAL : text == "-inf" ? -HUGE_VAL : std::nan("");
+}
+
+Json scoresJson(const std::optional<Scores>& scores) {
+    if (!scores) return nullptr;
+    Json json;
+    for (const ScoreColumn& column : kScoreColumns)
+        json[column.name] = numberJson((*scores).*(column.member));
+    return json;
+}
+
+std::optional<Scores> scoresFrom(const Json& json) {
+    if (json.is_null()) return {};
+    Scores scores;
+    for (const ScoreColumn& column : kScoreColumns)
+        scores.*(column.member) = numberFrom(json.at(column.name));
+    return scores;
+}
+
+Json percentilesJson(const Percentiles& p) {
+    return Json{p.p05, p.median, p.p95};
+}
+Percentiles percentilesFrom(const Json& json) {
+    return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+std::string csvLine(const std::vector<std::string>& fields) {
+    std::string line;
+    for (size_t i = 0; i < fields.size(); ++i) line += (i ? "," : "") + csvField(fields[i]);
+    return line + "\n";
+}
+
+void append(std::vector<std::string>& to, const std::vector<std::string>& more) {
+    to.insert(to.end(), more.begin(), more.end());
+}
+
+const char* phaseName(Phase phase) {
+    return phase == Phase::Build ? "build" : "frame";
+}
+
+}  // namespace
+
+std::string numberText(double value) {
+    return fmt::format("{:.9g}", value);
+}
+
+std::string csvField(const std::string& text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + "\"";
+}
+
+const std::vector<std::string>& scoreColumns() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> list;
+        for (const ScoreColumn& column : kScoreColumns) list.emplace_back(column.name);
+        return list;
+    }();
+    return names;
+}
+
+std::vector<std::string> scoreTexts(const Scores& scores, const std::vector<std::string>& metrics) {
+    std::vector<std::string> texts;
+    for (const ScoreColumn& column : kScoreColumns) {
+        const bool isWanted = std::find(metrics.begin(), metrics.end(), column.metric) != metrics.end();
+        texts.push_back(isWanted ? numberText(scores.*(column.member)) : "");
+    }
+    return texts;
+}
+
+std::string resultsCsv(const std::vector<VariantResult>& results, const std::vector<std::string>& sweepKeys,
+                       const std::vector<std::string>& metrics) {
+    std::vector<std::string> header{"variant", "status", "error", "device", "tracer"};
+    append(header, sweepKeys);
+    append(header, {"build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "rays"});
+    append(header, scoreColumns());
+    for (const std::string& name : scoreColumns()) header.push_back("indirect_" + name);
+
+    std::string text = csvLine(header);
+    for (const VariantResult& r : results) {
+        std::vector<std::string> fields{r.variant, r.ok ? "ok" : "failed", r.error, r.device, r.tracer};
+        append(fields, r.sweepValues);
+        if (r.ok)
+            append(fields,
+                   {numberText(r.buildMs), numberText(r.frameMs.median), numberText(r.frameMs.p05),
+                    numberText(r.frameMs.p95), std::to_string(r.memoryBytes), std::to_string(r.rays)});
+        else
+            append(fields, std::vector<std::string>(6));
+        for (const auto& scores : {r.total, r.indirect})
+            append(fields, r.ok && scores ? scoreTexts(*scores, metrics)
+                                          : std::vector<std::string>(scoreColumns().size()));
+        text += csvLine(fields);
+    }
+    return text;
+}
+
+std::string passesCsv(const std::vector<VariantResult>& results) {
+    std::string text = csvLine(
+        {"variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes"});
+    for (const VariantResult& r : results)
+        for (const PassCost& p : r.passes)
+            text += csvLine({r.variant, p.id, phaseName(p.phase), numberText(p.milliseconds.median),
+                             numberText(p.milliseconds.p05), numberText(p.milliseconds.p95),
+                             std::to_string(p.rays), std::to_string(p.voxelSteps),
+                             std::to_string(p.memoryBytes)});
+    return text;
+}
+
+std::string resultJson(const VariantResult& r, const VariantInputs& inputs) {
+    Json json;
+    json["variant"] = r.variant;
+    json["device"] = r.device;
+    json["tracer"] = r.tracer;
+    json["sweep_values"] = r.sweepValues;
+    json["build_ms"] = r.buildMs;
+    json["frame_ms"] = percentilesJson(r.frameMs);
+    json["memory_bytes"] = r.memoryBytes;
+    json["rays"] = r.rays;
+    json["total"] = scoresJson(r.total);
+    json["indirect"] = scoresJson(r.indirect);
+    json["passes"] = Json::array();
+    for (const PassCost& p : r.passes)
+        json["passes"].push_back({{"pass", p.id},
+                                  {"phase", phaseName(p.phase)},
+                                  {"ms", percentilesJson(p.milliseconds)},
+                                  {"rays", p.rays},
+                                  {"voxel_steps", p.voxelSteps},
+                                  {"memory_bytes", p.memoryBytes}});
+    json["inputs"] = Json::object();
+    for (const auto& [name, text] : inputs) json["inputs"][name] = text;
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text) {
+    try {
+        const Json json = Json::parse(text);
+        VariantResult r;
+        r.ok = true;
+        r.variant = json.at("variant").get<std::string>();
+        r.device = json.at("device").get<std::string>();
+        r.tracer = json.at("tracer").get<std::string>();
+        r.sweepValues = json.at("sweep_values").get<std::vector<std::string>>();
+        r.buildMs = json.at("build_ms").get<double>();
+        r.frameMs = percentilesFrom(json.at("frame_ms"));
+        r.memoryBytes = json.at("memory_bytes").get<uint64_t>();
+        r.rays = json.at("rays").get<uint64_t>();
+        r.total = scoresFrom(json.at("total"));
+        r.indirect = scoresFrom(json.at("indirect"));
+        for (const Json& p : json.at("passes")) {
+            const Phase phase = p.at("phase").get<std::string>() == "build" ? Phase::Build : Phase::Frame;
+            r.passes.push_back({p.at("pass").get<std::string>(), phase, percentilesFrom(p.at("ms")),
+                                p.at("rays").get<uint64_t>(), p.at("voxel_steps").get<uint64_t>(),
+                                p.at("memory_bytes").get<uint64_t>()});
+        }
+        VariantInputs inputs;
+        for (const auto& [name, value] : json.at("inputs").items())
+            inputs.emplace_back(name, value.get<std::string>());
+        return {r, inputs};
+    } catch (const nlohmann::json::exception& error) {
+        throw Error("broken result: {}", error.what());
+    }
+}
+
+}  // namespace voxray

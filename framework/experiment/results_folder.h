@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "experiment/results.h"
+
+namespace voxray {
+
+/// The folder that a run writes into. Every file in it appears whole or not at all; a variant's images appear
+/// together with its result.json, by one rename.
+class ResultsFolder {
+ public:
+    /// Makes the folder and checks that it can be written. An older run of the same experiment is kept for
+    /// `resume`, else removed; what a killed run left half-written is removed.
+    /// @throws Error where it can't be written, or holds anything but results of this experiment.
+    ResultsFolder(std::filesystem::path path, const std::string& experiment, bool resume);
+
+    const std::filesystem::path& path() const { return path_; }
+
+    /// A finished variant of an older run. @throws Error naming what differs where it was run with other
+    /// inputs.
+    std::optional<VariantResult> finished(const std::string& variant, const VariantInputs& inputs) const;
+
+    /// Writes images/<name>: `write` fills a temporary folder, which then takes the old one's place.
+    void writeImages(const std::string& name,
+                     const std::function<void(const std::filesystem::path&)>& write) const;
+
+    /// Replaces a file of the folder.
+    void writeText(const std::string& name, const std::string& content) const;
+
+ private:
+    void checkOwner(const std::string& experiment) const;
+    void removeOldRun() const;
+
+    std::filesystem::path path_;
+};
+
+}  // namespace voxray

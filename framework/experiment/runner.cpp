@@ -1,0 +1,276 @@
+#include "experiment/runner.h"
+
+#include <algorithm>
+#include <map>
+
+#include "base/files.h"
+#include "base/interrupt.h"
+#include "experiment/manifest.h"
+#include "experiment/progress.h"
+#include "experiment/report_process.h"
+#include "experiment/results_folder.h"
+#include "experiment/session.h"
+#include "experiment/variant_run.h"
+
+namespace voxray {
+namespace {
+
+constexpr double kMiB = 1024.0 * 1024.0;
+
+// --tracer stands above the config.
+void applyTracerOption(Experiment& experiment, std::vector<Variant>& variants, const std::string& name) {
+    if (name.empty()) return;
+    if (experiment.sweep.find("tracer"))
+        throw UsageError("--tracer {}: this config sweeps over the tracer", name);
+    Value value = Value::map();
+    value.set("tracer", Value::fromScalar(name));
+    value.find("tracer")->where = {"--tracer", 0};
+    const TracerKind kind = readParams<GeneralSettings>(value, "tracer").tracer;
+    experiment.setup.general.tracer = kind;
+    for (Variant& variant : variants) variant.setup.general.tracer = kind;
+}
+
+/// One run: the state that its steps share.
+class Run {
+ public:
+    Run(Experiment experiment, const RunOptions& options, const Registry& registry)
+        : experiment_(std::move(experiment)),
+          options_(options),
+          registry_(registry),
+          variants_(validateExperiment(experiment_, registry)) {
+        applyTracerOption(experiment_, variants_, options.tracer);
+    }
+
+    RunSummary execute();
+
+ private:
+    void openSession();
+    void printPlan();
+    void openFolder();
+    void takeOverFinished();
+    void runVariant(size_t index, Progress& progress);
+    const Judge* judgeOf(const Variant& variant);
+    void writeTables();
+    VariantInputs inputsOf(const Variant& variant);
+    std::string outcome(const VariantResult& result) const;
+
+    Experiment experiment_;
+    const RunOptions& options_;
+    const Registry& registry_;
+    std::vector<Variant> variants_;
+    std::optional<Session> session_;
+    std::optional<ResultsFolder> folder_;
+    ManifestData manifest_;
+    std::map<size_t, VariantResult> results_;  ///< By index into variants_.
+    std::optional<Judge> judge_;
+    RunSummary summary_;
+};
+
+RunSummary Run::execute() {
+    const InterruptScope interruptScope;
+    openSession();
+    if (options_.dryRun) {
+        printPlan();
+        return summary_;
+    }
+    openFolder();
+    if (options_.resume) takeOverFinished();
+    writeTables();
+
+    // Render what is missing
+    {
+        Progress progress(variants_.size() - results_.size(), options_.quiet);
+        for (const std::string& warning : session_->warnings()) progress.warn(warning);
+        for (size_t i = 0; i < variants_.size() && !summary_.interrupted; ++i)
+            if (!results_.count(i)) runVariant(i, progress);
+    }
+    for (const auto& [index, result] : results_) ++(result.ok ? summary_.ok : summary_.failed);
+    if (summary_.interrupted) return summary_;
+
+    // Close the books
+    manifest_.finished = utcNow();
+    writeTables();
+    if (!options_.report) return summary_;
+    try {
+        makeReport(options_.sourceRoot, folder_->path());
+    } catch (const Error& error) {
+        summary_.reportError = error.what();
+    }
+    return summary_;
+}
+
+void Run::openSession() {
+    DeviceOptions device;
+    device.name = options_.deviceName;
+    device.validation = options_.validation;
+    session_.emplace(device, options_.sourceRoot,
+                     sceneFolders(options_.scenes, options_.sourceRoot, experiment_.file));
+
+    // Every scene, its parameters and files, before anything is rendered
+    for (const Variant& variant : variants_) {
+        session_->loader().key(variant.setup.scene);
+        session_->tracerName(variant.setup);
+    }
+    manifest_.experiment = &experiment_;
+    for (const Variant& variant : variants_)
+        manifest_.graphs.emplace_back(variant.name, Graph(registry_, variant.setup.graph).resolved());
+    if (!experiment_.reference.isNull())
+        manifest_.referencePass = Graph(registry_, referenceGraph(experiment_)).resolved().items[0];
+    manifest_.device = session_->device().info();
+    manifest_.requestedDevice = options_.deviceName;
+    manifest_.tracer = session_->tracerName(variants_[0].setup);
+    manifest_.validation = options_.validation;
+    manifest_.version = VOXRAY_VERSION;
+    manifest_.commit = commitOf(options_.sourceRoot);
+    manifest_.started = utcNow();
+}
+
+void Run::printPlan() {
+    fmt::print("{}: {} variant{} on {}\n", experiment_.setup.general.name, variants_.size(),
+               variants_.size() == 1 ? "" : "s", session_->device().info().name);
+    for (const Variant& variant : variants_) {
+        const PreparedScene prepared = session_->loader().prepare(variant.setup.scene);
+        const Frame frame = frameOf(variant.setup, prepared, variant.setup.general.seed);
+        Graph graph(registry_, variant.setup.graph);
+        fmt::print("{} (tracer {}, {} x {})\n", variant.name, session_->tracerName(variant.setup),
+                   variant.setup.image.width, variant.setup.image.height);
+        try {
+            const std::vector<uint64_t> bytes =
+                session_->plan(graph, frame, experiment_.measure.memoryLimitMb);
+            const std::vector<Graph::PassInfo> passes = graph.passes();
+            uint64_t sum = 0;
+            for (size_t i = 0; i < passes.size(); ++i) {
+                fmt::print("  {:24} {:6} {:10.1f} MiB\n", passes[i].id,
+                           passes[i].phase == Phase::Build ? "build" : "frame", double(bytes[i]) / kMiB);
+                sum += bytes[i];
+            }
+            fmt::print("  {:24} {:6} {:10.1f} MiB, the scene {:.1f} MiB\n", "sum", "", double(sum) / kMiB,
+                       double(gpuSceneBytes(prepared.state)) / kMiB);
+            ++summary_.ok;
+        } catch (const Error& error) {
+            fmt::print("  would fail: {}\n", error.what());
+            ++summary_.failed;
+        }
+    }
+}
+
+void Run::openFolder() {
+    summary_.out = options_.out.empty() ? std::filesystem::path("results") / experiment_.setup.general.name
+                                        : options_.out;
+    folder_.emplace(summary_.out, experiment_.setup.general.name, options_.resume);
+}
+
+VariantInputs Run::inputsOf(const Variant& variant) {
+    const Value measure = writeParams(experiment_.measure);
+    return {{"graph", Graph(registry_, variant.setup.graph).resolved().text()},
+            {"scene", session_->loader().key(variant.setup.scene)},
+            {"image", writeParams(variant.setup.image).text()},
+            {"seed", std::to_string(variant.setup.general.seed)},
+            {"reference", session_->referenceHashOf(experiment_, variant.setup, registry_)},
+            {"measure", measure.text()},
+            {"tracer", session_->tracerName(variant.setup)},
+            {"device", session_->device().info().name},
+            {"driver", session_->device().info().driver}};
+}
+
+void Run::takeOverFinished() {
+    for (size_t i = 0; i < variants_.size(); ++i) {
+        if (auto result = folder_->finished(variants_[i].name, inputsOf(variants_[i]))) {
+            results_.emplace(i, std::move(*result));
+            ++summary_.resumed;
+        }
+    }
+    const std::filesystem::path manifest = folder_->path() / "manifest.json";
+    if (summary_.resumed > 0 && std::filesystem::exists(manifest)) {
+        for (ReferenceRecord& record : referencesOf(readTextFile(manifest)))
+            if (std::filesystem::exists(folder_->path() / "images" / record.folder))
+                manifest_.references.push_back(std::move(record));
+    }
+    if (!options_.quiet && summary_.resumed > 0)
+        fmt::print("{} of {} variants were finished already\n", summary_.resumed, variants_.size());
+}
+
+const Judge* Run::judgeOf(const Variant& variant) {
+    if (experiment_.reference.isNull()) return nullptr;
+    const ReferenceImages& images = session_->reference(experiment_, variant.setup, registry_);
+    const float stops = variant.setup.image.exposureStops;
+    if (judge_ && judge_->images.hash == images.hash) return &*judge_;
+
+    // The first reference is "reference"; each other one gets its own folder
+    auto& records = manifest_.references;
+    const auto known = std::find_if(records.begin(), records.end(),
+                                    [&](const ReferenceRecord& r) { return r.hash == images.hash; });
+    const std::string folder = known != records.end() ? known->folder
+                               : records.empty()      ? "reference"
+                                                      : fmt::format("reference.{}", records.size() + 1);
+    judge_ = makeJudge(images, variant.setup.image, folder);
+    if (known == records.end()) records.push_back(judge_->record);
+    folder_->writeImages(folder,
+                         [&](const auto& path) { writeReferenceImages(path, judge_->images, stops); });
+    return &*judge_;
+}
+
+void Run::runVariant(size_t index, Progress& progress) {
+    const Variant& variant = variants_[index];
+    std::optional<RenderedVariant> rendered;
+    VariantResult failed;
+    try {
+        const VariantInputs inputs = inputsOf(variant);
+        progress.begin(experiment_.reference.isNull() ? variant.name : variant.name + ": reference");
+        const Judge* judge = judgeOf(variant);
+        progress.begin(variant.name);
+        rendered = renderVariant(variant, experiment_, registry_, *session_, judge,
+                                 [&](double fraction) { progress.update(fraction); });
+    } catch (const std::bad_alloc&) {
+        failed.error = "out of memory";
+    } catch (const std::exception& error) {
+        failed.error = error.what();
+    }
+    if (interruptRequested()) {
+        summary_.interrupted = true;
+        return;
+    }
+
+    // What can't be written ends the run; what was written stays
+    if (rendered) {
+        const VariantInputs inputs = inputsOf(variant);
+        folder_->writeImages(variant.name, [&](const auto& path) {
+            writeVariantImages(path, *rendered, variant.setup.image.exposureStops);
+            writeFileAtomically(path / "result.json", resultJson(rendered->result, inputs));
+        });
+        results_[index] = rendered->result;
+    } else {
+        failed.variant = variant.name;
+        failed.device = session_->device().info().name;
+        failed.tracer = session_->tracerName(variant.setup);
+        failed.sweepValues = variant.values;
+        results_[index] = failed;
+    }
+    writeTables();
+    progress.end(outcome(results_[index]));
+}
+
+std::string Run::outcome(const VariantResult& r) const {
+    if (!r.ok) return fmt::format("{}: failed: {}", r.variant, r.error);
+    std::string line =
+        fmt::format("{}: build {:.1f} ms, frame {:.1f} ms", r.variant, r.buildMs, r.frameMs.median);
+    if (r.total) line += fmt::format(", nRMSE {:.4g}, relMSE {:.4g}", r.total->nrmse, r.total->relmse);
+    return line;
+}
+
+void Run::writeTables() {
+    std::vector<VariantResult> rows;
+    for (const auto& [index, result] : results_) rows.push_back(result);
+    manifest_.warnings = session_->warnings();
+    folder_->writeText("manifest.json", manifestJson(manifest_));
+    folder_->writeText("results.csv", resultsCsv(rows, sweepKeys(experiment_), experiment_.measure.metrics));
+    folder_->writeText("passes.csv", passesCsv(rows));
+}
+
+}  // namespace
+
+RunSummary runExperiment(const Experiment& experiment, const RunOptions& options, const Registry& registry) {
+    return Run(experiment, options, registry).execute();
+}
+
+}  // namespace voxray

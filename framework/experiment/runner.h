@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "experiment/config.h"
+#include "graph/registry.h"
+
+namespace voxray {
+
+struct RunOptions {
+    std::filesystem::path out;     ///< Empty: results/<experiment> below the current folder.
+    std::filesystem::path scenes;  ///< Of --scenes; searched first.
+    std::string deviceName;        ///< Empty: the best.
+    std::string tracer;            ///< Name of a backend; replaces the config's. Empty: the config's.
+    bool resume = false;           ///< Keep what an earlier run of the same experiment finished.
+    bool dryRun = false;           ///< Print variants, passes and predicted memory; render nothing.
+    bool quiet = false;
+    bool validation = false;  ///< Vulkan validation layer; its messages fail the variant.
+    bool report = true;       ///< Make report.html at the end.
+    std::filesystem::path sourceRoot;
+};
+
+struct RunSummary {
+    size_t ok = 0;  ///< Resumed ones included.
+    size_t failed = 0;
+    size_t resumed = 0;  ///< Taken over from an earlier run.
+    bool interrupted = false;
+    std::string reportError;  ///< Why there is no report.
+    std::filesystem::path out;
+
+    /// 0 done, 1 some variant or the report failed, 130 interrupted.
+    int exitStatus() const { return interrupted ? 130 : failed > 0 || !reportError.empty() ? 1 : 0; }
+};
+
+/// Renders every variant of an experiment, measures it and writes the results folder
+/// (docs/reading-a-report.md). A variant that throws is recorded as failed and the others go on. Same config
+/// and seed: same images and metrics.
+/// @throws UsageError for what can be seen to be wrong before anything runs (graphs, missing scenes, sweeps);
+/// Error where the results folder can't be written: finished variants are kept.
+RunSummary runExperiment(const Experiment& experiment, const RunOptions& options, const Registry& registry);
+
+}  // namespace voxray

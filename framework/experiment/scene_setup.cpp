@@ -1,0 +1,181 @@
+#include "experiment/scene_setup.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "base/files.h"
+#include "base/suggest.h"
+#include "image/image.h"
+#include "scene/load.h"
+
+namespace voxray {
+namespace fs = std::filesystem;
+
+namespace {
+
+void checkBuiltin(const SceneSettings& settings) {
+    const std::string& name = settings.options.builtin;
+    const std::vector<std::string> names = builtinSceneNames();
+    if (std::find(names.begin(), names.end(), name) == names.end())
+        throw UsageError(settings.sourceWhere, "scene.builtin: no built-in scene '{}'{}", name,
+                         didYouMean(name, names));
+
+    // Its own parameters, and in suggestions the keys that every scene has
+    std::vector<std::string> own, all{"camera", "lights", "environment"};
+    for (const ParameterDoc& doc : describeBuiltinScene(name)) own.push_back(doc.name);
+    for (const std::string& key : fieldNames<SceneOptions>()) all.push_back(key);
+    all.insert(all.end(), own.begin(), own.end());
+    for (const auto& [key, value] : settings.builtinParameters.members)
+        if (std::find(own.begin(), own.end(), key) == own.end())
+            throw UsageError(value.where, "scene: {} has no parameter '{}'{}", name, key,
+                             didYouMean(key, all));
+}
+
+void checkRadiance(const ImageF& map, const fs::path& path) {
+    if (map.channels != 3) throw Error("{}: an environment map has three channels", path.string());
+    for (const float value : map.data)
+        if (!std::isfinite(value) || value < 0)
+            throw Error("{}: an environment map holds finite radiance of at least 0", path.string());
+}
+
+Camera chooseCamera(const SceneSettings& settings, const SceneState& state) {
+    if (settings.camera) {
+        const CameraSettings& c = *settings.camera;
+        Camera camera;
+        camera.name = "camera";
+        camera.verticalFovRadians = glm::radians(c.fovDegrees);
+        camera.position = c.position;
+        camera.forward = glm::normalize(c.target - c.position);
+        const glm::vec3 right = glm::normalize(glm::cross(camera.forward, glm::normalize(c.up)));
+        camera.up = glm::normalize(glm::cross(right, camera.forward));
+        return camera;
+    }
+    std::vector<std::string> names;
+    for (const Camera& camera : state.cameras) {
+        if (settings.cameraName.empty() || camera.name == settings.cameraName) return camera;
+        names.push_back(camera.name);
+    }
+    if (names.empty())
+        throw UsageError(
+            settings.where,
+            "scene: it has no camera; add one, as in camera: {{position: [0, 1, 4], target: [0, 1, 0], "
+            "fov_deg: 60}}");
+    throw UsageError(settings.cameraWhere, "scene.camera: no camera '{}'{}", settings.cameraName,
+                     didYouMean(settings.cameraName, names));
+}
+
+}  // namespace
+
+std::vector<fs::path> sceneFolders(const fs::path& scenesOption, const fs::path& sourceRoot,
+                                   const fs::path& configFile) {
+    std::vector<fs::path> folders;
+    if (!scenesOption.empty()) folders.push_back(scenesOption);
+    if (const char* variable = std::getenv("VOXRAY_SCENES"); variable && *variable)
+        folders.push_back(variable);
+    if (!sourceRoot.empty()) folders.push_back((sourceRoot / ".." / "shared" / "scenes").lexically_normal());
+    if (!configFile.empty()) folders.push_back(configFile.has_parent_path() ? configFile.parent_path() : ".");
+    return folders;
+}
+
+fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& folders,
+                       const TextLocation& where) {
+    const fs::path path(name);
+    std::error_code code;
+    if (path.is_absolute() && fs::exists(path, code)) return path;
+    std::vector<std::string> looked;
+    for (const fs::path& folder : folders) {
+        if (path.is_absolute()) break;
+        if (fs::exists(folder / path, code)) return folder / path;
+        looked.push_back(folder.string());
+    }
+    throw UsageError(where,
+                     "no file '{}'{}; name its folder with --scenes DIR or VOXRAY_SCENES, see docs/scenes.md",
+                     name, looked.empty() ? "" : fmt::format(" in {}", fmt::join(looked, ", ")));
+}
+
+std::shared_ptr<const Scene> SceneLoader::load(const SceneSettings& settings) {
+    if (!settings.options.builtin.empty()) {
+        const std::string id = "builtin:" + settings.options.builtin + settings.builtinParameters.text();
+        auto& scene = scenes_[id];
+        if (!scene) {
+            checkBuiltin(settings);
+            scene = makeBuiltinScene(settings.options.builtin, settings.builtinParameters);
+        }
+        return scene;
+    }
+    const fs::path path = findSceneFile(settings.options.file, folders_, settings.sourceWhere);
+    auto& scene = scenes_[path.string()];
+    if (!scene) scene = loadGltf(path);
+    return scene;
+}
+
+std::shared_ptr<const ImageF> SceneLoader::loadMap(const SceneSettings& settings) {
+    if (!settings.environment || settings.environment->map.empty()) return nullptr;
+    const fs::path path = findSceneFile(settings.environment->map, folders_, settings.environmentWhere);
+    auto& map = maps_[path.string()];
+    if (!map) {
+        ImageF image = readImage(path);
+        checkRadiance(image, path);
+        map = std::make_shared<const ImageF>(std::move(image));
+    }
+    return map;
+}
+
+std::string SceneLoader::key(const SceneSettings& settings) {
+    Hasher hasher;
+    hasher.add(load(settings)->contentHash);
+    hasher.addPlain(settings.options.keepFileLights).addPlain(settings.options.materials);
+    hasher.addPlain(settings.options.time).add(settings.cameraName);
+    hasher.add(settings.camera ? writeParams(*settings.camera).text() : "");
+    for (const Light& light : settings.lights) {
+        hasher.addPlain(light.type)
+            .addPlain(light.intensity)
+            .addPlain(light.position)
+            .addPlain(light.direction);
+        hasher.addPlain(light.innerConeAngle).addPlain(light.outerConeAngle);
+    }
+    hasher.add(settings.environment
+                   ? fmt::format("{}", writeParams(*settings.environment).find("scale")->text())
+                   : "");
+    if (const auto map = loadMap(settings)) {
+        hasher.addPlain(map->width).addPlain(map->height);
+        hasher.add(map->data.data(), map->data.size() * sizeof(float));
+    }
+    return hasher.hex();
+}
+
+PreparedScene SceneLoader::prepare(const SceneSettings& settings) {
+    // The scene's materials and environment
+    std::shared_ptr<const Scene> scene = load(settings);
+    if (settings.options.materials == MaterialMode::Lambert) scene = withLambertMaterials(*scene);
+    if (settings.environment) {
+        auto copy = std::make_shared<Scene>(*scene);
+        copy->environment.radiance = settings.environment->scale;
+        copy->environment.map = loadMap(settings);
+        scene = copy;
+    }
+
+    // Lights and the camera, in world space
+    PreparedScene prepared;
+    prepared.state = evaluate(scene, settings.options.time);
+    if (!settings.options.keepFileLights) prepared.state.lights.clear();
+    prepared.state.lights.insert(prepared.state.lights.end(), settings.lights.begin(), settings.lights.end());
+    prepared.camera = chooseCamera(settings, prepared.state);
+    prepared.state.cameras = {prepared.camera};
+    return prepared;
+}
+
+std::vector<std::string> SceneLoader::warnings() const {
+    std::vector<std::string> lines;
+    for (const auto& [name, scene] : scenes_)
+        for (const std::string& warning : scene->warnings)
+            lines.push_back(fs::path(name).filename().string() + ": " + warning);
+    return lines;
+}
+
+}  // namespace voxray

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiment/config.h"
+#include "scene/geometry.h"
+#include "scene/scene.h"
+
+namespace voxray {
+
+/// Where scene files and environment maps are looked for, in this order: `scenesOption` (--scenes),
+/// $VOXRAY_SCENES, shared/scenes beside the source root, the config's folder. Empty paths are left out.
+std::vector<std::filesystem::path> sceneFolders(const std::filesystem::path& scenesOption,
+                                                const std::filesystem::path& sourceRoot,
+                                                const std::filesystem::path& configFile);
+
+/// The first folder's file of that name; an absolute name stands for itself.
+/// @throws UsageError at `where` that lists where it looked.
+std::filesystem::path findSceneFile(const std::string& name,
+                                    const std::vector<std::filesystem::path>& folders,
+                                    const TextLocation& where);
+
+/// A scene as a variant renders it.
+struct PreparedScene {
+    SceneState state;  ///< Its lights are those that shine, its only camera is `camera`.
+    Camera camera;
+};
+
+/// Loads scenes and puts a config's camera, lights, environment and material mode on them. Keeps every scene
+/// it loaded.
+class SceneLoader {
+ public:
+    explicit SceneLoader(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
+
+    /// Hash of everything that the prepared scene depends on, file contents included.
+    /// @throws UsageError for a scene, parameter or file that isn't there, Error for a broken file.
+    std::string key(const SceneSettings& settings);
+
+    /// @throws as key(), and UsageError for a camera that the scene lacks.
+    PreparedScene prepare(const SceneSettings& settings);
+
+    /// What loading left out, a line each, of all scenes loaded.
+    std::vector<std::string> warnings() const;
+
+ private:
+    std::shared_ptr<const Scene> load(const SceneSettings& settings);
+    std::shared_ptr<const ImageF> loadMap(const SceneSettings& settings);
+
+    std::vector<std::filesystem::path> folders_;
+    std::map<std::string, std::shared_ptr<const Scene>>
+        scenes_;  ///< By file or built-in scene and parameters.
+    std::map<std::string, std::shared_ptr<const ImageF>> maps_;  ///< By path.
+};
+
+}  // namespace voxray

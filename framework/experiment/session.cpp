@@ -1,0 +1,111 @@
+#include "experiment/session.h"
+
+#include <algorithm>
+
+#include "base/files.h"
+#include "base/interrupt.h"
+
+namespace voxray {
+
+Session::Session(const DeviceOptions& device, const std::filesystem::path& sourceRoot,
+                 std::vector<std::filesystem::path> sceneFolders)
+    : device_(device),
+      stream_(device_),
+      compiler_(sourceRoot, cacheFolder() / "spirv"),
+      loader_(std::move(sceneFolders)),
+      cache_(cacheFolder() / "references") {}
+
+std::string Session::tracerName(const Setup& setup) const {
+    const TracerKind kind = resolveTracer(setup.general.tracer, device_);
+    return schema_detail::textOf(kind);
+}
+
+SceneOnDevice& Session::scene(const Setup& setup) {
+    const std::string key = loader_.key(setup.scene) + " " + tracerName(setup);
+    if (scene_ && scene_->key == key) return *scene_;
+
+    // The old one goes first: two may not fit. The tracer holds on to the state's address
+    scene_.reset();
+    scene_.emplace();
+    try {
+        scene_->prepared = loader_.prepare(setup.scene);
+        scene_->gpu = makeGpuScene(device_, stream_, scene_->prepared.state);
+        scene_->tracer = makeRayTracer(setup.general.tracer, device_, compiler_, scene_->prepared.state);
+        stream_.finish();
+    } catch (...) {
+        scene_.reset();
+        throw;
+    }
+    scene_->key = key;
+    return *scene_;
+}
+
+std::vector<uint64_t> Session::plan(Graph& graph, const Frame& frame, uint64_t limitMb) {
+    const uint64_t total = device_.memoryLimitBytes(), used = device_.memoryUsedBytes();
+    uint64_t limit = total > used ? total - used : 0;
+    if (limitMb > 0) limit = std::min(limit, limitMb << 20);
+    return graph.plan(frame, device_.info(), limit);
+}
+
+std::string Session::referenceHashOf(const Experiment& experiment, const Setup& setup,
+                                     const Registry& registry) {
+    if (experiment.reference.isNull()) return {};
+    const Graph graph(registry, referenceGraph(experiment));
+    return referenceHash(loader_.key(setup.scene), graph.resolved(), setup.image,
+                         referenceSeed(setup.general.seed));
+}
+
+const ReferenceImages& Session::reference(const Experiment& experiment, const Setup& setup,
+                                          const Registry& registry) {
+    const std::string hash = referenceHashOf(experiment, setup, registry);
+    if (reference_ && reference_->hash == hash) return *reference_;
+    if (const auto failed = failedReferences_.find(hash); failed != failedReferences_.end())
+        throw Error("{}", failed->second);
+    reference_ = cache_.load(hash, setup.image.width, setup.image.height);
+    if (reference_) return *reference_;
+    try {
+        reference_ = makeReference(hash, experiment, setup, registry);
+    } catch (const std::exception& error) {
+        if (interruptRequested()) throw Interrupted();
+        throw Error("{}", failedReferences_[hash] = std::string("reference: ") + error.what());
+    }
+
+    // The same bits whether they come from memory or from the cache
+    try {
+        cache_.store(*reference_);
+    } catch (const Error& error) {
+        warnings_.push_back(std::string("the reference could not be cached: ") + error.what());
+    }
+    return *reference_;
+}
+
+ReferenceImages Session::makeReference(const std::string& hash, const Experiment& experiment,
+                                       const Setup& setup, const Registry& registry) {
+    SceneOnDevice& onDevice = scene(setup);
+    const Frame frame = frameOf(setup, onDevice.prepared, referenceSeed(setup.general.seed));
+    Graph graph(registry, referenceGraph(experiment));
+    plan(graph, frame, 0);
+    graph.prepare(frame, device_, compiler_, stream_);
+    ReferenceImages reference =
+        renderReference(graph, {frame, device_, stream_, *onDevice.tracer, onDevice.gpu});
+    reference.hash = hash;
+    return reference;
+}
+
+std::vector<std::string> Session::warnings() const {
+    std::vector<std::string> all = loader_.warnings();
+    all.insert(all.end(), warnings_.begin(), warnings_.end());
+    return all;
+}
+
+Frame frameOf(const Setup& setup, const PreparedScene& prepared, uint64_t seed) {
+    Frame frame;
+    frame.scene = &prepared.state;
+    frame.camera = prepared.camera;
+    frame.width = setup.image.width;
+    frame.height = setup.image.height;
+    frame.seed = seed;
+    return frame;
+}
+
+}  // namespace voxray

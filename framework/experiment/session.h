@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/reference.h"
+#include "experiment/scene_setup.h"
+#include "experiment/validate.h"
+
+namespace voxray {
+
+/// A variant's scene on the device.
+struct SceneOnDevice {
+    std::string key;
+    PreparedScene prepared;
+    GpuScene gpu;
+    std::unique_ptr<RayTracer> tracer;
+};
+
+/// What the variants of a run share: the device, the shader compiler, scenes, references.
+class Session {
+ public:
+    Session(const DeviceOptions& device, const std::filesystem::path& sourceRoot,
+            std::vector<std::filesystem::path> sceneFolders);
+
+    Device& device() { return device_; }
+    CommandStream& stream() { return stream_; }
+    ShaderCompiler& compiler() { return compiler_; }
+    SceneLoader& loader() { return loader_; }
+
+    /// The backend that a variant gets. @throws Error where the device lacks what it needs.
+    std::string tracerName(const Setup& setup) const;
+
+    /// The variant's scene; the last one stays on the device until another is asked for.
+    SceneOnDevice& scene(const Setup& setup);
+
+    /// Plans a graph: checks it against scene and device and predicts its memory, bytes by pass.
+    /// @param limitMb the config's limit for the graph in MiB, 0: none.
+    std::vector<uint64_t> plan(Graph& graph, const Frame& frame, uint64_t limitMb);
+
+    /// The reference that judges a variant: from memory, from the cache on disk, or rendered now.
+    /// A reference that failed fails again at once. @throws Error, Interrupted.
+    const ReferenceImages& reference(const Experiment& experiment, const Setup& setup,
+                                     const Registry& registry);
+    /// Its hash, "" where the experiment has none.
+    std::string referenceHashOf(const Experiment& experiment, const Setup& setup, const Registry& registry);
+
+    /// What went wrong without failing a variant, a line each.
+    std::vector<std::string> warnings() const;
+
+ private:
+    ReferenceImages makeReference(const std::string& hash, const Experiment& experiment, const Setup& setup,
+                                  const Registry& registry);
+
+    Device device_;
+    CommandStream stream_;
+    ShaderCompiler compiler_;
+    SceneLoader loader_;
+    ReferenceCache cache_;
+    std::optional<SceneOnDevice> scene_;
+    std::optional<ReferenceImages> reference_;
+    std::map<std::string, std::string> failedReferences_;  ///< Hash -> error.
+    std::vector<std::string> warnings_;
+};
+
+/// A frame of a variant on its scene; the scene must outlive it.
+Frame frameOf(const Setup& setup, const PreparedScene& prepared, uint64_t seed);
+
+}  // namespace voxray

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "experiment/manifest.h"
+#include "experiment/session.h"
+
+namespace voxray {
+
+/// A reference with what every score against it needs.
+struct Judge {
+    ReferenceImages images;
+    ReferenceRecord record;
+};
+/// Pins the exposures and scores the black and the constant image.
+Judge makeJudge(ReferenceImages images, const ImageSettings& image, const std::string& folder);
+
+/// One rendered variant: its row and its pictures.
+struct RenderedVariant {
+    VariantResult result;
+    ImageF final;
+    std::optional<ImageF> indirect;
+    std::optional<ImageF> flip, indirectFlip;  ///< 1 channel, where there is a reference.
+};
+
+/// Plans, prepares, runs, measures and judges a variant. @param judge nullptr: no scores.
+/// @throws Error, Interrupted; validation messages are errors.
+RenderedVariant renderVariant(const Variant& variant, const Experiment& experiment, const Registry& registry,
+                              Session& session, const Judge* judge,
+                              const std::function<void(double)>& progress);
+
+/// Writes final, indirect and the FLIP maps as EXR and PNG into a folder.
+void writeVariantImages(const std::filesystem::path& folder, const RenderedVariant& variant,
+                        float exposureStops);
+void writeReferenceImages(const std::filesystem::path& folder, const ReferenceImages& images,
+                          float exposureStops);
+
+}  // namespace voxray
