@@ -1,1 +1,4 @@
 # Tests of base.
+voxray_tests(base
+  SOURCES unit/base_test.cpp
+  DEPENDS voxray_base)

@@ -1,0 +1,172 @@
+#include "experiment/config_schema.h"
+
+#include "experiment/overrides.h"
+#include "experiment/settings.h"
+#include "graph/graph.h"
+#include "scene/load.h"
+
+namespace voxray {
+namespace {
+
+Value text(const std::string& content) {
+    return Value::fromScalar(content, true);
+}
+Value literal(const std::string& content) {
+    return Value::fromScalar(content);
+}
+
+Value object(std::initializer_list<std::pair<const char*, Value>> members) {
+    Value map = Value::map();
+    for (const auto& [key, value] : members) map.set(key, value);
+    return map;
+}
+
+Value listOf(const std::vector<std::string>& words) {
+    Value list = Value::list();
+    for (const std::string& word : words) list.items.push_back(text(word));
+    return list;
+}
+
+Value anyOf(std::initializer_list<Value> choices) {
+    Value list = Value::list();
+    list.items = choices;
+    return object({{"anyOf", list}});
+}
+
+/// "[a, b, c]" as the list of its numbers.
+Value numbers(const std::string& triple) {
+    Value list = Value::list();
+    std::string number;
+    for (const char c : triple + ",") {
+        if (c == ',' || c == ']') {
+            if (!number.empty()) list.items.push_back(literal(number));
+            number.clear();
+        } else if (c != '[' && c != ' ') {
+            number += c;
+        }
+    }
+    return list;
+}
+
+Value rgbSchema() {
+    const Value number = object({{"type", text("number")}});
+    return anyOf({number, object({{"type", text("array")},
+                                  {"items", number},
+                                  {"minItems", literal("3")},
+                                  {"maxItems", literal("3")}})});
+}
+
+Value parameterSchema(const ParameterDoc& doc) {
+    const bool isNumber = doc.type == "integer" || doc.type == "number";
+    Value schema = doc.type == "rgb" ? rgbSchema() : Value::map();
+    if (doc.type == "choice")
+        schema.set("enum", listOf(doc.choices));
+    else if (doc.type != "rgb")
+        schema.set("type", text(doc.type));
+    schema.set("description", text(doc.help));
+    if (isNumber && !doc.min.empty()) {
+        schema.set("minimum", literal(doc.min));
+        schema.set("maximum", literal(doc.max));
+    }
+    if (doc.type == "rgb")
+        schema.set("default", numbers(doc.defaults));
+    else if (isNumber || doc.type == "boolean")
+        schema.set("default", literal(doc.defaults));
+    else if (!doc.defaults.empty())
+        schema.set("default", text(doc.defaults));
+    return schema;
+}
+
+Value mapSchema(const std::vector<ParameterDoc>& docs, Value properties = Value::map()) {
+    for (const ParameterDoc& doc : docs) properties.set(doc.name, parameterSchema(doc));
+    return object(
+        {{"type", text("object")}, {"properties", properties}, {"additionalProperties", literal("false")}});
+}
+
+Value withRequired(Value schema, const std::vector<std::string>& keys) {
+    schema.set("required", listOf(keys));
+    return schema;
+}
+
+Value passSchema(const PassKind& kind) {
+    Value properties = Value::map(), inputs = Value::map();
+    properties.set("pass", object({{"const", text(kind.name)}, {"description", text(kind.help)}}));
+    properties.set("id", object({{"type", text("string")},
+                                 {"description", text("Name in this graph; by default the pass's own.")}}));
+    for (const PortInfo& port : kind.ports)
+        if (!port.output)
+            inputs.set(port.name, object({{"type", text("string")}, {"description", text(port.help)}}));
+    properties.set("inputs",
+                   object({{"type", text("object")},
+                           {"properties", inputs},
+                           {"additionalProperties", literal("false")},
+                           {"description", text("Port: the id of the pass that writes it, or id.port.")}}));
+    return withRequired(mapSchema(kind.parameters, properties), {"pass"});
+}
+
+Value sceneSchema() {
+    Value camera = withRequired(mapSchema(describeParams<CameraSettings>()), {"position", "target"});
+    Value lights = Value::list();
+    lights.items = {withRequired(mapSchema(describeParams<DirectionalLightSettings>()), {"directional"}),
+                    withRequired(mapSchema(describeParams<PointLightSettings>()), {"point"}),
+                    withRequired(mapSchema(describeParams<SpotLightSettings>()), {"spot"})};
+    const Value string = object({{"type", text("string")}});
+    const Value lightList = object(
+        {{"type", text("array")},
+         {"items", object({{"oneOf", lights}})},
+         {"description", text("Added to the scene's own; a word is the built-in scene's parameter.")}});
+
+    // Parameters of built-in scenes stand beside the keys that every scene has
+    Value schema = mapSchema(describeParams<SceneOptions>());
+    Value& properties = *schema.find("properties");
+    properties.set("camera", anyOf({string, camera}));
+    properties.set("lights", anyOf({string, lightList}));
+    properties.set("environment",
+                   anyOf({string, rgbSchema(), mapSchema(describeParams<EnvironmentSettings>())}));
+    properties.find("builtin")->set("enum", listOf(builtinSceneNames()));
+    for (const std::string& name : builtinSceneNames())
+        for (const ParameterDoc& doc : describeBuiltinScene(name))
+            if (!properties.find(doc.name)) {
+                Value parameter = parameterSchema(doc);
+                parameter.erase("default");
+                properties.set(doc.name, parameter);
+            }
+    return schema;
+}
+
+}  // namespace
+
+Value configJsonSchema(const Registry& registry) {
+    Value passes = Value::list();
+    for (const PassKind& kind : registry.kinds()) passes.items.push_back(passSchema(kind));
+    const Value pass = object({{"oneOf", passes}});
+
+    Value properties = Value::map();
+    for (const ParameterDoc& doc : describeParams<GeneralSettings>())
+        properties.set(doc.name, parameterSchema(doc));
+    properties.set("scene", sceneSchema());
+    properties.set("image", mapSchema(describeParams<ImageSettings>()));
+    Value metrics = Value::map();
+    metrics.set("metrics", object({{"type", text("array")},
+                                   {"items", object({{"enum", listOf(metricNames())}})},
+                                   {"description", text("Metrics that are written; all by default.")}}));
+    properties.set("measure", mapSchema(describeParams<MeasureSettings>(), metrics));
+    properties.set("graph", object({{"type", text("array")}, {"items", pass}, {"minItems", literal("1")}}));
+    properties.set("reference", anyOf({object({{"type", text("null")}}), pass}));
+    properties.set(
+        "sweep",
+        object({{"type", text("object")},
+                {"additionalProperties", object({{"type", text("array")}, {"minItems", literal("1")}})},
+                {"description", text("Path: list of values; all combinations are rendered.")}}));
+    properties.set("profiles", object({{"type", text("object")},
+                                       {"additionalProperties", object({{"type", text("object")}})},
+                                       {"description", text("Name: overrides that --profile applies.")}}));
+    return object({{"$schema", text("https://json-schema.org/draft/2020-12/schema")},
+                   {"title", text("Voxray experiment")},
+                   {"type", text("object")},
+                   {"properties", properties},
+                   {"required", listOf({"name", "scene", "graph"})},
+                   {"additionalProperties", literal("false")}});
+}
+
+}  // namespace voxray
