@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <map>
 
 #include "base/files.h"
@@ -53,8 +54,12 @@ std::string oneLine(std::string text) {
     while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
     for (char& c : text)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-    if (text.size() > 200) text = text.substr(0, 197) + "...";
-    return text;
+    if (text.size() <= 200) return text;
+
+    // Cut between characters: bytes 10xxxxxx go on with the one before (UTF-8).
+    size_t end = 197;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+    return text.substr(0, end) + "...";
 }
 
 GltfFile::GltfFile(const std::filesystem::path& path) : name_(path.string()) {

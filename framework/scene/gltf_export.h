@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "scene/geometry.h"
+#include "scene/tiny_gltf.h"
+
+namespace voxray {
+
+/// Collects a glTF model with all of its data in one buffer.
+class GltfWriter {
+ public:
+    GltfWriter();
+
+    /// Adds materials, samplers, textures and images of a scene, in the scene's order.
+    void addMaterials(const Scene& scene);
+    /// Adds a mesh and its node: the triangles of one instance, in world space. Attributes that the
+    /// instance's mesh does not have are left out.
+    void addInstance(const Geometry& geometry, const InstanceRange& range, const Mesh& mesh);
+    void addLight(const Light& light);
+    void addCamera(const Camera& camera);
+
+    /// The whole model as a .glb file. @throws Error where it is 4 GiB or more.
+    std::string glb();
+
+ private:
+    int addView(const void* data, size_t bytes, int target);
+    template <typename T>
+    int addAccessor(const std::vector<T>& values, int type, int componentType, int target);
+    int addNode(tinygltf::Node node);
+    void addTexture(const Texture& texture);
+    template <typename Info>
+    Info textureInfo(const TextureRef& ref);
+    void useExtension(const char* name);
+
+    tinygltf::Model model_;
+};
+
+}  // namespace voxray
