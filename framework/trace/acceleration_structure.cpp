@@ -1,0 +1,197 @@
+#include "trace/acceleration_structure.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "base/error.h"
+#include "vulkan/structure.h"
+
+namespace voxray {
+
+// Delegating first makes the destructor clean up where the rest throws.
+AccelerationStructure::AccelerationStructure(Device& device, const char* name,
+                                             VkAccelerationStructureTypeKHR type, uint64_t bytes)
+    : AccelerationStructure() {
+    device_ = &device;
+    buffer_ = Buffer(device, name, bytes, MemoryKind::Device,
+                     VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR);
+    auto create = structure<VkAccelerationStructureCreateInfoKHR>(
+        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR);
+    create.buffer = buffer_.handle();
+    create.size = bytes;
+    create.type = type;
+    const auto function =
+        device.function<PFN_vkCreateAccelerationStructureKHR>("vkCreateAccelerationStructureKHR");
+    check(function(device.handle(), &create, nullptr, &handle_), "vkCreateAccelerationStructureKHR");
+}
+
+AccelerationStructure::~AccelerationStructure() {
+    if (!handle_) return;
+    device_->function<PFN_vkDestroyAccelerationStructureKHR>("vkDestroyAccelerationStructureKHR")(
+        device_->handle(), handle_, nullptr);
+}
+
+AccelerationStructure::AccelerationStructure(AccelerationStructure&& other) noexcept {
+    *this = std::move(other);
+}
+
+AccelerationStructure& AccelerationStructure::operator=(AccelerationStructure&& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(buffer_, other.buffer_);
+    std::swap(handle_, other.handle_);
+    return *this;
+}
+
+VkDeviceAddress AccelerationStructure::address() const {
+    auto info = structure<VkAccelerationStructureDeviceAddressInfoKHR>(
+        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR);
+    info.accelerationStructure = handle_;
+    return device_->function<PFN_vkGetAccelerationStructureDeviceAddressKHR>(
+        "vkGetAccelerationStructureDeviceAddressKHR")(device_->handle(), &info);
+}
+
+namespace {
+
+/// A structure that is to be built from one geometry of `primitives` elements.
+struct Build {
+    VkAccelerationStructureTypeKHR type;
+    VkAccelerationStructureGeometryKHR geometry;
+    uint32_t primitives;
+};
+
+VkAccelerationStructureBuildGeometryInfoKHR describe(const Build& build) {
+    auto info = structure<VkAccelerationStructureBuildGeometryInfoKHR>(
+        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR);
+    info.type = build.type;
+    info.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
+    info.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
+    info.geometryCount = 1;
+    info.pGeometries = &build.geometry;
+    return info;
+}
+
+/// Builds one structure and waits, so that scratch memory is needed for one at a time.
+AccelerationStructure run(Device& device, CommandStream& stream, const char* name, const Build& build) {
+    VkAccelerationStructureBuildGeometryInfoKHR info = describe(build);
+    auto sizes = structure<VkAccelerationStructureBuildSizesInfoKHR>(
+        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR);
+    device.function<PFN_vkGetAccelerationStructureBuildSizesKHR>("vkGetAccelerationStructureBuildSizesKHR")(
+        device.handle(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, &build.primitives, &sizes);
+    AccelerationStructure result(device, name, build.type, sizes.accelerationStructureSize);
+
+    // Scratch memory starts at an aligned address.
+    const uint64_t alignment =
+        device.accelerationStructureProperties().minAccelerationStructureScratchOffsetAlignment;
+    const Buffer scratch(device, "acceleration structure scratch", sizes.buildScratchSize + alignment);
+    info.dstAccelerationStructure = result.handle();
+    info.scratchData.deviceAddress = (scratch.address() + alignment - 1) / alignment * alignment;
+    const VkAccelerationStructureBuildRangeInfoKHR range{build.primitives, 0, 0, 0};
+    const VkAccelerationStructureBuildRangeInfoKHR* ranges = &range;
+    const auto function =
+        device.function<PFN_vkCmdBuildAccelerationStructuresKHR>("vkCmdBuildAccelerationStructuresKHR");
+    stream.record([&](VkCommandBuffer commands) { function(commands, 1, &info, &ranges); });
+    stream.finish();
+    return result;
+}
+
+Build trianglesBuild(const Buffer& positions, uint32_t vertexCount, const Buffer& indices, uint32_t first,
+                     uint32_t count, bool opaque) {
+    Build build{VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, {}, count};
+    build.geometry =
+        structure<VkAccelerationStructureGeometryKHR>(VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR);
+    build.geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
+    build.geometry.flags =
+        opaque ? VK_GEOMETRY_OPAQUE_BIT_KHR : VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
+    auto& triangles = build.geometry.geometry.triangles;
+    triangles = structure<VkAccelerationStructureGeometryTrianglesDataKHR>(
+        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR);
+    triangles.vertexFormat = VK_FORMAT_R32G32B32_SFLOAT;
+    triangles.vertexData.deviceAddress = positions.address();
+    triangles.vertexStride = sizeof(glm::vec3);
+    triangles.maxVertex = vertexCount - 1;
+    triangles.indexType = VK_INDEX_TYPE_UINT32;
+    triangles.indexData.deviceAddress = indices.address() + uint64_t(first) * sizeof(glm::uvec3);
+    return build;
+}
+
+AccelerationStructure buildTop(Device& device, CommandStream& stream,
+                               const std::vector<AccelerationStructure>& chunks) {
+    // Instances as they are: the triangles are in world space. All sides count.
+    std::vector<VkAccelerationStructureInstanceKHR> instances;
+    for (uint32_t i = 0; i < chunks.size(); ++i) {
+        VkAccelerationStructureInstanceKHR instance{};
+        for (int axis = 0; axis < 3; ++axis) instance.transform.matrix[axis][axis] = 1.0f;
+        instance.instanceCustomIndex = i & 0xffffffu;
+        instance.mask = 0xff;
+        instance.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
+        instance.accelerationStructureReference = chunks[i].address();
+        instances.push_back(instance);
+    }
+    const Buffer buffer(device, "acceleration structure instances",
+                        std::max<size_t>(instances.size(), 1) * sizeof(VkAccelerationStructureInstanceKHR));
+    stream.upload(buffer, instances);
+    Build build{VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, {}, uint32_t(instances.size())};
+    build.geometry =
+        structure<VkAccelerationStructureGeometryKHR>(VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR);
+    build.geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
+    build.geometry.geometry.instances = structure<VkAccelerationStructureGeometryInstancesDataKHR>(
+        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR);
+    build.geometry.geometry.instances.data.deviceAddress = buffer.address();
+    return run(device, stream, "top-level acceleration structure", build);
+}
+
+template <typename T>
+Buffer uploaded(Device& device, CommandStream& stream, const char* name, const std::vector<T>& data) {
+    Buffer buffer(device, name, std::max<size_t>(data.size(), 1) * sizeof(T));
+    stream.upload(buffer, data);
+    return buffer;
+}
+
+}  // namespace
+
+uint64_t SceneStructure::bytes() const {
+    uint64_t sum = top.bytes();
+    for (const AccelerationStructure& chunk : chunks) sum += chunk.bytes();
+    return sum;
+}
+
+uint32_t trianglesPerChunk(const Device& device) {
+    const uint64_t limit = device.accelerationStructureProperties().maxPrimitiveCount;
+    return uint32_t(std::min<uint64_t>(limit, device.info().isCpu ? 1u << 18 : 1u << 24));
+}
+
+SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const SceneState& state,
+                                   const TracingOrder& order, uint32_t trianglesPerChunk) {
+    // Inputs in tracing order.
+    const Geometry& geometry = state.geometry;
+    std::vector<glm::uvec3> indices;
+    indices.reserve(order.triangles.size());
+    for (uint32_t t : order.triangles) indices.push_back(geometry.triangles[t]);
+    const Buffer positions = uploaded(device, stream, "acceleration structure vertices", geometry.positions);
+    const Buffer corners = uploaded(device, stream, "acceleration structure indices", indices);
+
+    // Chunks of opaque triangles, then chunks of masked ones.
+    SceneStructure scene;
+    scene.opaqueCount = order.opaqueCount;
+    std::vector<uint32_t> chunkFirst;
+    const uint32_t vertexCount = uint32_t(geometry.positions.size());
+    const auto addChunks = [&](uint32_t begin, uint32_t end, bool opaque) {
+        for (uint32_t first = begin; first < end; first += std::min(trianglesPerChunk, end - first)) {
+            const uint32_t count = std::min(trianglesPerChunk, end - first);
+            chunkFirst.push_back(first);
+            scene.chunks.push_back(
+                run(device, stream, "bottom-level acceleration structures",
+                    trianglesBuild(positions, vertexCount, corners, first, count, opaque)));
+        }
+    };
+    addChunks(0, order.opaqueCount, true);
+    addChunks(order.opaqueCount, uint32_t(order.triangles.size()), false);
+    scene.top = buildTop(device, stream, scene.chunks);
+    scene.chunkFirst = uploaded(device, stream, "acceleration structure chunks", chunkFirst);
+    scene.triangleIds = uploaded(device, stream, "acceleration structure triangle numbers", order.triangles);
+    stream.finish();
+    return scene;
+}
+
+}  // namespace voxray

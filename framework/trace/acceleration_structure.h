@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/geometry.h"
+#include "trace/gpu_alpha_mask.h"
+#include "vulkan/commands.h"
+#include "vulkan/memory.h"
+
+namespace voxray {
+
+/// A Vulkan acceleration structure with its memory. Move-only.
+class AccelerationStructure {
+ public:
+    AccelerationStructure() = default;
+    AccelerationStructure(Device& device, const char* name, VkAccelerationStructureTypeKHR type,
+                          uint64_t bytes);
+    ~AccelerationStructure();
+    AccelerationStructure(AccelerationStructure&& other) noexcept;
+    AccelerationStructure& operator=(AccelerationStructure&& other) noexcept;
+
+    VkAccelerationStructureKHR handle() const { return handle_; }
+    VkDeviceAddress address() const;
+    uint64_t bytes() const { return buffer_.bytes(); }
+
+ private:
+    Device* device_ = nullptr;
+    Buffer buffer_;
+    VkAccelerationStructureKHR handle_ = VK_NULL_HANDLE;
+};
+
+/// A scene's triangles for tracing on the GPU: chunks of opaque and of masked triangles, each a bottom-level
+/// structure and an instance whose custom index is the chunk's number. Opaque chunks call no any-hit shader.
+struct SceneStructure {
+    std::vector<AccelerationStructure> chunks;
+    AccelerationStructure top;
+    Buffer chunkFirst;   ///< First triangle, in tracing order, of each chunk.
+    Buffer triangleIds;  ///< Numbers in the scene, in tracing order.
+    uint32_t opaqueCount = 0;
+
+    uint64_t bytes() const;  ///< Of all structures.
+};
+
+/// Triangles of one bottom-level structure at most: software Vulkan's builder takes no more in good time,
+/// GPUs trace few structures faster than many.
+uint32_t trianglesPerChunk(const Device& device);
+
+/// Builds the structures; records and finishes. The build's inputs are freed again.
+/// @throws Error over the memory limit.
+SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const SceneState& state,
+                                   const TracingOrder& order, uint32_t trianglesPerChunk);
+
+}  // namespace voxray

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "shaders/trace/trace_types.h"
+#include "trace/acceleration_structure.h"
+#include "trace/gpu_alpha_mask.h"
+#include "trace/ray_tracer.h"
+
+namespace voxray {
+
+/// What both GPU backends share: the scene's structures, and launches over parts of a stream that a device
+/// can take in one.
+class GpuTracer : public RayTracer {
+ public:
+    void closestHit(CommandStream& stream, const Buffer& rays, const Buffer& hits, uint32_t count) final;
+    void occluded(CommandStream& stream, const Buffer& rays, const Buffer& results, uint32_t count) final;
+    size_t memoryBytes() const final { return structure_.bytes(); }
+
+ protected:
+    GpuTracer(Device& device, const SceneState& state, uint32_t trianglesPerChunk);
+
+    /// Traces rays [call.firstRay, call.endRay).
+    virtual void launch(CommandStream& stream, bool occluded, const gpu::TraceCall& call) = 0;
+
+    VkAccelerationStructureKHR structure() const { return structure_.top.handle(); }
+
+ private:
+    void trace(CommandStream& stream, bool occluded, const Buffer& rays, const Buffer& results,
+               uint32_t count);
+
+    SceneStructure structure_;
+    GpuAlphaMask mask_;
+};
+
+/// @throws Error where a stream's buffers are too small for `count` rays and results of `resultBytes` each.
+void checkStream(const Buffer& rays, const Buffer& results, uint64_t resultBytes, uint32_t count);
+
+}  // namespace voxray

@@ -1,0 +1,58 @@
+#include "trace/ray_pipeline_tracer.h"
+
+#include <cstring>
+
+namespace voxray {
+
+RayPipelineTracer::RayPipelineTracer(Device& device, ShaderCompiler& compiler, const SceneState& state,
+                                     uint32_t trianglesPerChunk)
+    : GpuTracer(device, state, trianglesPerChunk) {
+    std::vector<ShaderModule> modules;
+    for (const char* stage : {"rgen", "rmiss", "rchit", "rahit"})
+        modules.push_back(compiler.compile(std::string("shaders/trace/ray_pipeline.") + stage));
+    closestHit_ = makePipeline(device, modules, false);
+    occluded_ = makePipeline(device, modules, true);
+    traceRays_ = device.function<PFN_vkCmdTraceRaysKHR>("vkCmdTraceRaysKHR");
+}
+
+RayPipelineTracer::Pipeline RayPipelineTracer::makePipeline(Device& device,
+                                                            std::span<const ShaderModule> modules,
+                                                            bool occluded) {
+    Pipeline pipeline;
+    pipeline.program = makeRayTracingProgram(device, modules, {{0, occluded ? 1u : 0u}});
+
+    // The groups' handles, packed by the driver, laid out one to an aligned record.
+    constexpr uint32_t kGroups = 3;
+    const auto& properties = device.rayPipelineProperties();
+    const size_t handleBytes = properties.shaderGroupHandleSize;
+    const size_t alignment = properties.shaderGroupBaseAlignment;
+    const size_t recordBytes = (handleBytes + alignment - 1) / alignment * alignment;
+    std::vector<std::byte> handles(kGroups * handleBytes);
+    check(device.function<PFN_vkGetRayTracingShaderGroupHandlesKHR>("vkGetRayTracingShaderGroupHandlesKHR")(
+              device.handle(), pipeline.program.pipeline(), 0, kGroups, handles.size(), handles.data()),
+          "vkGetRayTracingShaderGroupHandlesKHR");
+    pipeline.table = Buffer(device, "shader binding table", (kGroups + 1) * recordBytes, MemoryKind::Upload,
+                            VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR);
+    const uint64_t padding = (alignment - pipeline.table.address() % alignment) % alignment;
+    VkStridedDeviceAddressRegionKHR* regions[kGroups] = {&pipeline.rayGeneration, &pipeline.miss,
+                                                         &pipeline.hit};
+    for (uint32_t group = 0; group < kGroups; ++group) {
+        const uint64_t offset = padding + group * recordBytes;
+        std::memcpy(static_cast<std::byte*>(pipeline.table.mapped()) + offset, &handles[group * handleBytes],
+                    handleBytes);
+        *regions[group] = {pipeline.table.address() + offset, recordBytes, recordBytes};
+    }
+    return pipeline;
+}
+
+void RayPipelineTracer::launch(CommandStream& stream, bool occluded, const gpu::TraceCall& call) {
+    const Pipeline& pipeline = occluded ? occluded_ : closestHit_;
+    const Binding bindings[] = {{"structure", structure()}};
+    stream.record(pipeline.program, bindings, call, [&](VkCommandBuffer commands) {
+        const VkStridedDeviceAddressRegionKHR callable{};
+        traceRays_(commands, &pipeline.rayGeneration, &pipeline.miss, &pipeline.hit, &callable,
+                   call.endRay - call.firstRay, 1, 1);
+    });
+}
+
+}  // namespace voxray

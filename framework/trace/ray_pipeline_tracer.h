@@ -1,0 +1,29 @@
+#pragma once
+
+#include "trace/gpu_tracer.h"
+
+namespace voxray {
+
+/// Streams by ray-tracing pipelines (VK_KHR_ray_tracing_pipeline).
+class RayPipelineTracer final : public GpuTracer {
+ public:
+    RayPipelineTracer(Device& device, ShaderCompiler& compiler, const SceneState& state,
+                      uint32_t trianglesPerChunk);
+    std::string_view name() const override { return "ray_pipeline"; }
+
+ private:
+    /// A pipeline with its shader binding table: one record each of ray generation, miss and hit group.
+    struct Pipeline {
+        Program program;
+        Buffer table;
+        VkStridedDeviceAddressRegionKHR rayGeneration{}, miss{}, hit{};
+    };
+    static Pipeline makePipeline(Device& device, std::span<const ShaderModule> modules, bool occluded);
+    void launch(CommandStream& stream, bool occluded, const gpu::TraceCall& call) override;
+
+    Pipeline closestHit_;
+    Pipeline occluded_;
+    PFN_vkCmdTraceRaysKHR traceRays_ = nullptr;
+};
+
+}  // namespace voxray

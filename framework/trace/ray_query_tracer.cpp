@@ -1,0 +1,18 @@
+#include "trace/ray_query_tracer.h"
+
+namespace voxray {
+
+RayQueryTracer::RayQueryTracer(Device& device, ShaderCompiler& compiler, const SceneState& state,
+                               uint32_t trianglesPerChunk)
+    : GpuTracer(device, state, trianglesPerChunk) {
+    const ShaderModule module = compiler.compile("shaders/trace/ray_query.comp");
+    closestHit_ = makeComputeProgram(device, module, {{0, 0}});
+    occluded_ = makeComputeProgram(device, module, {{0, 1}});
+}
+
+void RayQueryTracer::launch(CommandStream& stream, bool occluded, const gpu::TraceCall& call) {
+    const uint32_t groups = (call.endRay - call.firstRay + 63) / 64;
+    stream.dispatch(occluded ? occluded_ : closestHit_, {{"structure", structure()}}, call, {groups, 1, 1});
+}
+
+}  // namespace voxray

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "trace/gpu_tracer.h"
+
+namespace voxray {
+
+/// Streams by ray queries in a compute shader (VK_KHR_ray_query).
+class RayQueryTracer final : public GpuTracer {
+ public:
+    RayQueryTracer(Device& device, ShaderCompiler& compiler, const SceneState& state,
+                   uint32_t trianglesPerChunk);
+    std::string_view name() const override { return "ray_query"; }
+
+ private:
+    void launch(CommandStream& stream, bool occluded, const gpu::TraceCall& call) override;
+
+    Program closestHit_;
+    Program occluded_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,42 @@
+#version 460
+#extension GL_EXT_ray_query : require
+
+// Traces a stream with ray queries: one invocation a ray.
+#include "shaders/trace/trace.glsl"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kOccluded = false;
+layout(set = 0, binding = 0) uniform accelerationStructureEXT structure;
+
+Hit trace(Ray ray) {
+    Hit hit = Hit(ray.tMax, NO_HIT, 0.0, 0.0);
+    if (!isTraceable(ray)) return hit;
+    rayQueryEXT query;
+    const uint flags = kOccluded ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsNoneEXT;
+    rayQueryInitializeEXT(query, structure, flags, 0xff, ray.origin, ray.tMin, ray.direction, ray.tMax);
+
+    // Only masked triangles are candidates; opaque ones are committed by the query itself.
+    while (rayQueryProceedEXT(query)) {
+        const uint instance = uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, false));
+        const uint primitive = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
+        const vec2 barycentrics = rayQueryGetIntersectionBarycentricsEXT(query, false);
+        if (!isCutAway(instance, primitive, barycentrics)) rayQueryConfirmIntersectionEXT(query);
+    }
+    if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT) return hit;
+    const vec2 barycentrics = rayQueryGetIntersectionBarycentricsEXT(query, true);
+    const uint instance = uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true));
+    const uint primitive = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, true));
+    return Hit(rayQueryGetIntersectionTEXT(query, true), sceneTriangle(instance, primitive), barycentrics.x,
+               barycentrics.y);
+}
+
+void main() {
+    const uint i = call.firstRay + gl_GlobalInvocationID.x;
+    if (i >= call.endRay) return;
+    const Hit hit = trace(RayStream(call.rays).data[i]);
+    if (kOccluded) {
+        WordStream(call.results).data[i] = hit.triangle == NO_HIT ? 0u : 1u;
+    } else {
+        HitStream(call.results).data[i] = hit;
+    }
+}
