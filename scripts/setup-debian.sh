@@ -41,7 +41,7 @@ if [ "$(id -u)" -ne 0 ]; then
   exec sudo -- "$(readlink -f "$0")" "$purpose"
 fi
 
-export DEBIAN_FRONTEND=noninteractive
+export DEBIAN_FRONTEND=noninteractive DEBCONF_NOWARNINGS=yes
 apt_get() {
   apt-get -qq -o Dpkg::Use-Pty=0 -o Acquire::Retries=3 -o DPkg::Lock::Timeout=300 "$@" >/dev/null ||
     die "apt-get $1 failed (its own message stands above)"

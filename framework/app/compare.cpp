@@ -36,16 +36,6 @@ constexpr Metric kMetrics[] = {{"flip", &Scores::flip},           {"flip_ldr", &
                                {"nrmse", &Scores::nrmse},         {"relmse", &Scores::relmse},
                                {"mean_ratio", &Scores::meanRatio}};
 
-/// The image that says nothing but the mean of the reference, channel by channel.
-ImageF constantOfMean(const ImageF& reference) {
-    std::vector<double> sums(reference.channels, 0.0);
-    for (size_t i = 0; i < reference.data.size(); ++i) sums[i % reference.channels] += reference.data[i];
-    ImageF constant(reference.width, reference.height, reference.channels);
-    for (size_t i = 0; i < constant.data.size(); ++i)
-        constant.data[i] = float(sums[i % reference.channels] / double(reference.pixelCount()));
-    return constant;
-}
-
 void printTable(const std::vector<Row>& rows) {
     fmt::print("{:<10}", "");
     for (const auto& [name, member] : kMetrics) fmt::print(" {:>10}", name);
@@ -91,10 +81,9 @@ void compare(const CompareOptions& options) {
     scoring.exposureStops = options.exposureStops;
     scoring.flipExposures = flipExposures(reference);
     ImageF map;
-    const ImageF black(reference.width, reference.height, reference.channels);
     const std::vector<Row> rows = {{"test", score(test, reference, scoring, &map)},
-                                   {"black", score(black, reference, scoring)},
-                                   {"constant", score(constantOfMean(reference), reference, scoring)}};
+                                   {"black", score(blackLike(reference), reference, scoring)},
+                                   {"constant", score(constantLike(reference), reference, scoring)}};
     if (!options.flipMap.empty()) writePng(options.flipMap, map);
 
     if (options.json)

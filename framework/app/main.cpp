@@ -51,7 +51,10 @@ int main(int argc, char** argv) {
     app.footer("Also: ./voxray test [FILTER] runs the tests, ./voxray bench [FILTER] the benchmarks.");
 
     int status = 0;
+    addRunCommand(app, status);
     addValidateCommand(app, status);
+    addSchemaCommand(app, status);
+    addExportSceneCommand(app, status);
     addCompareCommand(app, status);
     addPassesCommand(app, status);
     addDevicesCommand(app, status);

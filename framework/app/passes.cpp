@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <sstream>
 #include <string>
 
 #include "app/commands.h"
@@ -11,38 +13,71 @@ namespace voxray {
 
 namespace {
 
+constexpr size_t kWidth = 100;
+
+/// The text broken at spaces into lines of at most kWidth, all but the first indented.
+std::string wrapped(const std::string& text, size_t firstColumn, size_t indent) {
+    std::string out;
+    size_t column = firstColumn;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        if (!out.empty() && column + word.size() + 1 > kWidth) {
+            out += "\n" + std::string(indent, ' ');
+            column = indent;
+        } else if (!out.empty()) {
+            out += ' ';
+            ++column;
+        }
+        out += word;
+        column += word.size();
+    }
+    return out;
+}
+
 void printList(const Registry& registry) {
     size_t widest = 0;
     for (const PassKind& kind : registry.kinds()) widest = std::max(widest, kind.name.size());
-    for (const PassKind& kind : registry.kinds())
-        fmt::print("{:{}}  {}\n", kind.name, widest, kind.help.substr(0, kind.help.find('\n')));
+    for (const PassKind& kind : registry.kinds()) {
+        const std::string firstSentence = kind.help.substr(0, kind.help.find(". "));
+        fmt::print("{:{}}  {}\n", kind.name, widest, wrapped(firstSentence, widest + 2, widest + 2));
+    }
     fmt::print("\nvoxray passes NAME tells a pass's ports and parameters.\n");
 }
 
+/// A name and what it is, in two columns.
+void printEntry(const std::string& name, const std::string& text) {
+    constexpr size_t kColumn = 22;
+    fmt::print("  {:<{}} {}\n", name, kColumn - 3, wrapped(text, kColumn, kColumn));
+}
+
 void printPorts(const PassKind& kind, bool outputs) {
+    bool any = false;
     for (const PortInfo& port : kind.ports) {
         if (port.output != outputs) continue;
-        fmt::print("  {:<20} {}{}\n", port.name, port.help, port.optional ? " (optional)" : "");
+        printEntry(port.name, port.help + (port.optional ? " (optional)" : ""));
+        any = true;
     }
+    if (!any) fmt::print("  none\n");
 }
 
 std::string rangeOf(const ParameterDoc& parameter) {
     if (!parameter.choices.empty()) return fmt::format("{}", fmt::join(parameter.choices, " | "));
     if (!parameter.min.empty())
-        return fmt::format("{} {} to {}", parameter.type, parameter.min, parameter.max);
+        return fmt::format("{} from {} to {}", parameter.type, parameter.min, parameter.max);
     return parameter.type;
 }
 
 void printPass(const PassKind& kind) {
-    fmt::print("{}\n  {}\n", kind.name, kind.help);
+    fmt::print("{}\n  {}\n", kind.name, wrapped(kind.help, 2, 2));
     fmt::print("\nInputs:\n");
     printPorts(kind, false);
     fmt::print("\nOutputs:\n");
     printPorts(kind, true);
-    fmt::print("\nParameters (default; range):\n");
+    fmt::print("\nParameters:\n");
     for (const ParameterDoc& parameter : kind.parameters) {
         const std::string defaults = parameter.defaults.empty() ? "''" : parameter.defaults;
-        fmt::print("  {:<20} {}  ({}; {})\n", parameter.name, parameter.help, defaults, rangeOf(parameter));
+        printEntry(parameter.name,
+                   fmt::format("{} Default {}; {}.", parameter.help, defaults, rangeOf(parameter)));
     }
     if (kind.parameters.empty()) fmt::print("  none\n");
 }

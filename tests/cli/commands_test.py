@@ -58,7 +58,7 @@ class Compare(CommandTest):
         self.assertEqual((scores["flip"], scores["flip_ldr"], scores["nrmse"], scores["relmse"]), (0, 0, 0, 0))
         self.assertAlmostEqual(scores["ssim"], 1, places=6)
         self.assertAlmostEqual(scores["mean_ratio"], 1, places=6)
-        self.assertIsNone(scores["psnr_db"])
+        self.assertGreaterEqual(scores["psnr_db"], 100)
 
     def test_closed_forms(self):
         self.image("test.png", 90)
@@ -102,7 +102,7 @@ class Compare(CommandTest):
         self.assertIn("40x30", self.expect(1, "compare", "a.png", "b.png").stderr)
         self.assertIn("missing.exr", self.expect(1, "compare", "a.png", "missing.exr").stderr)
         self.assertIn("broken.png", self.expect(1, "compare", "a.png", "broken.png").stderr)
-        self.expect(1, "compare", "a.png", "a.png", "--flip-map", "no/such/folder/map.png")
+        self.assertIn("a.png/map.png", self.expect(1, "compare", "a.png", "a.png", "--flip-map", "a.png/map.png").stderr)
 
 
 class Passes(CommandTest):
@@ -113,7 +113,7 @@ class Passes(CommandTest):
 
     def test_one(self):
         out = self.expect(0, "passes", "inject_light_rays").stdout
-        self.assertRegex(out, r"rays_per_light +Rays .*\(262144; integer 1 to 67108864\)")
+        self.assertRegex(" ".join(out.split()), r"rays_per_light Rays .* Default 262144; integer from 1 to 67108864\.")
         self.assertIn("Outputs:", out)
 
     def test_unknown(self):
@@ -133,11 +133,11 @@ class Devices(CommandTest):
 
 
 class Validate(CommandTest):
-    def bad(self, old, new, *words):
+    def bad(self, old, new, *words, line=None):
         self.assertIn(old, TINY)
         text = TINY.replace(old, new, 1)
         self.write("bad.yaml", text)
-        line = text[:text.index(new)].count("\n") + 1
+        line = line or text[:text.index(new)].count("\n") + 1
         for command in (("validate", "bad.yaml"), ("run", "bad.yaml", "--out", "out")):
             error = self.expect(2, *command).stderr
             for word in (f"bad.yaml:{line}: ", *words):
@@ -155,7 +155,7 @@ class Validate(CommandTest):
         self.bad("bounces: 2}\n  - {pass: direct", "bonces: 2}\n  - {pass: direct", "did you mean 'bounces'")
 
     def test_unknown_pass(self):
-        self.bad("pass: voxelize", "pass: voxelise", "did you mean 'voxelize'")
+        self.bad("pass: composite", "pass: compsite", "did you mean 'composite'")
 
     def test_wrong_type_and_range(self):
         self.bad("rays_per_light: 4096", "rays_per_light: many", "rays_per_light")
@@ -163,10 +163,10 @@ class Validate(CommandTest):
         self.bad("[8, 16]", "[8, -16]", "resolution")
 
     def test_missing_port(self):
-        self.bad("  - {pass: gbuffer}\n", "", "gbuffer")
+        self.bad("  - {pass: gbuffer}\n", "", "direct_shadow_rays: missing port 'gbuffer'", line=8)
 
     def test_bad_yaml(self):
-        self.bad("graph:\n", "graph: [\n")
+        self.bad("{width: 32, height: 24}", "{width: 32, height: 24", "bad YAML", line=4)
 
     def test_missing_config(self):
         self.assertIn("nowhere.yaml", self.expect(2, "validate", "nowhere.yaml").stderr)
@@ -215,7 +215,7 @@ class ExportScene(CommandTest):
 
     def test_bad_target(self):
         self.write("tiny.yaml", TINY)
-        self.expect(1, "export-scene", "tiny.yaml", "no/such/folder/out.glb")
+        self.assertIn("tiny.yaml/out.glb", self.expect(1, "export-scene", "tiny.yaml", "tiny.yaml/out.glb").stderr)
         self.expect(2, "export-scene", "nowhere.yaml", "out.glb")
 
 

@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/config_options.h"
+#include "experiment/scene_setup.h"
+#include "scene/load.h"
+
+namespace voxray {
+
+namespace {
+
+struct ExportArguments : ConfigArguments {
+    std::filesystem::path file;
+    std::filesystem::path target;
+};
+
+void exportScene(const ExportArguments& arguments) {
+    const Experiment experiment = loadExperiment(arguments.file, arguments.config);
+    SceneLoader loader(sceneFolders(arguments.scenes, VOXRAY_SOURCE_DIR, arguments.file));
+    const PreparedScene scene = loader.prepare(experiment.setup.scene);
+    for (const std::string& warning : loader.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
+    exportGlb(scene.state, arguments.target);
+    fmt::print("{}: {} triangles, {} lights\n", arguments.target.string(),
+               scene.state.geometry.triangles.size(), scene.state.lights.size());
+}
+
+}  // namespace
+
+void addExportSceneCommand(CLI::App& app, int&) {
+    CLI::App* command = app.add_subcommand(
+        "export-scene",
+        "Write what a config renders, camera and lights included, as glTF. Sweeps are left out.");
+    auto arguments = std::make_shared<ExportArguments>();
+    command->add_option("CONFIG", arguments->file, "Config file.")->required();
+    command->add_option("OUT.glb", arguments->target, "File to write.")->required();
+    addConfigOptions(*command, *arguments);
+    command->callback([arguments] { exportScene(*arguments); });
+}
+
+}  // namespace voxray

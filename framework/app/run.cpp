@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/config_options.h"
+#include "experiment/runner.h"
+#include "experiment/validate.h"
+#include "passes/register_passes.h"
+
+namespace voxray {
+
+namespace {
+
+struct RunArguments : ConfigArguments {
+    std::vector<std::filesystem::path> configs;
+    RunOptions options;
+};
+
+void printSummary(const RunSummary& summary, const RunOptions& options) {
+    if (options.dryRun) return;
+    if (!summary.reportError.empty())
+        fmt::print(stderr, "voxray: error: no report: {}\n", summary.reportError);
+    if (summary.interrupted)
+        fmt::print(stderr, "voxray: interrupted; finished variants are kept in {}, --resume goes on\n",
+                   summary.out.string());
+    if (options.quiet) return;
+    fmt::print("{} of {} variants done{}{}\n", summary.ok, summary.ok + summary.failed,
+               summary.resumed > 0 ? fmt::format(", {} of them by an earlier run", summary.resumed) : "",
+               summary.failed > 0 ? fmt::format("; {} failed, results.csv says why", summary.failed) : "");
+    if (!summary.interrupted && summary.reportError.empty())
+        fmt::print("Report: {}\n", (summary.out / "report.html").string());
+}
+
+/// Runs the configs one after the other. @return the exit status.
+int run(const RunArguments& arguments) {
+    Registry registry;
+    registerPasses(registry);
+
+    // Nothing runs while any of the configs is wrong.
+    std::vector<Experiment> experiments;
+    for (const std::filesystem::path& config : arguments.configs) {
+        experiments.push_back(loadExperiment(config, arguments.config));
+        validateExperiment(experiments.back(), registry);
+    }
+    for (size_t i = 0; i < experiments.size(); ++i)
+        for (size_t j = 0; j < i; ++j)
+            if (experiments[i].setup.general.name == experiments[j].setup.general.name)
+                throw UsageError("{} and {} are both named '{}': they would write to one folder",
+                                 arguments.configs[j].string(), arguments.configs[i].string(),
+                                 experiments[i].setup.general.name);
+
+    int status = 0;
+    for (const Experiment& experiment : experiments) {
+        RunOptions options = arguments.options;
+        options.scenes = arguments.scenes;
+        options.sourceRoot = VOXRAY_SOURCE_DIR;
+        if (experiments.size() > 1 && !options.out.empty()) options.out /= experiment.setup.general.name;
+        const RunSummary summary = runExperiment(experiment, options, registry);
+        printSummary(summary, options);
+        status = std::max(status, summary.exitStatus());
+        if (summary.interrupted) break;
+    }
+    return status;
+}
+
+}  // namespace
+
+void addRunCommand(CLI::App& app, int& status) {
+    CLI::App* command =
+        app.add_subcommand("run", "Render every variant of a config, measure it, write results and report.");
+    auto arguments = std::make_shared<RunArguments>();
+    RunOptions& options = arguments->options;
+    command->add_option("CONFIG", arguments->configs, "Config files.")->required();
+    command
+        ->add_option(
+            "--out", options.out,
+            "Results folder; default results/<experiment>. With many configs, each gets a folder in it.")
+        ->type_name("DIR");
+    addConfigOptions(*command, *arguments);
+    command
+        ->add_option("--device", options.deviceName,
+                     "Part of a Vulkan device's name; default: the best that qualifies.")
+        ->type_name("NAME");
+    command
+        ->add_option("--tracer", options.tracer,
+                     "Ray tracer in place of the config's: auto, ray_query, ray_pipeline or embree.")
+        ->type_name("NAME");
+    command->add_flag("--resume", options.resume,
+                      "Keep what an earlier run of the same experiment finished.");
+    command->add_flag("--dry-run", options.dryRun,
+                      "Print variants, passes and predicted memory; render nothing.");
+    command->add_flag("--quiet", options.quiet, "Print nothing but errors.");
+    command->callback([arguments, &status] { status = run(*arguments); });
+}
+
+}  // namespace voxray
