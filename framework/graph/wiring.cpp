@@ -42,7 +42,9 @@ GraphNode readNode(const Registry& registry, const Value& entry,
     node.where = entry.where;
     node.kind = kind.name;
     node.pass = kind.create(entry, node.id, reservedKeys);
-    node.ports = kind.ports;
+    PassBuilder builder;
+    node.pass->declare(builder);
+    node.ports = builder.ports();
 
     // What the manifest records: the reserved keys as they are, then every parameter.
     node.resolved = Value::map();
