@@ -1,0 +1,198 @@
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <limits>
+#include <set>
+
+#include "base/error.h"
+#include "passes/path_trace/sobol.h"
+#include "tests/physics/path_trace_scene.h"
+
+namespace voxray::test {
+namespace {
+
+using path_trace::SobolSampler;
+using path_trace::Strategy;
+
+TEST(SobolSampler, EveryPairIsAZeroTwoSequence) {
+    // Each aligned run of 2^m points has one point in each of its elementary intervals of every shape.
+    for (const uint32_t seed : {1u, 77u})
+        for (int pair = 0; pair < SobolSampler::kPairs; ++pair)
+            for (int m = 1; m <= 8; ++m)
+                for (const uint32_t run : {0u, 1u, 5u})
+                    for (int i = 0; i <= m; ++i) {
+                        std::set<std::pair<int, int>> cells;
+                        for (uint32_t k = 0; k < (1u << m); ++k) {
+                            SobolSampler::Block u;
+                            SobolSampler(seed, (run << m) + k).block(3, u);
+                            const float x = u[size_t(pair)], y = u[size_t(pair + SobolSampler::kPairs)];
+                            ASSERT_TRUE(x >= 0 && x < 1 && y >= 0 && y < 1);
+                            cells.insert({int(x * float(1 << i)), int(y * float(1 << (m - i)))});
+                        }
+                        ASSERT_EQ(cells.size(), 1u << m) << "pair " << pair << " m " << m << " shape " << i;
+                    }
+}
+
+TEST(SobolSampler, BlocksPairsAndSeedsAreUncorrelated) {
+    constexpr uint32_t kPoints = 4096;
+    const auto correlation = [&](uint32_t seedA, uint32_t blockA, size_t a, uint32_t seedB, uint32_t blockB,
+                                 size_t b) {
+        double sum = 0;
+        for (uint32_t k = 0; k < kPoints; ++k) {
+            SobolSampler::Block u, v;
+            SobolSampler(seedA, k).block(blockA, u);
+            SobolSampler(seedB, k).block(blockB, v);
+            sum += (u[a] - 0.5) * (v[b] - 0.5) * 12 / kPoints;
+        }
+        return std::fabs(sum);
+    };
+    for (size_t d = 0; d < 8; ++d) {
+        EXPECT_LT(correlation(1, 0, d, 1, 1, d), 0.06) << d;
+        EXPECT_LT(correlation(1, 0, d, 2, 0, d), 0.06) << d;
+        EXPECT_LT(correlation(1, 0, d, 1, 0, (d + 1) % 8), 0.06) << d;
+    }
+}
+
+/// A room with a lamp, a glossy floor and a metal cube.
+HandScene glossyRoom() {
+    HandScene s;
+    const uint32_t white = s.lambert({0.7f, 0.6f, 0.5f});
+    Material glossy;
+    glossy.baseColor = {0.8f, 0.7f, 0.6f, 1};
+    glossy.metallic = 0;
+    glossy.roughness = 0.4f;
+    Material metal = glossy;
+    metal.metallic = 1;
+    metal.roughness = 0.6f;
+    s.cube({0, 1, 0}, 1, white, 1);
+    s.quad({-0.99f, 0.01f, -0.99f}, {0, 0, 1.98f}, {1.98f, 0, 0}, s.material(glossy));
+    s.cube({0.3f, 0.4f, 0.2f}, 0.3f, s.material(metal), -1);
+    s.quad({-0.5f, 1.9f, -0.5f}, {1, 0, 0}, {0, 0, 1}, s.lambert({}, {4, 3, 2}));
+    return s;
+}
+
+Camera roomCamera() {
+    Camera camera;
+    camera.position = {0, 1, 0.95f};
+    return camera;
+}
+
+TEST(PathTraceSampling, StrategiesAgree) {
+    const HandScene s = glossyRoom();
+    const PathTraceOptions options{.width = 16, .height = 16, .spp = 256, .bounces = 3, .seed = 5};
+    const PathTraceResult mis = s.render(roomCamera(), options);
+    for (const Strategy strategy : {Strategy::ReflectionOnly, Strategy::LightsOnly}) {
+        const PathTraceResult other = s.render(roomCamera(), options, strategy);
+        for (const auto& [image, variance] :
+             {std::pair{&PathTraceResult::total, &PathTraceResult::totalVariance},
+              std::pair{&PathTraceResult::indirect, &PathTraceResult::indirectVariance}})
+            for (uint32_t c = 0; c < 3; ++c) {
+                const double a = meanOf(mis.*image, c), b = meanOf(other.*image, c);
+                const double count = double(mis.total.pixelCount());
+                const double deviation =
+                    std::sqrt((meanOf(mis.*variance, c) + meanOf(other.*variance, c)) / count);
+                EXPECT_NEAR(a, b, 4 * deviation);
+                EXPECT_LT(deviation, 0.03 * a);
+                EXPECT_LE(meanOf(mis.*variance, c), 1.2 * meanOf(other.*variance, c));
+            }
+    }
+}
+
+TEST(PathTraceSampling, SameImageOnAnyNumberOfThreads) {
+    const HandScene s = glossyRoom();
+    const PathTraceOptions options{.width = 40, .height = 24, .spp = 5, .bounces = 4, .seed = 5};
+    const PathTraceResult many = s.render(roomCamera(), options);
+    PathTraceResult one;
+    tbb::task_arena(1).execute([&] { one = s.render(roomCamera(), options); });
+    EXPECT_EQ(many.total.data, one.total.data);
+    EXPECT_EQ(many.indirect.data, one.indirect.data);
+    EXPECT_EQ(many.totalVariance.data, one.totalVariance.data);
+    EXPECT_EQ(many.rays, one.rays);
+    PathTraceOptions other = options;
+    other.seed = 6;
+    EXPECT_NE(s.render(roomCamera(), other).total.data, many.total.data);
+}
+
+TEST(PathTraceSampling, LightIsLinear) {
+    HandScene s = glossyRoom();
+    const PathTraceOptions options{.width = 16, .height = 16, .spp = 4, .bounces = 4, .seed = 5};
+    const PathTraceResult once = s.render(roomCamera(), options);
+    for (Material& m : s.scene->materials) m.emission *= 8.0f;
+    const PathTraceResult eightfold = s.render(roomCamera(), options);
+    for (size_t i = 0; i < once.total.data.size(); ++i)
+        ASSERT_NEAR(eightfold.total.data[i], 8 * once.total.data[i], 1e-5f * eightfold.total.data[i]);
+}
+
+TEST(PathTraceSampling, VarianceIsTheSpreadBetweenSeeds) {
+    const HandScene s = glossyRoom();
+    for (const uint32_t spp : {2u, 6u, 32u}) {
+        PathTraceOptions options{.width = 16, .height = 16, .spp = spp, .bounces = 2, .seed = 0};
+        constexpr int kSeeds = 24;
+        std::vector<double> sum(options.width * options.height * 3), squares(sum.size());
+        double predicted = 0, spread = 0;
+        for (; options.seed < kSeeds; ++options.seed) {
+            const PathTraceResult r = s.render(roomCamera(), options);
+            for (size_t i = 0; i < sum.size(); ++i) {
+                sum[i] += r.total.data[i];
+                squares[i] += double(r.total.data[i]) * r.total.data[i];
+                predicted += double(r.totalVariance.data[i]) / kSeeds;
+            }
+        }
+        for (size_t i = 0; i < sum.size(); ++i)
+            spread += (squares[i] - sum[i] * sum[i] / kSeeds) / (kSeeds - 1);
+        EXPECT_NEAR(predicted / spread, 1, 0.2) << spp;
+    }
+}
+
+TEST(PathTraceSampling, LowDiscrepancyBeatsIndependentSamples) {
+    // A pixel's error under an area light falls faster than 1 / sqrt(n).
+    HandScene s;
+    s.ground(s.lambert(glm::vec3(0.5f)));
+    s.quad({-0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1}, s.lambert({}, glm::vec3(2)));
+    PathTraceOptions options{.width = 16, .height = 16, .spp = 16, .bounces = 0, .seed = 0};
+    const double few = meanOf(s.render(downCamera(0.9f, 0.4f), options).totalVariance);
+    options.spp = 256;
+    const double many = meanOf(s.render(downCamera(0.9f, 0.4f), options).totalVariance);
+    EXPECT_GT(few / many, 32);
+}
+
+TEST(PathTraceSampling, HardGeometryStaysFinite) {
+    HandScene s = glossyRoom();
+    s.quad({0, 1, 0}, {0, 0, 0}, {0.2f, 0, 0}, 0);
+    s.quad({0, 1, 0}, {1e-30f, 0, 0}, {0, 1e-30f, 0}, 3);
+    s.quad({-0.5f, 0.5f, 0}, {1, 1e-7f, 0}, {1, 0, 0}, 1);
+    for (VertexAttributes& a : s.state.geometry.attributes) a.normal = glm::vec3(0, 1, 0);
+    const PathTraceResult r =
+        s.render(roomCamera(), {.width = 32, .height = 32, .spp = 16, .bounces = 6, .seed = 1});
+    for (const ImageF* image : {&r.total, &r.indirect, &r.totalVariance, &r.indirectVariance})
+        for (const float x : image->data) ASSERT_TRUE(std::isfinite(x) && x >= 0);
+}
+
+TEST(PathTraceSampling, EmptyScenesAreBlack) {
+    HandScene s;
+    s.lambert(glm::vec3(0.5f));
+    s.state.geometry.boundsMin = s.state.geometry.boundsMax = glm::vec3(0.0f);
+    const PathTraceResult r =
+        s.render(Camera{}, {.width = 3, .height = 2, .spp = 1, .bounces = 3, .seed = 1});
+    EXPECT_EQ(r.total.data, std::vector<float>(18, 0.0f));
+    EXPECT_EQ(r.rays, 6u);
+}
+
+TEST(PathTraceSampling, CallersCanWatchAndStop) {
+    const HandScene s = glossyRoom();
+    const EmbreeScene tracer(s.state);
+    const PathTraceOptions options{.width = 64, .height = 64, .spp = 1, .bounces = 0, .seed = 1};
+    double last = 0;
+    pathTrace(s.state, tracer, roomCamera(), options, [&](double part) {
+        EXPECT_GT(part, last);
+        last = part;
+        return true;
+    });
+    EXPECT_EQ(last, 1.0);
+    EXPECT_THROW(pathTrace(s.state, tracer, roomCamera(), options, [](double) { return false; }), Error);
+    EXPECT_THROW(pathTrace(s.state, tracer, roomCamera(), {.width = 0, .height = 4}), Error);
+    EXPECT_THROW(pathTrace(s.state, tracer, roomCamera(), {.width = 4, .height = 4, .spp = 0}), Error);
+}
+
+}  // namespace
+}  // namespace voxray::test
