@@ -1,0 +1,140 @@
+#include "scene_gltf_builder.h"
+
+namespace voxray::test {
+namespace {
+
+SceneState roundTrip(const SceneState& state) {
+    const TemporaryFolder folder;
+    exportGlb(state, folder / "out.glb");
+    const auto scene = loadGltf(folder / "out.glb");
+    EXPECT_TRUE(scene->warnings.empty()) << scene->warnings[0];
+    return evaluate(scene, 0);
+}
+
+void expectSameTexture(const SceneState& a, const TextureRef& refA, const SceneState& b,
+                       const TextureRef& refB) {
+    ASSERT_EQ(refA.texture < 0, refB.texture < 0);
+    if (refA.texture < 0) return;
+    const Texture& textureA = a.scene->textures[size_t(refA.texture)];
+    const Texture& textureB = b.scene->textures[size_t(refB.texture)];
+    EXPECT_EQ(textureA.rgba, textureB.rgba);
+    EXPECT_EQ(textureA.width, textureB.width);
+    EXPECT_EQ(textureA.srgb, textureB.srgb);
+    EXPECT_EQ(textureA.wrapU, textureB.wrapU);
+    EXPECT_EQ(textureA.wrapV, textureB.wrapV);
+    EXPECT_EQ(refA.texCoord, refB.texCoord);
+    for (size_t row = 0; row < 2; ++row) expectNear(refA.transform[row], refB.transform[row], 2e-6f);
+}
+
+void expectSameMaterial(const SceneState& a, const Material& x, const SceneState& b, const Material& y) {
+    EXPECT_EQ(x.name, y.name);
+    EXPECT_EQ(x.baseColor, y.baseColor);
+    EXPECT_EQ(x.metallic, y.metallic);
+    EXPECT_EQ(x.roughness, y.roughness);
+    EXPECT_EQ(x.specular, y.specular);
+    EXPECT_EQ(x.specularColor, y.specularColor);
+    EXPECT_EQ(x.ior, y.ior);
+    expectNear(x.emission, y.emission, 1e-6f * glm::length(x.emission));
+    EXPECT_EQ(x.normalScale, y.normalScale);
+    EXPECT_EQ(x.alphaMode, y.alphaMode);
+    EXPECT_EQ(x.alphaCutoff, y.alphaCutoff);
+    EXPECT_EQ(x.doubleSided, y.doubleSided);
+    expectSameTexture(a, x.baseColorTexture, b, y.baseColorTexture);
+    expectSameTexture(a, x.metallicRoughnessTexture, b, y.metallicRoughnessTexture);
+    expectSameTexture(a, x.normalTexture, b, y.normalTexture);
+    expectSameTexture(a, x.emissiveTexture, b, y.emissiveTexture);
+}
+
+void expectSame(const SceneState& a, const SceneState& b) {
+    ASSERT_EQ(a.geometry.triangles, b.geometry.triangles);
+    ASSERT_EQ(a.geometry.positions, b.geometry.positions);
+    for (size_t i = 0; i < a.geometry.attributes.size(); ++i) {
+        const VertexAttributes& x = a.geometry.attributes[i];
+        const VertexAttributes& y = b.geometry.attributes[i];
+        expectNear(x.normal, y.normal, 1e-6f);
+        expectNear(glm::vec3(x.tangent), glm::vec3(y.tangent), 1e-6f);
+        EXPECT_EQ(x.tangent.w, y.tangent.w);
+        EXPECT_EQ(x.texCoords, y.texCoords);
+        EXPECT_EQ(x.color, y.color);
+    }
+    for (size_t i = 0; i < a.geometry.triangles.size(); ++i)
+        expectSameMaterial(a, a.scene->materials[a.geometry.triangleMaterials[i]], b,
+                           b.scene->materials[b.geometry.triangleMaterials[i]]);
+    ASSERT_EQ(a.lights.size(), b.lights.size());
+    for (size_t i = 0; i < a.lights.size(); ++i) {
+        const Light& x = a.lights[i];
+        const Light& y = b.lights[i];
+        EXPECT_EQ(x.type, y.type);
+        expectNear(x.intensity, y.intensity, 1e-6f * glm::length(x.intensity));
+        if (x.type != LightType::Directional) expectNear(x.position, y.position, 0);
+        if (x.type != LightType::Point) expectNear(x.direction, y.direction, 1e-6f);
+        if (x.type != LightType::Spot) continue;
+        EXPECT_EQ(x.innerConeAngle, y.innerConeAngle);
+        EXPECT_EQ(x.outerConeAngle, y.outerConeAngle);
+    }
+    ASSERT_EQ(a.cameras.size(), b.cameras.size());
+    for (size_t i = 0; i < a.cameras.size(); ++i) {
+        EXPECT_EQ(a.cameras[i].name, b.cameras[i].name);
+        EXPECT_EQ(a.cameras[i].verticalFovRadians, b.cameras[i].verticalFovRadians);
+        expectNear(a.cameras[i].position, b.cameras[i].position, 0);
+        expectNear(a.cameras[i].forward, b.cameras[i].forward, 1e-6f);
+        expectNear(a.cameras[i].up, b.cameras[i].up, 1e-6f);
+    }
+}
+
+TEST(GlbExport, BuiltinScenesComeBackAsTheyWere) {
+    for (const std::string& name : builtinSceneNames()) {
+        SCOPED_TRACE(name);
+        const SceneState state = evaluate(makeBuiltinScene(name, {}), 0.7);
+        expectSame(state, roundTrip(state));
+    }
+    for (const char* light : {"area", "point", "spot", "sun"}) {
+        SCOPED_TRACE(light);
+        Value params = Value::map();
+        params.set("lights", Value::fromScalar(light));
+        const SceneState state = evaluate(makeBuiltinScene("cornell", params), 0);
+        expectSame(state, roundTrip(state));
+    }
+}
+
+TEST(GlbExport, TexturesMirrorsAndEveryAttributeComeBack) {
+    GltfBuilder b;
+    b.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}});
+    b.add("images", {{"bufferView", b.view(tinyPng())}, {"mimeType", "image/png"}});
+    b.add("textures", {{"source", 0}, {"sampler", 0}});
+    const json transform = {
+        {"KHR_texture_transform", {{"offset", {0.5, 0.25}}, {"rotation", 2.5}, {"scale", {-2, 3}}}}};
+    b.add("materials", {{"name", "m"},
+                        {"pbrMetallicRoughness",
+                         {{"baseColorTexture", {{"index", 0}, {"extensions", transform}}},
+                          {"metallicRoughnessTexture", {{"index", 0}, {"texCoord", 1}}}}},
+                        {"normalTexture", {{"index", 0}, {"scale", 0.5}}},
+                        {"emissiveTexture", {{"index", 0}}},
+                        {"emissiveFactor", {1, 0.5, 0.25}},
+                        {"alphaMode", "MASK"},
+                        {"alphaCutoff", 0.75},
+                        {"doubleSided", true},
+                        {"extensions",
+                         {{"KHR_materials_emissive_strength", {{"emissiveStrength", 7}}},
+                          {"KHR_materials_ior", {{"ior", 1.25}}},
+                          {"KHR_materials_specular", {{"specularColorFactor", {1, 2, 3}}}}}}});
+    const int uv0 = b.floats(std::vector<glm::vec2>{{0, 0}, {1, 0}, {0, 1}}, "VEC2");
+    const int uv1 = b.floats(std::vector<glm::vec2>{{3, 0}, {1, 2}, {0, 1}}, "VEC2");
+    const int colors = b.floats(std::vector<glm::vec4>{{1, 0, 0, 1}, {0.5, 1, 0, 1}, {0, 0, 1, 0.5}}, "VEC4");
+    const json attributes = {{"TEXCOORD_0", uv0}, {"TEXCOORD_1", uv1}, {"COLOR_0", colors}};
+    b.triangle({{"material", 0}, {"attributes", attributes}}, {{"scale", {1, -2, 1}}});
+    const SceneState state = evaluate(b.load(), 0);
+    EXPECT_FALSE(state.scene->meshes[0].tangents.empty());
+    expectSame(state, roundTrip(state));
+}
+
+TEST(GlbExport, EnvironmentsAreRefused) {
+    const TemporaryFolder folder;
+    auto scene = std::make_shared<Scene>(*makeBuiltinScene("cornell", {}));
+    scene->environment.radiance = glm::vec3(1);
+    EXPECT_THROW(exportGlb(evaluate(scene, 0), folder / "out.glb"), Error);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));
+}
+
+}  // namespace
+}  // namespace voxray::test
