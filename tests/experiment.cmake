@@ -15,3 +15,12 @@ voxray_tests(config_mutation
 set(SANITIZERS -fsanitize=address,undefined -fno-sanitize-recover=undefined)
 target_compile_options(tests_config_mutation PRIVATE ${SANITIZERS} -O1 -g)
 target_link_options(tests_config_mutation PRIVATE ${SANITIZERS})
+
+voxray_tests(experiment
+  SOURCES unit/experiment_run_test.cpp unit/experiment_validate_test.cpp
+  DEPENDS voxray_experiment nlohmann_json::nlohmann_json)
+
+# Every config that is shipped, against the real passes.
+voxray_tests(configs
+  SOURCES unit/experiment_configs_test.cpp
+  DEPENDS voxray_experiment voxray_passes)

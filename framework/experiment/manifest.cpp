@@ -131,7 +131,8 @@ std::string manifestJson(const ManifestData& data) {
 std::vector<ReferenceRecord> referencesOf(const std::string& manifestText) {
     std::vector<ReferenceRecord> records;
     try {
-        for (const Json& json : Json::parse(manifestText).at("references")) {
+        const Json manifest = Json::parse(manifestText);
+        for (const Json& json : manifest.at("references")) {
             ReferenceRecord r;
             r.folder = json.at("folder").get<std::string>();
             r.hash = json.at("hash").get<std::string>();

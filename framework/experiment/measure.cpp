@@ -70,10 +70,15 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
                          const std::function<void(double)>& progress) {
     const double steps = double(1 + settings.buildRepeats + settings.warmup + settings.frames);
     double done = 0;
+    Frame frame = target.frame;
+    frame.progress = [&](double part) {
+        progress((done + part) / steps);
+        return !interruptRequested();
+    };
     const auto run = [&](Phase phase, uint32_t frameIndex, bool checkFinite) {
         if (interruptRequested()) throw Interrupted();
-        auto samples = graph.run(phase, target.frame, target.device, target.stream, target.tracer,
-                                 target.scene, frameIndex, checkFinite);
+        auto samples = graph.run(phase, frame, target.device, target.stream, target.tracer, target.scene,
+                                 frameIndex, checkFinite);
         if (interruptRequested()) throw Interrupted();
         progress(++done / steps);
         return samples;

@@ -55,27 +55,20 @@ NoiseFloor noiseFloor(const ImageF& mean, const ImageF& variance) {
     return {std::sqrt(squares / count), relative / count};
 }
 
-ImageF blackLike(const ImageF& reference) {
-    return ImageF(reference.width, reference.height, 3);
-}
-
-ImageF constantLike(const ImageF& reference) {
-    double sums[3] = {};
-    for (size_t i = 0; i < reference.data.size(); ++i) sums[i % 3] += reference.data[i];
-    ImageF constant(reference.width, reference.height, 3);
-    for (size_t i = 0; i < constant.data.size(); ++i)
-        constant.data[i] = float(sums[i % 3] / double(reference.pixelCount()));
-    return constant;
-}
-
 uint64_t referenceSeed(uint64_t seed) {
     return seed ^ 0x9e3779b97f4a7c15ull;
 }
 
-ReferenceImages renderReference(Graph& graph, const GraphTarget& target) {
+ReferenceImages renderReference(Graph& graph, const GraphTarget& target,
+                                const std::function<void(double)>& progress) {
+    Frame frame = target.frame;
+    frame.progress = [&](double part) {
+        progress(part);
+        return !interruptRequested();
+    };
     const auto start = std::chrono::steady_clock::now();
     for (const Phase phase : {Phase::Build, Phase::Frame}) {
-        graph.run(phase, target.frame, target.device, target.stream, target.tracer, target.scene, 0, true);
+        graph.run(phase, frame, target.device, target.stream, target.tracer, target.scene, 0, true);
         if (interruptRequested()) throw Interrupted();
     }
     ReferenceImages reference;

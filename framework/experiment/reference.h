@@ -26,17 +26,14 @@ struct NoiseFloor {
 /// From the variance of each pixel's mean, both images 3 channels.
 NoiseFloor noiseFloor(const ImageF& mean, const ImageF& variance);
 
-/// A black image and one of the reference's mean colour everywhere: what any method must beat.
-ImageF blackLike(const ImageF& reference);
-ImageF constantLike(const ImageF& reference);
-
 /// The seed that the reference renders with: not the variants' own, so that a path-traced variant does not
 /// share the reference's samples.
 uint64_t referenceSeed(uint64_t seed);
 
 /// Renders a one-pass graph, prepared, that writes final, indirect, variance and indirect_variance.
-/// @throws Interrupted; Error of the pass.
-ReferenceImages renderReference(Graph& graph, const GraphTarget& target);
+/// @param progress called with the fraction done. @throws Interrupted; Error of the pass.
+ReferenceImages renderReference(Graph& graph, const GraphTarget& target,
+                                const std::function<void(double)>& progress);
 
 /// Key of a reference: the scene (SceneLoader::key), the resolved pass, image size and seed.
 std::string referenceHash(const std::string& sceneKey, const Value& resolvedPass, const ImageSettings& image,

@@ -49,7 +49,7 @@ class Run {
     void openFolder();
     void takeOverFinished();
     void runVariant(size_t index, Progress& progress);
-    const Judge* judgeOf(const Variant& variant);
+    const Judge* judgeOf(const Variant& variant, Progress& progress);
     void writeTables();
     VariantInputs inputsOf(const Variant& variant);
     std::string outcome(const VariantResult& result) const;
@@ -63,6 +63,7 @@ class Run {
     ManifestData manifest_;
     std::map<size_t, VariantResult> results_;  ///< By index into variants_.
     std::optional<Judge> judge_;
+    bool judgeIsWritten_ = true;
     RunSummary summary_;
 };
 
@@ -190,10 +191,10 @@ void Run::takeOverFinished() {
         fmt::print("{} of {} variants were finished already\n", summary_.resumed, variants_.size());
 }
 
-const Judge* Run::judgeOf(const Variant& variant) {
+const Judge* Run::judgeOf(const Variant& variant, Progress& progress) {
     if (experiment_.reference.isNull()) return nullptr;
-    const ReferenceImages& images = session_->reference(experiment_, variant.setup, registry_);
-    const float stops = variant.setup.image.exposureStops;
+    const ReferenceImages& images = session_->reference(experiment_, variant.setup, registry_,
+                                                        [&](double fraction) { progress.update(fraction); });
     if (judge_ && judge_->images.hash == images.hash) return &*judge_;
 
     // The first reference is "reference"; each other one gets its own folder
@@ -205,8 +206,7 @@ const Judge* Run::judgeOf(const Variant& variant) {
                                                       : fmt::format("reference.{}", records.size() + 1);
     judge_ = makeJudge(images, variant.setup.image, folder);
     if (known == records.end()) records.push_back(judge_->record);
-    folder_->writeImages(folder,
-                         [&](const auto& path) { writeReferenceImages(path, judge_->images, stops); });
+    judgeIsWritten_ = false;
     return &*judge_;
 }
 
@@ -215,9 +215,8 @@ void Run::runVariant(size_t index, Progress& progress) {
     std::optional<RenderedVariant> rendered;
     VariantResult failed;
     try {
-        const VariantInputs inputs = inputsOf(variant);
         progress.begin(experiment_.reference.isNull() ? variant.name : variant.name + ": reference");
-        const Judge* judge = judgeOf(variant);
+        const Judge* judge = judgeOf(variant, progress);
         progress.begin(variant.name);
         rendered = renderVariant(variant, experiment_, registry_, *session_, judge,
                                  [&](double fraction) { progress.update(fraction); });
@@ -226,16 +225,22 @@ void Run::runVariant(size_t index, Progress& progress) {
     } catch (const std::exception& error) {
         failed.error = error.what();
     }
+    std::replace(failed.error.begin(), failed.error.end(), '\n', ' ');
     if (interruptRequested()) {
         summary_.interrupted = true;
         return;
     }
 
     // What can't be written ends the run; what was written stays
+    const float stops = variant.setup.image.exposureStops;
+    if (!judgeIsWritten_)
+        folder_->writeImages(judge_->record.folder,
+                             [&](const auto& path) { writeReferenceImages(path, judge_->images, stops); });
+    judgeIsWritten_ = true;
     if (rendered) {
         const VariantInputs inputs = inputsOf(variant);
         folder_->writeImages(variant.name, [&](const auto& path) {
-            writeVariantImages(path, *rendered, variant.setup.image.exposureStops);
+            writeVariantImages(path, *rendered, stops);
             writeFileAtomically(path / "result.json", resultJson(rendered->result, inputs));
         });
         results_[index] = rendered->result;

@@ -56,7 +56,8 @@ std::string Session::referenceHashOf(const Experiment& experiment, const Setup& 
 }
 
 const ReferenceImages& Session::reference(const Experiment& experiment, const Setup& setup,
-                                          const Registry& registry) {
+                                          const Registry& registry,
+                                          const std::function<void(double)>& progress) {
     const std::string hash = referenceHashOf(experiment, setup, registry);
     if (reference_ && reference_->hash == hash) return *reference_;
     if (const auto failed = failedReferences_.find(hash); failed != failedReferences_.end())
@@ -64,7 +65,7 @@ const ReferenceImages& Session::reference(const Experiment& experiment, const Se
     reference_ = cache_.load(hash, setup.image.width, setup.image.height);
     if (reference_) return *reference_;
     try {
-        reference_ = makeReference(hash, experiment, setup, registry);
+        reference_ = makeReference(hash, experiment, setup, registry, progress);
     } catch (const std::exception& error) {
         if (interruptRequested()) throw Interrupted();
         throw Error("{}", failedReferences_[hash] = std::string("reference: ") + error.what());
@@ -80,14 +81,15 @@ const ReferenceImages& Session::reference(const Experiment& experiment, const Se
 }
 
 ReferenceImages Session::makeReference(const std::string& hash, const Experiment& experiment,
-                                       const Setup& setup, const Registry& registry) {
+                                       const Setup& setup, const Registry& registry,
+                                       const std::function<void(double)>& progress) {
     SceneOnDevice& onDevice = scene(setup);
     const Frame frame = frameOf(setup, onDevice.prepared, referenceSeed(setup.general.seed));
     Graph graph(registry, referenceGraph(experiment));
     plan(graph, frame, 0);
     graph.prepare(frame, device_, compiler_, stream_);
     ReferenceImages reference =
-        renderReference(graph, {frame, device_, stream_, *onDevice.tracer, onDevice.gpu});
+        renderReference(graph, {frame, device_, stream_, *onDevice.tracer, onDevice.gpu}, progress);
     reference.hash = hash;
     return reference;
 }

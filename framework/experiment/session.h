@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,7 +45,7 @@ class Session {
     /// The reference that judges a variant: from memory, from the cache on disk, or rendered now.
     /// A reference that failed fails again at once. @throws Error, Interrupted.
     const ReferenceImages& reference(const Experiment& experiment, const Setup& setup,
-                                     const Registry& registry);
+                                     const Registry& registry, const std::function<void(double)>& progress);
     /// Its hash, "" where the experiment has none.
     std::string referenceHashOf(const Experiment& experiment, const Setup& setup, const Registry& registry);
 
@@ -52,7 +54,7 @@ class Session {
 
  private:
     ReferenceImages makeReference(const std::string& hash, const Experiment& experiment, const Setup& setup,
-                                  const Registry& registry);
+                                  const Registry& registry, const std::function<void(double)>& progress);
 
     Device device_;
     CommandStream stream_;

@@ -1,0 +1,201 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "base/files.h"
+#include "experiment/runner.h"
+#include "graph/graph.h"
+
+/// Tiny passes that write constant images, and a folder for each test.
+namespace voxray::fakes {
+
+inline Image constantImage(PassSetup& setup, const char* name) {
+    ImageDesc desc;
+    desc.extent = {setup.frame.width, setup.frame.height, 1};
+    return Image(setup.device, name, desc);
+}
+
+/// Writes `value` into final and half of it into indirect.
+class Constant : public Pass {
+ public:
+    static constexpr const char* kName = "constant";
+    static constexpr const char* kHelp = "A constant image.";
+    struct Params {
+        float value = 1;
+        bool nan = false;
+        bool fail = false;
+        bool interrupt = false;
+        uint32_t megabytes = 0;
+        static constexpr auto schema() {
+            return std::tuple{field("value", &Params::value, "Radiance.", 0.0f, 100.0f),
+                              field("nan", &Params::nan, "Write NaN instead."),
+                              field("fail", &Params::fail, "Throw."),
+                              field("interrupt", &Params::interrupt, "Raise SIGINT."),
+                              field("megabytes", &Params::megabytes, "Memory to ask for.", 0u, 1u << 20)};
+        }
+    };
+    static inline int runs = 0;
+
+    explicit Constant(const Params& params) : params_(params) {}
+    Phase phase() const override { return Phase::Frame; }
+    void declare(PassBuilder& b) override {
+        final_ = b.write<FrameImage>("final", "The image.");
+        indirect_ = b.write<FrameImage>("indirect", "Half of it.");
+    }
+    void plan(PassPlan& plan) override { plan.reserve("nothing", uint64_t(params_.megabytes) << 20); }
+    void prepare(PassSetup& setup) override {
+        setup.get(final_).image = constantImage(setup, "constant final");
+        setup.get(indirect_).image = constantImage(setup, "constant indirect");
+    }
+    void record(PassContext& context) override {
+        ++runs;
+        if (params_.fail) throw Error("the pass gave up");
+        if (params_.interrupt) std::raise(SIGINT);
+        const float value = params_.nan ? std::numeric_limits<float>::quiet_NaN() : params_.value;
+        context.stream.clear(context.get(final_).image, {{value, value, value, 1}});
+        context.stream.clear(context.get(indirect_).image, {{value / 2, value / 2, value / 2, 1}});
+        context.extraRays = 10;
+    }
+
+ private:
+    Params params_;
+    Port<FrameImage> final_, indirect_;
+};
+
+/// A reference of radiance 1 with a variance of 0.01.
+class Truth : public Pass {
+ public:
+    static constexpr const char* kName = "truth";
+    static constexpr const char* kHelp = "A constant reference.";
+    struct Params {
+        uint32_t spp = 4;
+        static constexpr auto schema() {
+            return std::tuple{field("spp", &Params::spp, "Samples.", 1u, 1000u)};
+        }
+    };
+    static inline int runs = 0;
+
+    explicit Truth(const Params&) {}
+    Phase phase() const override { return Phase::Frame; }
+    void declare(PassBuilder& b) override {
+        for (int i = 0; i < 4; ++i) images_[i] = b.write<FrameImage>(kNames[i], "A constant.");
+    }
+    void plan(PassPlan&) override {}
+    void prepare(PassSetup& setup) override {
+        for (int i = 0; i < 4; ++i) setup.get(images_[i]).image = constantImage(setup, kNames[i]);
+    }
+    void record(PassContext& context) override {
+        ++runs;
+        constexpr float kValues[] = {1.0f, 0.5f, 0.01f, 0.0025f};
+        for (int i = 0; i < 4; ++i) {
+            const float v = kValues[i];
+            context.stream.clear(context.get(images_[i]).image, {{v, v, v, 1}});
+        }
+    }
+
+ private:
+    static constexpr const char* kNames[] = {"final", "indirect", "variance", "indirect_variance"};
+    Port<FrameImage> images_[4];
+};
+
+/// Reads final and indirect and writes them again: something to wire.
+class Relay : public Pass {
+ public:
+    static constexpr const char* kName = "relay";
+    static constexpr const char* kHelp = "Reads what another pass writes.";
+    struct Params {
+        uint32_t steps = 1;
+        static constexpr auto schema() {
+            return std::tuple{field("steps", &Params::steps, "Steps.", 1u, 8u)};
+        }
+    };
+    explicit Relay(const Params&) {}
+    Phase phase() const override { return Phase::Build; }
+    void declare(PassBuilder& b) override {
+        b.read<FrameImage>("extra", "What to read.");
+        b.write<FrameImage>("extra", "What it makes of it.");
+    }
+    void plan(PassPlan&) override {}
+    void prepare(PassSetup&) override {}
+    void record(PassContext&) override {}
+};
+
+inline Registry registry() {
+    Registry registry;
+    registry.add<Constant>();
+    registry.add<Truth>();
+    registry.add<Relay>();
+    return registry;
+}
+
+/// A folder for results and a cache of its own.
+class RunTest : public testing::Test {
+ protected:
+    void SetUp() override {
+        const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+        root_ =
+            std::filesystem::temp_directory_path() / fmt::format("voxray_{}_{}", info->name(), ::getpid());
+        std::filesystem::create_directories(root_);
+        setenv("VOXRAY_CACHE", (root_ / "cache").c_str(), 1);
+        Constant::runs = Truth::runs = 0;
+    }
+    void TearDown() override { std::filesystem::remove_all(root_); }
+
+    static std::string config(const std::string& rest) {
+        return "name: fake\nscene: {builtin: cornell, lights: point}\nimage: {width: 8, height: 4}\n"
+               "graph: [{pass: constant}]\nreference: {pass: truth}\nmeasure: {frames: 3, warmup: 1}\n" +
+               rest;
+    }
+    RunOptions options() const {
+        RunOptions o;
+        o.out = root_ / "out";
+        o.quiet = true;
+        o.report = false;
+        o.validation = true;
+        o.sourceRoot = VOXRAY_SOURCE_DIR;
+        return o;
+    }
+    RunSummary run(const std::string& rest, const RunOptions& o) const {
+        return runExperiment(parseExperiment(config(rest), "fake.yaml"), o, registry());
+    }
+    RunSummary run(const std::string& rest) const { return run(rest, options()); }
+
+    /// The cell of results.csv in a variant's row; quotes are dropped.
+    std::string cell(const std::string& variant, const std::string& column) const {
+        std::istringstream lines(readTextFile(root_ / "out" / "results.csv"));
+        std::string line;
+        std::getline(lines, line);
+        const std::vector<std::string> header = split(line);
+        while (std::getline(lines, line)) {
+            const std::vector<std::string> fields = split(line);
+            for (size_t i = 0; i < header.size(); ++i)
+                if (header[i] == column && fields[0] == variant) return fields.at(i);
+        }
+        return "absent";
+    }
+    static std::vector<std::string> split(const std::string& line) {
+        std::vector<std::string> fields{""};
+        bool quoted = false;
+        for (const char c : line) {
+            if (c == '"')
+                quoted = !quoted;
+            else if (c == ',' && !quoted)
+                fields.emplace_back();
+            else
+                fields.back() += c;
+        }
+        return fields;
+    }
+    std::filesystem::path root_;
+};
+
+}  // namespace voxray::fakes

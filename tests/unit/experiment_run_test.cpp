@@ -1,0 +1,246 @@
+#include <nlohmann/json.hpp>
+
+#include "experiment_fakes.h"
+#include "image/image.h"
+
+using namespace voxray;
+using namespace voxray::fakes;
+namespace fs = std::filesystem;
+
+TEST_F(RunTest, WritesResultsWithTheScoresOfClosedForms) {
+    const RunSummary summary = run("sweep: {constant.value: [1, 0.5]}\n");
+    EXPECT_EQ(summary.ok, 2u);
+    EXPECT_EQ(summary.exitStatus(), 0);
+
+    // |v - 1| and (v - 1)² / 1.01, and the same for the halves against 0.5
+    EXPECT_EQ(cell("value-1", "nrmse"), "0");
+    EXPECT_EQ(cell("value-1", "psnr_db"), "inf");
+    EXPECT_NEAR(std::stod(cell("value-0.5", "nrmse")), 0.5, 1e-6);
+    EXPECT_NEAR(std::stod(cell("value-0.5", "relmse")), 0.25 / 1.01, 1e-6);
+    EXPECT_NEAR(std::stod(cell("value-0.5", "indirect_nrmse")), 0.5, 1e-6);
+    EXPECT_NEAR(std::stod(cell("value-0.5", "mean_ratio")), 0.5, 1e-6);
+    EXPECT_EQ(cell("value-0.5", "constant.value"), "0.5");
+    EXPECT_EQ(cell("value-0.5", "rays"), "10");
+    EXPECT_EQ(cell("value-0.5", "status"), "ok");
+
+    // Files
+    const fs::path out = root_ / "out";
+    for (const char* name : {"final.exr", "indirect.exr", "final.png", "indirect.png", "flip.png",
+                             "indirect_flip.png", "result.json"})
+        EXPECT_TRUE(fs::exists(out / "images" / "value-0.5" / name)) << name;
+    for (const char* name : {"final.exr", "indirect.exr", "final.png", "indirect.png"})
+        EXPECT_TRUE(fs::exists(out / "images" / "reference" / name)) << name;
+    EXPECT_EQ(readImage(out / "images" / "value-0.5" / "final.exr").data[0], 0.5f);
+    EXPECT_NE(readTextFile(out / "passes.csv").find("value-0.5,constant,frame,"), std::string::npos);
+
+    // The reference's own noise: sqrt(0.01), 0.01 / 1.01
+    const auto manifest = nlohmann::json::parse(readTextFile(out / "manifest.json"));
+    EXPECT_NEAR(manifest["reference"]["nrmse_noise"].get<double>(), 0.1, 1e-6);
+    EXPECT_NEAR(manifest["reference"]["relmse_noise"].get<double>(), 0.01 / 1.01, 1e-6);
+    EXPECT_NEAR(manifest["reference"]["indirect_nrmse_noise"].get<double>(), 0.1, 1e-6);
+    EXPECT_EQ(manifest["reference"]["spp"], 4);
+    EXPECT_NEAR(manifest["baselines"]["black"]["nrmse"].get<double>(), 1, 1e-6);
+    EXPECT_NEAR(manifest["baselines"]["constant"]["nrmse"].get<double>(), 0, 1e-6);
+    EXPECT_EQ(manifest["config"]["name"], "fake");
+    EXPECT_EQ(manifest["sweep_keys"][0], "constant.value");
+    EXPECT_TRUE(manifest["finished"].is_string());
+}
+
+TEST_F(RunTest, ColumnsAreTheDocumentedOnes) {
+    run("sweep: {constant.value: [1]}\n");
+    const std::string text = readTextFile(root_ / "out" / "results.csv");
+    EXPECT_EQ(
+        text.substr(0, text.find('\n')),
+        "variant,status,error,device,tracer,constant.value,build_ms,frame_ms_median,frame_ms_p05,frame_ms_"
+        "p95,"
+        "memory_bytes,rays,flip,ssim,psnr_db,nrmse,relmse,mean_ratio,flip_ldr,indirect_flip,indirect_ssim,"
+        "indirect_psnr_db,indirect_nrmse,indirect_relmse,indirect_mean_ratio,indirect_flip_ldr");
+}
+
+TEST_F(RunTest, NanFailsItsVariantAndNamesThePass) {
+    const RunSummary summary = run("sweep: {constant.nan: [true, false]}\n");
+    EXPECT_EQ(summary.ok, 1u);
+    EXPECT_EQ(summary.failed, 1u);
+    EXPECT_EQ(summary.exitStatus(), 1);
+    EXPECT_EQ(cell("nan-true", "status"), "failed");
+    EXPECT_NE(readTextFile(root_ / "out" / "results.csv").find("pass 'constant'"), std::string::npos);
+    EXPECT_EQ(cell("nan-false", "status"), "ok");
+    EXPECT_FALSE(fs::exists(root_ / "out" / "images" / "nan-true"));
+}
+
+TEST_F(RunTest, ThrowingPassFailsItsVariantAlone) {
+    EXPECT_EQ(run("sweep: {constant.fail: [true, false]}\n").failed, 1u);
+    EXPECT_EQ(cell("fail-true", "error"), "the pass gave up");
+    EXPECT_EQ(cell("fail-true", "nrmse"), "");
+    EXPECT_EQ(cell("fail-false", "status"), "ok");
+}
+
+TEST_F(RunTest, MemoryAboveTheConfigsLimitIsRefused) {
+    const RunSummary summary = run("sweep: {constant.megabytes: [0, 64]}\n", [&] {
+        RunOptions o = options();
+        return o;
+    }());
+    EXPECT_EQ(summary.failed, 0u);
+    fs::remove_all(root_ / "out");
+    const Experiment limited = parseExperiment(config("sweep: {constant.megabytes: [0, 64]}\n"), "fake.yaml",
+                                               {"", {"measure.memory_limit_mb=32"}});
+    EXPECT_EQ(runExperiment(limited, options(), registry()).failed, 1u);
+    EXPECT_NE(readTextFile(root_ / "out" / "results.csv").find("the limit is 32.0 MiB"), std::string::npos);
+}
+
+TEST_F(RunTest, WithoutReferenceThereAreNoScores) {
+    const Experiment e = parseExperiment(config(""), "fake.yaml", {"", {"reference=null"}});
+    EXPECT_EQ(runExperiment(e, options(), registry()).exitStatus(), 0);
+    EXPECT_EQ(cell("default", "status"), "ok");
+    EXPECT_EQ(cell("default", "nrmse"), "");
+    EXPECT_EQ(Truth::runs, 0);
+}
+
+TEST_F(RunTest, ReferenceIsCachedByWhatItDependsOn) {
+    run("");
+    EXPECT_EQ(Truth::runs, 1);
+    const std::string scores = cell("default", "relmse");
+    const std::vector<float> pixels = readImage(root_ / "out" / "images" / "default" / "final.exr").data;
+    run("");
+    EXPECT_EQ(Truth::runs, 1);
+    EXPECT_EQ(cell("default", "relmse"), scores);
+    EXPECT_EQ(readImage(root_ / "out" / "images" / "default" / "final.exr").data, pixels);
+
+    // Another seed, size, camera or sample count is another reference
+    int runs = 1;
+    for (const char* change :
+         {"seed=3", "image.width=9", "scene.camera={position: [0, 1, 3], target: [0, 1, 0]}",
+          "reference.spp=5", "scene.materials=lambert", "scene.environment=0.5"}) {
+        runExperiment(parseExperiment(config(""), "fake.yaml", {"", {change}}), options(), registry());
+        EXPECT_EQ(Truth::runs, ++runs) << change;
+    }
+
+    // What the graph does is not part of it, and a damaged cache is rendered anew
+    runExperiment(parseExperiment(config(""), "fake.yaml", {"", {"constant.value=2"}}), options(),
+                  registry());
+    EXPECT_EQ(Truth::runs, runs);
+    for (const auto& entry : fs::recursive_directory_iterator(root_ / "cache" / "references"))
+        if (entry.path().filename() == "final.exr") std::ofstream(entry.path()) << "broken";
+    run("");
+    EXPECT_EQ(Truth::runs, runs + 1);
+}
+
+TEST_F(RunTest, SeveralReferencesGetTheirOwnFolders) {
+    EXPECT_EQ(run("sweep: {image.width: [8, 16]}\n").exitStatus(), 0);
+    EXPECT_EQ(Truth::runs, 2);
+    EXPECT_TRUE(fs::exists(root_ / "out" / "images" / "reference" / "final.exr"));
+    EXPECT_EQ(readImage(root_ / "out" / "images" / "reference.2" / "final.exr").width, 16u);
+}
+
+TEST_F(RunTest, ResumeRepeatsNothingThatWasFinished) {
+    run("sweep: {constant.value: [1, 0.5, 0.25]}\n");
+    const int runsOfOne = Constant::runs / 3;
+    const std::string before = readTextFile(root_ / "out" / "results.csv");
+    RunOptions o = options();
+    o.resume = true;
+    EXPECT_EQ(run("sweep: {constant.value: [1, 0.5, 0.25]}\n", o).resumed, 3u);
+    EXPECT_EQ(Constant::runs, 3 * runsOfOne);
+    EXPECT_EQ(readTextFile(root_ / "out" / "results.csv"), before);
+    const auto manifest = nlohmann::json::parse(readTextFile(root_ / "out" / "manifest.json"));
+    EXPECT_NEAR(manifest["baselines"]["black"]["nrmse"].get<double>(), 1, 1e-6);
+
+    // As a killed run leaves it: the last variant half-written, no tables
+    fs::rename(root_ / "out" / "images" / "value-0.25", root_ / "out" / "images" / ".tmp-value-0.25");
+    fs::remove(root_ / "out" / "results.csv");
+    EXPECT_EQ(run("sweep: {constant.value: [1, 0.5, 0.25]}\n", o).resumed, 2u);
+    EXPECT_EQ(Constant::runs, 4 * runsOfOne);
+    EXPECT_EQ(cell("value-0.25", "nrmse"), "0.75");
+    EXPECT_FALSE(fs::exists(root_ / "out" / "images" / ".tmp-value-0.25"));
+}
+
+TEST_F(RunTest, ResumeRefusesAnotherExperimentAndNamesTheDifference) {
+    run("");
+    RunOptions o = options();
+    o.resume = true;
+    const auto errorOf = [&](const std::string& assignment) -> std::string {
+        try {
+            runExperiment(parseExperiment(config(""), "fake.yaml", {"", {assignment}}), o, registry());
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return {};
+    };
+    EXPECT_NE(errorOf("seed=2").find("another seed (0, now 2)"), std::string::npos);
+    EXPECT_NE(errorOf("constant.value=2").find("another graph"), std::string::npos);
+    EXPECT_NE(errorOf("image.width=9").find("another image"), std::string::npos);
+    EXPECT_NE(errorOf("name=other").find("another experiment, 'fake'"), std::string::npos);
+}
+
+TEST_F(RunTest, InterruptKeepsWhatWasFinished) {
+    const RunSummary summary = run("sweep: {constant.interrupt: [false, true]}\n");
+    EXPECT_TRUE(summary.interrupted);
+    EXPECT_EQ(summary.exitStatus(), 130);
+    EXPECT_EQ(cell("interrupt-false", "status"), "ok");
+    EXPECT_EQ(cell("interrupt-true", "status"), "absent");
+    for (const auto& entry : fs::directory_iterator(root_ / "out" / "images"))
+        EXPECT_EQ(entry.path().filename().string().rfind(".tmp", 0), std::string::npos) << entry.path();
+}
+
+TEST_F(RunTest, ForeignAndUnwritableFoldersAreRefused) {
+    fs::create_directories(root_ / "out");
+    std::ofstream(root_ / "out" / "precious.txt") << "mine";
+    EXPECT_THROW(run(""), Error);
+    EXPECT_TRUE(fs::exists(root_ / "out" / "precious.txt"));
+    for (const char* place : {"/proc/voxray", "/dev/null/x"}) {
+        RunOptions o = options();
+        o.out = place;
+        EXPECT_THROW(run("", o), Error) << place;
+    }
+    EXPECT_EQ(Constant::runs, 0);
+}
+
+TEST_F(RunTest, AFreshRunRemovesTheOldOnesImages) {
+    run("sweep: {constant.value: [1, 0.5]}\n");
+    run("sweep: {constant.value: [1]}\n");
+    EXPECT_FALSE(fs::exists(root_ / "out" / "images" / "value-0.5"));
+    EXPECT_TRUE(fs::exists(root_ / "out" / "images" / "value-1"));
+}
+
+TEST_F(RunTest, DryRunRendersNothing) {
+    RunOptions o = options();
+    o.dryRun = true;
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(run("sweep: {constant.megabytes: [0, 64]}\n", o).exitStatus(), 0);
+    const std::string text = testing::internal::GetCapturedStdout();
+    EXPECT_NE(text.find("megabytes-64"), std::string::npos);
+    EXPECT_NE(text.find("64.0 MiB"), std::string::npos);
+    EXPECT_EQ(Constant::runs, 0);
+    EXPECT_FALSE(fs::exists(root_ / "out"));
+}
+
+TEST_F(RunTest, MissingSceneFileSaysWhereItLooked) {
+    const Experiment e = parseExperiment("name: x\nscene: {file: absent.glb}\ngraph: [{pass: constant}]\n",
+                                         (root_ / "x.yaml").string());
+    try {
+        RunOptions o = options();
+        o.scenes = root_ / "scenes";
+        runExperiment(e, o, registry());
+        FAIL();
+    } catch (const UsageError& error) {
+        const std::string message = error.what();
+        EXPECT_NE(message.find("x.yaml:2: no file 'absent.glb' in " + (root_ / "scenes").string()),
+                  std::string::npos)
+            << message;
+    }
+}
+
+TEST_F(RunTest, CameraAndBuiltinErrorsNameTheNearestWord) {
+    const auto errorOf = [&](const std::string& assignment) -> std::string {
+        try {
+            RunOptions o = options();
+            runExperiment(parseExperiment(config(""), "fake.yaml", {"", {assignment}}), o, registry());
+        } catch (const UsageError& error) {
+            return error.what();
+        }
+        return {};
+    };
+    EXPECT_NE(errorOf("scene.builtin=cornel").find("did you mean 'cornell'?"), std::string::npos);
+    EXPECT_NE(errorOf("scene.camra=x").find("did you mean 'camera'?"), std::string::npos);
+    EXPECT_NE(errorOf("scene.environment=absent.exr").find("no file 'absent.exr'"), std::string::npos);
+    EXPECT_FALSE(fs::exists(root_ / "out"));
+}

@@ -1,0 +1,140 @@
+#include "experiment/validate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiment/config_schema.h"
+#include "experiment/progress.h"
+#include "experiment/results.h"
+#include "experiment_fakes.h"
+
+using namespace voxray;
+
+namespace {
+
+void expectError(const std::string& graph, std::initializer_list<const char*> parts) {
+    const std::string text = "name: x\nscene: {builtin: cornell}\n" + graph;
+    try {
+        validateExperiment(parseExperiment(text, "x.yaml"), fakes::registry());
+        ADD_FAILURE() << "no error for " << text;
+    } catch (const UsageError& error) {
+        const std::string message = error.what();
+        for (const char* part : parts) EXPECT_NE(message.find(part), std::string::npos) << message;
+    }
+}
+
+}  // namespace
+
+TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
+    expectError("graph:\n  - {pass: constnat}\n", {"x.yaml:4: ", "did you mean 'constant'?"});
+    expectError("graph:\n  - {pass: constant, valeu: 3}\n", {"x.yaml:4: ", "did you mean 'value'?"});
+    expectError("graph:\n  - {pass: constant, value: 1000}\n", {"x.yaml:4: ", "out of range"});
+    expectError("graph:\n  - {pass: constant, value: high}\n", {"x.yaml:4: ", "expected a number"});
+    expectError("graph:\n  - {pass: constant}\n  - {pass: relay}\n", {"x.yaml:5: ", "missing port 'extra'"});
+    expectError("graph:\n  - {pass: constant}\n  - {pass: constant}\n",
+                {"x.yaml:5: ", "two passes have the id"});
+    expectError(
+        "graph:\n  - {pass: constant}\n  - {pass: relay, id: a, inputs: {extra: b}}\n"
+        "  - {pass: relay, id: b, inputs: {extra: a}}\n",
+        {"x.yaml:5: ", "cycle between a, b"});
+    expectError("graph:\n  - {pass: constant}\nsweep:\n  constant.valu: [1]\n",
+                {"x.yaml:6: ", "did you mean 'value'?"});
+    expectError("graph:\n  - {pass: constant}\nsweep:\n  constant: [constant, constnat]\n",
+                {"x.yaml:6: ", "did you mean 'constant'?"});
+    expectError("graph:\n  - {pass: constant}\nreference: {pass: truth, ssp: 3}\n",
+                {"x.yaml:5: ", "did you mean 'spp'?"});
+    expectError("graph:\n  - {pass: constant}\nreference: {pass: constant}\n",
+                {"x.yaml:5: ", "writes no 'variance'"});
+    expectError("graph:\n  - {pass: relay, inputs: {extra: relay}}\n", {"x.yaml:4: "});
+}
+
+TEST(Schema, ConfigSchemaHoldsEveryPassAndKey) {
+    const auto json = nlohmann::json::parse(configJsonSchema(fakes::registry()).json());
+    EXPECT_EQ(json["$schema"], "https://json-schema.org/draft/2020-12/schema");
+    for (const char* key :
+         {"name", "scene", "image", "seed", "tracer", "graph", "reference", "sweep", "measure", "profiles"})
+        EXPECT_TRUE(json["properties"].contains(key)) << key;
+    const auto& passes = json["properties"]["graph"]["items"]["oneOf"];
+    ASSERT_EQ(passes.size(), 3u);
+    EXPECT_EQ(passes[0]["properties"]["value"]["maximum"], 100);
+    EXPECT_EQ(passes[0]["properties"]["value"]["default"], 1);
+    EXPECT_EQ(passes[0]["additionalProperties"], false);
+    EXPECT_EQ(json["properties"]["image"]["properties"]["width"]["type"], "integer");
+    EXPECT_EQ(json["properties"]["tracer"]["enum"].size(), 4u);
+}
+
+TEST(Results, CsvQuotesByRfc4180) {
+    EXPECT_EQ(csvField("plain"), "plain");
+    EXPECT_EQ(csvField("a,b"), "\"a,b\"");
+    EXPECT_EQ(csvField("say \"hi\""), "\"say \"\"hi\"\"\"");
+    EXPECT_EQ(csvField("two\nlines"), "\"two\nlines\"");
+    EXPECT_EQ(csvField(""), "");
+
+    VariantResult failed;
+    failed.variant = "v";
+    failed.error = "x, \"y\"";
+    failed.sweepValues = {"[1, 2]"};
+    const std::string text = resultsCsv({failed}, {"a.b"}, metricNames());
+    EXPECT_NE(text.find("v,failed,\"x, \"\"y\"\"\",,,\"[1, 2]\",,,,,,"), std::string::npos) << text;
+}
+
+TEST(Results, NumbersKeepNineDigits) {
+    EXPECT_EQ(numberText(1.0 / 3), "0.333333333");
+    EXPECT_EQ(numberText(0), "0");
+    EXPECT_EQ(numberText(HUGE_VAL), "inf");
+    EXPECT_EQ(numberText(1234567.25), "1234567.25");
+}
+
+TEST(Results, MetricsThatWereNotAskedForStayEmpty) {
+    Scores scores;
+    scores.flip = 0.25;
+    scores.nrmse = 0.5;
+    EXPECT_EQ(scoreTexts(scores, {"nrmse"}), (std::vector<std::string>{"", "", "", "0.5", "", "", ""}));
+}
+
+TEST(Results, JsonSurvivesTheRoundTrip) {
+    VariantResult r;
+    r.ok = true;
+    r.variant = "odd \"name\" \xc3\xa9\n";
+    r.sweepValues = {"1", "[2, 3]"};
+    r.buildMs = 1.0 / 3;
+    r.frameMs = {0.1, 0.2, 0.3};
+    r.memoryBytes = uint64_t(1) << 40;
+    r.rays = 77;
+    r.total.emplace();
+    r.total->psnrDb = HUGE_VAL;
+    r.total->nrmse = 0.1;
+    r.passes.push_back({"p", Phase::Build, {1, 2, 3}, 4, 5, 6});
+    const VariantInputs inputs{{"seed", "3"}, {"graph", "{a: \"b\"}"}};
+    const auto [back, backInputs] = parseResultJson(resultJson(r, inputs));
+    EXPECT_EQ(back.variant, r.variant);
+    EXPECT_EQ(back.sweepValues, r.sweepValues);
+    EXPECT_EQ(back.buildMs, r.buildMs);
+    EXPECT_EQ(back.frameMs.p95, 0.3);
+    EXPECT_EQ(back.memoryBytes, r.memoryBytes);
+    EXPECT_EQ(back.total->psnrDb, HUGE_VAL);
+    EXPECT_EQ(back.total->nrmse, 0.1);
+    EXPECT_FALSE(back.indirect);
+    EXPECT_EQ(back.passes.at(0).voxelSteps, 5u);
+    EXPECT_EQ(backInputs, inputs);
+    EXPECT_THROW(parseResultJson("{\"variant\": 3}"), Error);
+    EXPECT_THROW(parseResultJson(""), Error);
+}
+
+TEST(Measure, PercentilesInterpolate) {
+    const Percentiles p = percentiles({5, 1, 3, 2, 4});
+    EXPECT_DOUBLE_EQ(p.median, 3);
+    EXPECT_DOUBLE_EQ(p.p05, 1.2);
+    EXPECT_DOUBLE_EQ(p.p95, 4.8);
+    EXPECT_DOUBLE_EQ(percentiles({7}).p95, 7);
+    EXPECT_DOUBLE_EQ(percentiles({}).median, 0);
+    EXPECT_DOUBLE_EQ(percentiles({1, 2}).median, 1.5);
+}
+
+TEST(Progress, Durations) {
+    EXPECT_EQ(durationText(48.4), "48 s");
+    EXPECT_EQ(durationText(200), "3 min 20 s");
+    EXPECT_EQ(durationText(3900), "1 h 5 min");
+}
