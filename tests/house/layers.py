@@ -33,7 +33,7 @@ THIRD_PARTY = {
     r"CLI/": ["framework/app/"],
     r"xxhash\.h": ["framework/base/"],
     r"gtest/": ["tests/"],
-    r"benchmark/": ["tests/bench/"],
+    r"benchmark/": ["tests/"],
 }
 
 SOURCE = re.compile(r"\.(h|hpp|cpp|glsl|comp|vert|geom|frag|rgen|rmiss|rchit|rahit)$")

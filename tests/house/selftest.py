@@ -88,7 +88,7 @@ class Layers(Tree):
         self.refused("framework/experiment/x.cpp", "<CLI/CLI.hpp>")
         self.refused("framework/trace/x.cpp", '"tiny_gltf.h"')
         self.refused("framework/image/x.cpp", "<gtest/gtest.h>")
-        self.refused("tests/unit/x.cpp", "<benchmark/benchmark.h>")
+        self.refused("framework/trace/x.cpp", "<benchmark/benchmark.h>")
         self.allowed("framework/scene/x.cpp", "<tiny_gltf.h>")
         self.allowed("framework/trace/embree_scene.cpp", "<embree3/rtcore.h>")
         self.allowed("tests/bench/x.cpp", "<embree3/rtcore.h>")
