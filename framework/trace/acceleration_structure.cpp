@@ -157,12 +157,12 @@ uint64_t SceneStructure::bytes() const {
 }
 
 uint32_t trianglesPerChunk(const Device& device) {
-    const uint64_t limit = device.accelerationStructureProperties().maxPrimitiveCount;
-    return uint32_t(std::min<uint64_t>(limit, device.info().isCpu ? 1u << 18 : 1u << 24));
+    constexpr uint64_t kMost = 1u << 22;  // Bounds the memory that a build needs beside the structure.
+    return uint32_t(std::min(kMost, device.accelerationStructureProperties().maxPrimitiveCount));
 }
 
 SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const SceneState& state,
-                                   const TracingOrder& order, uint32_t trianglesPerChunk) {
+                                   const TracingOrder& order) {
     // Inputs in tracing order.
     const Geometry& geometry = state.geometry;
     std::vector<glm::uvec3> indices;
@@ -171,24 +171,18 @@ SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const 
     const Buffer positions = uploaded(device, stream, "acceleration structure vertices", geometry.positions);
     const Buffer corners = uploaded(device, stream, "acceleration structure indices", indices);
 
-    // Chunks of opaque triangles, then chunks of masked ones.
+    // A structure for each chunk, one over all.
     SceneStructure scene;
     scene.opaqueCount = order.opaqueCount;
-    std::vector<uint32_t> chunkFirst;
     const uint32_t vertexCount = uint32_t(geometry.positions.size());
-    const auto addChunks = [&](uint32_t begin, uint32_t end, bool opaque) {
-        for (uint32_t first = begin; first < end; first += std::min(trianglesPerChunk, end - first)) {
-            const uint32_t count = std::min(trianglesPerChunk, end - first);
-            chunkFirst.push_back(first);
-            scene.chunks.push_back(
-                run(device, stream, "bottom-level acceleration structures",
-                    trianglesBuild(positions, vertexCount, corners, first, count, opaque)));
-        }
-    };
-    addChunks(0, order.opaqueCount, true);
-    addChunks(order.opaqueCount, uint32_t(order.triangles.size()), false);
+    for (size_t chunk = 0; chunk < order.chunkFirst.size(); ++chunk) {
+        const uint32_t first = order.chunkFirst[chunk], count = order.chunkEnd(chunk) - first;
+        const Build build =
+            trianglesBuild(positions, vertexCount, corners, first, count, first < order.opaqueCount);
+        scene.chunks.push_back(run(device, stream, "bottom-level acceleration structures", build));
+    }
     scene.top = buildTop(device, stream, scene.chunks);
-    scene.chunkFirst = uploaded(device, stream, "acceleration structure chunks", chunkFirst);
+    scene.chunkFirst = uploaded(device, stream, "acceleration structure chunks", order.chunkFirst);
     scene.triangleIds = uploaded(device, stream, "acceleration structure triangle numbers", order.triangles);
     stream.finish();
     return scene;

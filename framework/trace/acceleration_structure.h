@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scene/geometry.h"
-#include "trace/gpu_alpha_mask.h"
+#include "trace/tracing_order.h"
 #include "vulkan/commands.h"
 #include "vulkan/memory.h"
 
@@ -44,13 +44,12 @@ struct SceneStructure {
     uint64_t bytes() const;  ///< Of all structures.
 };
 
-/// Triangles of one bottom-level structure at most: software Vulkan's builder takes no more in good time,
-/// GPUs trace few structures faster than many.
+/// Triangles of one bottom-level structure at most.
 uint32_t trianglesPerChunk(const Device& device);
 
 /// Builds the structures; records and finishes. The build's inputs are freed again.
 /// @throws Error over the memory limit.
 SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const SceneState& state,
-                                   const TracingOrder& order, uint32_t trianglesPerChunk);
+                                   const TracingOrder& order);
 
 }  // namespace voxray

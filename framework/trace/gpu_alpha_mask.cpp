@@ -59,19 +59,6 @@ Buffer uploaded(Device& device, CommandStream& stream, const char* name, const s
 
 }  // namespace
 
-TracingOrder tracingOrder(const SceneState& state) {
-    TracingOrder order;
-    std::vector<uint32_t> masked;
-    const std::vector<uint32_t>& materials = state.geometry.triangleMaterials;
-    for (uint32_t t = 0; t < materials.size(); ++t) {
-        const bool isMasked = state.scene->materials[materials[t]].alphaMode == AlphaMode::Mask;
-        (isMasked ? masked : order.triangles).push_back(t);
-    }
-    order.opaqueCount = uint32_t(order.triangles.size());
-    order.triangles.insert(order.triangles.end(), masked.begin(), masked.end());
-    return order;
-}
-
 GpuAlphaMask makeGpuAlphaMask(Device& device, CommandStream& stream, const SceneState& state,
                               const TracingOrder& order) {
     // The masked materials, with the textures that they read.

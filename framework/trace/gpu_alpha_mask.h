@@ -1,21 +1,11 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "scene/geometry.h"
+#include "trace/tracing_order.h"
 #include "vulkan/commands.h"
 #include "vulkan/memory.h"
 
 namespace voxray {
-
-/// Numbers of the scene's triangles, opaque ones first, those with an alpha mask last, each in the scene's
-/// order.
-struct TracingOrder {
-    std::vector<uint32_t> triangles;
-    uint32_t opaqueCount = 0;
-};
-TracingOrder tracingOrder(const SceneState& state);
 
 /// What the shaders need to decide whether a hit on a masked triangle counts (shaders/trace/trace_types.h):
 /// the triangles' texture coordinates and the alpha channels of their textures, filtered in the shader

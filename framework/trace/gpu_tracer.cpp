@@ -23,8 +23,8 @@ void checkStream(const Buffer& rays, const Buffer& results, uint64_t resultBytes
 
 GpuTracer::GpuTracer(Device& device, const SceneState& state, uint32_t trianglesPerChunk) {
     CommandStream stream(device);
-    const TracingOrder order = tracingOrder(state);
-    structure_ = buildSceneStructure(device, stream, state, order, trianglesPerChunk);
+    const TracingOrder order = tracingOrder(state, trianglesPerChunk);
+    structure_ = buildSceneStructure(device, stream, state, order);
     mask_ = makeGpuAlphaMask(device, stream, state, order);
     stream.finish();
 }
