@@ -8,10 +8,10 @@ layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Wor
 layout(set = 0, binding = 1) buffer Count { uint bad; } count;
 layout(push_constant) uniform Push {
     Words words;
-    uint64_t length;
+    uint64_t floatCount;
 } push;
 
 void main() {
-    if (gl_GlobalInvocationID.x >= push.length) return;
+    if (gl_GlobalInvocationID.x >= push.floatCount) return;
     if ((push.words.data[gl_GlobalInvocationID.x] & 0x7f800000u) == 0x7f800000u) atomicAdd(count.bad, 1u);
 }

@@ -149,6 +149,7 @@ std::vector<Binding> GpuScene::bindings(std::initializer_list<Binding> more) con
                              {"sceneEmitters", emitters},
                              {"sceneTextures", textures},
                              {"sceneEnvironment", environment, environmentSampler}};
+    for (Binding& binding : all) binding.optional = true;
     all.insert(all.end(), more.begin(), more.end());
     return all;
 }

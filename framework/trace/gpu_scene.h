@@ -30,7 +30,7 @@ struct GpuScene {
     std::vector<Image> images;
     std::vector<Sampler> samplers;
 
-    /// The bindings that a shader including shaders/scene.glsl needs, followed by `more`.
+    /// The bindings that a shader including shaders/scene.glsl may use, followed by `more`.
     std::vector<Binding> bindings(std::initializer_list<Binding> more) const;
 };
 

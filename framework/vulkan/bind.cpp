@@ -33,7 +33,7 @@ std::vector<const Binding*> matchBindings(const Program& program, std::span<cons
         names.push_back(wanted.name);
     }
     for (const Binding& binding : given) {
-        if (std::ranges::find(names, binding.name) == names.end())
+        if (!binding.optional && std::ranges::find(names, binding.name) == names.end())
             throw Error("{}: there is no binding '{}'{}", program.name(), binding.name,
                         didYouMean(binding.name, names));
         if (std::ranges::count(given, binding.name, &Binding::name) > 1)

@@ -29,6 +29,8 @@ struct Binding {
     std::variant<const Buffer*, const Image*, const TextureArray*, VkAccelerationStructureKHR> resource;
     const Sampler* sampler = nullptr;
     uint32_t level = 0;
+    bool optional =
+        false;  ///< A program that does not use it may leave it out (bindings of shader libraries).
 
     Binding(std::string_view n, const Buffer& b) : name(n), resource(&b) {}
     Binding(std::string_view n, const Image& i, uint32_t mipLevel = 0)
@@ -37,6 +39,12 @@ struct Binding {
     Binding(std::string_view n, const TextureArray& t) : name(n), resource(&t) {}
     Binding(std::string_view n, VkAccelerationStructureKHR a) : name(n), resource(a) {}
 };
+
+/// A binding that shaders/*.glsl declares for whoever includes it, used or not.
+inline Binding ifUsed(Binding binding) {
+    binding.optional = true;
+    return binding;
+}
 
 /// Push constants of one call.
 struct PushConstants {

@@ -155,7 +155,6 @@ void InjectLightRays::record(PassContext& context) {
                     deposit_,
                     context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
                                             {"voxelRank", voxels.rank},
-                                            {"voxelMaterials", voxels.materials},
                                             {"rays", rays_},
                                             {"hits", hits_},
                                             {"carried", carried_},

@@ -91,7 +91,6 @@ void VoxelizePass::rasterize(PassContext& context, const Program& program, const
         if (!marking) {
             bindings.push_back({"voxelOccupancy", v.occupancy});
             bindings.push_back({"voxelRank", v.rank});
-            bindings.push_back({"voxelMaterials", v.materials});
         }
         context.stream.draw(program, bindings, RasterPush{v.grid, axis, params_.samples, emissionScale},
                             targets, context.scene.triangleCount * 3);
