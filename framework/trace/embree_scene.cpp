@@ -30,10 +30,12 @@ bool isTraceable(float x) {
     return std::fabs(x) <= kLargest;
 }
 
+/// Without branches: it runs on every ray of a stream.
 bool isTraceable(const Ray& ray) {
-    return isTraceable(ray.origin.x) && isTraceable(ray.origin.y) && isTraceable(ray.origin.z) &&
-           isTraceable(ray.direction.x) && isTraceable(ray.direction.y) && isTraceable(ray.direction.z) &&
-           ray.tMin >= 0.0f && ray.tMin <= kLargest && !std::isnan(ray.tMax);
+    return bool(int(isTraceable(ray.origin.x)) & int(isTraceable(ray.origin.y)) &
+                int(isTraceable(ray.origin.z)) & int(isTraceable(ray.direction.x)) &
+                int(isTraceable(ray.direction.y)) & int(isTraceable(ray.direction.z)) &
+                int(ray.tMin >= 0.0f) & int(ray.tMin <= kLargest) & int(!std::isnan(ray.tMax)));
 }
 
 RTCRay toEmbree(const Ray& ray) {
