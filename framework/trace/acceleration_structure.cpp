@@ -168,17 +168,17 @@ SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const 
     std::vector<glm::uvec3> indices;
     indices.reserve(order.triangles.size());
     for (uint32_t t : order.triangles) indices.push_back(geometry.triangles[t]);
-    const Buffer positions = uploaded(device, stream, "acceleration structure vertices", geometry.positions);
-    const Buffer corners = uploaded(device, stream, "acceleration structure indices", indices);
+    SceneStructure scene;
+    scene.positions = uploaded(device, stream, "acceleration structure vertices", geometry.positions);
+    scene.corners = uploaded(device, stream, "acceleration structure indices", indices);
 
     // A structure for each chunk, one over all.
-    SceneStructure scene;
     scene.opaqueCount = order.opaqueCount;
     const uint32_t vertexCount = uint32_t(geometry.positions.size());
     for (size_t chunk = 0; chunk < order.chunkFirst.size(); ++chunk) {
         const uint32_t first = order.chunkFirst[chunk], count = order.chunkEnd(chunk) - first;
-        const Build build =
-            trianglesBuild(positions, vertexCount, corners, first, count, first < order.opaqueCount);
+        const Build build = trianglesBuild(scene.positions, vertexCount, scene.corners, first, count,
+                                           first < order.opaqueCount);
         scene.chunks.push_back(run(device, stream, "bottom-level acceleration structures", build));
     }
     scene.top = buildTop(device, stream, scene.chunks);

@@ -39,6 +39,8 @@ struct SceneStructure {
     AccelerationStructure top;
     Buffer chunkFirst;   ///< First triangle, in tracing order, of each chunk.
     Buffer triangleIds;  ///< Numbers in the scene, in tracing order.
+    Buffer corners;      ///< Vertices of the triangles, in tracing order.
+    Buffer positions;    ///< Of the vertices.
     uint32_t opaqueCount = 0;
 
     uint64_t bytes() const;  ///< Of all structures.
@@ -47,7 +49,7 @@ struct SceneStructure {
 /// Triangles of one bottom-level structure at most.
 uint32_t trianglesPerChunk(const Device& device);
 
-/// Builds the structures; records and finishes. The build's inputs are freed again.
+/// Builds the structures; records and finishes.
 /// @throws Error over the memory limit.
 SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const SceneState& state,
                                    const TracingOrder& order);

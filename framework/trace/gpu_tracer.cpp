@@ -46,6 +46,8 @@ void GpuTracer::trace(CommandStream& stream, bool occluded, const Buffer& rays, 
     call.results = results.address();
     call.chunkFirst = structure_.chunkFirst.address();
     call.triangleIds = structure_.triangleIds.address();
+    call.corners = structure_.corners.address();
+    call.positions = structure_.positions.address();
     call.maskedTriangles = mask_.triangles.address();
     call.alphaMaterials = mask_.materials.address();
     call.alphaTexels = mask_.texels.address();

@@ -7,6 +7,6 @@ layout(location = 0) rayPayloadInEXT Hit payload;
 hitAttributeEXT vec2 barycentrics;
 
 void main() {
-    payload = Hit(gl_HitTEXT, sceneTriangle(uint(gl_InstanceCustomIndexEXT), uint(gl_PrimitiveID)), barycentrics.x,
-                  barycentrics.y);
+    payload = makeHit(gl_WorldRayOriginEXT, gl_WorldRayDirectionEXT, gl_HitTEXT, uint(gl_InstanceCustomIndexEXT),
+                      uint(gl_PrimitiveID), barycentrics);
 }

@@ -23,11 +23,10 @@ Hit trace(Ray ray) {
         if (!isCutAway(instance, primitive, barycentrics)) rayQueryConfirmIntersectionEXT(query);
     }
     if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT) return hit;
-    const vec2 barycentrics = rayQueryGetIntersectionBarycentricsEXT(query, true);
-    const uint instance = uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true));
-    const uint primitive = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, true));
-    return Hit(rayQueryGetIntersectionTEXT(query, true), sceneTriangle(instance, primitive), barycentrics.x,
-               barycentrics.y);
+    return makeHit(ray.origin, ray.direction, rayQueryGetIntersectionTEXT(query, true),
+                   uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true)),
+                   uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, true)),
+                   rayQueryGetIntersectionBarycentricsEXT(query, true));
 }
 
 void main() {

@@ -13,6 +13,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Ray
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer HitStream { Hit data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer WordStream { uint data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Words { uint data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Corners { uvec3 data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Positions { vec3 data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer MaskedTriangles {
     MaskedTriangle data[];
 };
@@ -34,8 +36,17 @@ uint tracingIndex(uint instance, uint primitive) {
     return Words(call.chunkFirst).data[instance] + primitive;
 }
 
-uint sceneTriangle(uint instance, uint primitive) {
-    return Words(call.triangleIds).data[tracingIndex(instance, primitive)];
+// The hit that a backend found, with its distance taken anew from the triangle's plane: backends measure from the
+// scene's origin, which loses a hit's digits close to the ray's origin.
+Hit makeHit(vec3 origin, vec3 direction, float t, uint instance, uint primitive, vec2 barycentrics) {
+    const uint index = tracingIndex(instance, primitive);
+    const uvec3 corner = Corners(call.corners).data[index];
+    const vec3 a = Positions(call.positions).data[corner.x];
+    const vec3 normal =
+        cross(Positions(call.positions).data[corner.y] - a, Positions(call.positions).data[corner.z] - a);
+    const float exact = dot(normal, a - origin) / dot(normal, direction);
+    const bool isUsable = abs(exact - t) <= 1e-3 * t + 1e-5 * length(a);
+    return Hit(isUsable ? exact : t, Words(call.triangleIds).data[index], barycentrics.x, barycentrics.y);
 }
 
 // The same steps as the CPU's lookup (trace/texture_lookup.cpp), so that both cut away the same points.

@@ -12,6 +12,8 @@ struct TraceCall {
     uint64_t results;          // Hit each (closest hit), or uint each (occluded).
     uint64_t chunkFirst;       // uint each instance: the first of its triangles in tracing order.
     uint64_t triangleIds;      // uint each triangle in tracing order: its number in the scene.
+    uint64_t corners;          // 3 uints each triangle in tracing order: its vertices.
+    uint64_t positions;        // 3 floats each vertex.
     uint64_t maskedTriangles;  // MaskedTriangle each; they come last in tracing order.
     uint64_t alphaMaterials;   // AlphaMaterial each.
     uint64_t alphaTexels;      // 8-bit alphas, four to a uint.

@@ -146,6 +146,20 @@ TEST_F(TraceBackends, HitOnOneTriangleHasItsClosedForm) {
     }
 }
 
+TEST_F(TraceBackends, HitCloseToItsRayKeepsItsDigitsFarFromTheOrigin) {
+    // A millimetre away at 100 m: one unit in the last place there is 0.8 % of the distance.
+    SceneState state = oneTriangle();
+    for (glm::vec3& position : state.geometry.positions) position += glm::vec3(100, 100, 0.3f);
+    const float z = state.geometry.positions[0].z, millimetre = 0x1p-10f;
+    const std::vector<Ray> rays{{{100.25f, 100.25f, z + millimetre}, 0, {0.6f, 0, -0.8f}, 10}};
+    const float expected = ((z + millimetre) - z) / 0.8f;
+    for (TracerKind kind : kinds()) {
+        const std::vector<Hit> hits = closestHits(*make(kind, state), rays);
+        EXPECT_EQ(hits[0].triangle, 0u);
+        EXPECT_NEAR(hits[0].t, expected, 1e-5f * expected) << int(kind);
+    }
+}
+
 TEST_F(TraceBackends, InactiveRaysMiss) {
     const SceneState state = oneTriangle();
     const std::vector<Ray> rays{{{0.25f, 0.25f, 2}, 1, {0, 0, -1}, 0.5f},
