@@ -32,8 +32,8 @@ ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, bool 
     : path_(std::move(path)) {
     orError(path_, [&] {
         if (fs::exists(path_) && !fs::is_directory(path_)) throw Error("{}: is not a folder", path_.string());
+        if (fs::exists(path_)) checkOwner(experiment);
         fs::create_directories(path_ / "images");
-        checkOwner(experiment);
     });
     const fs::path probe = ".writable";
     writeText(probe.string(), "x");
@@ -61,7 +61,7 @@ void ResultsFolder::checkOwner(const std::string& experiment) const {
         if (entry.path().filename() != "images")
             throw Error("{}: is not empty and holds no results of Voxray; choose another folder with --out",
                         path_.string());
-    if (!fs::is_empty(path_ / "images"))
+    if (fs::exists(path_ / "images") && !fs::is_empty(path_ / "images"))
         throw Error("{}: is not empty and holds no results of Voxray; choose another folder with --out",
                     path_.string());
 }
