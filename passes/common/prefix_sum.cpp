@@ -27,7 +27,7 @@ uint32_t PopulationPrefixSum::run(CommandStream& stream, const Buffer& words, co
     // One sum a block and, after them, the total.
     const Buffer sums(stream.device(), "prefix sum blocks", (uint64_t(blocks) + 1) * sizeof(uint32_t));
     const Push push{count, blocks};
-    const auto bindings = {Binding{"source", words}, Binding{"result", before}, Binding{"blockSums", sums}};
+    const auto bindings = {ifUsed({"source", words}), ifUsed({"result", before}), Binding{"blockSums", sums}};
     stream.dispatch(sumBlocks_, bindings, push, {blocks, 1, 1});
     stream.dispatch(scanBlocks_, bindings, push, {1, 1, 1});
     stream.dispatch(scanWords_, bindings, push, {blocks, 1, 1});
