@@ -3,6 +3,6 @@ foreach(part commands run)
   add_test(NAME cli.${part}
     COMMAND /usr/bin/python3 -m unittest -v ${part}_test
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/cli)
-  set_tests_properties(cli.${part} PROPERTIES TIMEOUT 300 ENVIRONMENT
+  set_tests_properties(cli.${part} PROPERTIES TIMEOUT 600 ENVIRONMENT
     "VOXRAY_PROGRAM=$<TARGET_FILE:voxray-cli>;VOXRAY_SOURCE=${CMAKE_SOURCE_DIR};VOXRAY_CACHE=${CMAKE_BINARY_DIR}/tests/cli-cache;PYTHONDONTWRITEBYTECODE=1")
 endforeach()
