@@ -6,18 +6,6 @@
 namespace voxray::test {
 namespace {
 
-std::string base64(const std::string& bytes) {
-    constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    for (size_t i = 0; i < bytes.size(); i += 3) {
-        uint32_t group = 0;
-        for (size_t j = 0; j < 3; ++j)
-            group = group << 8 | (i + j < bytes.size() ? uint32_t(uint8_t(bytes[i + j])) : 0u);
-        for (size_t j = 0; j < 4; ++j) out += i + j > bytes.size() ? '=' : digits[group >> (18 - 6 * j) & 63];
-    }
-    return out;
-}
-
 std::string refusal(const std::filesystem::path& path) {
     try {
         loadGltf(path);

@@ -44,6 +44,18 @@ inline void writeBytes(const std::filesystem::path& path, const std::string& byt
     out.write(bytes.data(), std::streamsize(bytes.size()));
 }
 
+inline std::string base64(const std::string& bytes) {
+    constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string out;
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        uint32_t group = 0;
+        for (size_t j = 0; j < 3; ++j)
+            group = group << 8 | (i + j < bytes.size() ? uint32_t(uint8_t(bytes[i + j])) : 0u);
+        for (size_t j = 0; j < 4; ++j) out += i + j > bytes.size() ? '=' : digits[group >> (18 - 6 * j) & 63];
+    }
+    return out;
+}
+
 /// Makes glTF files: JSON as it stands in `root`, binary data in one buffer.
 struct GltfBuilder {
     json root = {{"asset", {{"version", "2.0"}}}};
@@ -105,6 +117,13 @@ struct GltfBuilder {
         u32(bin.size());
         out += std::string("BIN\0", 4) + bin;
         return out;
+    }
+    /// The same as .gltf with the data in the text.
+    std::string gltf() const {
+        json complete = root;
+        complete["buffers"] = {
+            {{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}}};
+        return complete.dump();
     }
     std::shared_ptr<const Scene> load() const {
         const TemporaryFolder folder;

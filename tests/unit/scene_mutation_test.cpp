@@ -102,6 +102,16 @@ TEST_F(Mutations, FlippedBits) {
     }
 }
 
+TEST_F(Mutations, FlippedBitsInText) {
+    const std::string good = everything().gltf();
+    std::mt19937 random(4);
+    for (int i = 0; i < 500; ++i) {
+        std::string bad = good;
+        bad[random() % bad.size()] ^= char(1 << random() % 8);
+        check(bad, "flip " + std::to_string(i));
+    }
+}
+
 TEST_F(Mutations, Truncations) {
     const std::string good = everything().glb();
     for (size_t size = 0; size < good.size(); size += 7)
