@@ -53,7 +53,7 @@ BsdfValue Bsdf::evaluateLayers(const glm::vec3& out, const glm::vec3& in, const 
     return value;
 }
 
-BsdfSample Bsdf::sampleLayers(const glm::vec3& out, const Frame& frame, float u, float v, float lobe) const {
+BsdfSample Bsdf::sampleLayers(const glm::vec3& out, const Frame& frame, glm::vec2 place, float lobe) const {
     glm::vec3 local = frame.toLocal(out);
     local.z = std::max(local.z, 1e-5f);
     const float pSpecular = specularProbability(local.z);
@@ -70,10 +70,10 @@ BsdfSample Bsdf::sampleLayers(const glm::vec3& out, const Frame& frame, float u,
     // Otherwise either lobe draws the direction and both weigh it.
     glm::vec3 in;
     if (lobe < pSpecular) {
-        const glm::vec3 half = sampleVisibleNormal(local, alpha, u, v);
+        const glm::vec3 half = sampleVisibleNormal(local, alpha, place.x, place.y);
         in = glm::normalize(half * (2.0f * glm::dot(local, half)) - local);
     } else {
-        in = cosineHemisphere(u, v);
+        in = cosineHemisphere(place.x, place.y);
     }
     if (!(in.z > 0.0f)) return sample;
     sample.direction = frame.toWorld(in);

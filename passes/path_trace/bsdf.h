@@ -68,14 +68,14 @@ struct Bsdf {
         return evaluateLayers(out, in, n, cosIn);
     }
 
-    /// Draws a direction: (u, v) places it, `lobe` chooses diffuse or specular.
-    BsdfSample sample(const glm::vec3& out, const glm::vec3& n, float u, float v, float lobe) const {
+    /// Draws a direction: `place` in [0, 1)² places it, `lobe` in [0, 1) chooses diffuse or specular.
+    BsdfSample sample(const glm::vec3& out, const glm::vec3& n, glm::vec2 place, float lobe) const {
         const Frame frame(n);
         if (!hasSpecular()) {
-            const glm::vec3 local = cosineHemisphere(u, v);
+            const glm::vec3 local = cosineHemisphere(place.x, place.y);
             return {frame.toWorld(local), diffuse, local.z * kInvPi, false};
         }
-        return sampleLayers(out, frame, u, v, lobe);
+        return sampleLayers(out, frame, place, lobe);
     }
 
     /// Schlick's Fresnel reflectance at an angle to the half vector.
@@ -98,7 +98,7 @@ struct Bsdf {
  private:
     BsdfValue evaluateLayers(const glm::vec3& out, const glm::vec3& in, const glm::vec3& n,
                              float cosIn) const;
-    BsdfSample sampleLayers(const glm::vec3& out, const Frame& frame, float u, float v, float lobe) const;
+    BsdfSample sampleLayers(const glm::vec3& out, const Frame& frame, glm::vec2 place, float lobe) const;
 };
 
 }  // namespace voxray::path_trace

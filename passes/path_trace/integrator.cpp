@@ -1,5 +1,6 @@
 #include "passes/path_trace/integrator.h"
 
+#include <cmath>
 #include <limits>
 
 namespace voxray::path_trace {
@@ -12,18 +13,19 @@ constexpr float kShadowEnd = 1.0f - 4e-6f;
 /// Vertices before Russian roulette starts.
 constexpr uint32_t kSureVertices = 3;
 
-/// What the eight numbers of a vertex's block are for; pairs are (i, i + 4).
-enum Use {
-    LightU = 0,
-    LightV = 4,
-    ReflectionU = 1,
-    ReflectionV = 5,
-    Lobe = 2,
-    LightChoice = 6,
-    Roulette = 3
-};
+/// What each vertex draws numbers for; the camera uses number 0.
+enum Use : uint32_t { kLightPoint = 1, kLightChoice, kReflection, kLobe, kRoulette, kUses = 8 };
 
 }  // namespace
+
+/// The numbers of one vertex of a path.
+struct Integrator::VertexSampler {
+    const SobolSampler& sampler;
+    uint32_t vertex;
+
+    glm::vec2 pair(Use use) const { return sampler.pair(vertex * kUses + use); }
+    float one(Use use) const { return sampler.one(vertex * kUses + use); }
+};
 
 Integrator::Integrator(const SceneState& state, const EmbreeScene& tracer, uint32_t bounces,
                        Strategy strategy)
@@ -41,11 +43,12 @@ float Integrator::weightOfHit(float reflectionPdf, float lightPdf) const {
     return lightPdf > 0.0f ? 0.0f : 1.0f;
 }
 
-glm::vec3 Integrator::lightAt(const SurfacePoint& point, const glm::vec3& out, const SobolSampler::Block& u,
+glm::vec3 Integrator::lightAt(const SurfacePoint& point, const glm::vec3& out, const VertexSampler& sampler,
                               PathSample& path) const {
     // Draw a light and weigh what it sends here.
     const glm::vec3 origin = point.rayOrigin();
-    const LightSample light = lights_.sample(origin, u[LightChoice], u[LightU], u[LightV]);
+    const float choice = lights_.isSingle() ? 0.0f : sampler.one(kLightChoice);
+    const LightSample light = lights_.sample(origin, choice, sampler.pair(kLightPoint));
     if (!(light.pdf > 0.0f) || !(glm::dot(light.direction, point.faceNormal) > 0.0f)) return glm::vec3(0.0f);
     const BsdfValue reflection = point.bsdf.evaluate(out, light.direction, point.shadingNormal);
     glm::vec3 value = reflection.fCos * light.radiance / light.pdf;
@@ -94,26 +97,27 @@ PathSample Integrator::trace(const Ray& cameraRay, const SobolSampler& sampler) 
         if (vertex > bounces_) return path;
 
         // Direct light at this vertex.
-        SobolSampler::Block u;
-        sampler.block(vertex + 1, u);
+        const VertexSampler vertexSampler{sampler, vertex};
         const SurfacePoint point = surfaces_.at(hit, ray.direction);
         if (!lights_.empty()) {
-            const glm::vec3 light = throughput * lightAt(point, -ray.direction, u, path);
+            const glm::vec3 light = throughput * lightAt(point, -ray.direction, vertexSampler, path);
             (vertex == 0 ? path.direct : path.indirect) += light;
         }
         if (vertex == bounces_ && !lights_.canBeHit()) return path;
 
         // Scatter; rays that a shading normal sends below the surface are lost.
+        const float lobe = point.bsdf.hasSpecular() ? vertexSampler.one(kLobe) : 0.0f;
         const BsdfSample next =
-            point.bsdf.sample(-ray.direction, point.shadingNormal, u[ReflectionU], u[ReflectionV], u[Lobe]);
+            point.bsdf.sample(-ray.direction, point.shadingNormal, vertexSampler.pair(kReflection), lobe);
         throughput *= next.weight;
         const float strength = maxComponent(throughput);
         if (!(strength > 0.0f) || !(glm::dot(next.direction, point.faceNormal) > 0.0f)) return path;
 
-        // Russian roulette by throughput keeps the mean.
+        // Russian roulette by the root of the throughput: shorter paths, more noise; the mean stays.
         if (vertex + 1 >= kSureVertices && strength < 1.0f) {
-            if (u[Roulette] >= strength) return path;
-            throughput /= strength;
+            const float survival = std::sqrt(strength);
+            if (vertexSampler.one(kRoulette) >= survival) return path;
+            throughput /= survival;
         }
         ray = {point.rayOrigin(), 0.0f, next.direction, kInfinity};
         reflectionPdf = next.pdf;

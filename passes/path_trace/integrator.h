@@ -27,12 +27,12 @@ class Integrator {
     /// Both arguments must outlive this object.
     Integrator(const SceneState& state, const EmbreeScene& tracer, uint32_t bounces, Strategy strategy);
 
-    /// Follows a path that starts along `ray` (unit direction). Sampler blocks 1, 2, ... are its own.
+    /// Follows a path that starts along `ray` (unit direction). Sampler pair 0 is the caller's.
     PathSample trace(const Ray& ray, const SobolSampler& sampler) const;
 
  private:
-    struct Vertex;
-    glm::vec3 lightAt(const SurfacePoint& point, const glm::vec3& out, const SobolSampler::Block& u,
+    struct VertexSampler;
+    glm::vec3 lightAt(const SurfacePoint& point, const glm::vec3& out, const VertexSampler& sampler,
                       PathSample& path) const;
     float weightOfHit(float reflectionPdf, float lightPdf) const;
 

@@ -1,8 +1,8 @@
 #include "passes/path_trace/lights.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/gtc/constants.hpp>
 
 namespace voxray::path_trace {
 
@@ -95,25 +95,26 @@ LightTable::LightTable(const SceneState& state, SurfaceTable& surfaces)
     }
 
     choice_ = AliasTable(power);
+    single_ = std::count_if(power.begin(), power.end(), [](double p) { return p > 0.0; }) == 1;
     for (size_t i = 0; i < patches_.size(); ++i)
         patches_[i].pdf *= choice_.empty() ? 0.0f : choice_.probability(uint32_t(firstPatch + i));
 }
 
-LightSample LightTable::sample(const glm::vec3& from, float choice, float u, float v) const {
+LightSample LightTable::sample(const glm::vec3& from, float choice, glm::vec2 place) const {
     const uint32_t i = choice_.draw(choice);
-    if (i > environmentChoice_) return samplePatch(patches_[i - environmentChoice_ - 1], from, u, v);
+    if (i > environmentChoice_) return samplePatch(patches_[i - environmentChoice_ - 1], from, place);
     if (i < environmentChoice_) return samplePunctual(state_->lights[i], choice_.probability(i), from);
     LightSample sample;
     sample.isInfinite = true;
-    sample.direction = environment_.sample(u, v, sample.pdf);
+    sample.direction = environment_.sample(place.x, place.y, sample.pdf);
     sample.pdf *= choice_.probability(i);
     sample.radiance = environment_.radiance(sample.direction);
     return sample;
 }
 
-LightSample LightTable::samplePatch(const Patch& patch, const glm::vec3& from, float u, float v) const {
+LightSample LightTable::samplePatch(const Patch& patch, const glm::vec3& from, glm::vec2 place) const {
     const SurfaceTriangle& t = surfaces_->triangle(patch.triangle);
-    const glm::vec2 b = patch.isParallelogram ? glm::vec2(u, v) : uniformTriangle(u, v);
+    const glm::vec2 b = patch.isParallelogram ? place : uniformTriangle(place.x, place.y);
     const glm::vec3 side = patch.isParallelogram ? t.edge2 - t.edge1 : t.edge2;
     const glm::vec3 point = t.corner + t.edge1 * b.x + side * b.y;
     const glm::vec3 way = point - from;

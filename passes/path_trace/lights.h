@@ -32,8 +32,11 @@ class LightTable {
     bool canBeHit() const { return !patches_.empty() || !environment_.isBlack(); }
     const EnvironmentLight& environment() const { return environment_; }
 
-    /// Draws a light by `choice` and a point on it by (u, v).
-    LightSample sample(const glm::vec3& from, float choice, float u, float v) const;
+    /// Whether there is nothing to choose: any `choice` draws the same light.
+    bool isSingle() const { return single_; }
+
+    /// Draws a light by `choice` in [0, 1) and a point on it by `place` in [0, 1)².
+    LightSample sample(const glm::vec3& from, float choice, glm::vec2 place) const;
 
     /// Density per steradian with which `sample` would have drawn a hit `distance` away along `direction`.
     float pdfOfHit(const SurfaceTriangle& triangle, const glm::vec3& direction, float distance) const;
@@ -47,7 +50,7 @@ class LightTable {
         float pdf = 0.0f;  ///< Choice's probability over the area, 1/m².
     };
 
-    LightSample samplePatch(const Patch& patch, const glm::vec3& from, float u, float v) const;
+    LightSample samplePatch(const Patch& patch, const glm::vec3& from, glm::vec2 place) const;
     LightSample samplePunctual(const Light& light, float probability, const glm::vec3& from) const;
 
     const SceneState* state_;
@@ -56,6 +59,7 @@ class LightTable {
     std::vector<Patch> patches_;
     uint32_t environmentChoice_ = 0;  ///< After the punctual lights; the patches follow it.
     AliasTable choice_;
+    bool single_ = false;
 };
 
 }  // namespace voxray::path_trace

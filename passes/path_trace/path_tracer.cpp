@@ -18,7 +18,7 @@ namespace path_trace {
 namespace {
 
 constexpr uint32_t kTile = 16;
-constexpr uint32_t kBatches = 4;
+constexpr uint32_t kBatches = 2;
 
 /// Turns points of the image plane into rays.
 class PinholeCamera {
@@ -87,9 +87,8 @@ struct Job {
             const uint32_t sequence = hashOf(pixel, batch);
             for (uint32_t i = 0; i < batchSizes[batch]; ++i) {
                 const SobolSampler sampler(sequence, i);
-                SobolSampler::Block u;
-                sampler.block(0, u);
-                const Ray ray = camera.ray(float(x) + u[0], float(y) + u[SobolSampler::kPairs]);
+                const glm::vec2 place = sampler.pair(0) + glm::vec2(x, y);
+                const Ray ray = camera.ray(place.x, place.y);
                 const PathSample path = integrator.trace(ray, sampler);
                 const glm::vec3 sum = path.direct + path.indirect;
                 if (!std::isfinite(sum.x + sum.y + sum.z))

@@ -19,9 +19,9 @@ struct PathTraceOptions {
 };
 
 /// Radiance, 3 channels, W/(m² sr), and the variance of each pixel's mean. The variance is measured between
-/// independent randomisations of the samples (4; from 2 spp on, as many as there are samples up to 4), so it
-/// is honest for low-discrepancy samples. With 1 spp nothing is known: it is the mean squared, an error of
-/// 100 %.
+/// two halves of the samples, randomised independently: unbiased for low-discrepancy samples too, but with
+/// one degree of freedom a pixel, so average it over a region. With 1 spp nothing is known: it is the mean
+/// squared, an error of 100 %.
 struct PathTraceResult {
     ImageF total;
     ImageF indirect;  ///< Total less emission and direct light at the first hit.

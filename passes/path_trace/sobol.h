@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 
 /// Owen-scrambled Sobol points, two dimensions at a time, padded to any number of dimensions: each pair has
 /// its own shuffle of the sample order and its own scramble. Burley 2020, "Practical Hash-based Owen
@@ -55,27 +55,26 @@ inline float unitFloat(uint32_t bits) {
     return float(int32_t(bits >> 8)) * 0x1p-24f;
 }
 
-/// One sequence of points in [0, 1)^d, one point a sample index.
+/// One sequence of points in [0, 1)^d, one point a sample index. Dimensions are made when they are asked for.
 class SobolSampler {
  public:
-    static constexpr int kPairs = 4;
-    using Block = std::array<float, 2 * kPairs>;  ///< x of pair 0 ... 3, then y of pair 0 ... 3.
-
     /// `seed` selects the sequence; `index` the point on it.
     SobolSampler(uint32_t seed, uint32_t index) : seed_(seed), reversedIndex_(reverseBits(index)) {}
 
-    /// Eight dimensions, four independent pairs; each pair is a (0,2)-sequence in the index.
-    void block(uint32_t number, Block& out) const {
-        const uint32_t base = hashOf(seed_, number);
-        uint32_t bits[2 * kPairs];
-        for (uint32_t p = 0; p < kPairs; ++p) {
-            const uint32_t seed = mixBits(base + p * 0x9e3779b9u);
-            const uint32_t index = reverseBits(scrambleReversed(reversedIndex_, seed));
-            bits[p] = scrambleReversed(index, seed * 0x2c1b3c6du + 0x297a2d39u);
-            bits[kPairs + p] =
-                scrambleReversed(secondDimensionReversed(index), seed * 0x7feb352du + 0x846ca68bu);
-        }
-        for (uint32_t d = 0; d < 2 * kPairs; ++d) out[d] = unitFloat(reverseBits(bits[d]));
+    /// Two dimensions that are a (0,2)-sequence in the index; any two numbers give independent pairs.
+    glm::vec2 pair(uint32_t number) const {
+        const uint32_t seed = hashOf(seed_, number);
+        const uint32_t index = reverseBits(scrambleReversed(reversedIndex_, seed));
+        const uint32_t x = scrambleReversed(index, seed * 0x2c1b3c6du + 0x297a2d39u);
+        const uint32_t y = scrambleReversed(secondDimensionReversed(index), seed * 0x7feb352du + 0x846ca68bu);
+        return {unitFloat(reverseBits(x)), unitFloat(reverseBits(y))};
+    }
+
+    /// The first dimension of a pair alone.
+    float one(uint32_t number) const {
+        const uint32_t seed = hashOf(seed_, number);
+        const uint32_t index = reverseBits(scrambleReversed(reversedIndex_, seed));
+        return unitFloat(reverseBits(scrambleReversed(index, seed * 0x2c1b3c6du + 0x297a2d39u)));
     }
 
  private:

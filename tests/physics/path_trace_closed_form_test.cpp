@@ -190,7 +190,7 @@ TEST(PathTraceClosedForm, TexturedLightFarAway) {
         Material lamp = s.scene->materials[s.lambert({}, glm::vec3(1000))];
         lamp.emissiveTexture.texture = 0;
         s.quad({-0.05f, 5, -0.05f}, {0.1f, 0, 0}, {0, 0, 0.1f}, s.material(lamp));
-        const PathTraceResult r = s.render(downCamera(4, 0.05f), options(1024, 0, 8), strategy);
+        const PathTraceResult r = s.render(downCamera(4, 0.05f), options(4096, 0, 8), strategy);
         expectRelative(meanOf(r.total), 0.5 / kPi * 1000 * 0.25 * 0.01 / 25, 2e-3);
     }
 }

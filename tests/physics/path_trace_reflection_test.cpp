@@ -89,7 +89,7 @@ void drawMany(const Bsdf& b, const glm::vec3& out, uint32_t count, const Visit& 
     std::mt19937 random(5);
     std::uniform_real_distribution<float> unit(0, 0x1.fffffep-1f);
     for (uint32_t i = 0; i < count; ++i)
-        visit(b.sample(out, kNormal, unit(random), unit(random), unit(random)));
+        visit(b.sample(out, kNormal, {unit(random), unit(random)}, unit(random)));
 }
 
 TEST(Reflection, SamplesFollowTheirDensity) {
@@ -145,7 +145,7 @@ TEST(Reflection, SamplesFollowTheirDensity) {
 
 TEST(Reflection, MirrorsAreExactAndGrazingViewsFinite) {
     const Bsdf mirror = metal(0);
-    const BsdfSample s = mirror.sample(directionAt(0.6, 1), kNormal, 0.5f, 0.5f, 0.5f);
+    const BsdfSample s = mirror.sample(directionAt(0.6, 1), kNormal, {0.5f, 0.5f}, 0.5f);
     EXPECT_TRUE(s.mirror);
     EXPECT_NEAR(glm::dot(s.direction, directionAt(0.6, 1 + 3.14159265358979)), 1, 1e-6);
     EXPECT_NEAR(s.weight.x, 1, 1e-5);

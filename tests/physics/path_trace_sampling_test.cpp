@@ -17,40 +17,39 @@ using path_trace::Strategy;
 TEST(SobolSampler, EveryPairIsAZeroTwoSequence) {
     // Each aligned run of 2^m points has one point in each of its elementary intervals of every shape.
     for (const uint32_t seed : {1u, 77u})
-        for (int pair = 0; pair < SobolSampler::kPairs; ++pair)
+        for (uint32_t pair = 0; pair < 6; ++pair)
             for (int m = 1; m <= 8; ++m)
                 for (const uint32_t run : {0u, 1u, 5u})
                     for (int i = 0; i <= m; ++i) {
                         std::set<std::pair<int, int>> cells;
                         for (uint32_t k = 0; k < (1u << m); ++k) {
-                            SobolSampler::Block u;
-                            SobolSampler(seed, (run << m) + k).block(3, u);
-                            const float x = u[size_t(pair)], y = u[size_t(pair + SobolSampler::kPairs)];
-                            ASSERT_TRUE(x >= 0 && x < 1 && y >= 0 && y < 1);
-                            cells.insert({int(x * float(1 << i)), int(y * float(1 << (m - i)))});
+                            const SobolSampler sampler(seed, (run << m) + k);
+                            const glm::vec2 u = sampler.pair(pair);
+                            ASSERT_TRUE(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1);
+                            ASSERT_EQ(u.x, sampler.one(pair));
+                            cells.insert({int(u.x * float(1 << i)), int(u.y * float(1 << (m - i)))});
                         }
                         ASSERT_EQ(cells.size(), 1u << m) << "pair " << pair << " m " << m << " shape " << i;
                     }
 }
 
-TEST(SobolSampler, BlocksPairsAndSeedsAreUncorrelated) {
+TEST(SobolSampler, PairsAndSeedsAreUncorrelated) {
     constexpr uint32_t kPoints = 4096;
-    const auto correlation = [&](uint32_t seedA, uint32_t blockA, size_t a, uint32_t seedB, uint32_t blockB,
-                                 size_t b) {
+    const auto correlation = [&](uint32_t seedA, uint32_t pairA, int a, uint32_t seedB, uint32_t pairB,
+                                 int b) {
         double sum = 0;
-        for (uint32_t k = 0; k < kPoints; ++k) {
-            SobolSampler::Block u, v;
-            SobolSampler(seedA, k).block(blockA, u);
-            SobolSampler(seedB, k).block(blockB, v);
-            sum += (u[a] - 0.5) * (v[b] - 0.5) * 12 / kPoints;
-        }
+        for (uint32_t k = 0; k < kPoints; ++k)
+            sum += (SobolSampler(seedA, k).pair(pairA)[a] - 0.5) *
+                   (SobolSampler(seedB, k).pair(pairB)[b] - 0.5) * 12 / kPoints;
         return std::fabs(sum);
     };
-    for (size_t d = 0; d < 8; ++d) {
-        EXPECT_LT(correlation(1, 0, d, 1, 1, d), 0.06) << d;
-        EXPECT_LT(correlation(1, 0, d, 2, 0, d), 0.06) << d;
-        EXPECT_LT(correlation(1, 0, d, 1, 0, (d + 1) % 8), 0.06) << d;
-    }
+    for (uint32_t pair = 0; pair < 8; ++pair)
+        for (int d = 0; d < 2; ++d) {
+            EXPECT_LT(correlation(1, pair, d, 1, pair + 1, d), 0.06) << pair;
+            EXPECT_LT(correlation(1, pair, d, 1, pair + 8, 1 - d), 0.06) << pair;
+            EXPECT_LT(correlation(1, pair, d, 2, pair, d), 0.06) << pair;
+            EXPECT_LT(correlation(1, pair, 0, 1, pair, 1), 0.06) << pair;
+        }
 }
 
 /// A room with a lamp, a glossy floor and a metal cube.
