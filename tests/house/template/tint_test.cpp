@@ -54,16 +54,16 @@ TEST(TemplatePass, MultipliesEveryPixelByTheColour) {
     tint.set("color", color);
     Value list = Value::list();
     list.items = {entry("known_image"), tint};
-    Graph graph(registryWithTint(), list);
 
     Device device({.name = "", .validation = true});
-    const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, {});
+    ShaderCompiler compiler(VOXRAY_SOURCE_DIR, {});
     CommandStream stream(device);
     const SceneState state = evaluate(makeBuiltinScene("cornell", Value()), 0.0);
     const GpuScene scene = makeGpuScene(device, stream, state);
-    ShaderCompiler tracerCompiler(VOXRAY_SOURCE_DIR, {});
-    const std::unique_ptr<RayTracer> tracer =
-        makeRayTracer(TracerKind::Embree, device, tracerCompiler, state);
+    const std::unique_ptr<RayTracer> tracer = makeRayTracer(TracerKind::Embree, device, compiler, state);
+
+    const Registry registry = registryWithTint();
+    Graph graph(registry, list);
 
     // An odd size: the last work groups hang over the edge.
     Frame frame;
@@ -92,7 +92,8 @@ TEST(TemplatePass, RefusesAParameterOutOfRange) {
     tint.set("color", Value::fromScalar("-1"));
     Value list = Value::list();
     list.items = {entry("known_image"), tint};
-    EXPECT_THROW(Graph(registryWithTint(), list), UsageError);
+    const Registry registry = registryWithTint();
+    EXPECT_THROW(Graph(registry, list), UsageError);
 }
 
 }  // namespace
