@@ -11,7 +11,8 @@ layout(set = 0, binding = 11, scalar) readonly buffer VoxelFlux { float data[]; 
 //
 // A voxel knows the flux that its surfaces catch and their area, both split by facing direction. Both are interpolated
 // with tent weights of `radius` voxels, and their ratio taken last: a voxel that a surface only grazes weighs little, and
-// a half-lit one is half bright. Where no voxel within reach faces that way the reach doubles, up to twice.
+// a half-lit one is half bright. The ratio is only as good as the area below it, which was sampled: under a tenth of a
+// voxel's face the reach doubles, up to twice.
 vec3 voxelIrradiance(VoxelGrid g, vec3 position, vec3 normal, float radius) {
     const vec3 weightByAxis = normal * normal;
     const uvec3 face = uvec3(normal.x < 0.0 ? 1u : 0u, normal.y < 0.0 ? 3u : 2u, normal.z < 0.0 ? 5u : 4u);
@@ -28,13 +29,14 @@ vec3 voxelIrradiance(VoxelGrid g, vec3 position, vec3 normal, float radius) {
                     if (voxel == NO_VOXEL) continue;
                     const vec3 tent = max(1.0 - abs(vec3(x, y, z) - centre) / radius, 0.0);
                     const vec3 weight = weightByAxis * (tent.x * tent.y * tent.z);
-                    area += dot(weight, voxelMaterials.data[voxel].axisArea);
+                    const VoxelMaterial m = voxelMaterials.data[voxel];
+                    area += dot(weight, mix(m.exposedPositive, m.exposedNegative, lessThan(normal, vec3(0.0))));
                     for (int axis = 0; axis < 3; ++axis) {
                         const uint at = (voxel * 6u + face[axis]) * 3u;
                         flux += weight[axis] * vec3(voxelFlux.data[at], voxelFlux.data[at + 1u], voxelFlux.data[at + 2u]);
                     }
                 }
-        if (area > 1e-6) return flux / (area * g.voxelSize * g.voxelSize);
+        if (area > 0.1 || attempt == 2) return flux / (max(area, 0.1) * g.voxelSize * g.voxelSize);
     }
     return vec3(0.0);
 }

@@ -12,6 +12,8 @@ namespace voxray {
 /// occupied ones, and their materials. Empty space costs two bits a voxel. GLSL access: shaders/voxels.glsl.
 struct SurfaceVoxels : Resource {
     gpu::VoxelGrid grid{};
+    bool exposedOnly =
+        false;  ///< Areas count only sides with open space before them; so must what lands on them.
     uint32_t voxelCount = 0;  ///< Occupied voxels; known once the voxelizing pass has run.
     Buffer occupancy;         ///< 1 bit a voxel of the grid.
     Buffer rank;              ///< 1 uint a word of `occupancy`: occupied voxels before it.
@@ -23,8 +25,8 @@ struct SurfaceVoxels : Resource {
 
 /// Light that arrives at the surfaces of each voxel, by the side that they face: flux in W for the 6
 /// directions +x -x +y -y +z -z, 3 floats each, 18 a voxel. Divided by the area that faces a direction
-/// (VoxelMaterial::axisArea times voxelSize²) it is the mean irradiance there. GLSL access:
-/// shaders/voxel_irradiance.glsl.
+/// (VoxelMaterial::exposedPositive or exposedNegative, times voxelSize²) it is the mean irradiance. GLSL
+/// access: shaders/voxel_irradiance.glsl.
 struct VoxelIrradiance : Resource {
     Buffer direct;    ///< Straight from the lights.
     Buffer indirect;  ///< After one bounce or more.

@@ -14,6 +14,7 @@ layout(set = 0, binding = 16, scalar) buffer Rays { Ray data[]; } rays;
 layout(set = 0, binding = 17, scalar) buffer Carried { vec4 data[]; } carried;
 layout(set = 0, binding = 18, scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(set = 0, binding = 19, scalar) buffer Sums { uint64_t data[]; } sums;
+layout(set = 0, binding = 20) readonly buffer Hidden { uint data[]; } hidden;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint firstRay;
@@ -68,13 +69,15 @@ void main() {
     rays.data[i].tMax = -1.0;
     if (hit.triangle == NO_HIT) return;
 
-    // Deposit on the side that the ray came from.
+    // Deposit on the side that the ray came from, if open space lies before it, as voxelization counts its area.
     const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
     if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return;
     const vec3 normal = dot(s.geometricNormal, ray.direction) <= 0.0 ? s.geometricNormal : -s.geometricNormal;
     const vec3 watts = carried.data[i].rgb;
-    const uint voxel = receivingVoxel(s.position);
-    if (voxel != NO_VOXEL) deposit(voxel, watts, normal);
+    if (hidden.data[i] == 0u) {
+        const uint voxel = receivingVoxel(s.position);
+        if (voxel != NO_VOXEL) deposit(voxel, watts, normal);
+    }
     if (push.bounce == push.lastBounce) return;
 
     // Russian roulette by albedo keeps the power of surviving rays level; then a cosine-distributed bounce.

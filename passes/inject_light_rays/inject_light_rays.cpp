@@ -9,7 +9,7 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays, hits and what they carry to 64 MiB.
+constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays, hits and what they carry to 100 MiB.
 constexpr float kPi = 3.14159265f;
 enum SourceKind : uint32_t { kPunctual = 0, kEmitters = 1, kEnvironment = 2 };  // As in emit.comp.
 
@@ -23,6 +23,11 @@ struct EmitPush {
     uint32_t emitterCount;
     glm::vec3 sceneCentre;
     float sceneRadius;
+};
+
+struct ExposePush {
+    uint32_t batchRays;
+    float voxelSize;
 };
 
 struct DepositPush {
@@ -66,7 +71,7 @@ void InjectLightRays::plan(PassPlan& plan) {
             "inject_light_rays: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)",
             plan.device.name);
     const uint64_t batch = std::min(params_.raysPerLight, kBatchRays);
-    plan.reserve("rays", batch * (sizeof(Ray) + sizeof(Hit) + 4 * sizeof(float)));
+    plan.reserve("rays", batch * (2 * sizeof(Ray) + sizeof(Hit) + 4 * sizeof(float) + sizeof(uint32_t)));
     const uint64_t values = fluxValues(plan.get(voxels_).voxelCount);
     plan.reserve("irradiance (estimated)", 2 * values * sizeof(float));
     plan.reserve("sums (estimated)", 2 * values * sizeof(uint64_t));
@@ -77,6 +82,10 @@ void InjectLightRays::prepare(PassSetup& setup) {
     rays_ = Buffer(setup.device, "light rays", batch * sizeof(Ray));
     hits_ = Buffer(setup.device, "light ray hits", batch * sizeof(Hit));
     carried_ = Buffer(setup.device, "light ray flux", batch * 4 * sizeof(float));
+    exposureRays_ = Buffer(setup.device, "exposure rays", batch * sizeof(Ray));
+    hidden_ = Buffer(setup.device, "exposure results", batch * sizeof(uint32_t));
+    expose_ =
+        makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_light_rays/expose.comp"));
     emit_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_light_rays/emit.comp"));
     deposit_ =
         makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_light_rays/deposit.comp"));
@@ -129,6 +138,7 @@ void InjectLightRays::record(PassContext& context) {
     const Buffer indirectSums(context.device, "indirect flux sums", values * sizeof(uint64_t));
     stream.fill(directSums, 0);
     stream.fill(indirectSums, 0);
+    stream.fill(hidden_, 0);
 
     // Units of the fixed-point sums: all light in one voxel, bounced up to 64 times, stays below 2^63.
     const std::vector<Source> lights = sources(context.frame, context.scene);
@@ -151,6 +161,13 @@ void InjectLightRays::record(PassContext& context) {
             // Trace, deposit, bounce.
             for (uint32_t bounce = 0; bounce <= params_.bounces; ++bounce) {
                 context.tracer.closestHit(stream, rays_, hits_, batch);
+                if (voxels.exposedOnly) {
+                    stream.dispatch(expose_,
+                                    context.scene.bindings(
+                                        {{"rays", rays_}, {"hits", hits_}, {"exposureRays", exposureRays_}}),
+                                    ExposePush{batch, voxels.grid.voxelSize}, linearGroups(batch));
+                    context.tracer.occluded(stream, exposureRays_, hidden_, batch);
+                }
                 stream.dispatch(
                     deposit_,
                     context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
@@ -158,6 +175,7 @@ void InjectLightRays::record(PassContext& context) {
                                             {"rays", rays_},
                                             {"hits", hits_},
                                             {"carried", carried_},
+                                            {"hidden", hidden_},
                                             {"sums", bounce == 0 ? directSums : indirectSums}}),
                     DepositPush{voxels.grid, first, batch, seed, bounce, params_.bounces, unitsPerWatt},
                     linearGroups(batch));

@@ -57,8 +57,8 @@ class InjectLightRays final : public Pass {
     Params params_;
     Port<SurfaceVoxels> voxels_;
     Port<VoxelIrradiance> irradiance_;
-    Program emit_, deposit_, resolve_;
-    Buffer rays_, hits_, carried_;
+    Program emit_, expose_, deposit_, resolve_;
+    Buffer rays_, hits_, carried_, exposureRays_, hidden_;
 };
 
 }  // namespace voxray

@@ -31,6 +31,7 @@ void VoxelizePass::declare(PassBuilder& builder) {
 void VoxelizePass::plan(PassPlan& plan) {
     const Geometry& geometry = plan.frame.scene->geometry;
     SurfaceVoxels& v = plan.get(voxels_);
+    v.exposedOnly = params_.exposureRays > 0;
     v.grid = makeVoxelGrid(geometry.boundsMin, geometry.boundsMax, params_.resolution);
     plan.reserve("occupancy and ranks", v.words() * 2 * sizeof(uint32_t));
     v.voxelCount = uint32_t(std::min<uint64_t>(estimateSurfaceVoxels(geometry, v.grid), UINT32_MAX));
@@ -53,6 +54,7 @@ void VoxelizePass::prepare(PassSetup& setup) {
     accumulate_ = makeRasterProgram(setup.device, accumulate, {});
     resolve_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/voxelize/resolve.comp"));
     prefixSum_.emplace(setup.device, setup.compiler);
+    exposureProbe_ = ExposureProbe(setup.device, setup.compiler);
 }
 
 void VoxelizePass::record(PassContext& context) {
@@ -73,7 +75,8 @@ void VoxelizePass::record(PassContext& context) {
                       uint64_t(v.voxelCount) * kSumsPerVoxel * sizeof(uint32_t));
     context.stream.fill(sums, 0);
     rasterize(context, accumulate_, sums, largestEmission_ > 0 ? 1.0f / largestEmission_ : 0.0f);
-    context.stream.dispatch(resolve_, {{"sums", sums}, {"materials", v.materials}},
+    const Buffer probes = exposureProbe_.run(context, v, params_.exposureRays);
+    context.stream.dispatch(resolve_, {{"sums", sums}, {"materials", v.materials}, {"probes", probes}},
                             ResolvePush{v.voxelCount, largestEmission_}, linearGroups(v.voxelCount));
     context.stream.finish();
 }

@@ -4,6 +4,7 @@
 
 #include "passes/common/prefix_sum.h"
 #include "passes/common/voxels.h"
+#include "passes/voxelize/exposure_probe.h"
 
 namespace voxray {
 
@@ -26,11 +27,17 @@ class VoxelizePass final : public Pass {
     struct Params {
         uint32_t resolution = 128;
         uint32_t samples = 2;
+        uint32_t exposureRays = 8;
         static constexpr auto schema() {
             return std::tuple{
                 field("resolution", &Params::resolution, "Voxels along the scene's longest side.", 1u, 1024u),
                 field("samples", &Params::samples,
-                      "Sample points along a voxel's edge, in each of the three projections.", 1u, 16u)};
+                      "Sample points along a voxel's edge, in each of the three projections.", 1u, 16u),
+                field("exposure_rays", &Params::exposureRays,
+                      "Points a surface voxel, on average, that probe both sides for open space; 0 takes all "
+                      "sides for "
+                      "exposed, which darkens thin closed walls.",
+                      0u, 256u)};
         }
     };
 
@@ -48,6 +55,7 @@ class VoxelizePass final : public Pass {
     Port<SurfaceVoxels> voxels_;
     Program mark_, accumulate_, resolve_;
     std::optional<PopulationPrefixSum> prefixSum_;
+    ExposureProbe exposureProbe_;
     float largestEmission_ = 0;
 };
 

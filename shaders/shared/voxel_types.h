@@ -23,8 +23,12 @@ struct VoxelMaterial {
     float area;      // Surface area in units of a voxel's face.
     vec3 emission;   // W/(m² sr)
     float reserved;
-    vec3 axisArea;   // area * (normal component)², by axis: how much of the surface faces ±x, ±y, ±z. Sums to area.
+    // The part of the area that open space lies before, by the direction that it faces: area * (normal component)²,
+    // times the share of sides that are exposed. A surface has two sides, so a bare sheet counts in both directions.
+    vec3 exposedPositive;  // Facing +x, +y, +z.
+    vec3 exposedNegative;  // Facing -x, -y, -z.
     float reserved2;
+    float reserved3;
 };
 
 VOXRAY_SHARED_END

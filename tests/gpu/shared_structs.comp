@@ -58,7 +58,8 @@ void main() {
     put(source.data[0].normal.x);
     put(source.data[0].area);
     put(source.data[0].emission.x);
-    put(source.data[0].axisArea.x);
+    put(source.data[0].exposedPositive.x);
+    put(source.data[0].exposedNegative.x);
     put(source.data[1].albedo.x);
 #elif defined(RAY)
     put(source.data[0].origin.x);

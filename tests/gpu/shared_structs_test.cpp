@@ -73,8 +73,9 @@ TEST(SharedStructs, VoxelMaterial) {
     EXPECT_WORD(gpu::VoxelMaterial, normal, 2);
     EXPECT_WORD(gpu::VoxelMaterial, area, 3);
     EXPECT_WORD(gpu::VoxelMaterial, emission, 4);
-    EXPECT_WORD(gpu::VoxelMaterial, axisArea, 5);
-    EXPECT_EQ(seen[6], sizeof(gpu::VoxelMaterial) / 4);
+    EXPECT_WORD(gpu::VoxelMaterial, exposedPositive, 5);
+    EXPECT_WORD(gpu::VoxelMaterial, exposedNegative, 6);
+    EXPECT_EQ(seen[7], sizeof(gpu::VoxelMaterial) / 4);
 }
 
 TEST(SharedStructs, RayAndHit) {
