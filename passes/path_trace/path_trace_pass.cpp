@@ -22,10 +22,13 @@ void PathTracePass::declare(PassBuilder& builder) {
     final_ = builder.write<FrameImage>("final", "radiance towards the camera");
     indirect_ = builder.write<FrameImage>("indirect", "the part of it that was scattered more than once");
     variance_ = builder.write<FrameImage>("variance", "variance of each pixel's mean in 'final'");
-    indirectVariance_ = builder.write<FrameImage>("indirect_variance", "variance of each pixel's mean in 'indirect'");
+    indirectVariance_ =
+        builder.write<FrameImage>("indirect_variance", "variance of each pixel's mean in 'indirect'");
 }
 
-void PathTracePass::plan(PassPlan& plan) { plan.reserve("images", 4 * imageBytes(frameImageDesc(plan.frame))); }
+void PathTracePass::plan(PassPlan& plan) {
+    plan.reserve("images", 4 * imageBytes(frameImageDesc(plan.frame)));
+}
 
 void PathTracePass::prepare(PassSetup& setup) {
     setup.get(final_).image = Image(setup.device, "path traced", frameImageDesc(setup.frame));
