@@ -289,7 +289,10 @@ void GltfWriter::addCamera(const Camera& camera) {
     out.name = camera.name;
     out.type = "perspective";
     out.perspective.yfov = double(camera.verticalFovRadians);
-    out.perspective.znear = 0.01;
+    // Planes far outside of what any scene needs; tinygltf would write an infinite far plane as zfar 0, which
+    // is invalid.
+    out.perspective.znear = 1e-3;
+    out.perspective.zfar = 1e5;
     model_.cameras.push_back(std::move(out));
     tinygltf::Node node = lookingNode(camera.name, camera.position, camera.forward, camera.up);
     node.camera = int(model_.cameras.size() - 1);
