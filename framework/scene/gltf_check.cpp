@@ -52,13 +52,29 @@ std::string_view jsonChunk(std::span<const uint8_t> file) {
     return text;
 }
 
+/// Parsers of values recurse: a file of brackets alone would overflow the stack.
+void checkDepth(std::string_view text) {
+    int depth = 0;
+    bool inString = false;
+    for (size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (inString) {
+            if (c == '\\') ++i;
+            inString = c != '"';
+        } else if (c == '"') {
+            inString = true;
+        } else if (c == '[' || c == '{') {
+            if (++depth > maxDepth) throw Error("its JSON is nested more than {} levels deep", maxDepth);
+        } else if (c == ']' || c == '}') {
+            --depth;
+        }
+    }
+}
+
 json parse(std::string_view text) {
-    const auto limitDepth = [](int depth, json::parse_event_t, json&) {
-        if (depth > maxDepth) throw Error("its JSON is nested more than {} levels deep", maxDepth);
-        return true;
-    };
+    checkDepth(text);
     try {
-        return json::parse(text, limitDepth);
+        return json::parse(text);
     } catch (const json::exception& error) {
         throw Error("its JSON is broken: {}", error.what());
     }

@@ -131,20 +131,8 @@ TEST_F(Mutations, EveryValueReplacedByStrangeOnes) {
     const GltfBuilder good = everything();
     std::vector<json::json_pointer> paths;
     collect(good.root, json::json_pointer(), paths);
-    const std::vector<json> strange = {-1,
-                                       0,
-                                       7,
-                                       3.5,
-                                       2147483647,
-                                       4294967296,
-                                       1e30,
-                                       "text",
-                                       nullptr,
-                                       true,
-                                       json::array(),
-                                       json::object(),
-                                       18446744073709551615u,
-                                       json::array({-1, "x", 1e300})};
+    const std::vector<json> strange = {-1,     7,       3.5,           4294967296,     1e30,
+                                       "text", nullptr, json::array(), json::object(), 18446744073709551615u};
     for (const auto& path : paths) {
         if (path.empty()) continue;
         for (const json& value : strange) {
