@@ -15,6 +15,7 @@ voxray_tests(config_mutation
 set(SANITIZERS -fsanitize=address,undefined -fno-sanitize-recover=undefined)
 target_compile_options(tests_config_mutation PRIVATE ${SANITIZERS} -O1 -g)
 target_link_options(tests_config_mutation PRIVATE ${SANITIZERS})
+set_target_properties(tests_config_mutation PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
 
 voxray_tests(experiment
   SOURCES unit/experiment_run_test.cpp unit/experiment_validate_test.cpp
