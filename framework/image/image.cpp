@@ -221,6 +221,8 @@ void writeExr(const fs::path& path, const ImageF& image) {
     spec.channelnames =
         image.channels == 3 ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"};
     spec.attribute("compression", "zip");
+    // Without a date OpenImageIO writes the time of day: equal images would differ in their bytes.
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
     writeWhole(path, "openexr", spec, OIIO::TypeDesc::FLOAT, image.data.data());
 }
 

@@ -260,5 +260,11 @@ TEST_F(ImageFiles, WhatCannotBeWrittenIsAnErrorAndLeavesNothing) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
+TEST_F(ImageFiles, ExrCarriesNoTimeOfDay) {
+    // Equal images are equal files: the header's date is a constant.
+    writeExr(file("a.exr"), gradient(8, 4, 3));
+    EXPECT_NE(readTextFile(file("a.exr")).find("1970:01:01 00:00:00"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace voxray
