@@ -12,7 +12,12 @@ files=("$@")
 if [ ${#files[@]} -eq 0 ]; then
   mapfile -t files < <(find framework passes -name '*.cpp' | sort)
 fi
+# GCC's precompiled headers mean nothing to clang.
+database=$(mktemp -d)
+trap 'rm -rf "$database"' EXIT
+sed -E 's/ -include [^ ]*cmake_pch\.hxx//g' "$build/compile_commands.json" >"$database/compile_commands.json"
+
 # GCC knows warnings that clang doesn't; clang-tidy's own count of hidden warnings is noise.
 printf '%s\0' "${files[@]}" |
-  xargs -0 -n 4 -P "$(getconf _NPROCESSORS_ONLN)" "$program" -p "$build" --quiet --warnings-as-errors='*' \
+  xargs -0 -n 4 -P "$(getconf _NPROCESSORS_ONLN)" "$program" -p "$database" --quiet --warnings-as-errors='*' \
     --extra-arg=-Wno-unknown-warning-option 2> >(grep -v 'warnings generated\|^Suppressed\|^Use -header' >&2)
