@@ -75,9 +75,7 @@ void GBufferPass::record(PassContext& context) {
 
     // The environment behind everything.
     const CameraRays rays = cameraRays(frame.camera, frame.width, frame.height);
-    context.stream.dispatch(background_,
-                            {{"environment", context.scene.environment, context.scene.environmentSampler},
-                             {"emission", g.emission}},
+    context.stream.dispatch(background_, context.scene.bindings({{"background", g.emission}}),
                             BackgroundPush{rays.forward, frame.width, rays.right, frame.height, rays.up},
                             pixelGroups(frame.width, frame.height));
 
