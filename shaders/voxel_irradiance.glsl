@@ -6,6 +6,8 @@
 
 // W, by voxel and facing direction +x -x +y -y +z -z, 3 floats each.
 layout(set = 0, binding = 11, scalar) readonly buffer VoxelFlux { float data[]; } voxelFlux;
+// In units of a voxel's face, by voxel and facing direction.
+layout(set = 0, binding = 12, scalar) readonly buffer VoxelArea { float data[]; } voxelArea;
 
 // Irradiance (W/m²) on a surface at `position` with unit normal `normal`.
 //
@@ -29,10 +31,9 @@ vec3 voxelIrradiance(VoxelGrid g, vec3 position, vec3 normal, float radius) {
                     if (voxel == NO_VOXEL) continue;
                     const vec3 tent = max(1.0 - abs(vec3(x, y, z) - centre) / radius, 0.0);
                     const vec3 weight = weightByAxis * (tent.x * tent.y * tent.z);
-                    const VoxelMaterial m = voxelMaterials.data[voxel];
-                    area += dot(weight, mix(m.exposedPositive, m.exposedNegative, lessThan(normal, vec3(0.0))));
                     for (int axis = 0; axis < 3; ++axis) {
                         const uint at = (voxel * 6u + face[axis]) * 3u;
+                        area += weight[axis] * voxelArea.data[at / 3u];
                         flux += weight[axis] * vec3(voxelFlux.data[at], voxelFlux.data[at + 1u], voxelFlux.data[at + 2u]);
                     }
                 }

@@ -18,15 +18,15 @@ VoxelLookup::VoxelLookup(Device& device, const ShaderCompiler& compiler)
       sampler_(texelSampler(device)) {}
 
 void VoxelLookup::run(CommandStream& stream, const GBuffer& gbuffer, const SurfaceVoxels& voxels,
-                      const Buffer& flux, const Image& target, float radius) const {
+                      const Buffer& flux, const Buffer& area, const Image& target, float radius) const {
     stream.dispatch(program_,
                     {{"position", gbuffer.position, sampler_},
                      {"normal", gbuffer.normal, sampler_},
                      {"albedo", gbuffer.albedo, sampler_},
                      {"voxelOccupancy", voxels.occupancy},
                      {"voxelRank", voxels.rank},
-                     {"voxelMaterials", voxels.materials},
                      {"voxelFlux", flux},
+                     {"voxelArea", area},
                      {"result", target}},
                     Push{voxels.grid, radius}, pixelGroups(target.desc().extent.x, target.desc().extent.y));
 }

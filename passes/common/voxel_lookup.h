@@ -14,7 +14,7 @@ class VoxelLookup {
 
     /// @param flux VoxelIrradiance::direct or ::indirect. @param radius reach of the interpolation in voxels.
     void run(CommandStream& stream, const GBuffer& gbuffer, const SurfaceVoxels& voxels, const Buffer& flux,
-             const Image& target, float radius) const;
+             const Buffer& area, const Image& target, float radius) const;
 
  private:
     Program program_;

@@ -23,15 +23,18 @@ struct SurfaceVoxels : Resource {
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }
 };
 
-/// Light that arrives at the surfaces of each voxel, by the side that they face: flux in W for the 6
-/// directions +x -x +y -y +z -z, 3 floats each, 18 a voxel. Divided by the area that faces a direction
-/// (VoxelMaterial::exposedPositive or exposedNegative, times voxelSize²) it is the mean irradiance. GLSL
-/// access: shaders/voxel_irradiance.glsl.
+/// Light that arrives at the surfaces of each voxel, by the side that they face: flux for the 6 directions
+/// +x -x +y -y +z -z, and the area that it fell on. Their ratio is the mean irradiance; keeping them apart
+/// lets a lookup interpolate both. Where the area is 0 the injection did not look: nothing is known, and a
+/// lookup passes it over. GLSL access: shaders/voxel_irradiance.glsl.
 struct VoxelIrradiance : Resource {
-    Buffer direct;    ///< Straight from the lights.
-    Buffer indirect;  ///< After one bounce or more.
-    std::vector<const Buffer*> checkedBuffers() const override { return {&direct, &indirect}; }
+    Buffer direct;    ///< W, straight from the lights: 6 directions of 3 floats a voxel.
+    Buffer indirect;  ///< W, after one bounce or more; likewise.
+    Buffer area;      ///< In units of a voxel's face: 6 floats a voxel.
+    std::vector<const Buffer*> checkedBuffers() const override { return {&direct, &indirect, &area}; }
 };
+/// Floats that `direct` and `indirect` hold for each voxel, and `area`.
+constexpr uint32_t kFluxFloats = 18, kAreaFloats = 6;
 
 /// The smallest grid of cubic voxels round a box, `resolution` voxels along its longest side, with an eighth
 /// of a voxel to spare, so that no surface lies on its border.

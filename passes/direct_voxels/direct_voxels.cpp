@@ -21,8 +21,9 @@ void DirectVoxels::prepare(PassSetup& setup) {
 }
 
 void DirectVoxels::record(PassContext& context) {
-    lookup_.run(context.stream, context.get(gbuffer_), context.get(voxels_), context.get(irradiance_).direct,
-                context.get(direct_).image, params_.radius);
+    const VoxelIrradiance& irradiance = context.get(irradiance_);
+    lookup_.run(context.stream, context.get(gbuffer_), context.get(voxels_), irradiance.direct,
+                irradiance.area, context.get(direct_).image, params_.radius);
 }
 
 }  // namespace voxray

@@ -21,8 +21,9 @@ void GatherIrradiance::prepare(PassSetup& setup) {
 }
 
 void GatherIrradiance::record(PassContext& context) {
-    lookup_.run(context.stream, context.get(gbuffer_), context.get(voxels_),
-                context.get(irradiance_).indirect, context.get(indirect_).image, params_.radius);
+    const VoxelIrradiance& irradiance = context.get(irradiance_);
+    lookup_.run(context.stream, context.get(gbuffer_), context.get(voxels_), irradiance.indirect,
+                irradiance.area, context.get(indirect_).image, params_.radius);
 }
 
 }  // namespace voxray

@@ -46,7 +46,7 @@ struct ResolvePush {
 };
 
 uint64_t fluxValues(uint32_t voxels) {
-    return uint64_t(voxels) * 18;
+    return uint64_t(voxels) * kFluxFloats;
 }
 
 float largest(glm::vec3 v) {
@@ -73,7 +73,8 @@ void InjectLightRays::plan(PassPlan& plan) {
     const uint64_t batch = std::min(params_.raysPerLight, kBatchRays);
     plan.reserve("rays", batch * (2 * sizeof(Ray) + sizeof(Hit) + 4 * sizeof(float) + sizeof(uint32_t)));
     const uint64_t values = fluxValues(plan.get(voxels_).voxelCount);
-    plan.reserve("irradiance (estimated)", 2 * values * sizeof(float));
+    plan.reserve("irradiance (estimated)",
+                 (2 * values + uint64_t(plan.get(voxels_).voxelCount) * kAreaFloats) * sizeof(float));
     plan.reserve("sums (estimated)", 2 * values * sizeof(uint64_t));
 }
 
@@ -89,6 +90,8 @@ void InjectLightRays::prepare(PassSetup& setup) {
     emit_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_light_rays/emit.comp"));
     deposit_ =
         makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_light_rays/deposit.comp"));
+    exposedArea_ =
+        makeComputeProgram(setup.device, setup.compiler.compile("passes/common/exposed_area.comp"));
     resolve_ =
         makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_light_rays/resolve.comp"));
 }
@@ -134,6 +137,10 @@ void InjectLightRays::record(PassContext& context) {
     const uint64_t values = fluxValues(voxels.voxelCount);
     irradiance.direct = Buffer(context.device, "voxel direct flux", values * sizeof(float));
     irradiance.indirect = Buffer(context.device, "voxel indirect flux", values * sizeof(float));
+    irradiance.area =
+        Buffer(context.device, "voxel area", uint64_t(voxels.voxelCount) * kAreaFloats * sizeof(float));
+    stream.dispatch(exposedArea_, {{"voxelMaterials", voxels.materials}, {"area", irradiance.area}},
+                    voxels.voxelCount, linearGroups(voxels.voxelCount));
     const Buffer directSums(context.device, "direct flux sums", values * sizeof(uint64_t));
     const Buffer indirectSums(context.device, "indirect flux sums", values * sizeof(uint64_t));
     stream.fill(directSums, 0);

@@ -57,7 +57,7 @@ class InjectLightRays final : public Pass {
     Params params_;
     Port<SurfaceVoxels> voxels_;
     Port<VoxelIrradiance> irradiance_;
-    Program emit_, expose_, deposit_, resolve_;
+    Program emit_, expose_, deposit_, resolve_, exposedArea_;
     Buffer rays_, hits_, carried_, exposureRays_, hidden_;
 };
 
