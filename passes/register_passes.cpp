@@ -4,9 +4,11 @@
 #include "passes/direct_shadow_rays/direct_shadow_rays.h"
 #include "passes/direct_voxels/direct_voxels.h"
 #include "passes/gather_irradiance/gather_irradiance.h"
+#include "passes/gather_rays/gather_rays.h"
 #include "passes/gbuffer/gbuffer_pass.h"
 #include "passes/inject_light_rays/inject_light_rays.h"
 #include "passes/path_trace/path_trace_pass.h"
+#include "passes/trace_gather_rays/trace_gather_rays.h"
 #include "passes/voxelize/voxelize_pass.h"
 
 namespace voxray {
@@ -16,6 +18,8 @@ void registerPasses(Registry& registry) {
     registry.add<VoxelizePass>();
     registry.add<InjectLightRays>();
     registry.add<GatherIrradiance>();
+    registry.add<TraceGatherRays>();
+    registry.add<GatherRays>();
     registry.add<DirectShadowRays>();
     registry.add<DirectVoxels>();
     registry.add<Composite>();

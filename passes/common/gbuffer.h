@@ -6,6 +6,7 @@ namespace voxray {
 
 /// What the camera sees, per pixel. Pixels that show no surface have position.w = 0.
 struct GBuffer : Resource {
+    uint32_t samples = 1;   ///< Sub-pixels along a pixel's edge: images are frame size times this.
     Image position;         ///< RGBA32F: world position in m, 1 where there is a surface.
     Image normal;           ///< RGBA16F: shading normal, turned to the camera's side.
     Image geometricNormal;  ///< RGBA16F: the triangle's normal, turned to the camera's side.

@@ -1,0 +1,31 @@
+#include "passes/common/face_irradiance.h"
+
+#include "passes/common/dispatch.h"
+
+namespace voxray {
+namespace {
+
+struct Push {
+    uint32_t count;
+    float voxelFaceArea;
+};
+
+}  // namespace
+
+FaceIrradiance::FaceIrradiance(Device& device, const ShaderCompiler& compiler)
+    : program_(makeComputeProgram(device, compiler.compile("passes/common/face_irradiance.comp"))) {}
+
+void FaceIrradiance::update(CommandStream& stream, const SurfaceVoxels& voxels,
+                            const VoxelIrradiance& irradiance) {
+    if (!faces_ || faces_.bytes() != bytes(voxels.voxelCount))
+        faces_ = Buffer(stream.device(), "face irradiance", bytes(voxels.voxelCount));
+    const uint32_t faces = voxels.voxelCount * kAreaFloats;
+    stream.dispatch(program_,
+                    {{"direct", irradiance.direct},
+                     {"indirect", irradiance.indirect},
+                     {"area", irradiance.area},
+                     {"faces", faces_}},
+                    Push{faces, voxels.grid.voxelSize * voxels.grid.voxelSize}, linearGroups(faces));
+}
+
+}  // namespace voxray

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "passes/common/voxels.h"
+
+namespace voxray {
+
+/// The total irradiance of each voxel's six faces, ready for lookups by many rays
+/// (shaders/face_irradiance.glsl). 6 x (W/m², area in voxel faces)
+/// as 24 floats a voxel.
+class FaceIrradiance {
+ public:
+    FaceIrradiance() = default;
+    FaceIrradiance(Device& device, const ShaderCompiler& compiler);
+
+    /// Bytes that update() allocates.
+    static uint64_t bytes(uint32_t voxelCount) {
+        return uint64_t(voxelCount) * 4 * kAreaFloats * sizeof(float);
+    }
+    /// Divides flux by area; allocates on the first call and where the number of voxels has changed.
+    void update(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance);
+    const Buffer& buffer() const { return faces_; }
+
+ private:
+    Program program_;
+    Buffer faces_;
+};
+
+}  // namespace voxray

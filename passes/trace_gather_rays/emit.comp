@@ -1,0 +1,46 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Starts a batch of gather rays from the G-buffer's surfaces, distributed by cosine about their normals.
+#include "shaders/gather_layout.glsl"
+#include "shaders/linear_index.glsl"
+#include "shaders/shared/ray_types.h"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16) uniform sampler2D position;
+layout(set = 0, binding = 17) uniform sampler2D normal;
+layout(set = 0, binding = 18) uniform sampler2D geometricNormal;
+layout(set = 0, binding = 19, scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(push_constant, scalar) uniform Push {
+    GatherLayout layout_;
+    uint firstBlock;
+    uint batchBlocks;
+} push;
+
+void main() {
+    const GatherLayout g = push.layout_;
+    const uint i = linearIndex();
+    if (i >= push.batchBlocks * g.raysPerBlock) return;
+    const uint blockIndex = push.firstBlock + i / g.raysPerBlock, j = i % g.raysPerBlock;
+    const uvec2 block = uvec2(blockIndex % g.blocks.x, blockIndex / g.blocks.x);
+    const ivec2 texel = ivec2(texelOf(g, block, rayTexel(g, blockShift(g, block), j)));
+
+    Ray ray;
+    ray.origin = vec3(0.0);
+    ray.direction = vec3(0.0, 0.0, 1.0);
+    ray.tMin = 0.0;
+    ray.tMax = -1.0;
+    const vec4 p = all(lessThan(texel, ivec2(g.texels))) ? texelFetch(position, texel, 0) : vec4(0.0);
+    if (p.w > 0.0) {
+        const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
+        const vec3 side = normalize(texelFetch(geometricNormal, texel, 0).xyz);
+        const vec3 direction = cosineDirection(raySample(g, block, j), n);
+        // A normal map may point rays below the surface: those see the surface itself, which reflects nothing to it.
+        if (dot(direction, side) > 0.0) {
+            ray.origin = p.xyz + side * surfaceOffset(p.xyz);
+            ray.direction = direction;
+            ray.tMax = 1.0e30;
+        }
+    }
+    rays.data[i] = ray;
+}

@@ -1,0 +1,67 @@
+#include "passes/trace_gather_rays/trace_gather_rays.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "base/error.h"
+#include "passes/common/dispatch.h"
+#include "passes/common/frame_image.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kBatchRays = 1u << 20;  // Bounds a buffer of rays to 32 MiB.
+
+struct EmitPush {
+    gpu::GatherLayout layout;
+    uint32_t firstBlock;
+    uint32_t batchBlocks;
+};
+
+}  // namespace
+
+void TraceGatherRays::declare(PassBuilder& builder) {
+    gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
+    hits_ = builder.write<GatherHits>("gather_hits", "where the gather rays hit");
+}
+
+void TraceGatherRays::plan(PassPlan& plan) {
+    if (!std::has_single_bit(params_.block))
+        throw Error("trace_gather_rays: block is {}; it must be 1, 2, 4 or 8", params_.block);
+    GatherHits& hits = plan.get(hits_);
+    const glm::uvec2 texels = glm::uvec2(plan.frame.width, plan.frame.height) * plan.get(gbuffer_).samples;
+    hits.layout = {texels, (texels + params_.block - 1u) / params_.block, params_.block, params_.rays, 0};
+    hits.blocksPerBatch = std::clamp(kBatchRays / params_.rays, 1u, hits.blocks());
+    const uint64_t rays = uint64_t(hits.blocks()) * params_.rays;
+    plan.reserve("gather hits", rays * sizeof(Hit));
+    plan.reserve("a batch of gather rays", uint64_t(hits.blocksPerBatch) * params_.rays * sizeof(Ray));
+}
+
+void TraceGatherRays::prepare(PassSetup& setup) {
+    GatherHits& hits = setup.get(hits_);
+    for (uint32_t first = 0; first < hits.blocks(); first += hits.blocksPerBatch) {
+        const uint64_t rays = uint64_t(hits.batchBlocks(uint32_t(hits.batches.size()))) * params_.rays;
+        hits.batches.emplace_back(setup.device, "gather hits", rays * sizeof(Hit));
+    }
+    rays_ = Buffer(setup.device, "gather rays", uint64_t(hits.blocksPerBatch) * params_.rays * sizeof(Ray));
+    emit_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/trace_gather_rays/emit.comp"));
+    sampler_ = texelSampler(setup.device);
+}
+
+void TraceGatherRays::record(PassContext& context) {
+    const GBuffer& gbuffer = context.get(gbuffer_);
+    GatherHits& hits = context.get(hits_);
+    hits.layout.seed = uint32_t(context.frame.seed * 0x9e3779b9u) + context.frameIndex * 0x85ebca6bu;
+    for (uint32_t b = 0; b < hits.batches.size(); ++b) {
+        const uint32_t blocks = hits.batchBlocks(b), rays = blocks * params_.rays;
+        context.stream.dispatch(emit_,
+                                {{"position", gbuffer.position, sampler_},
+                                 {"normal", gbuffer.normal, sampler_},
+                                 {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                                 {"rays", rays_}},
+                                EmitPush{hits.layout, b * hits.blocksPerBatch, blocks}, linearGroups(rays));
+        context.tracer.closestHit(context.stream, rays_, hits.batches[b], rays);
+    }
+}
+
+}  // namespace voxray
