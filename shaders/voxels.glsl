@@ -34,4 +34,27 @@ uint voxelNumber(VoxelGrid g, ivec3 voxel) {
 
 ivec3 voxelAt(VoxelGrid g, vec3 position) { return ivec3(floor((position - g.origin) / g.voxelSize)); }
 
+// The voxel that a surface point belongs to. Where rasterisation left it empty (the surface fell between its samples),
+// the nearest of the voxels around it, so that no light is lost where there is a voxel next door; else NO_VOXEL.
+uint nearestVoxel(VoxelGrid g, vec3 position) {
+    const ivec3 cell = voxelAt(g, position);
+    const uint own = voxelNumber(g, cell);
+    if (own != NO_VOXEL) return own;
+    const vec3 inGrid = (position - g.origin) / g.voxelSize;
+    uint nearest = NO_VOXEL;
+    float best = 1.0e30;
+    for (int z = -1; z <= 1; ++z)
+        for (int y = -1; y <= 1; ++y)
+            for (int x = -1; x <= 1; ++x) {
+                const ivec3 neighbour = cell + ivec3(x, y, z);
+                const vec3 away = vec3(neighbour) + 0.5 - inGrid;
+                if (dot(away, away) >= best) continue;
+                const uint voxel = voxelNumber(g, neighbour);
+                if (voxel == NO_VOXEL) continue;
+                nearest = voxel;
+                best = dot(away, away);
+            }
+    return nearest;
+}
+
 #endif

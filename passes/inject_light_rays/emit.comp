@@ -5,6 +5,7 @@
 #include "shaders/lights.glsl"
 #include "shaders/sampling.glsl"
 #include "shaders/scene.glsl"
+#include "shaders/shared/light_path.h"
 #include "shaders/shared/ray_types.h"
 layout(local_size_x = 64) in;
 
@@ -13,7 +14,7 @@ layout(local_size_x = 64) in;
 #define ENVIRONMENT 2u
 
 layout(set = 0, binding = 16, scalar) writeonly buffer Rays { Ray data[]; } rays;
-layout(set = 0, binding = 17, scalar) writeonly buffer Carried { vec4 data[]; } carried;
+layout(set = 0, binding = 17, scalar) writeonly buffer Paths { LightPath data[]; } paths;
 layout(push_constant, scalar) uniform Push {
     uint kind;
     uint light;
@@ -43,7 +44,7 @@ void main() {
     Ray ray;
     ray.tMin = 0.0;
     ray.tMax = 1.0e30;
-    vec3 power = vec3(0.0);
+    LightPath path = LightPath(vec3(0.0), 0.0, 0.0, 0.0);
 
     if (push.kind == PUNCTUAL) {
         const GpuLight light = sceneLights.data[push.light];
@@ -51,17 +52,19 @@ void main() {
         if (light.type == LIGHT_POINT) {
             // Uniform over the sphere: flux = I * 4 pi.
             ray.direction = sphereDirection(u);
-            power = light.intensity * 4.0 * PI;
+            path.solidAngle = 4.0 * PI;
+            path.power = light.intensity * path.solidAngle;
         } else if (light.type == LIGHT_SPOT) {
             // Uniform over the outer cone: flux = I(angle) * its solid angle.
             ray.direction = coneDirection(u, light.direction, light.cosOuter);
-            power = light.intensity * spotFalloff(light, dot(ray.direction, light.direction)) * 2.0 * PI *
-                    (1.0 - light.cosOuter);
+            path.solidAngle = 2.0 * PI * (1.0 - light.cosOuter);
+            path.power = light.intensity * spotFalloff(light, dot(ray.direction, light.direction)) * path.solidAngle;
         } else {
             // Uniform over the disc: flux = E * its area.
             ray.direction = light.direction;
             ray.origin = discPoint(u, light.direction);
-            power = light.intensity * PI * push.sceneRadius * push.sceneRadius;
+            path.area = PI * push.sceneRadius * push.sceneRadius;
+            path.power = light.intensity * path.area;
         }
     } else if (push.kind == EMITTERS) {
         // A triangle by its power, a point uniform on it, a direction by cosine: flux = L * pi * area / probability.
@@ -74,14 +77,19 @@ void main() {
         const vec3 n = back ? -s.geometricNormal : s.geometricNormal;
         ray.origin = s.position + n * surfaceOffset(s.position);
         ray.direction = cosineDirection(u, n);
-        power = emission(m, s, 0.0) * PI * emitter.area * sides / emitter.probability;
+        path.power = emission(m, s, 0.0) * PI * emitter.area * sides / emitter.probability;
     } else {
         // Uniform over directions and over the disc: flux = L * 4 pi * its area.
         ray.direction = -sphereDirection(u);
         ray.origin = discPoint(u2, ray.direction);
-        power = environmentRadiance(-ray.direction) * 4.0 * PI * PI * push.sceneRadius * push.sceneRadius;
+        path.power = environmentRadiance(-ray.direction) * 4.0 * PI * PI * push.sceneRadius * push.sceneRadius;
     }
-    if (all(equal(power, vec3(0.0)))) ray.tMax = -1.0;
+    if (all(equal(path.power, vec3(0.0)))) ray.tMax = -1.0;
     rays.data[i] = ray;
-    carried.data[i] = vec4(power / float(push.totalRays), 0.0);
+
+    // Each of the rays is an equal part of all that the source sends.
+    path.power /= float(push.totalRays);
+    path.solidAngle /= float(push.totalRays);
+    path.area /= float(push.totalRays);
+    paths.data[i] = path;
 }

@@ -1,0 +1,36 @@
+#include "passes/common/flux_sums.h"
+
+#include <cmath>
+
+#include "passes/common/dispatch.h"
+
+namespace voxray {
+namespace {
+
+struct ResolvePush {
+    uint32_t count;
+    float wattsPerUnit;
+};
+
+}  // namespace
+
+FluxSums::FluxSums(Device& device, const ShaderCompiler& compiler)
+    : resolve_(makeComputeProgram(device, compiler.compile("passes/common/flux_sums_resolve.comp"))) {}
+
+void FluxSums::begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels, double power) {
+    sums_ = Buffer(device, "flux sums", voxels.voxelCount * kBytesPerVoxel);
+    stream.fill(sums_, 0);
+    unitsPerWatt_ = float(std::ldexp(1.0, 56) / power);
+}
+
+std::vector<Binding> FluxSums::bindings() const {
+    return {{"fluxSums", sums_}};
+}
+
+void FluxSums::resolve(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& flux) const {
+    const uint32_t values = voxels.voxelCount * kFluxFloats;
+    stream.dispatch(resolve_, {{"fluxSums", sums_}, {"flux", flux}},
+                    ResolvePush{values, 1.0f / unitsPerWatt_}, linearGroups(values));
+}
+
+}  // namespace voxray

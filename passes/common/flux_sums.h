@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "passes/common/voxels.h"
+
+namespace voxray {
+
+/// Flux that rays leave in voxels, summed in 64-bit fixed point for each facing direction: exact to float
+/// rounding, and bit-identical in any order. A shader adds with shaders/flux_sums.glsl and bindings().
+class FluxSums {
+ public:
+    static constexpr uint64_t kBytesPerVoxel = kFluxFloats * sizeof(uint64_t);
+
+    FluxSums() = default;
+    FluxSums(Device& device, const ShaderCompiler& compiler);
+
+    /// Allocates and clears. @param power W of all light together. It makes 2^56 units, so that even all of
+    /// it in one voxel, bounced up to 64 times, stays below 2^63.
+    void begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels, double power);
+    std::vector<Binding> bindings() const;
+    float unitsPerWatt() const { return unitsPerWatt_; }
+    /// Watts into `flux` (VoxelIrradiance::direct or ::indirect).
+    void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& flux) const;
+
+ private:
+    float unitsPerWatt_ = 0;
+    Program resolve_;
+    Buffer sums_;
+};
+
+}  // namespace voxray

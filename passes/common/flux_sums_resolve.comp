@@ -1,0 +1,17 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Fixed-point sums to watts.
+#include "shaders/flux_sums.glsl"
+#include "shaders/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16, scalar) writeonly buffer Flux { float data[]; } flux;
+layout(push_constant) uniform Push {
+    uint count;
+    float wattsPerUnit;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i < push.count) flux.data[i] = float(fluxSums.data[i]) * push.wattsPerUnit;
+}

@@ -1,0 +1,92 @@
+#include "passes/common/voxel_writes.h"
+
+#include "base/error.h"
+#include "passes/common/dispatch.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint64_t kFaces = 6;
+
+struct ResolvePush {
+    uint32_t voxelCount;
+    float voxelSize;
+    float scale;
+};
+
+/// Bytes that the sums and the weights of a voxel take, as shaders/voxel_writes.glsl declares them.
+struct BytesPerVoxel {
+    uint64_t sums, weights;
+};
+BytesPerVoxel bytesPerVoxel(Write write) {
+    switch (write) {
+        case Write::Average:
+            return {kFaces * 3 * sizeof(uint64_t), kFaces * sizeof(uint64_t)};
+        case Write::MovingAverage:
+            return {kFaces * sizeof(uint32_t), 0};
+        default:
+            return {kFaces * 3 * sizeof(uint32_t), kFaces * sizeof(uint32_t)};
+    }
+}
+
+}  // namespace
+
+VoxelWrites::VoxelWrites(Device& device, const ShaderCompiler& compiler, const WriteParams& params)
+    : params_(params),
+      resolve_(makeComputeProgram(
+          device, compiler.compile("passes/common/voxel_writes_resolve.comp", defines(params.write)))) {}
+
+void VoxelWrites::plan(PassPlan& plan, const std::string& pass, const WriteParams& params,
+                       const SurfaceVoxels& voxels) {
+    if (params.write == Write::Average && !plan.device.shaderInt64Atomics)
+        throw Error(
+            "{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics), which 'write: "
+            "average' needs; choose another 'write'",
+            pass, plan.device.name);
+    const BytesPerVoxel bytes = bytesPerVoxel(params.write);
+    plan.reserve("voxel samples", voxels.voxelCount * (bytes.sums + bytes.weights));
+}
+
+Defines VoxelWrites::defines(Write write) {
+    switch (write) {
+        case Write::Average:
+            return {{"WRITE", "WRITE_AVERAGE"}};
+        case Write::Max:
+            return {{"WRITE", "WRITE_MAX"}};
+        case Write::MovingAverage:
+            return {{"WRITE", "WRITE_MOVING_AVERAGE"}};
+        default:
+            return {{"WRITE", "WRITE_NONE"}};
+    }
+}
+
+void VoxelWrites::begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels,
+                        float typicalIrradiance) {
+    const BytesPerVoxel bytes = bytesPerVoxel(params_.write);
+    sums_ = Buffer(device, "voxel irradiance sums", voxels.voxelCount * bytes.sums);
+    stream.fill(sums_, 0);
+    if (bytes.weights > 0) {
+        weights_ = Buffer(device, "voxel irradiance weights", voxels.voxelCount * bytes.weights);
+        stream.fill(weights_, 0);
+    }
+    scale_ = 1;
+    if (params_.write == Write::Average && typicalIrradiance > 0)
+        scale_ = float(1u << 24) / typicalIrradiance;
+    if (params_.write == Write::MovingAverage) scale_ = 1 / params_.white;
+}
+
+std::vector<Binding> VoxelWrites::bindings() const {
+    std::vector<Binding> list{{"voxelSums", sums_}};
+    if (weights_) list.push_back({"voxelWeights", weights_});
+    return list;
+}
+
+void VoxelWrites::resolve(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& flux,
+                          const Buffer& area) const {
+    std::vector<Binding> all = bindings();
+    all.insert(all.end(), {{"voxelMaterials", voxels.materials}, {"flux", flux}, {"area", area}});
+    stream.dispatch(resolve_, all, ResolvePush{voxels.voxelCount, voxels.grid.voxelSize, scale_},
+                    linearGroups(voxels.voxelCount));
+}
+
+}  // namespace voxray

@@ -1,0 +1,120 @@
+// Samples that meet in a voxel: each write mode against the mean, the maximum and the area that it must give.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "passes/common/dispatch.h"
+#include "passes/common/voxel_writes.h"
+#include "tests/gpu/chain.h"
+
+namespace voxray::test {
+namespace {
+
+struct WriterPush {
+    uint32_t voxelCount;
+    uint32_t samples;
+    uint32_t reversed;
+    float firstValue;
+    float slope;
+    float scale;
+};
+
+/// What `samples` samples of firstValue + slope * number leave in every second voxel of a room.
+struct Merged {
+    Merged(Write write, uint32_t samples, float firstValue, float slope, bool reversed = false,
+           float white = 8) {
+        static Chain room("white_room", "{}", "[{pass: voxelize, resolution: 12}]");
+        const SurfaceVoxels& voxels = *room.graph().resource<SurfaceVoxels>("voxels");
+        const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, {});
+        VoxelWrites writes(device(), compiler, {write, white});
+        const Program writer = makeComputeProgram(
+            device(), compiler.compile("tests/gpu/voxel_writes.comp", VoxelWrites::defines(write)));
+        CommandStream stream(device());
+        const Buffer fluxBuffer(device(), "flux", voxels.voxelCount * kFluxFloats * sizeof(float));
+        const Buffer areaBuffer(device(), "area", voxels.voxelCount * kAreaFloats * sizeof(float));
+        stream.fill(areaBuffer, 0);
+        writes.begin(device(), stream, voxels, firstValue);
+        stream.dispatch(writer, writes.bindings(),
+                        WriterPush{voxels.voxelCount, samples, reversed, firstValue, slope, writes.scale()},
+                        linearGroups(uint64_t(voxels.voxelCount) * samples));
+        writes.resolve(stream, voxels, fluxBuffer, areaBuffer);
+        stream.finish();
+        flux = stream.readAs<float>(fluxBuffer, voxels.voxelCount * kFluxFloats);
+        area = stream.readAs<float>(areaBuffer, voxels.voxelCount * kAreaFloats);
+        materials = room.read<gpu::VoxelMaterial>(voxels.materials);
+        faceArea = voxels.grid.voxelSize * voxels.grid.voxelSize;
+    }
+    /// Largest distance of any lit face's irradiance from `expected` (of the first channel; the others' is
+    /// 2 and 4 times that), relative to the channel's.
+    double worst(double expected) const {
+        double most = 0;
+        int faces = 0;
+        for (size_t face = 0; face < area.size(); ++face) {
+            if (area[face] <= 0) continue;
+            ++faces;
+            for (size_t c = 0; c < 3; ++c) {
+                const double channel = expected * double(1u << c);
+                most = std::max(most, std::abs(flux[face * 3 + c] / (area[face] * faceArea) / channel - 1));
+            }
+        }
+        EXPECT_GT(faces, 100);
+        return most;
+    }
+    std::vector<float> flux, area;
+    std::vector<gpu::VoxelMaterial> materials;
+    double faceArea = 0;
+};
+
+TEST(VoxelWrites, AllAgreeOnOneValue) {
+    EXPECT_LT(Merged(Write::Average, 300, 1.7f, 0).worst(1.7), 1e-6);
+    EXPECT_LT(Merged(Write::Max, 300, 1.7f, 0).worst(1.7), 1e-6);
+    EXPECT_LT(Merged(Write::None, 300, 1.7f, 0).worst(1.7), 1e-5);
+    // 8 bits: half a step of 8 / 255 W/m² on the darkest channel, 1.7.
+    EXPECT_LT(Merged(Write::MovingAverage, 300, 1.7f, 0).worst(1.7), 0.5 * 8 / 255 / 1.7 + 1e-4);
+}
+
+TEST(VoxelWrites, AverageIsTheMeanAndMaxTheLargest) {
+    // 0.5 + 0.01 k for k = 0 ... 100: mean 1, maximum 1.5.
+    EXPECT_LT(Merged(Write::Average, 101, 0.5f, 0.01f).worst(1.0), 1e-6);
+    EXPECT_LT(Merged(Write::Max, 101, 0.5f, 0.01f).worst(1.5), 1e-6);
+    // The thesis's loop rounds each step to 8 bits: it stays near the mean, not on it.
+    EXPECT_LT(Merged(Write::MovingAverage, 101, 0.5f, 0.01f).worst(1.0), 0.5);
+}
+
+TEST(VoxelWrites, AverageDoesNotDependOnOrder) {
+    const Merged forwards(Write::Average, 101, 0.123f, 0.037f),
+        backwards(Write::Average, 101, 0.123f, 0.037f, true);
+    EXPECT_EQ(forwards.flux, backwards.flux);
+}
+
+TEST(VoxelWrites, AverageKeepsBrightAndDimSamples) {
+    // 1 and 20004 times the typical irradiance in the brightest channel: no overflow, no loss.
+    EXPECT_LT(Merged(Write::Average, 2, 0.01f, 50.0f).worst(25.01), 1e-6);
+}
+
+TEST(VoxelWrites, WhiteBoundsTheMovingAverage) {
+    const Merged clipped(Write::MovingAverage, 4, 0.5f, 0, false, 1.0f);
+    // Channels 0.5, 1 and 2: the last is cut off at 1.
+    for (size_t face = 0; face < clipped.area.size(); ++face) {
+        if (clipped.area[face] <= 0) continue;
+        const double area = clipped.area[face] * clipped.faceArea;
+        EXPECT_NEAR(clipped.flux[face * 3] / area, 0.5, 0.5 / 255 + 1e-6);
+        EXPECT_NEAR(clipped.flux[face * 3 + 2] / area, 1.0, 1e-6);
+    }
+}
+
+TEST(VoxelWrites, AreaIsExposedWhereSamplesFell) {
+    for (const Write write : {Write::Average, Write::Max, Write::MovingAverage, Write::None}) {
+        const Merged merged(write, 3, 1, 0);
+        for (size_t voxel = 0; voxel < merged.materials.size(); ++voxel)
+            for (size_t axis = 0; axis < 3; ++axis) {
+                const gpu::VoxelMaterial& m = merged.materials[voxel];
+                const bool written = voxel % 2 == 0;
+                ASSERT_EQ(merged.area[voxel * 6 + 2 * axis], written ? m.exposedPositive[int(axis)] : 0);
+                ASSERT_EQ(merged.area[voxel * 6 + 2 * axis + 1], written ? m.exposedNegative[int(axis)] : 0);
+            }
+    }
+}
+
+}  // namespace
+}  // namespace voxray::test
