@@ -6,8 +6,11 @@
 #include "passes/gather_irradiance/gather_irradiance.h"
 #include "passes/gather_rays/gather_rays.h"
 #include "passes/gbuffer/gbuffer_pass.h"
+#include "passes/inject_camera_rays/inject_camera_rays.h"
 #include "passes/inject_light_rays/inject_light_rays.h"
+#include "passes/inject_voxel_rays/inject_voxel_rays.h"
 #include "passes/path_trace/path_trace_pass.h"
+#include "passes/place_surfels/place_surfels.h"
 #include "passes/trace_gather_rays/trace_gather_rays.h"
 #include "passes/voxelize/voxelize_pass.h"
 
@@ -17,6 +20,9 @@ void registerPasses(Registry& registry) {
     registry.add<GBufferPass>();
     registry.add<VoxelizePass>();
     registry.add<InjectLightRays>();
+    registry.add<PlaceSurfels>();
+    registry.add<InjectVoxelRays>();
+    registry.add<InjectCameraRays>();
     registry.add<GatherIrradiance>();
     registry.add<TraceGatherRays>();
     registry.add<GatherRays>();

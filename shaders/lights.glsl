@@ -5,6 +5,11 @@
 #include "shaders/sampling.glsl"
 #include "shaders/scene.glsl"
 
+// Kinds of sources, as LightSource::Kind in passes/common/light_sources.h has them.
+#define SOURCE_PUNCTUAL 0u
+#define SOURCE_EMITTERS 1u
+#define SOURCE_ENVIRONMENT 2u
+
 struct LightSample {
     vec3 direction;   // Towards the light, unit length.
     float distance_;  // m
@@ -52,6 +57,27 @@ LightSample sampleEmitters(uint emitterCount, vec3 position, float pick, vec2 u)
     if (m.doubleSided != 0u) cosine = abs(cosine);
     s.irradiance = emission(m, e, 0.0) * max(cosine, 0.0) * emitter.area /
                    (s.distance_ * s.distance_ * emitter.probability);
+    return s;
+}
+
+// A sample of a source of light for a surface: of punctual light `light`, or number `light` of `samples` samples of the emissive
+// surfaces (by power and area) or of the environment (by cosine about `normal`). `index` numbers the surface among those that
+// share `seed`: neighbours in it complement each other. The irradiance is divided by `samples`, not multiplied by the cosine.
+LightSample sampleSource(uint kind, uint light, uint samples, uint emitterCount, vec3 position, vec3 normal, uint index,
+                         uint seed) {
+    if (kind == SOURCE_PUNCTUAL) return samplePunctual(sceneLights.data[light], position);
+    const uint point = index * samples + light;
+    const vec2 u = sobol2(point, hashCombine(seed, 0u));
+    LightSample s;
+    if (kind == SOURCE_EMITTERS) {
+        s = sampleEmitters(emitterCount, position, sobol2(point, hashCombine(seed, 1u)).x, u);
+    } else {
+        // Radiance * cos / (cos / pi).
+        s.direction = cosineDirection(u, normal);
+        s.distance_ = 1.0e30;
+        s.irradiance = environmentRadiance(s.direction) * PI / max(dot(normal, s.direction), 1e-6);
+    }
+    s.irradiance /= float(samples);
     return s;
 }
 

@@ -5,6 +5,14 @@
 
 namespace voxray {
 
+void VoxelIrradiance::allocate(Device& device, uint32_t voxelCount) {
+    const uint64_t fluxBytes = uint64_t(voxelCount) * kFluxFloats * sizeof(float);
+    if (direct && direct.bytes() == fluxBytes) return;
+    direct = Buffer(device, "voxel direct flux", fluxBytes);
+    indirect = Buffer(device, "voxel indirect flux", fluxBytes);
+    area = Buffer(device, "voxel area", uint64_t(voxelCount) * kAreaFloats * sizeof(float));
+}
+
 gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution) {
     const glm::vec3 extent = boundsMax - boundsMin;
     const float longest = std::max({extent.x, extent.y, extent.z, 1e-6f});

@@ -23,6 +23,9 @@ struct SurfaceVoxels : Resource {
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }
 };
 
+/// Floats that VoxelIrradiance's flux buffers hold for each voxel, and its area.
+constexpr uint32_t kFluxFloats = 18, kAreaFloats = 6;
+
 /// Light that arrives at the surfaces of each voxel, by the side that they face: flux for the 6 directions
 /// +x -x +y -y +z -z, and the area that it fell on. Their ratio is the mean irradiance; keeping them apart
 /// lets a lookup interpolate both. Where the area is 0 the injection did not look: nothing is known, and a
@@ -31,10 +34,14 @@ struct VoxelIrradiance : Resource {
     Buffer direct;    ///< W, straight from the lights: 6 directions of 3 floats a voxel.
     Buffer indirect;  ///< W, after one bounce or more; likewise.
     Buffer area;      ///< In units of a voxel's face: 6 floats a voxel.
+
+    static uint64_t bytes(uint32_t voxelCount) {
+        return uint64_t(voxelCount) * (2 * kFluxFloats + kAreaFloats) * sizeof(float);
+    }
+    /// Makes the buffers where they don't have the right size; their content is undefined.
+    void allocate(Device& device, uint32_t voxelCount);
     std::vector<const Buffer*> checkedBuffers() const override { return {&direct, &indirect, &area}; }
 };
-/// Floats that `direct` and `indirect` hold for each voxel, and `area`.
-constexpr uint32_t kFluxFloats = 18, kAreaFloats = 6;
 
 /// The smallest grid of cubic voxels round a box, `resolution` voxels along its longest side, with an eighth
 /// of a voxel to spare, so that no surface lies on its border.

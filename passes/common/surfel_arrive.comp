@@ -1,0 +1,48 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Makes a surfel of each hit, on the side that the ray came from. Russian roulette by albedo ends rays early; survivors'
+// reflectance makes up for those. Surfels are appended in any order; nothing that follows depends on it.
+#include "shaders/linear_index.glsl"
+#include "shaders/sampling.glsl"
+#include "shaders/scene.glsl"
+#include "shaders/shared/ray_types.h"
+#include "shaders/shared/surfel_types.h"
+#include "shaders/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16, scalar) readonly buffer Rays { Ray data[]; } rays;
+layout(set = 0, binding = 17, scalar) readonly buffer Hits { Hit data[]; } hits;
+layout(set = 0, binding = 18, scalar) readonly buffer Parents { Surfel data[]; } parents;
+layout(set = 0, binding = 19, scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
+layout(set = 0, binding = 20) buffer Count { uint value; } count;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint rayCount;
+    uint firstId;    // Of rays from a camera.
+    uint fromSurfels;  // 1: ray i is that of parent i. 0: of the camera; no roulette.
+    uint seed;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.rayCount) return;
+    const Ray ray = rays.data[i];
+    const Hit hit = hits.data[i];
+    if (ray.tMax < ray.tMin || hit.triangle == NO_HIT) return;
+    const SurfacePoint p = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
+    if (dot(p.geometricNormal, p.geometricNormal) == 0.0) return;
+
+    Surfel s;
+    s.id = push.fromSurfels != 0u ? parents.data[i].id : push.firstId + i;
+    s.parent = i;
+    s.reflectance = clamp(diffuseAlbedo(sceneMaterials.data[p.material], p, 0.0), 0.0, 1.0);
+    if (push.fromSurfels != 0u) {
+        const float survive = max(s.reflectance.r, max(s.reflectance.g, s.reflectance.b));
+        if (sobol2(s.id, push.seed).x >= survive) return;
+        s.reflectance /= survive;
+    }
+    s.position = p.position;
+    s.normal = dot(p.geometricNormal, ray.direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
+    s.voxel = voxelNumber(push.grid, voxelAt(push.grid, p.position));
+    surfels.data[atomicAdd(count.value, 1u)] = s;
+}

@@ -1,0 +1,20 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Leaves the irradiance of surfels in their voxels.
+#include "shaders/linear_index.glsl"
+#include "shaders/shared/surfel_types.h"
+#include "shaders/voxel_writes.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(set = 0, binding = 17, scalar) readonly buffer Irradiance { vec4 data[]; } irradiance;
+layout(push_constant) uniform Push {
+    uint count;
+    float scale;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count || surfels.data[i].voxel == 0xffffffffu) return;
+    writeIrradiance(surfels.data[i].voxel, surfels.data[i].normal, irradiance.data[i].rgb, 1.0, push.scale);
+}

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "graph/pass.h"
+#include "shaders/shared/surfel_types.h"
+
+namespace voxray {
+
+/// Points on the sides of surfaces that open space lies before, spread evenly over their area: where the
+/// irradiance of voxels is measured. Each stands for the same area.
+struct Surfels : Resource {
+    struct Chunk {
+        Buffer surfels;  ///< gpu::Surfel each.
+        uint32_t count = 0;
+    };
+    /// Surfels of a chunk, at most.
+    static constexpr uint32_t kChunk = 1u << 18;
+    std::vector<Chunk> chunks;
+};
+
+}  // namespace voxray

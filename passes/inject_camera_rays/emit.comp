@@ -1,0 +1,31 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Rays from the camera through low-discrepancy points of the image.
+#include "shaders/linear_index.glsl"
+#include "shaders/sampling.glsl"
+#include "shaders/shared/ray_types.h"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16, scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(push_constant, scalar) uniform Push {
+    vec3 origin;
+    uint firstRay;
+    vec3 forward;
+    uint count;
+    vec3 right;
+    uint seed;
+    vec3 up;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const vec2 p = 2.0 * sobol2(push.firstRay + i, push.seed) - 1.0;
+    Ray ray;
+    ray.origin = push.origin;
+    ray.direction = normalize(push.forward + p.x * push.right + p.y * push.up);
+    ray.tMin = 0.0;
+    ray.tMax = 1.0e30;
+    rays.data[i] = ray;
+}

@@ -1,0 +1,80 @@
+#include "passes/inject_camera_rays/inject_camera_rays.h"
+
+#include <algorithm>
+
+#include "passes/common/camera_matrix.h"
+#include "passes/common/dispatch.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kBatchRays = 1u << 18;  // Bounds the memory of paths to 20 MiB a bounce.
+
+struct EmitPush {
+    glm::vec3 origin;
+    uint32_t firstRay;
+    glm::vec3 forward;
+    uint32_t count;
+    glm::vec3 right;
+    uint32_t seed;
+    glm::vec3 up;
+};
+
+}  // namespace
+
+SurfelPaths::Settings InjectCameraRays::settings() const {
+    return {params_.write, std::min(params_.rays, kBatchRays), params_.bounces, params_.lightSamples, true};
+}
+
+void InjectCameraRays::declare(PassBuilder& builder) {
+    voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels to light");
+    irradiance_ = builder.write<VoxelIrradiance>("irradiance", "light that arrives at the voxels' surfaces");
+}
+
+void InjectCameraRays::plan(PassPlan& plan) {
+    sources_ = requireLightSources(*plan.frame.scene, kName);
+    const SurfaceVoxels& voxels = plan.get(voxels_);
+    VoxelWrites::plan(plan, kName, params_, voxels);
+    VoxelWrites::plan(plan, kName, params_, voxels);
+    plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
+    plan.reserve("paths", SurfelPaths::bytes(settings()));
+    plan.reserve("camera rays", uint64_t(settings().batch) * (sizeof(Ray) + sizeof(Hit)));
+}
+
+void InjectCameraRays::prepare(PassSetup& setup) {
+    paths_ = SurfelPaths(setup, settings());
+    direct_ = VoxelWrites(setup.device, setup.compiler, params_);
+    indirect_ = VoxelWrites(setup.device, setup.compiler, params_);
+    rays_ = Buffer(setup.device, "camera rays", uint64_t(settings().batch) * sizeof(Ray));
+    hits_ = Buffer(setup.device, "camera hits", uint64_t(settings().batch) * sizeof(Hit));
+    emit_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_camera_rays/emit.comp"));
+}
+
+void InjectCameraRays::record(PassContext& context) {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    VoxelIrradiance& irradiance = context.get(irradiance_);
+    CommandStream& stream = context.stream;
+    irradiance.allocate(context.device, voxels.voxelCount);
+    stream.fill(irradiance.area, 0);
+    const float typical = meanIrradiance(sources_, context.frame.scene->geometry);
+    direct_.begin(context.device, stream, voxels, typical);
+    indirect_.begin(context.device, stream, voxels, typical);
+
+    const CameraRays camera = cameraRays(context.frame.camera, context.frame.width, context.frame.height);
+    const uint32_t seed = uint32_t(context.frame.seed * 0x9e3779b9u) + context.frameIndex * 0x85ebca6bu;
+    for (uint32_t first = 0; first < params_.rays; first += kBatchRays) {
+        const uint32_t batch = std::min(kBatchRays, params_.rays - first);
+        stream.dispatch(emit_, {{"rays", rays_}},
+                        EmitPush{camera.origin, first, camera.forward, batch, camera.right, seed, camera.up},
+                        linearGroups(batch));
+        context.tracer.closestHit(stream, rays_, hits_, batch);
+        const uint32_t count = paths_.arrive(context, voxels, rays_, hits_, batch, first);
+        if (count > 0) paths_.run(context, sources_, count, seed, {voxels, direct_, indirect_});
+    }
+
+    direct_.resolve(stream, voxels, irradiance.direct, irradiance.area);
+    indirect_.resolve(stream, voxels, irradiance.indirect, irradiance.area);
+    stream.finish();
+}
+
+}  // namespace voxray

@@ -1,0 +1,61 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Marks the voxel faces that the shading of gather rays will read: see irradianceAt() in shaders/face_irradiance.glsl.
+#include "shaders/gather_layout.glsl"
+#include "shaders/linear_index.glsl"
+#include "shaders/scene.glsl"
+#include "shaders/shared/ray_types.h"
+#include "shaders/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16, scalar) readonly buffer Hits { Hit data[]; } hits;
+layout(set = 0, binding = 17) uniform sampler2D position;
+layout(set = 0, binding = 18) buffer Asked { uint data[]; } asked;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    GatherLayout layout_;
+    uint firstBlock;
+    uint rays;
+} push;
+
+float areaFacing(uint voxel, vec3 normal) {
+    const VoxelMaterial m = voxelMaterials.data[voxel];
+    return dot(normal * normal, mix(m.exposedPositive, m.exposedNegative, lessThan(normal, vec3(0.0))));
+}
+
+// Few voxels are asked for by many rays: look before the atomic.
+void mark(uint voxel, uint faces) {
+    if ((asked.data[voxel] & faces) != faces) atomicOr(asked.data[voxel], faces);
+}
+
+void main() {
+    const GatherLayout g = push.layout_;
+    const uint i = linearIndex();
+    if (i >= push.rays) return;
+    const Hit hit = hits.data[i];
+    if (hit.triangle == NO_HIT) return;
+    const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
+    if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return;
+    const uint blockIndex = push.firstBlock + i / g.raysPerBlock;
+    const uvec2 block = uvec2(blockIndex % g.blocks.x, blockIndex / g.blocks.x);
+    const ivec2 texel = ivec2(texelOf(g, block, rayTexel(g, blockShift(g, block), i % g.raysPerBlock)));
+    const vec3 from = texelFetch(position, texel, 0).xyz;
+    const vec3 normal = dot(s.geometricNormal, from - s.position) >= 0.0 ? s.geometricNormal : -s.geometricNormal;
+    uint faces = 0u;
+    for (uint axis = 0u; axis < 3u; ++axis)
+        if (normal[axis] * normal[axis] > 0.01) faces |= 1u << (2u * axis + (normal[axis] < 0.0 ? 1u : 0u));
+
+    const ivec3 cell = voxelAt(push.grid, s.position);
+    const uint own = voxelNumber(push.grid, cell);
+    float area = 0.0;
+    if (own != NO_VOXEL) {
+        mark(own, faces);
+        area = areaFacing(own, normal);
+    }
+    for (int k = 0; k < 27 && area < 0.05; ++k) {
+        const uint voxel = voxelNumber(push.grid, cell + ivec3(k % 3, (k / 3) % 3, k / 9) - 1);
+        if (k == 13 || voxel == NO_VOXEL) continue;
+        mark(voxel, faces);
+        area += areaFacing(voxel, normal);
+    }
+}

@@ -1,0 +1,21 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Keeps the candidates that have open space before them. Their order is any; nothing depends on it.
+#include "shaders/linear_index.glsl"
+#include "shaders/shared/ray_types.h"
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/shared/surfel_types.h"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16, scalar) readonly buffer Rays { Ray data[]; } rays;
+layout(set = 0, binding = 17) readonly buffer Occluded { uint data[]; } occluded;
+layout(set = 0, binding = 18, scalar) readonly buffer Candidates { Surfel data[]; } candidates;
+layout(set = 0, binding = 19, scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
+layout(set = 0, binding = 20) buffer Count { uint value; } count;
+layout(push_constant) uniform Push { uint candidates; } push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.candidates || rays.data[i].tMax < 0.0 || occluded.data[i] != 0u) return;
+    surfels.data[atomicAdd(count.value, 1u)] = candidates.data[i];
+}

@@ -1,0 +1,45 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Both sides of points that are spread evenly over the surfaces, each with a ray along its normal, as long as a voxel, which
+// tells whether open space lies before it.
+#include "shaders/linear_index.glsl"
+#include "shaders/sampling.glsl"
+#include "shaders/scene.glsl"
+#include "shaders/shared/ray_types.h"
+#include "shaders/shared/surfel_types.h"
+#include "shaders/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16) readonly buffer PointTriangles { uint data[]; } pointTriangles;
+layout(set = 0, binding = 17, scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(set = 0, binding = 18, scalar) writeonly buffer Candidates { Surfel data[]; } candidates;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint firstPoint;
+    uint points;
+    uint seed;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.points) return;
+    const SurfacePoint p = surfacePoint(pointTriangles.data[i], trianglePoint(sobol2(push.firstPoint + i, push.seed)));
+    const uint voxel = voxelNumber(push.grid, voxelAt(push.grid, p.position));
+    const float offset = surfaceOffset(p.position);
+    for (uint side = 0u; side < 2u; ++side) {
+        Surfel s;
+        s.position = p.position;
+        s.normal = side == 0u ? p.geometricNormal : -p.geometricNormal;
+        s.voxel = voxel;
+        s.id = 2u * (push.firstPoint + i) + side;
+        s.reflectance = vec3(0.0);
+        s.parent = 0u;
+        candidates.data[2u * i + side] = s;
+        Ray ray;
+        ray.origin = s.position + s.normal * offset;
+        ray.direction = s.normal;
+        ray.tMin = 0.0;
+        ray.tMax = voxel != NO_VOXEL && dot(s.normal, s.normal) > 0.0 ? push.grid.voxelSize : -1.0;
+        rays.data[2u * i + side] = ray;
+    }
+}

@@ -1,0 +1,83 @@
+#include "passes/place_surfels/place_surfels.h"
+
+#include <algorithm>
+
+#include "passes/common/dispatch.h"
+#include "passes/common/surface_points.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kBatchPoints = Surfels::kChunk / 2;
+constexpr uint64_t kMostPoints = 1u << 28;
+
+struct PlacePush {
+    gpu::VoxelGrid grid;
+    uint32_t firstPoint;
+    uint32_t points;
+    uint32_t seed;
+};
+
+}  // namespace
+
+void PlaceSurfels::declare(PassBuilder& builder) {
+    voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
+    surfels_ = builder.write<Surfels>("surfels", "points that measure irradiance");
+}
+
+void PlaceSurfels::plan(PassPlan& plan) {
+    const uint64_t points = std::min(uint64_t(plan.get(voxels_).voxelCount) * params_.points, kMostPoints);
+    plan.reserve("surfels (estimated)", 2 * points * sizeof(gpu::Surfel));
+    plan.reserve("a batch of points",
+                 kBatchPoints * (sizeof(uint32_t) + 2 * (sizeof(Ray) + 4 + 2 * sizeof(gpu::Surfel))) + 4);
+}
+
+void PlaceSurfels::prepare(PassSetup& setup) {
+    const auto make = [&](const char* name, uint64_t bytes) { return Buffer(setup.device, name, bytes); };
+    triangles_ = make("surfels' triangles", kBatchPoints * sizeof(uint32_t));
+    rays_ = make("exposure rays", Surfels::kChunk * sizeof(Ray));
+    occluded_ = make("exposure results", Surfels::kChunk * sizeof(uint32_t));
+    candidates_ = make("surfel candidates", Surfels::kChunk * sizeof(gpu::Surfel));
+    kept_ = make("surfels kept", Surfels::kChunk * sizeof(gpu::Surfel));
+    count_ = make("number of surfels", sizeof(uint32_t));
+    place_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/place_surfels/place.comp"));
+    keep_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/place_surfels/keep.comp"));
+}
+
+void PlaceSurfels::record(PassContext& context) {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    Surfels& surfels = context.get(surfels_);
+    CommandStream& stream = context.stream;
+    surfels.chunks.clear();
+    const uint64_t points = std::min(uint64_t(voxels.voxelCount) * params_.points, kMostPoints);
+    const std::vector<uint32_t> triangles = spreadPoints(context.frame.scene->geometry, points);
+    for (uint64_t first = 0; first < points; first += kBatchPoints) {
+        const uint32_t batch = uint32_t(std::min<uint64_t>(kBatchPoints, points - first));
+        stream.upload(triangles_, std::as_bytes(std::span(triangles).subspan(first, batch)));
+        stream.dispatch(
+            place_,
+            context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
+                                    {"voxelRank", voxels.rank},
+                                    {"pointTriangles", triangles_},
+                                    {"rays", rays_},
+                                    {"candidates", candidates_}}),
+            PlacePush{voxels.grid, uint32_t(first), batch, uint32_t(context.frame.seed * 0x9e3779b9u)},
+            linearGroups(batch));
+        context.tracer.occluded(stream, rays_, occluded_, 2 * batch);
+        stream.fill(count_, 0);
+        stream.dispatch(keep_,
+                        {{"rays", rays_},
+                         {"occluded", occluded_},
+                         {"candidates", candidates_},
+                         {"surfels", kept_},
+                         {"count", count_}},
+                        2 * batch, linearGroups(2 * batch));
+        const uint32_t count = stream.readAs<uint32_t>(count_, 1)[0];
+        if (count == 0) continue;
+        surfels.chunks.push_back({Buffer(context.device, "surfels", count * sizeof(gpu::Surfel)), count});
+        stream.copy(kept_, surfels.chunks.back().surfels, count * sizeof(gpu::Surfel));
+    }
+    stream.finish();
+}
+
+}  // namespace voxray

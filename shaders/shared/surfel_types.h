@@ -1,0 +1,21 @@
+// Points on surfaces where irradiance is measured, shared by C++ (passes/common/surfel_*.h) and GLSL.
+#ifndef VOXRAY_SHARED_SURFEL_TYPES_H
+#define VOXRAY_SHARED_SURFEL_TYPES_H
+
+#include "shaders/shared/types.h"
+
+VOXRAY_SHARED_BEGIN
+
+// A point on one side of a surface.
+struct Surfel {
+    vec3 position;     // m
+    uint voxel;        // Number of its voxel, or NO_VOXEL.
+    vec3 normal;       // Unit length, on the lit side; geometric.
+    uint id;           // Picks its random numbers; unique among surfels that are handled together.
+    vec3 reflectance;  // Light that goes back along the ray that found it, over irradiance / pi.
+    uint parent;       // Index of the surfel whose ray found it.
+};
+
+VOXRAY_SHARED_END
+
+#endif
