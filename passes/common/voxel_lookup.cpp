@@ -9,6 +9,7 @@ namespace {
 struct Push {
     gpu::VoxelGrid grid;
     float radius;
+    uint32_t samples;
 };
 
 }  // namespace
@@ -28,7 +29,8 @@ void VoxelLookup::run(CommandStream& stream, const GBuffer& gbuffer, const Surfa
                      {"voxelFlux", flux},
                      {"voxelArea", area},
                      {"result", target}},
-                    Push{voxels.grid, radius}, pixelGroups(target.desc().extent.x, target.desc().extent.y));
+                    Push{voxels.grid, radius, gbuffer.samples},
+                    pixelGroups(target.desc().extent.x, target.desc().extent.y));
 }
 
 }  // namespace voxray
