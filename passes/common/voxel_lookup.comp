@@ -12,13 +12,15 @@ layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     float radius;
     int samples;  // Texels of the g-buffer along each side of a pixel.
+    uint sevenTap;
 } push;
 
 vec3 reflected(ivec2 texel) {
     const vec4 p = texelFetch(position, texel, 0);
     if (p.w == 0.0) return vec3(0.0);
     const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
-    return texelFetch(albedo, texel, 0).rgb / 3.14159265358979 * voxelIrradiance(push.grid, p.xyz, n, push.radius);
+    const vec3 irradiance = voxelIrradiance(push.grid, p.xyz, n, push.radius, push.sevenTap != 0u);
+    return texelFetch(albedo, texel, 0).rgb / 3.14159265358979 * irradiance;
 }
 
 void main() {
