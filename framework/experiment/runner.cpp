@@ -225,6 +225,7 @@ void Run::runVariant(size_t index, Progress& progress) {
     } catch (const std::exception& error) {
         failed.error = error.what();
     }
+    if (!rendered) session_->stream().discard();
     std::replace(failed.error.begin(), failed.error.end(), '\n', ' ');
     if (interruptRequested()) {
         summary_.interrupted = true;

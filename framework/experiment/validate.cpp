@@ -1,8 +1,27 @@
 #include "experiment/validate.h"
 
+#include "experiment/overrides.h"
 #include "graph/graph.h"
 
 namespace voxray {
+namespace {
+
+void checkPassName(const Value& pass, const Registry& registry) {
+    const Value* name = pass.isMap() ? pass.find("pass") : &pass;
+    if (name && name->isScalar()) registry.require(name->scalar, name->where);
+}
+
+// Names of passes, before the sweep's paths are looked up among their ids: a pass that is misspelt in the
+// graph would else be told as a misspelt path.
+void checkPassNames(const Experiment& experiment, const Registry& registry) {
+    for (const Value& entry : experiment.setup.graph.items) checkPassName(entry, registry);
+    for (const auto& [path, values] : experiment.sweep.members)
+        for (const Value& entry : experiment.setup.graph.items)
+            if (passId(entry) == path)
+                for (const Value& value : values.items) checkPassName(value, registry);
+}
+
+}  // namespace
 
 Value referenceGraph(const Experiment& experiment) {
     Value list = Value::list();
@@ -12,6 +31,7 @@ Value referenceGraph(const Experiment& experiment) {
 }
 
 std::vector<Variant> validateExperiment(const Experiment& experiment, const Registry& registry) {
+    checkPassNames(experiment, registry);
     std::vector<Variant> variants = expandSweep(experiment);
     for (const Variant& variant : variants) {
         const Graph graph(registry, variant.setup.graph);

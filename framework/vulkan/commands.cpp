@@ -92,6 +92,15 @@ void CommandStream::Impl::finish() {
     stagingBytes = 0;
 }
 
+void CommandStream::Impl::discard() {
+    check(vkResetCommandPool(device.handle(), pool, 0), "vkResetCommandPool");
+    recording = false;
+    labels.clear();
+    staging.clear();
+    stagingBytes = 0;
+    timestamps = 0;
+}
+
 CommandStream::CommandStream(Device& device) : impl_(std::make_unique<Impl>(device)) {}
 CommandStream::~CommandStream() = default;
 
@@ -101,6 +110,10 @@ Device& CommandStream::device() {
 
 void CommandStream::finish() {
     impl_->finish();
+}
+
+void CommandStream::discard() {
+    impl_->discard();
 }
 
 void CommandStream::dispatch(const Program& program, std::initializer_list<Binding> bindings,

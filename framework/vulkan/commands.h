@@ -134,6 +134,10 @@ class CommandStream {
     /// Submits what was recorded and waits; the stream then records anew.
     void finish();
 
+    /// Drops what was recorded since the last finish(), open labels and time stamps with it: after an error,
+    /// when resources that the commands name may be gone already.
+    void discard();
+
     /// finish(), then the bytes of a buffer (staged where it isn't mapped).
     std::vector<std::byte> read(const Buffer& buffer, uint64_t bytes, uint64_t offset = 0);
     template <typename T>

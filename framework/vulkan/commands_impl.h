@@ -17,6 +17,7 @@ struct CommandStream::Impl {
     /// The command buffer, recording, without a barrier.
     VkCommandBuffer open();
     void finish();
+    void discard();
 
     /// Binds a program with what its shaders name.
     /// @throws Error naming program and binding where one is missing, unknown or of the wrong kind.

@@ -11,17 +11,23 @@ layout(set = 0, binding = 19, rgba32f) writeonly uniform image2D result;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     float radius;
+    int samples;  // Texels of the g-buffer along each side of a pixel.
+    uint sevenTap;
 } push;
+
+vec3 reflected(ivec2 texel) {
+    const vec4 p = texelFetch(position, texel, 0);
+    if (p.w == 0.0) return vec3(0.0);
+    const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
+    const vec3 irradiance = voxelIrradiance(push.grid, p.xyz, n, push.radius, push.sevenTap != 0u);
+    return texelFetch(albedo, texel, 0).rgb / 3.14159265358979 * irradiance;
+}
 
 void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
-    const vec4 p = texelFetch(position, pixel, 0);
-    vec3 radiance = vec3(0.0);
-    if (p.w > 0.0) {
-        const vec3 n = normalize(texelFetch(normal, pixel, 0).xyz);
-        const vec3 a = texelFetch(albedo, pixel, 0).rgb;
-        radiance = a / 3.14159265358979 * voxelIrradiance(push.grid, p.xyz, n, push.radius);
-    }
-    imageStore(result, pixel, vec4(radiance, 1.0));
+    vec3 sum = vec3(0.0);
+    for (int j = 0; j < push.samples; ++j)
+        for (int i = 0; i < push.samples; ++i) sum += reflected(pixel * push.samples + ivec2(i, j));
+    imageStore(result, pixel, vec4(sum / float(push.samples * push.samples), 1.0));
 }

@@ -1,4 +1,5 @@
 #version 460
+#extension GL_EXT_scalar_block_layout : require
 // final = emission + direct + indirect. A part that no pass writes is bound as one black texel.
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -6,11 +7,18 @@ layout(set = 0, binding = 0) uniform sampler2D emission;
 layout(set = 0, binding = 1) uniform sampler2D direct;
 layout(set = 0, binding = 2) uniform sampler2D indirect;
 layout(set = 0, binding = 3, rgba32f) writeonly uniform image2D result;
+layout(push_constant, scalar) uniform Push {
+    int samples;  // Texels of the g-buffer along each side of a pixel.
+} push;
 
 vec3 texel(sampler2D image, ivec2 pixel) { return texelFetch(image, min(pixel, textureSize(image, 0) - 1), 0).rgb; }
 
 void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
-    imageStore(result, pixel, vec4(texel(emission, pixel) + texel(direct, pixel) + texel(indirect, pixel), 1.0));
+    vec3 emitted = vec3(0.0);
+    for (int j = 0; j < push.samples; ++j)
+        for (int i = 0; i < push.samples; ++i) emitted += texelFetch(emission, pixel * push.samples + ivec2(i, j), 0).rgb;
+    emitted /= float(push.samples * push.samples);
+    imageStore(result, pixel, vec4(emitted + texel(direct, pixel) + texel(indirect, pixel), 1.0));
 }

@@ -27,12 +27,13 @@ void Composite::prepare(PassSetup& setup) {
 void Composite::record(PassContext& context) {
     const Image& direct = context.has(direct_) ? context.get(direct_).image : black_;
     const Image& indirect = context.has(indirect_) ? context.get(indirect_).image : black_;
+    const GBuffer& gbuffer = context.get(gbuffer_);
     context.stream.dispatch(program_,
-                            {{"emission", context.get(gbuffer_).emission, sampler_},
+                            {{"emission", gbuffer.emission, sampler_},
                              {"direct", direct, sampler_},
                              {"indirect", indirect, sampler_},
                              {"result", context.get(final_).image}},
-                            {}, pixelGroups(context.frame.width, context.frame.height));
+                            gbuffer.samples, pixelGroups(context.frame.width, context.frame.height));
 }
 
 }  // namespace voxray

@@ -1,21 +1,29 @@
 #version 460
+#extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Adds what the shadow rays carry where nothing was in their way.
-layout(local_size_x = 8, local_size_y = 8) in;
+// Adds what the shadow rays of a batch of pixels carry where nothing was in their way, averaged over each pixel.
+#include "shaders/linear_index.glsl"
+layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Carried { vec4 data[]; } carried;
 layout(set = 0, binding = 1, scalar) readonly buffer Occluded { uint data[]; } occluded;
 layout(set = 0, binding = 2, rgba32f) uniform image2D direct;
-layout(push_constant) uniform Push {
-    uint width;
-    uint height;
+layout(push_constant, scalar) uniform Push {
+    uint width;  // Pixels of a row.
+    uint firstPixel;
+    uint batchPixels;
+    uint raysPerPixel;
 } push;
 
 void main() {
-    const uvec2 pixel = gl_GlobalInvocationID.xy;
-    if (pixel.x >= push.width || pixel.y >= push.height) return;
-    const uint index = pixel.y * push.width + pixel.x;
-    if (occluded.data[index] != 0u) return;
-    const vec4 sum = imageLoad(direct, ivec2(pixel)) + vec4(carried.data[index].rgb, 0.0);
-    imageStore(direct, ivec2(pixel), sum);
+    const uint i = linearIndex();
+    if (i >= push.batchPixels) return;
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < push.raysPerPixel; ++k) {
+        const uint ray = i * push.raysPerPixel + k;
+        if (occluded.data[ray] == 0u) sum += carried.data[ray].rgb;
+    }
+    const uint index = push.firstPixel + i;
+    const ivec2 pixel = ivec2(index % push.width, index / push.width);
+    imageStore(direct, pixel, imageLoad(direct, pixel) + vec4(sum / float(push.raysPerPixel), 0.0));
 }

@@ -1,27 +1,39 @@
 #include "passes/direct_shadow_rays/direct_shadow_rays.h"
 
+#include <algorithm>
+
 #include "passes/common/dispatch.h"
 #include "passes/common/frame_image.h"
 
 namespace voxray {
 namespace {
 
+constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays and what they carry to 52 MiB.
 enum TargetKind : uint32_t { kPunctual = 0, kEmitters = 1, kEnvironment = 2 };  // As in aim.comp.
 
 struct AimPush {
     uint32_t kind;
     uint32_t light;  ///< Index of a punctual light, else the number of the sample.
-    uint32_t samples;
+    uint32_t lightSamples;
     uint32_t width;
-    uint32_t height;
+    uint32_t firstPixel;
+    uint32_t batchRays;
+    uint32_t samples;
     uint32_t seed;
     uint32_t emitterCount;
 };
 
 struct AddPush {
     uint32_t width;
-    uint32_t height;
+    uint32_t firstPixel;
+    uint32_t batchPixels;
+    uint32_t raysPerPixel;
 };
+
+/// Pixels whose rays are traced together.
+uint32_t batchPixels(const Frame& frame, const GBuffer& gbuffer) {
+    return std::min(frame.width * frame.height, kBatchRays / (gbuffer.samples * gbuffer.samples));
+}
 
 }  // namespace
 
@@ -31,16 +43,18 @@ void DirectShadowRays::declare(PassBuilder& builder) {
 }
 
 void DirectShadowRays::plan(PassPlan& plan) {
-    const uint64_t pixels = uint64_t(plan.frame.width) * plan.frame.height;
-    plan.reserve("shadow rays", pixels * (sizeof(Ray) + 4 * sizeof(float) + sizeof(uint32_t)));
+    const GBuffer& gbuffer = plan.get(gbuffer_);
+    const uint64_t rays = batchPixels(plan.frame, gbuffer) * gbuffer.samples * gbuffer.samples;
+    plan.reserve("shadow rays", rays * (sizeof(Ray) + 4 * sizeof(float) + sizeof(uint32_t)));
     plan.reserve("direct image", imageBytes(frameImageDesc(plan.frame)));
 }
 
 void DirectShadowRays::prepare(PassSetup& setup) {
-    const uint64_t pixels = uint64_t(setup.frame.width) * setup.frame.height;
-    rays_ = Buffer(setup.device, "shadow rays", pixels * sizeof(Ray));
-    carried_ = Buffer(setup.device, "shadow ray radiance", pixels * 4 * sizeof(float));
-    occluded_ = Buffer(setup.device, "shadow ray results", pixels * sizeof(uint32_t));
+    const GBuffer& gbuffer = setup.get(gbuffer_);
+    const uint64_t rays = batchPixels(setup.frame, gbuffer) * gbuffer.samples * gbuffer.samples;
+    rays_ = Buffer(setup.device, "shadow rays", rays * sizeof(Ray));
+    carried_ = Buffer(setup.device, "shadow ray radiance", rays * 4 * sizeof(float));
+    occluded_ = Buffer(setup.device, "shadow ray results", rays * sizeof(uint32_t));
     setup.get(direct_).image = Image(setup.device, "direct", frameImageDesc(setup.frame));
     aim_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/direct_shadow_rays/aim.comp"));
     add_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/direct_shadow_rays/add.comp"));
@@ -53,25 +67,29 @@ void DirectShadowRays::record(PassContext& context) {
     CommandStream& stream = context.stream;
     const Frame& frame = context.frame;
     const uint32_t pixels = frame.width * frame.height;
+    const uint32_t batch = batchPixels(frame, gbuffer), perPixel = gbuffer.samples * gbuffer.samples;
+    const uint32_t seed = uint32_t(frame.seed * 0x9e3779b9u) + context.frameIndex * 0x85ebca6bu;
     stream.clear(direct, {});
 
-    // One stream of shadow rays for each light, or for each sample of the emissive surfaces and the
+    // A stream of shadow rays for each light, or for each sample of the emissive surfaces and the
     // environment.
     const auto shadowRays = [&](TargetKind kind, uint32_t light) {
-        const uint32_t seed = uint32_t(frame.seed * 0x9e3779b9u) + context.frameIndex * 0x85ebca6bu;
-        stream.dispatch(aim_,
-                        context.scene.bindings({{"position", gbuffer.position, sampler_},
-                                                {"normal", gbuffer.normal, sampler_},
-                                                {"geometricNormal", gbuffer.geometricNormal, sampler_},
-                                                {"albedo", gbuffer.albedo, sampler_},
-                                                {"rays", rays_},
-                                                {"carried", carried_}}),
-                        AimPush{kind, light, params_.samples, frame.width, frame.height, seed,
-                                context.scene.emitterCount},
-                        pixelGroups(frame.width, frame.height));
-        context.tracer.occluded(stream, rays_, occluded_, pixels);
-        stream.dispatch(add_, {{"carried", carried_}, {"occluded", occluded_}, {"direct", direct}},
-                        AddPush{frame.width, frame.height}, pixelGroups(frame.width, frame.height));
+        for (uint32_t first = 0; first < pixels; first += batch) {
+            const uint32_t count = std::min(batch, pixels - first), rays = count * perPixel;
+            stream.dispatch(aim_,
+                            context.scene.bindings({{"position", gbuffer.position, sampler_},
+                                                    {"normal", gbuffer.normal, sampler_},
+                                                    {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                                                    {"albedo", gbuffer.albedo, sampler_},
+                                                    {"rays", rays_},
+                                                    {"carried", carried_}}),
+                            AimPush{kind, light, params_.samples, frame.width, first, rays, gbuffer.samples,
+                                    seed, context.scene.emitterCount},
+                            linearGroups(rays));
+            context.tracer.occluded(stream, rays_, occluded_, rays);
+            stream.dispatch(add_, {{"carried", carried_}, {"occluded", occluded_}, {"direct", direct}},
+                            AddPush{frame.width, first, count, perPixel}, linearGroups(count));
+        }
     };
     for (uint32_t light = 0; light < context.scene.lightCount; ++light) shadowRays(kPunctual, light);
     for (uint32_t s = 0; s < params_.samples; ++s) {

@@ -4,8 +4,8 @@
 
 namespace voxray {
 
-/// Direct light per pixel by shadow rays through the stream interface: one ray a pixel to each point, spot
-/// and directional light, `samples` rays to the emissive surfaces and to the environment.
+/// Direct light per pixel by shadow rays through the stream interface: one ray for each texel of the g-buffer
+/// to each point, spot and directional light, `samples` rays to the emissive surfaces and to the environment.
 class DirectShadowRays final : public Pass {
  public:
     static constexpr const char* kName = "direct_shadow_rays";
@@ -20,8 +20,9 @@ class DirectShadowRays final : public Pass {
         static constexpr auto schema() {
             return std::tuple{field(
                 "samples", &Params::samples,
-                "Shadow rays a pixel to all emissive surfaces together, and as many to the environment.", 1u,
-                4096u)};
+                "Shadow rays for each g-buffer texel to all emissive surfaces together, and as many to the "
+                "environment.",
+                1u, 4096u)};
         }
     };
 

@@ -1,11 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/scene.glsl"
+#include "passes/gbuffer/visible_surface.glsl"
 
 layout(push_constant, scalar) uniform Push {
     mat4 viewProjection;
-    vec3 cameraPosition;
-    float padding;
+    View view;
 } push;
 
 layout(location = 0) in vec3 position;
@@ -15,6 +14,7 @@ layout(location = 3) in vec4 texCoords;
 layout(location = 4) in vec4 color;
 layout(location = 5) flat in vec3 geometricNormal;
 layout(location = 6) flat in uint material;
+layout(location = 7) flat in uint triangle;
 
 layout(location = 0) out vec4 outPosition;
 layout(location = 1) out vec4 outNormal;
@@ -31,19 +31,12 @@ void main() {
     s.texCoords = texCoords;
     s.color = color;
     s.material = material;
-    const GpuMaterial m = sceneMaterials.data[material];
-    if (alphaCut(m, s)) discard;
+    if (alphaCut(sceneMaterials.data[material], s)) discard;
 
-    // Normals face the camera; the geometric normal decides which side it sees.
-    const vec3 toCamera = push.cameraPosition - position;
-    const bool front = dot(geometricNormal, toCamera) >= 0.0;
-    const vec3 facing = front ? geometricNormal : -geometricNormal;
-    vec3 n = shadingNormal(m, s, 0.0);
-    if (dot(n, facing) < 0.0) n = -n;
-
+    const VisibleSurface visible = visibleSurface(push.view, s, triangle);
     outPosition = vec4(position, 1.0);
-    outNormal = vec4(n, 0.0);
-    outGeometricNormal = vec4(facing, 0.0);
-    outAlbedo = vec4(diffuseAlbedo(m, s, 0.0), 1.0);
-    outEmission = vec4(front || m.doubleSided != 0u ? emission(m, s, 0.0) : vec3(0.0), 0.0);
+    outNormal = vec4(visible.normal, 0.0);
+    outGeometricNormal = vec4(visible.geometricNormal, 0.0);
+    outAlbedo = vec4(visible.albedo, 1.0);
+    outEmission = vec4(visible.emission, 0.0);
 }

@@ -1,11 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "passes/gbuffer/view.glsl"
 #include "shaders/scene.glsl"
 
 layout(push_constant, scalar) uniform Push {
     mat4 viewProjection;
-    vec3 cameraPosition;
-    float padding;
+    View view;
 } push;
 
 layout(location = 0) out vec3 position;
@@ -15,9 +15,11 @@ layout(location = 3) out vec4 texCoords;
 layout(location = 4) out vec4 color;
 layout(location = 5) flat out vec3 geometricNormal;
 layout(location = 6) flat out uint material;
+layout(location = 7) flat out uint triangle;
 
 void main() {
-    const uint triangle = uint(gl_VertexIndex) / 3u, corner = uint(gl_VertexIndex) % 3u;
+    triangle = uint(gl_VertexIndex) / 3u;
+    const uint corner = uint(gl_VertexIndex) % 3u;
     const vec2 barycentrics = vec2(corner == 1u ? 1.0 : 0.0, corner == 2u ? 1.0 : 0.0);
     const SurfacePoint s = surfacePoint(triangle, barycentrics);
     position = s.position;
@@ -28,4 +30,8 @@ void main() {
     geometricNormal = s.geometricNormal;
     material = s.material;
     gl_Position = push.viewProjection * vec4(s.position, 1.0);
+
+    // A face that is turned away meets the face in front of it at the silhouette, at the same depth: it loses by a few
+    // steps of the depth buffer, so that no pixel sees a closed body from inside.
+    if (dot(s.geometricNormal, push.view.origin - s.position) < 0.0) gl_Position.z += 1e-6 * gl_Position.w;
 }

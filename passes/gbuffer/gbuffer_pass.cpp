@@ -1,68 +1,102 @@
 #include "passes/gbuffer/gbuffer_pass.h"
 
+#include <algorithm>
+
 #include "passes/common/camera_matrix.h"
 #include "passes/common/dispatch.h"
 
 namespace voxray {
 namespace {
 
-struct BackgroundPush {
-    glm::vec3 forward;
+constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays and hits to 48 MiB.
+constexpr VkFormat kWide = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr VkFormat kHalf = VK_FORMAT_R16G16B16A16_SFLOAT;
+
+/// As in view.glsl.
+struct View {
+    glm::vec3 origin;
     uint32_t width;
-    glm::vec3 right;
+    glm::vec3 forward;
     uint32_t height;
+    glm::vec3 right;
     glm::vec3 up;
-    float padding = 0;
+};
+
+struct RaysPush {
+    View view;
+    uint32_t firstTexel;
+    uint32_t batchRays;
 };
 
 struct SurfacePush {
     glm::mat4 viewProjection;
-    glm::vec3 cameraPosition;
-    float padding = 0;
+    View view;
 };
 
-ImageDesc target(const Frame& frame, VkFormat format) {
+View viewOf(const Frame& frame, glm::uvec2 extent) {
+    const CameraRays rays = cameraRays(frame.camera, frame.width, frame.height);
+    return {rays.origin, extent.x, rays.forward, extent.y, rays.right, rays.up};
+}
+
+ImageDesc target(glm::uvec2 extent, VkFormat format) {
     ImageDesc desc;
     desc.format = format;
-    desc.extent = {frame.width, frame.height, 1};
+    desc.extent = {extent, 1};
     desc.usage |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     return desc;
 }
 
-ImageDesc depthTarget(const Frame& frame) {
-    ImageDesc desc = target(frame, VK_FORMAT_D32_SFLOAT);
+ImageDesc depthTarget(glm::uvec2 extent) {
+    ImageDesc desc = target(extent, VK_FORMAT_D32_SFLOAT);
     desc.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
     return desc;
 }
 
-constexpr VkFormat kWide = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr VkFormat kHalf = VK_FORMAT_R16G16B16A16_SFLOAT;
+uint64_t batchRays(glm::uvec2 extent) {
+    return std::min<uint64_t>(uint64_t(extent.x) * extent.y, kBatchRays);
+}
 
 }  // namespace
 
 void GBufferPass::declare(PassBuilder& builder) {
-    gbuffer_ = builder.write<GBuffer>("gbuffer", "what the camera sees, per pixel");
+    gbuffer_ = builder.write<GBuffer>("gbuffer", "what the camera sees");
 }
 
 void GBufferPass::plan(PassPlan& plan) {
-    uint64_t bytes = imageBytes(depthTarget(plan.frame));
+    plan.get(gbuffer_).samples = params_.samples;
+    const glm::uvec2 extent = gbufferExtent(plan.frame, params_.samples);
+    uint64_t bytes = 0;
     for (const VkFormat format : {kWide, kHalf, kHalf, kHalf, kWide})
-        bytes += imageBytes(target(plan.frame, format));
+        bytes += imageBytes(target(extent, format));
     plan.reserve("g-buffer images", bytes);
+    if (params_.method == GBufferMethod::Raster)
+        plan.reserve("depth", imageBytes(depthTarget(extent)));
+    else
+        plan.reserve("camera rays", batchRays(extent) * (sizeof(Ray) + sizeof(Hit)));
 }
 
 void GBufferPass::prepare(PassSetup& setup) {
+    const glm::uvec2 extent = gbufferExtent(setup.frame, params_.samples);
     GBuffer& g = setup.get(gbuffer_);
-    g.position = Image(setup.device, "gbuffer position", target(setup.frame, kWide));
-    g.normal = Image(setup.device, "gbuffer normal", target(setup.frame, kHalf));
-    g.geometricNormal = Image(setup.device, "gbuffer geometric normal", target(setup.frame, kHalf));
-    g.albedo = Image(setup.device, "gbuffer albedo", target(setup.frame, kHalf));
-    g.emission = Image(setup.device, "gbuffer emission", target(setup.frame, kWide));
-    g.depth = Image(setup.device, "gbuffer depth", depthTarget(setup.frame));
+    g.position = Image(setup.device, "gbuffer position", target(extent, kWide));
+    g.normal = Image(setup.device, "gbuffer normal", target(extent, kHalf));
+    g.geometricNormal = Image(setup.device, "gbuffer geometric normal", target(extent, kHalf));
+    g.albedo = Image(setup.device, "gbuffer albedo", target(extent, kHalf));
+    g.emission = Image(setup.device, "gbuffer emission", target(extent, kWide));
 
-    background_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/gbuffer/background.comp"));
-    const ShaderModule stages[] = {setup.compiler.compile("passes/gbuffer/gbuffer.vert"),
-                                   setup.compiler.compile("passes/gbuffer/gbuffer.frag")};
+    const auto compile = [&](const char* file) {
+        return setup.compiler.compile(std::string("passes/gbuffer/") + file);
+    };
+    if (params_.method == GBufferMethod::Rays) {
+        rays_ = Buffer(setup.device, "camera rays", batchRays(extent) * sizeof(Ray));
+        hits_ = Buffer(setup.device, "camera ray hits", batchRays(extent) * sizeof(Hit));
+        aim_ = makeComputeProgram(setup.device, compile("aim.comp"));
+        shade_ = makeComputeProgram(setup.device, compile("shade.comp"));
+        return;
+    }
+    depth_ = Image(setup.device, "gbuffer depth", depthTarget(extent));
+    background_ = makeComputeProgram(setup.device, compile("background.comp"));
+    const ShaderModule stages[] = {compile("gbuffer.vert"), compile("gbuffer.frag")};
     RasterState state;
     state.colorFormats = {kWide, kHalf, kHalf, kHalf, kWide};
     state.depthFormat = VK_FORMAT_D32_SFLOAT;
@@ -70,14 +104,42 @@ void GBufferPass::prepare(PassSetup& setup) {
 }
 
 void GBufferPass::record(PassContext& context) {
-    GBuffer& g = context.get(gbuffer_);
+    if (params_.method == GBufferMethod::Rays)
+        trace(context);
+    else
+        rasterize(context);
+}
+
+void GBufferPass::trace(PassContext& context) {
+    const GBuffer& g = context.get(gbuffer_);
+    const glm::uvec2 extent = gbufferExtent(context.frame, params_.samples);
+    const View view = viewOf(context.frame, extent);
+    const uint32_t texels = extent.x * extent.y;
+    for (uint32_t first = 0; first < texels; first += kBatchRays) {
+        const uint32_t batch = std::min(kBatchRays, texels - first);
+        const RaysPush push{view, first, batch};
+        context.stream.dispatch(aim_, {{"rays", rays_}}, push, linearGroups(batch));
+        context.tracer.closestHit(context.stream, rays_, hits_, batch);
+        context.stream.dispatch(shade_,
+                                context.scene.bindings({{"hits", hits_},
+                                                        {"position", g.position},
+                                                        {"normal", g.normal},
+                                                        {"geometricNormal", g.geometricNormal},
+                                                        {"albedo", g.albedo},
+                                                        {"emitted", g.emission}}),
+                                push, linearGroups(batch));
+    }
+}
+
+void GBufferPass::rasterize(PassContext& context) {
+    const GBuffer& g = context.get(gbuffer_);
     const Frame& frame = context.frame;
+    const glm::uvec2 extent = gbufferExtent(frame, params_.samples);
+    const View view = viewOf(frame, extent);
 
     // The environment behind everything.
-    const CameraRays rays = cameraRays(frame.camera, frame.width, frame.height);
-    context.stream.dispatch(background_, context.scene.bindings({{"background", g.emission}}),
-                            BackgroundPush{rays.forward, frame.width, rays.right, frame.height, rays.up},
-                            pixelGroups(frame.width, frame.height));
+    context.stream.dispatch(background_, context.scene.bindings({{"background", g.emission}}), view,
+                            pixelGroups(extent.x, extent.y));
 
     // All triangles over it, with depth test.
     const Geometry& geometry = frame.scene->geometry;
@@ -88,11 +150,11 @@ void GBufferPass::record(PassContext& context) {
                       {&g.geometricNormal, zero},
                       {&g.albedo, zero},
                       {&g.emission, {}}};
-    targets.depth = &g.depth;
-    targets.extent = {frame.width, frame.height, 1};
+    targets.depth = &depth_;
+    targets.extent = {extent, 1};
     const SurfacePush push{
         viewProjection(frame.camera, frame.width, frame.height, geometry.boundsMin, geometry.boundsMax),
-        frame.camera.position};
+        view};
     context.stream.draw(surfaces_, context.scene.bindings({}), push, targets,
                         context.scene.triangleCount * 3);
 }

@@ -56,6 +56,15 @@ class Chain {
         return stream_.readAs<T>(buffer, buffer.bytes() / sizeof(T));
     }
 
+    /// Texels of an image as its format packs them.
+    template <typename T>
+    std::vector<T> readImage(const Image& image) {
+        const size_t texels = size_t(image.desc().extent.x) * image.desc().extent.y;
+        const Buffer buffer(device(), image.name() + " readback", texels * sizeof(T), MemoryKind::Readback);
+        stream_.copy(image, buffer);
+        return stream_.readAs<T>(buffer, texels);
+    }
+
     std::vector<uint64_t> predictedBytes;
     std::vector<PassSample> buildSamples, frameSamples;
 

@@ -35,6 +35,31 @@ TEST_F(VulkanCompute, DispatchWritesABuffer) {
     EXPECT_EQ(result[kCount - 1], 7u);
 }
 
+TEST_F(VulkanCompute, DiscardedCommandsLeaveNoTrace) {
+    const Program program = computeProgram("vulkan_scale.comp");
+    const Buffer source(device(), "source", kCount * 4), target(device(), "target", kCount * 4);
+    CommandStream stream(device());
+    stream.fill(source, 3);
+    stream.fill(target, 7);
+    stream.finish();
+
+    // An error in the middle of a pass: its resources go, the commands that name them stay.
+    {
+        const Buffer gone(device(), "gone", kCount * 4);
+        stream.beginLabel("failing pass");
+        stream.timestamp();
+        stream.upload(source, std::vector<uint32_t>(kCount, 100));
+        stream.dispatch(program, {{"source", gone}, {"Target", target}}, Push{kCount, 0}, {16, 1, 1});
+    }
+    stream.discard();
+    EXPECT_EQ(stream.readAs<uint32_t>(target, kCount), std::vector<uint32_t>(kCount, 7));
+
+    stream.beginLabel("next pass");
+    stream.dispatch(program, {{"source", source}, {"Target", target}}, Push{kCount, 5}, {16, 1, 1});
+    stream.endLabel();
+    EXPECT_EQ(stream.readAs<uint32_t>(target, kCount), std::vector<uint32_t>(kCount, 8));
+}
+
 TEST_F(VulkanCompute, DefinesAndSpecializationConstantsReachTheShader) {
     const Program program = computeProgram("vulkan_scale.comp", {{"OFFSET", "100"}}, {{0, 3}});
     const std::vector<uint32_t> result = run(program, {kCount, 0});

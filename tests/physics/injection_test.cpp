@@ -110,6 +110,41 @@ TEST(DirectVoxels, ApproachShadowRaysAsVoxelsShrink) {
     EXPECT_LT(fine, 0.05);
 }
 
+TEST(VoxelLookup, SevenTapKeepsAConstantAndBlursAnEdge) {
+    const auto direct = [](const std::string& scene, const std::string& parameters,
+                           const std::string& lookup) {
+        Chain chain(scene, parameters,
+                    "[{pass: gbuffer}, {pass: voxelize, resolution: 16, samples: 4}, "
+                    "{pass: inject_light_rays, rays_per_light: 1048576, bounces: 0}, "
+                    "{pass: direct_voxels, lookup: " +
+                        lookup + "}]",
+                    48, 48);
+        return chain.image("direct");
+    };
+
+    // Emissive walls of albedo 0.6 and radiance 1 reflect 0.6 of it, but for noise where few samples fall.
+    const std::string furnace = "{shape: box, albedo: 0.6, emission: 1}";
+    for (const std::string lookup : {"trilinear", "seven_tap"}) {
+        double worst = 0;
+        for (const float value : direct("furnace", furnace, lookup).data)
+            worst = std::max(worst, std::abs(value - 0.6) / 0.6);
+        EXPECT_LT(worst, 0.15) << lookup;
+    }
+
+    // Shadow edges: the steepest step between neighbours falls.
+    const auto steepest = [](const ImageF& image) {
+        float step = 0;
+        for (uint32_t y = 0; y < image.height; ++y)
+            for (uint32_t x = 1; x < image.width; ++x)
+                step = std::max(step, std::abs(image.pixel(x, y)[1] - image.pixel(x - 1, y)[1]));
+        return step;
+    };
+    const ImageF sharp = direct("plane", "{light: spot}", "trilinear");
+    const ImageF blurred = direct("plane", "{light: spot}", "seven_tap");
+    EXPECT_LT(steepest(blurred), 0.9f * steepest(sharp));
+    EXPECT_NEAR(mean(blurred) / mean(sharp), 1.0, 0.05);
+}
+
 TEST(Chain, CornellIndirectMatchesTheReference) {
     Chain chain("cornell", "{lights: point}",
                 "[{pass: gbuffer}, {pass: voxelize, resolution: 64}, "

@@ -38,7 +38,7 @@ class Constant : public Pass {
         static constexpr auto schema() {
             return std::tuple{field("value", &Params::value, "Radiance.", 0.0f, 100.0f),
                               field("nan", &Params::nan, "Write NaN instead."),
-                              field("fail", &Params::fail, "Throw."),
+                              field("fail", &Params::fail, "Throw with commands recorded."),
                               field("interrupt", &Params::interrupt, "Raise SIGINT."),
                               field("megabytes", &Params::megabytes, "Memory to ask for.", 0u, 1u << 20)};
         }
@@ -58,11 +58,11 @@ class Constant : public Pass {
     }
     void record(PassContext& context) override {
         ++runs;
-        if (params_.fail) throw Error("the pass gave up");
         if (params_.interrupt) std::raise(SIGINT);
         const float value = params_.nan ? std::numeric_limits<float>::quiet_NaN() : params_.value;
         context.stream.clear(context.get(final_).image, {{value, value, value, 1}});
         context.stream.clear(context.get(indirect_).image, {{value / 2, value / 2, value / 2, 1}});
+        if (params_.fail) throw Error("the pass gave up");
         context.extraRays = 10;
     }
 

@@ -43,6 +43,11 @@ TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
                 {"x.yaml:6: ", "did you mean 'value'?"});
     expectError("graph:\n  - {pass: constant}\nsweep:\n  constant: [constant, constnat]\n",
                 {"x.yaml:6: ", "did you mean 'constant'?"});
+    expectError("graph:\n  - {pass: constnat}\nsweep:\n  constant.value: [1]\n",
+                {"x.yaml:4: ", "unknown pass 'constnat'", "did you mean 'constant'?"});
+    expectError(
+        "graph:\n  - {pass: constant, id: c}\nsweep:\n  c: [constant, {pass: constnat}]\n  c.value: [1]\n",
+        {"x.yaml:6: ", "unknown pass 'constnat'", "did you mean 'constant'?"});
     expectError("graph:\n  - {pass: constant}\nreference: {pass: truth, ssp: 3}\n",
                 {"x.yaml:5: ", "did you mean 'spp'?"});
     expectError("graph:\n  - {pass: constant}\nreference: {pass: constant}\n",

@@ -1,0 +1,43 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What a batch of camera rays met, into the g-buffer's images.
+#include "passes/gbuffer/visible_surface.glsl"
+#include "shaders/linear_index.glsl"
+#include "shaders/shared/ray_types.h"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16, scalar) readonly buffer Hits { Hit data[]; } hits;
+layout(set = 0, binding = 17, rgba32f) writeonly uniform image2D position;
+layout(set = 0, binding = 18, rgba16f) writeonly uniform image2D normal;
+layout(set = 0, binding = 19, rgba16f) writeonly uniform image2D geometricNormal;
+layout(set = 0, binding = 20, rgba16f) writeonly uniform image2D albedo;
+layout(set = 0, binding = 21, rgba32f) writeonly uniform image2D emitted;
+layout(push_constant, scalar) uniform Push {
+    View view;
+    uint firstTexel;
+    uint batchRays;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.batchRays) return;
+    const uint index = push.firstTexel + i;
+    const ivec2 texel = ivec2(index % push.view.width, index / push.view.width);
+    const Hit hit = hits.data[i];
+
+    // Nothing met: the environment.
+    vec4 point = vec4(0.0);
+    VisibleSurface visible = VisibleSurface(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    if (hit.triangle == NO_HIT) {
+        visible.emission = environmentRadiance(viewDirection(push.view, uvec2(texel)));
+    } else {
+        const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
+        point = vec4(s.position, 1.0);
+        visible = visibleSurface(push.view, s, hit.triangle);
+    }
+    imageStore(position, texel, point);
+    imageStore(normal, texel, vec4(visible.normal, 0.0));
+    imageStore(geometricNormal, texel, vec4(visible.geometricNormal, 0.0));
+    imageStore(albedo, texel, vec4(visible.albedo, point.w));
+    imageStore(emitted, texel, vec4(visible.emission, 0.0));
+}

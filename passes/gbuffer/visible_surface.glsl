@@ -1,0 +1,35 @@
+// What a g-buffer keeps of a point that the camera sees, however the point was found.
+#include "passes/gbuffer/view.glsl"
+#include "shaders/footprint.glsl"
+
+struct VisibleSurface {
+    vec3 normal;           // Shading normal, on the camera's side.
+    vec3 geometricNormal;  // Likewise.
+    vec3 albedo;
+    vec3 emission;
+};
+
+VisibleSurface visibleSurface(View view, SurfacePoint s, uint triangle) {
+    const GpuMaterial m = sceneMaterials.data[s.material];
+    const vec3 away = s.position - view.origin;
+    const float distance_ = max(length(away), 1e-20);
+    const vec3 direction = away / distance_;
+
+    // Normals face the camera; the geometric normal decides which side it sees. A sliver without one faces it squarely.
+    const float cosine = -dot(s.geometricNormal, direction);
+    const bool front = cosine >= 0.0;
+    VisibleSurface visible;
+    visible.geometricNormal = front ? s.geometricNormal : -s.geometricNormal;
+    if (dot(s.geometricNormal, s.geometricNormal) == 0.0) visible.geometricNormal = -direction;
+
+    // Textures at the mip level of the texel's footprint on the surface.
+    const float area = texelSolidAngle(view, direction) * distance_ * distance_ / max(abs(cosine), 1e-4);
+    visible.normal = shadingNormal(m, s, footprintLevel(m.normalTexture, triangle, area));
+    if (dot(visible.normal, visible.normal) == 0.0) visible.normal = visible.geometricNormal;
+    if (dot(visible.normal, visible.geometricNormal) < 0.0) visible.normal = -visible.normal;
+    visible.albedo = diffuseAlbedo(m, s, footprintLevel(m.baseColorTexture, triangle, area));
+    visible.emission = front || m.doubleSided != 0u
+                           ? emission(m, s, footprintLevel(m.emissiveTexture, triangle, area))
+                           : vec3(0.0);
+    return visible;
+}

@@ -1,0 +1,144 @@
+// The g-buffer: rays and raster see the same, and sub-pixels bring edges to the path tracer's pixel means.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+
+#include "image/metrics.h"
+#include "passes/common/gbuffer.h"
+#include "scene/shapes.h"
+#include "tests/gpu/chain.h"
+
+namespace voxray::test {
+namespace {
+
+const GBuffer& gbuffer(const Chain& chain) {
+    return *chain.graph().resource<GBuffer>("gbuffer");
+}
+
+std::vector<glm::vec3> texels(Chain& chain, const Image& image) {
+    std::vector<glm::vec3> out;
+    if (image.desc().format == VK_FORMAT_R16G16B16A16_SFLOAT)
+        for (const uint64_t packed : chain.readImage<uint64_t>(image))
+            out.push_back(glm::unpackHalf4x16(packed));
+    else
+        for (const glm::vec4& texel : chain.readImage<glm::vec4>(image)) out.push_back(texel);
+    return out;
+}
+
+// Whether one surface fills a pixel and its neighbours: their normals agree.
+bool isSmooth(const std::vector<glm::vec3>& normals, int x, int y, int width, int height) {
+    const glm::vec3 own = normals[size_t(y * width + x)];
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u)
+            if (glm::dot(own, normals[size_t(v * width + u)]) < 0.9f) return false;
+    return true;
+}
+
+void expectSameView(const std::string& scene, const std::string& parameters, float sceneSize) {
+    constexpr int kWidth = 96, kHeight = 64;
+    Chain rays(scene, parameters, "[{pass: gbuffer, method: rays}]", kWidth, kHeight);
+    Chain raster(scene, parameters, "[{pass: gbuffer, method: raster}]", kWidth, kHeight);
+    const GBuffer &a = gbuffer(rays), &b = gbuffer(raster);
+    const auto normalA = texels(rays, a.geometricNormal), normalB = texels(raster, b.geometricNormal);
+    const auto shadingA = texels(rays, a.normal), shadingB = texels(raster, b.normal);
+    const auto positionA = texels(rays, a.position), positionB = texels(raster, b.position);
+    const auto albedoA = texels(rays, a.albedo), albedoB = texels(raster, b.albedo);
+    const auto emissionA = texels(rays, a.emission), emissionB = texels(raster, b.emission);
+    int smooth = 0;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const auto i = size_t(y * kWidth + x);
+
+            // Silhouettes may differ by which side of an edge a sample falls on, but no pixel sees a
+            // surface's back.
+            if (!isSmooth(normalA, x, y, kWidth, kHeight)) continue;
+            ++smooth;
+            ASSERT_LT(glm::length(positionA[i] - positionB[i]), 1e-3f * sceneSize)
+                << scene << " " << x << " " << y;
+            ASSERT_LT(glm::length(normalA[i] - normalB[i]), 2e-3f) << scene << " " << x << " " << y;
+            ASSERT_LT(glm::length(shadingA[i] - shadingB[i]), 5e-3f) << scene << " " << x << " " << y;
+            ASSERT_LT(glm::length(albedoA[i] - albedoB[i]), 2e-3f) << scene << " " << x << " " << y;
+            ASSERT_LT(glm::length(emissionA[i] - emissionB[i]), 1e-3f) << scene << " " << x << " " << y;
+        }
+    EXPECT_GT(smooth, kWidth * kHeight / 4) << scene;
+}
+
+TEST(GBuffer, RaysAndRasterSeeTheSame) {
+    expectSameView("cornell", "{lights: area}", 2.0f);
+    expectSameView("spheres", "{}", 10.0f);
+}
+
+TEST(GBuffer, NoTexelSeesABodyFromInside) {
+    // A box glows outwards only; where it is seen at all, it glows, silhouettes included.
+    for (const std::string method : {"rays", "raster"}) {
+        int seen = 0, dark = 0;
+        for (int turn = 0; turn < 6; ++turn) {
+            SceneBuilder builder("box");
+            const uint32_t glowing = builder.lambert("glowing", glm::vec3(0.5f), glm::vec3(1.0f));
+            builder.box("box", {0, 0, 0}, {1, 1, 1}, 0.1f + 0.25f * float(turn), glowing);
+            builder.camera({0, 2, 4}, {0, 0.5f, 0}, 25);
+            Chain chain(std::make_shared<SceneState>(evaluate(builder.finish(), 0.0)),
+                        "[{pass: gbuffer, samples: 4, method: " + method + "}]", 96, 96, 1);
+            const auto emission = texels(chain, gbuffer(chain).emission);
+            const auto positions = chain.readImage<glm::vec4>(gbuffer(chain).position);
+            for (size_t i = 0; i < positions.size(); ++i) {
+                seen += positions[i].w > 0;
+                dark += positions[i].w > 0 && emission[i].x == 0;
+            }
+        }
+        EXPECT_GT(seen, 100000) << method;
+        EXPECT_EQ(dark, 0) << method;
+    }
+}
+
+// A square of 1 m with a texture of columns, black and white in turn.
+std::shared_ptr<const SceneState> stripes(uint32_t columns, const glm::vec3& eye) {
+    SceneBuilder builder("stripes");
+    Scene& scene = builder.scene();
+    Texture texture{"stripes", columns, columns, {}, false, Wrap::Repeat, Wrap::Repeat};
+    for (uint32_t i = 0; i < columns * columns; ++i)
+        for (int c = 0; c < 4; ++c) texture.rgba.push_back(c == 3 || i % 2 ? 255 : 0);
+    scene.textures.push_back(texture);
+    builder.quad("square", {-0.5f, -0.5f, 0}, {1, 0, 0}, {0, 1, 0}, builder.lambert("stripes", glm::vec3(1)));
+    scene.meshes.back().texCoords0 = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    scene.materials.back().baseColorTexture.texture = 0;
+    builder.camera(eye, {0, 0, 0}, 30);
+    return std::make_shared<SceneState>(evaluate(builder.finish(), 0.0));
+}
+
+TEST(GBuffer, TexturesAreSeenAtTheFootprintOfAPixel) {
+    // 32 pixels over about 0.54 m: 1024 columns on a metre are 17 a pixel and blur to grey, 16 stay black and
+    // white.
+    const std::string graph = "[{pass: gbuffer, method: ";
+    for (const std::string method : {"rays", "raster"}) {
+        Chain fine(stripes(1024, {0, 0, 1}), graph + method + "}]", 32, 32, 1);
+        for (const glm::vec3& albedo : texels(fine, gbuffer(fine).albedo)) EXPECT_NEAR(albedo.x, 0.5f, 0.01f);
+        Chain coarse(stripes(16, {0, 0, 1}), graph + method + "}]", 32, 32, 1);
+        const auto albedos = texels(coarse, gbuffer(coarse).albedo);
+        const auto [low, high] = std::minmax_element(
+            albedos.begin(), albedos.end(), [](const glm::vec3& a, const glm::vec3& b) { return a.x < b.x; });
+        EXPECT_LT(low->x, 0.05f);
+        EXPECT_GT(high->x, 0.95f);
+    }
+}
+
+TEST(GBuffer, SubPixelsApproachPixelMeans) {
+    const auto direct = [](const std::string& samples, const std::string& method) {
+        Chain chain("cornell", "{lights: point}",
+                    "[{pass: gbuffer, samples: " + samples + ", method: " + method +
+                        "}, {pass: direct_shadow_rays}, {pass: composite}]",
+                    48, 48);
+        return chain.image("final");
+    };
+    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 256, bounces: 0}]", 48, 48);
+    const ImageF truth = reference.image("final");
+    const ImageF one = direct("1", "rays"), four = direct("4", "rays"), raster = direct("4", "raster");
+    EXPECT_LT(nRmse(four, truth), 0.15 * nRmse(one, truth));
+    EXPECT_NEAR(mean(four) / mean(truth), 1.0, 0.005);
+    EXPECT_LT(nRmse(raster, truth), 0.15 * nRmse(one, truth));
+}
+
+}  // namespace
+}  // namespace voxray::test
