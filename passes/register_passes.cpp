@@ -6,6 +6,7 @@
 #include "passes/gather_irradiance/gather_irradiance.h"
 #include "passes/gbuffer/gbuffer_pass.h"
 #include "passes/inject_light_rays/inject_light_rays.h"
+#include "passes/inject_rsm/inject_rsm.h"
 #include "passes/path_trace/path_trace_pass.h"
 #include "passes/voxelize/voxelize_pass.h"
 
@@ -15,6 +16,7 @@ void registerPasses(Registry& registry) {
     registry.add<GBufferPass>();
     registry.add<VoxelizePass>();
     registry.add<InjectLightRays>();
+    registry.add<InjectRsm>();
     registry.add<GatherIrradiance>();
     registry.add<DirectShadowRays>();
     registry.add<DirectVoxels>();
