@@ -1,5 +1,7 @@
 #include "passes/common/light_paths.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "passes/common/dispatch.h"
 #include "shaders/shared/light_path.h"
@@ -164,7 +166,14 @@ void LightPaths::finish(PassContext& context, const SurfaceVoxels& voxels,
         resolve(1, irradiance.indirect);
     else
         stream.fill(irradiance.indirect, 0);
-    stream.finish();
+
+    const std::vector<float> direct = stream.readAs<float>(irradiance.direct, fluxBytes / sizeof(float));
+    if (std::ranges::none_of(direct, [](float watts) { return watts > 0; }))
+        throw Error(
+            "no light falls on any voxel: either the lights shine past the scene, or all that they reach has "
+            "another surface within one voxel ({:.3g} m); raise voxelize's 'resolution' or set its "
+            "'exposure_rays: 0'",
+            voxels.grid.voxelSize);
 }
 
 }  // namespace voxray

@@ -62,7 +62,7 @@ class LightPaths {
         bool hitsKnown = false;
     };
     void follow(PassContext& context, const SurfaceVoxels& voxels, const Batch& batch);
-    /// Allocates and fills the result.
+    /// Allocates and fills the result. @throws Error where no light fell on any voxel.
     void finish(PassContext& context, const SurfaceVoxels& voxels, VoxelIrradiance& irradiance) const;
 
     const Buffer& rays() const { return rays_; }    ///< Ray each.

@@ -1,0 +1,214 @@
+// Paths of light, from rays and from shadow maps, by write mode and kind of bounce, against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "passes/common/voxels.h"
+#include "tests/gpu/chain.h"
+
+namespace voxray::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// What a graph of one injection left in the voxels, green channel.
+struct Lit {
+    Lit(const std::string& scene, const std::string& parameters, const std::string& voxelize,
+        const std::string& inject)
+        : chain(scene, parameters, "[{pass: voxelize, " + voxelize + "}, {" + inject + "}]") {
+        take();
+    }
+    Lit(std::shared_ptr<const SceneState> state, const std::string& voxelize, const std::string& inject)
+        : chain(std::move(state), "[{pass: voxelize, " + voxelize + "}, {" + inject + "}]", 32, 32, 1) {
+        take();
+    }
+    void take() {
+        voxels = chain.graph().resource<SurfaceVoxels>("voxels");
+        const auto* irradiance = chain.graph().resource<VoxelIrradiance>("irradiance");
+        direct = green(irradiance->direct);
+        indirect = green(irradiance->indirect);
+        area = chain.read<float>(irradiance->area);
+    }
+    std::vector<double> green(const Buffer& flux) {
+        const std::vector<float> values = chain.read<float>(flux);
+        std::vector<double> out(values.size() / 3);
+        for (size_t i = 0; i < out.size(); ++i) out[i] = values[3 * i + 1];
+        return out;
+    }
+    /// The face (index into direct, indirect and area) of the voxel round a point.
+    size_t face(glm::vec3 position, size_t direction) {
+        const gpu::VoxelGrid& g = voxels->grid;
+        const glm::uvec3 v((position - g.origin) / g.voxelSize);
+        const uint32_t word = (v.z * g.resolution.y + v.y) * g.wordsPerRow + v.x / 32, bit = 1u << (v.x % 32);
+        const uint32_t bits = chain.read<uint32_t>(voxels->occupancy)[word];
+        EXPECT_TRUE(bits & bit);
+        const uint32_t before = chain.read<uint32_t>(voxels->rank)[word];
+        return size_t(before + uint32_t(std::popcount(bits & (bit - 1)))) * 6 + direction;
+    }
+    /// W/m²
+    double mean(const std::vector<double>& flux, size_t at) const {
+        return flux[at] / (area[at] * voxels->grid.voxelSize * voxels->grid.voxelSize);
+    }
+    Chain chain;
+    const SurfaceVoxels* voxels = nullptr;
+    std::vector<double> direct, indirect;
+    std::vector<float> area;
+};
+
+double sum(const std::vector<double>& values) {
+    double total = 0;
+    for (const double value : values) total += value;
+    return total;
+}
+
+/// Mean difference of two fields over their mean.
+double difference(const std::vector<double>& a, const std::vector<double>& b) {
+    double total = 0;
+    for (size_t i = 0; i < a.size(); ++i) total += std::abs(a[i] - b[i]);
+    return total / sum(b);
+}
+
+std::string messageOf(const std::string& scene, const std::string& parameters, const std::string& inject) {
+    try {
+        Lit(scene, parameters, "resolution: 8", inject);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(LightPaths, MirrorBouncesSumToTheGeometricSeries) {
+    // A closed room keeps all light: each bounce leaves the albedo's part of it, whichever way it goes.
+    Lit lit("white_room", "{albedo: 0.5, intensity: 2}", "resolution: 24",
+            "pass: inject_light_rays, rays_per_light: 65536, secondary: mirror, bounces: 3");
+    EXPECT_NEAR(sum(lit.indirect) / (4 * kPi * 2 * (0.5 + 0.25 + 0.125)), 1.0, 1e-3);
+}
+
+TEST(LightPaths, WithoutSecondaryRaysThereIsDirectLightOnly) {
+    Lit lit("white_room", "{intensity: 2}", "resolution: 16",
+            "pass: inject_light_rays, rays_per_light: 16384, secondary: none, bounces: 3");
+    EXPECT_NEAR(sum(lit.direct) / (4 * kPi * 2), 1.0, 1e-3);
+    EXPECT_EQ(sum(lit.indirect), 0.0);
+}
+
+TEST(LightPaths, EveryWriteGivesTheClosedFormBeforeAWall) {
+    // A point light of 2 W/sr at 1 m from each wall of a room: 2 W/m² in the wall's middle.
+    for (const std::string write : {"average", "max", "moving_average, white: 4", "none"}) {
+        Lit lit("white_room", "{intensity: 2}", "resolution: 25",
+                "pass: inject_light_rays, rays_per_light: 1048576, secondary: none, write: " + write);
+        const double middle = lit.mean(lit.direct, lit.face({0.999f, 0, 0}, 1));
+        EXPECT_NEAR(middle, 2.0, write == "none" ? 0.2 : 0.05) << write;
+    }
+}
+
+TEST(LightPaths, BeamsWidenOverMirrorBounces) {
+    // One mirror bounce in a room of albedo 0.5: the light's image behind the far wall is 3 m from a wall's
+    // middle, its four images beside it are further off the normal; the largest is 0.5 * 2 / 9 W/m².
+    Lit lit("white_room", "{albedo: 0.5, intensity: 2}", "resolution: 25",
+            "pass: inject_light_rays, rays_per_light: 1048576, secondary: mirror, bounces: 1, write: max");
+    EXPECT_NEAR(lit.mean(lit.indirect, lit.face({0, -0.999f, 0}, 2)), 1.0 / 9, 0.02 / 9);
+}
+
+TEST(LightPaths, MaxIsTheIrradianceAtTheNearestPoint) {
+    // Over the plane, 1 m below the light: 1 / d³ at the point of each voxel that is nearest to the light.
+    const std::string inject = "pass: inject_light_rays, rays_per_light: 1048576, secondary: none, write: ";
+    Lit average("plane", "{}", "resolution: 24, samples: 4", inject + "average");
+    Lit max("plane", "{}", "resolution: 24, samples: 4", inject + "max");
+    const float half = 0.5f * max.voxels->grid.voxelSize;
+    double expected = 0;
+    for (int x = 0; x < 24; ++x)
+        for (int z = 0; z < 24; ++z) {
+            const glm::vec2 centre = (glm::vec2(x, z) - 11.5f) * (2 * half);
+            const glm::vec2 nearest = glm::max(glm::abs(centre) - half, glm::vec2(0.0f));
+            const size_t face = max.face({centre.x, 0, centre.y}, 2);
+            expected +=
+                std::pow(1 + double(glm::dot(nearest, nearest)), -1.5) * max.area[face] * 4 * half * half;
+        }
+    EXPECT_NEAR(sum(max.direct) / expected, 1.0, 0.02);
+    EXPECT_LT(sum(average.direct), 0.9 * expected);
+}
+
+TEST(LightPaths, LightOutsideTheGridShinesIntoIt) {
+    // The grid holds the ground alone, 10 m square; the light hangs 1 m above, and sends it I * solid angle.
+    for (const std::string pass : {"inject_light_rays", "inject_rsm"}) {
+        Lit lit("plane", "{intensity: 3}", "resolution: 16", "pass: " + pass + ", secondary: none");
+        EXPECT_NEAR(sum(lit.direct) / (3 * 4 * std::asin(25.0 / 26)), 1.0, 0.005) << pass;
+    }
+}
+
+TEST(LightPaths, ScenesWithoutLightsAreRefused) {
+    for (const std::string pass : {"inject_light_rays", "inject_rsm"})
+        EXPECT_NE(messageOf("white_room", "{intensity: 0}", "pass: " + pass)
+                      .find(pass + ": the scene has no lights"),
+                  std::string::npos);
+}
+
+TEST(LightPaths, OneVoxelIsRefusedUnlessExposureIsOff) {
+    try {
+        Lit("white_room", "{}", "resolution: 1", "pass: inject_light_rays, rays_per_light: 4096");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("exposure_rays"), std::string::npos) << error.what();
+    }
+    Lit lit("white_room", "{}", "resolution: 1, exposure_rays: 0",
+            "pass: inject_light_rays, rays_per_light: 4096, secondary: none");
+    EXPECT_NEAR(sum(lit.direct) / (4 * kPi), 1.0, 1e-3);
+}
+
+TEST(LightPaths, WhatHasNoIrradianceIsRefused) {
+    const std::string max = "pass: inject_light_rays, write: max";
+    EXPECT_NE(messageOf("white_room", "{}", max).find("diffusely"), std::string::npos);
+    EXPECT_NE(messageOf("furnace", "{}", max + ", secondary: none").find("emissive surface"),
+              std::string::npos);
+    EXPECT_NE(
+        messageOf("white_room", "{}", "pass: inject_light_rays, rays_per_light: 0").find("out of range"),
+        std::string::npos);
+}
+
+TEST(InjectRsm, ClosedRoomCatchesAllLight) {
+    Lit lit("white_room", "{albedo: 0.5, intensity: 2}", "resolution: 24",
+            "pass: inject_rsm, resolution: 128, bounces: 2");
+    EXPECT_NEAR(sum(lit.direct) / (4 * kPi * 2), 1.0, 0.005);
+    EXPECT_NEAR(sum(lit.indirect) / (4 * kPi * 2 * 0.75), 1.0, 0.01);
+}
+
+TEST(InjectRsm, AgreesWithLightRays) {
+    // Totals agree closely; voxel by voxel some twenty rows of texels, one more or less, make the difference.
+    for (const std::string light : {"point", "spot", "directional"}) {
+        const std::string scene = "{light: " + light + "}";
+        Lit rsm("plane", scene, "resolution: 32", "pass: inject_rsm, secondary: none, resolution: 1024");
+        Lit rays("plane", scene, "resolution: 32",
+                 "pass: inject_light_rays, secondary: none, rays_per_light: 1048576");
+        EXPECT_NEAR(sum(rsm.direct) / sum(rays.direct), 1.0, 0.005) << light;
+        EXPECT_LT(difference(rsm.direct, rays.direct), 0.03) << light;
+    }
+    Lit rsm("cornell", "{lights: point}", "resolution: 16", "pass: inject_rsm, resolution: 256, bounces: 3");
+    Lit rays("cornell", "{lights: point}", "resolution: 16",
+             "pass: inject_light_rays, rays_per_light: 524288, bounces: 3");
+    EXPECT_NEAR(sum(rsm.direct) / sum(rays.direct), 1.0, 0.005);
+    EXPECT_NEAR(sum(rsm.indirect) / sum(rays.indirect), 1.0, 0.01);
+    EXPECT_LT(difference(rsm.direct, rays.direct), 0.03);
+    EXPECT_LT(difference(rsm.indirect, rays.indirect), 0.1);  // Noise of the bounces.
+}
+
+TEST(InjectRsm, WideSpotsTakeTheCube) {
+    // From the middle of a room, a uniform cone of 80°: 2 pi (1 - cos 80°) I.
+    SceneState state = evaluate(makeBuiltinScene("white_room", parseYaml("{}", "scene")), 0.0);
+    Light& light = state.lights.at(0);
+    light.type = LightType::Spot;
+    light.direction = glm::normalize(glm::vec3(1, 2, 0.5f));
+    light.outerConeAngle = float(80 * kPi / 180);
+    light.innerConeAngle = light.outerConeAngle - 0.01f;
+    Lit lit(std::make_shared<SceneState>(state), "resolution: 16", "pass: inject_rsm, secondary: none");
+    EXPECT_NEAR(sum(lit.direct) / (2 * kPi * (1 - std::cos(light.outerConeAngle - 0.005))), 1.0, 0.005);
+}
+
+TEST(InjectRsm, LightsWithoutAViewpointAreRefused) {
+    EXPECT_NE(
+        messageOf("cornell", "{lights: area}", "pass: inject_rsm").find("emissive surfaces have no single"),
+        std::string::npos);
+}
+
+}  // namespace
+}  // namespace voxray::test
