@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Turns the fixed-point sums of voxelize.frag into area-weighted averages.
+// Turns the fixed-point sums of voxel_sums.glsl into area-weighted averages.
+#include "passes/voxelize/sums_layout.h"
 #include "shaders/linear_index.glsl"
 #include "shaders/shared/voxel_types.h"
 layout(local_size_x = 64) in;
@@ -17,15 +18,16 @@ layout(push_constant) uniform Push {
 
 vec3 unsignedSum(uint at) { return vec3(sums.data[at], sums.data[at + 1u], sums.data[at + 2u]); }
 vec3 signedSum(uint at) { return vec3(int(sums.data[at]), int(sums.data[at + 1u]), int(sums.data[at + 2u])); }
+float coverage(uint mask) { return float(bitCount(mask)) / 16.0; }
 
 void main() {
     const uint voxel = linearIndex();
     if (voxel >= push.voxelCount) return;
-    const uint at = voxel * 13u;
-    const float weight = max(float(sums.data[at]), 1.0);
+    const uint at = voxel * SUMS_PER_VOXEL;
+    const float weight = max(float(sums.data[at + SUM_AREA]), 1.0);
     VoxelMaterial m;
-    m.area = float(sums.data[at]) / 65536.0;
-    const vec3 axisArea = unsignedSum(at + 1u) / 65536.0;
+    m.area = float(sums.data[at + SUM_AREA]) / UNITS_PER_FACE;
+    const vec3 axisArea = unsignedSum(at + SUM_AXIS_AREA) / UNITS_PER_FACE;
     for (int axis = 0; axis < 3; ++axis) {
         // A voxel that no point fell into counts as exposed on both sides.
         const float all = float(probes.data[voxel * 9u + 6u + axis]);
@@ -34,14 +36,13 @@ void main() {
         m.exposedPositive[axis] = axisArea[axis] * positive;
         m.exposedNegative[axis] = axisArea[axis] * negative;
     }
-    m.normal = signedSum(at + 4u) / weight;
-    m.albedo = unsignedSum(at + 7u) / weight;
-    m.emission = unsignedSum(at + 10u) / weight * push.largestEmission;
-    // A flat piece of area A with normal n covers |n_a| A of the voxel's face across axis a, and A n_a² * A is that squared.
-    const vec3 covered = sqrt(axisArea * m.area);
-    m.opacity = min(1.0, max(covered.x, max(covered.y, covered.z)));
+    m.normal = signedSum(at + SUM_NORMAL) / weight;
+    m.albedo = unsignedSum(at + SUM_ALBEDO) / weight;
+    m.emission = unsignedSum(at + SUM_EMISSION) / weight * push.largestEmission;
+    m.metallic = float(sums.data[at + SUM_METALLIC]) / weight;
+    m.roughness = float(sums.data[at + SUM_ROUGHNESS]) / weight;
+    const uint covered = at + SUM_COVERED;
+    m.opacity = max(coverage(sums.data[covered]), max(coverage(sums.data[covered + 1u]), coverage(sums.data[covered + 2u])));
     m.reserved = 0.0;
-    m.reserved2 = 0.0;
-    m.reserved3 = 0.0;
     materials.data[voxel] = m;
 }

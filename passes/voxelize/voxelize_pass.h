@@ -5,34 +5,52 @@
 #include "passes/common/prefix_sum.h"
 #include "passes/common/voxels.h"
 #include "passes/voxelize/exposure_probe.h"
+#include "passes/voxelize/voxelize_method.h"
 
 namespace voxray {
 
-/// Turns triangles into surface voxels by rasterising them along the three axes.
-///
-/// Each axis projects every triangle onto a grid of `samples` squared points a voxel. A fragment of a
-/// triangle with unit normal n, seen along axis a, weighs |n_a| / samples²; over the three axes that sums to
-/// the triangle's area in units of voxel faces (because n_x² + n_y² + n_z² = 1), so that all averages are by
-/// area. Sums are integers: the result does not depend on the order of fragments. Source: Magalhães 2020,
-/// section 3.2 (three passes); the area weights are ours.
+enum class VoxelizeMethodName { Exact, DominantAxis, ThreeAxis };
+template <>
+struct EnumNames<VoxelizeMethodName> {
+    static constexpr std::array names{std::pair{VoxelizeMethodName::Exact, "exact"},
+                                      std::pair{VoxelizeMethodName::DominantAxis, "dominant_axis"},
+                                      std::pair{VoxelizeMethodName::ThreeAxis, "three_axis"}};
+};
+
+/// Turns triangles into surface voxels. A method finds the voxels, twice: first to mark them, then, once they
+/// are numbered, to sum up what their surfaces carry, weighted by area. Sums are integers: the result does
+/// not depend on the order of additions.
 class VoxelizePass final : public Pass {
  public:
     static constexpr const char* kName = "voxelize";
     static constexpr const char* kHelp =
-        "Rasterises the scene along the three axes into surface voxels: albedo, opacity, normal, emission, "
-        "area. "
-        "Misses surfaces that fall between the sample points: those thinner than a voxel / samples in two "
-        "directions. "
-        "Source: Magalhães 2020, section 3.2.";
+        "Turns the scene into surface voxels: albedo, normal, emission, metallic, roughness, opacity, area. "
+        "method exact tests triangles against voxels' boxes; dominant_axis rasterises once and "
+        "conservatively: "
+        "it adds voxels that are only grazed, and samples areas; three_axis rasterises three times and "
+        "misses "
+        "surfaces between its sample points: those thinner than a voxel / samples in two directions. "
+        "Source: Magalhães 2020, section 3.2; Schwarz and Seidel 2010 (exact).";
     struct Params {
+        VoxelizeMethodName method = VoxelizeMethodName::Exact;
         uint32_t resolution = 128;
+        uint32_t directions = 6;
         uint32_t samples = 2;
         uint32_t exposureRays = 8;
         static constexpr auto schema() {
             return std::tuple{
+                field("method", &Params::method,
+                      "How the voxels that triangles meet are found: exact (compute shader, overlap of "
+                      "triangles and boxes), "
+                      "dominant_axis (one conservative raster pass), three_axis (three raster passes)."),
                 field("resolution", &Params::resolution, "Voxels along the scene's longest side.", 1u, 1024u),
+                field("directions", &Params::directions,
+                      "6: a voxel keeps light apart by the side that surfaces face. 1: all of a voxel shares "
+                      "one value, so that both sides of a thin wall mix.",
+                      1u, 6u),
                 field("samples", &Params::samples,
-                      "Sample points along a voxel's edge, in each of the three projections.", 1u, 16u),
+                      "three_axis: sample points along a voxel's edge, in each of the three projections.", 1u,
+                      16u),
                 field("exposure_rays", &Params::exposureRays,
                       "Points a surface voxel, on average, that probe both sides for open space; 0 takes all "
                       "sides for "
@@ -41,7 +59,7 @@ class VoxelizePass final : public Pass {
         }
     };
 
-    explicit VoxelizePass(const Params& params) : params_(params) {}
+    explicit VoxelizePass(const Params& params);
     Phase phase() const override { return Phase::Build; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
@@ -49,11 +67,10 @@ class VoxelizePass final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    void rasterize(PassContext& context, const Program& program, const Buffer& target, float emissionScale);
-
     Params params_;
     Port<SurfaceVoxels> voxels_;
-    Program mark_, accumulate_, resolve_;
+    std::unique_ptr<VoxelizeMethod> method_;
+    Program resolve_;
     std::optional<PopulationPrefixSum> prefixSum_;
     ExposureProbe exposureProbe_;
     float largestEmission_ = 0;

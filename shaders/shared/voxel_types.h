@@ -13,22 +13,23 @@ struct VoxelGrid {
     float voxelSize;  // m
     uvec3 resolution;
     uint wordsPerRow;  // ceil(resolution.x / 32)
+    uint directions;   // 6: a voxel's light is read by the side that a surface faces; 1: all sides share one value.
 };
 
 // What a surface voxel holds of the surfaces in it. Averages are weighted by area.
 struct VoxelMaterial {
     vec3 albedo;     // Diffuse reflectance.
-    float opacity;   // Coverage seen along the best-covered axis, 0 to 1.
-    vec3 normal;     // Mean of the front-side normals, not normalised: a length below 1 tells of spread.
+    float opacity;   // Share of 4x4 sub-samples covered, seen along the best-covered axis.
+    vec3 normal;     // Mean of the front-side shading normals, not normalised: a length below 1 tells of spread.
     float area;      // Surface area in units of a voxel's face.
     vec3 emission;   // W/(m² sr)
-    float reserved;
+    float metallic;  // 0 to 1; what it takes is already off the albedo.
     // The part of the area that open space lies before, by the direction that it faces: area * (normal component)²,
     // times the share of sides that are exposed. A surface has two sides, so a bare sheet counts in both directions.
     vec3 exposedPositive;  // Facing +x, +y, +z.
     vec3 exposedNegative;  // Facing -x, -y, -z.
-    float reserved2;
-    float reserved3;
+    float roughness;  // 0 to 1, as glTF's: perceptual.
+    float reserved;
 };
 
 VOXRAY_SHARED_END

@@ -58,8 +58,10 @@ void main() {
     put(source.data[0].normal.x);
     put(source.data[0].area);
     put(source.data[0].emission.x);
+    put(source.data[0].metallic);
     put(source.data[0].exposedPositive.x);
     put(source.data[0].exposedNegative.x);
+    put(source.data[0].roughness);
     put(source.data[1].albedo.x);
 #elif defined(RAY)
     put(source.data[0].origin.x);

@@ -73,9 +73,11 @@ TEST(SharedStructs, VoxelMaterial) {
     EXPECT_WORD(gpu::VoxelMaterial, normal, 2);
     EXPECT_WORD(gpu::VoxelMaterial, area, 3);
     EXPECT_WORD(gpu::VoxelMaterial, emission, 4);
-    EXPECT_WORD(gpu::VoxelMaterial, exposedPositive, 5);
-    EXPECT_WORD(gpu::VoxelMaterial, exposedNegative, 6);
-    EXPECT_EQ(seen[7], sizeof(gpu::VoxelMaterial) / 4);
+    EXPECT_WORD(gpu::VoxelMaterial, metallic, 5);
+    EXPECT_WORD(gpu::VoxelMaterial, exposedPositive, 6);
+    EXPECT_WORD(gpu::VoxelMaterial, exposedNegative, 7);
+    EXPECT_WORD(gpu::VoxelMaterial, roughness, 8);
+    EXPECT_EQ(seen[9], sizeof(gpu::VoxelMaterial) / 4);
 }
 
 TEST(SharedStructs, RayAndHit) {

@@ -11,20 +11,14 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 layout(location = 0) out vec3 gridPosition;
-layout(location = 1) out vec4 texCoords;
-layout(location = 2) out vec4 color;
-layout(location = 3) flat out vec3 geometricNormal;
-layout(location = 4) flat out uint material;
+layout(location = 1) out vec2 barycentrics;
+layout(location = 2) flat out uint triangle;
 
 void main() {
-    const uint triangle = uint(gl_VertexIndex) / 3u, corner = uint(gl_VertexIndex) % 3u;
-    const vec2 barycentrics = vec2(corner == 1u ? 1.0 : 0.0, corner == 2u ? 1.0 : 0.0);
-    const SurfacePoint s = surfacePoint(triangle, barycentrics);
-    gridPosition = (s.position - push.grid.origin) / push.grid.voxelSize;
-    texCoords = s.texCoords;
-    color = s.color;
-    geometricNormal = s.geometricNormal;
-    material = s.material;
+    const uint corner = uint(gl_VertexIndex) % 3u;
+    triangle = uint(gl_VertexIndex) / 3u;
+    barycentrics = vec2(corner == 1u ? 1.0 : 0.0, corner == 2u ? 1.0 : 0.0);
+    gridPosition = (vertexPosition(triangleVertices(triangle)[corner]) - push.grid.origin) / push.grid.voxelSize;
 
     // Orthographic along the axis; the next two axes in cyclic order span the image.
     const uint a = push.axis, b = (a + 1u) % 3u, c = (a + 2u) % 3u;

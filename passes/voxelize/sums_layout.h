@@ -1,0 +1,21 @@
+// The sums that voxelization keeps for each voxel, in uints: shared by C++ and GLSL.
+#ifndef VOXRAY_VOXEL_SUMS_LAYOUT_H
+#define VOXRAY_VOXEL_SUMS_LAYOUT_H
+
+// Fixed point with 20 bits after the point: an area of 10^-6 voxel faces still counts, and 2048 faces fit a
+// signed sum.
+#define UNITS_PER_FACE 1048576.0
+
+// Area; then, weighted by it, what follows.
+#define SUM_AREA 0u
+#define SUM_AXIS_AREA 1u  // Squared components of the geometric normal.
+#define SUM_NORMAL 4u     // Shading normal, signed.
+#define SUM_ALBEDO 7u
+#define SUM_EMISSION 10u  // Relative to the scene's largest.
+#define SUM_METALLIC 13u
+#define SUM_ROUGHNESS 14u
+// Masks of the 4x4 sub-samples that surfaces cover, by axis: not a sum, bits.
+#define SUM_COVERED 15u
+#define SUMS_PER_VOXEL 18u
+
+#endif
