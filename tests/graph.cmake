@@ -3,5 +3,6 @@ voxray_tests(graph
   SOURCES unit/graph_wiring_test.cpp
   DEPENDS voxray_experiment)
 voxray_tests(chain
-  SOURCES gpu/shared_structs_test.cpp physics/injection_test.cpp physics/voxelize_test.cpp
+  SOURCES gpu/shared_structs_test.cpp physics/injection_test.cpp physics/voxelize_exact_test.cpp
+    physics/voxelize_material_test.cpp physics/voxelize_methods_test.cpp physics/voxelize_test.cpp
   DEPENDS voxray_experiment voxray_passes)
