@@ -9,8 +9,17 @@
 // mean over; 0 where nothing is known.
 layout(set = 0, binding = 15, scalar) readonly buffer FaceIrradiance { vec4 data[]; } faceIrradiance;
 
-// Adds a voxel's irradiance times area for a normal, by the squared components of the normal.
-void addFaces(uint voxel, vec3 normal, inout vec3 sum, inout float area) {
+// Adds a voxel's irradiance times area for a normal, by the squared components of the normal. In a grid of one direction all
+// six faces of a voxel count alike.
+void addFaces(VoxelGrid g, uint voxel, vec3 normal, inout vec3 sum, inout float area) {
+    if (g.directions == 1u) {
+        for (uint k = 0u; k < 6u; ++k) {
+            const vec4 face = faceIrradiance.data[voxel * 6u + k];
+            sum += face.w * face.rgb;
+            area += face.w;
+        }
+        return;
+    }
     for (uint axis = 0u; axis < 3u; ++axis) {
         const float weight = normal[axis] * normal[axis];
         if (weight < 1e-6) continue;
@@ -28,11 +37,11 @@ vec3 irradianceAt(VoxelGrid g, vec3 position, vec3 normal, out bool known) {
     vec3 sum = vec3(0.0);
     float area = 0.0;
     const uint own = voxelNumber(g, cell);
-    if (own != NO_VOXEL) addFaces(own, normal, sum, area);
+    if (own != NO_VOXEL) addFaces(g, own, normal, sum, area);
     for (int i = 0; i < 27 && area < 0.05; ++i) {
         if (i == 13) continue;
         const uint voxel = voxelNumber(g, cell + ivec3(i % 3, (i / 3) % 3, i / 9) - 1);
-        if (voxel != NO_VOXEL) addFaces(voxel, normal, sum, area);
+        if (voxel != NO_VOXEL) addFaces(g, voxel, normal, sum, area);
     }
     known = area > 0.0;
     return known ? sum / area : vec3(0.0);

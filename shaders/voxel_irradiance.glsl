@@ -22,10 +22,12 @@ void addVoxels(VoxelGrid g, vec3 position, vec3 weightByAxis, uvec3 face, float 
                 if (voxel == NO_VOXEL) continue;
                 const vec3 tent = max(1.0 - abs(vec3(x, y, z) - centre) / radius, 0.0);
                 const vec3 weight = weightByAxis * (tent.x * tent.y * tent.z);
-                for (int axis = 0; axis < 3; ++axis) {
-                    const uint at = (voxel * 6u + face[axis]) * 3u;
-                    area += weight[axis] * voxelArea.data[at / 3u];
-                    flux += weight[axis] * vec3(voxelFlux.data[at], voxelFlux.data[at + 1u], voxelFlux.data[at + 2u]);
+                const uint faces = g.directions == 1u ? 6u : 3u;
+                for (uint k = 0u; k < faces; ++k) {
+                    const float share = faces == 6u ? tent.x * tent.y * tent.z : weight[k];
+                    const uint at = (voxel * 6u + (faces == 6u ? k : face[k])) * 3u;
+                    area += share * voxelArea.data[at / 3u];
+                    flux += share * vec3(voxelFlux.data[at], voxelFlux.data[at + 1u], voxelFlux.data[at + 2u]);
                 }
             }
 }
@@ -35,7 +37,7 @@ void addVoxels(VoxelGrid g, vec3 position, vec3 weightByAxis, uvec3 face, float 
 // A voxel knows the flux that its surfaces catch and their area, both split by facing direction. Both are interpolated
 // with tent weights of `radius` voxels, and their ratio taken last: a voxel that a surface only grazes weighs little, and
 // a half-lit one is half bright. The ratio is only as good as the area below it, which was sampled: under a tenth of a
-// voxel's face the reach doubles, up to twice.
+// voxel's face the reach doubles, up to twice. In a grid of one direction all six faces of a voxel count alike.
 //
 // `sevenTap` adds up seven places instead of one: the point and its neighbours at one voxel's distance along the axes.
 vec3 voxelIrradiance(VoxelGrid g, vec3 position, vec3 normal, float radius, bool sevenTap) {

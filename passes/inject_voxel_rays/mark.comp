@@ -20,6 +20,7 @@ layout(push_constant, scalar) uniform Push {
 
 float areaFacing(uint voxel, vec3 normal) {
     const VoxelMaterial m = voxelMaterials.data[voxel];
+    if (push.grid.directions == 1u) return dot(m.exposedPositive + m.exposedNegative, vec3(1.0));
     return dot(normal * normal, mix(m.exposedPositive, m.exposedNegative, lessThan(normal, vec3(0.0))));
 }
 
@@ -41,7 +42,7 @@ void main() {
     const ivec2 texel = ivec2(texelOf(g, block, rayTexel(g, blockShift(g, block), i % g.raysPerBlock)));
     const vec3 from = texelFetch(position, texel, 0).xyz;
     const vec3 normal = dot(s.geometricNormal, from - s.position) >= 0.0 ? s.geometricNormal : -s.geometricNormal;
-    uint faces = 0u;
+    uint faces = push.grid.directions == 1u ? 63u : 0u;
     for (uint axis = 0u; axis < 3u; ++axis)
         if (normal[axis] * normal[axis] > 0.01) faces |= 1u << (2u * axis + (normal[axis] < 0.0 ? 1u : 0u));
 

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Every voxel that a triangle overlaps, by separating axes. A thread takes a tile of 8x8 columns of one triangle.
 #include "shaders/linear_index.glsl"
+#include "passes/voxelize/clipped_area.glsl"
 #include "passes/voxelize/visit.glsl"
 layout(local_size_x = 64) in;
 

@@ -20,6 +20,7 @@ struct GridTriangle {
     vec3 winding;       // Signs of the normal; 0 where the triangle is edge-on as far as floats can tell.
     vec2 slope;         // Of z over x and y.
     float area;         // In voxel faces; 0 where it is lost in rounding: such triangles have no voxels.
+    vec2 texCoordWidth;  // log2 of a voxel's width in texture coordinates 0 and 1: the mean of both directions.
     float planeError;   // What rounding may do to z on the plane, of note for slivers alone.
 };
 
@@ -32,6 +33,15 @@ vec3 gridVertex(VoxelGrid g, uint vertex) { return (vertexPosition(vertex) - g.o
 uint dominantAxis(vec3 normal) {
     const vec3 n = abs(normal);
     return n.x > n.y ? (n.x > n.z ? 0u : 2u) : (n.y > n.z ? 1u : 2u);
+}
+
+// log2 of a voxel's width in a triangle's texture coordinates. @param area of the triangle, in voxel faces
+vec2 texCoordWidth(uvec3 vertices, float area) {
+    const vec4 origin = sceneAttributes.data[vertices.x].texCoords;
+    const vec4 a = sceneAttributes.data[vertices.y].texCoords - origin;
+    const vec4 b = sceneAttributes.data[vertices.z].texCoords - origin;
+    const vec2 twiceArea = abs(vec2(a.x * b.y - a.y * b.x, a.z * b.w - a.w * b.z));
+    return 0.5 * log2(max(0.5 * twiceArea / max(area, 1.0e-30), 1.0e-30));
 }
 
 GridTriangle gridTriangle(VoxelGrid g, uint index, uint axis) {
@@ -52,6 +62,7 @@ GridTriangle gridTriangle(VoxelGrid g, uint index, uint axis) {
     t.normal = flat_ ? cross_ / twiceArea : vec3(0.0, 0.0, 1.0);
     t.winding = mix(sign(cross_), vec3(0.0), lessThanEqual(abs(cross_), vec3(rounding)));
     t.slope = -t.normal.xy / t.normal.z;
+    t.texCoordWidth = texCoordWidth(v, t.area);
     t.planeError = flat_ ? rounding / twiceArea * max(length(e1), length(e2)) : 0.0;
     return t;
 }

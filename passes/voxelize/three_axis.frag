@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // One fragment: a surface sample in a voxel.
-#include "shaders/scene.glsl"
+#include "passes/voxelize/grid_triangle.glsl"
 #include "passes/voxelize/voxel_sums.glsl"
 
 layout(push_constant, scalar) uniform Push {
@@ -44,6 +44,9 @@ void main() {
     const float area = abs(s.geometricNormal[a]) / float(push.samples * push.samples);
     uvec3 covered = uvec3(0u);
     covered[a] = subSamples();
-    addSurface(push.grid, voxel, area, triangle, s, covered, push.emissionScale);
+    const uvec3 v = triangleVertices(triangle);
+    const vec3 p0 = gridVertex(push.grid, v.x);
+    const vec3 cross_ = cross(gridVertex(push.grid, v.y) - p0, gridVertex(push.grid, v.z) - p0);
+    addSurface(push.grid, voxel, area, s, texCoordWidth(v, 0.5 * length(cross_)), covered, push.emissionScale);
 #endif
 }

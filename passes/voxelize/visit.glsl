@@ -2,7 +2,7 @@
 #ifndef VOXRAY_VISIT_GLSL
 #define VOXRAY_VISIT_GLSL
 
-#include "passes/voxelize/piece.glsl"
+#include "passes/voxelize/sub_samples.glsl"
 #include "passes/voxelize/voxel_sums.glsl"
 
 #ifndef MARK
@@ -13,26 +13,28 @@ float measurePiece(GridTriangle t, ivec3 voxel, uint own, out vec2 middle);
 void visit(VoxelGrid g, GridTriangle t, ivec3 voxel, float emissionScale) {
     const GpuMaterial m = sceneMaterials.data[sceneTriangleMaterials.data[t.index]];
     const bool masked = m.alphaMode == ALPHA_MASK;
+
+    // An alpha mask is read at the sub-samples along z: where there are none, at the middle of the column, moved into the
+    // triangle. What it cuts away entirely is not there.
+    uint own = 0u, left = 0u;
+    if (masked) {
+        own = ownSubSamples(t, voxel);
+        left = alphaLeaves(t, m, voxel, own == 0u ? MIDDLE : own);
+        if (left == 0u) return;
+    }
 #ifdef MARK
-    if (masked && alphaShare(t, m, voxel, ownSubSamples(t, voxel)) == 0.0) return;
     markVoxel(g, unturned(voxel, t.axis));
 #else
-    const uint own = ownSubSamples(t, voxel);
     vec2 middle;
-    float area = measurePiece(t, voxel, own, middle);
-    uvec3 covered;
+    uvec3 covered = allSubSamples(t, voxel);
+    float area = measurePiece(t, voxel, covered[t.axis], middle);
     if (masked) {
-        // An alpha mask's coverage is sampled along z alone.
-        const float share = alphaShare(t, m, voxel, own);
-        if (share == 0.0) return;
-        area *= share;
+        if (own != 0u) area *= float(bitCount(left)) / float(bitCount(own));
         covered = uvec3(0u);
-        covered[t.axis] = alphaLeaves(t, m, voxel, own);
-    } else {
-        covered = allSubSamples(t, voxel, own);
+        covered[t.axis] = left & own;
     }
     const SurfacePoint s = surfacePoint(t.index, barycentricsAt(t, middle));
-    addSurface(g, unturned(voxel, t.axis), area, t.index, s, covered, emissionScale);
+    addSurface(g, unturned(voxel, t.axis), area, s, t.texCoordWidth, covered, emissionScale);
 #endif
 }
 
