@@ -22,6 +22,8 @@ class FluxSums {
     float unitsPerWatt() const { return unitsPerWatt_; }
     /// Watts into `flux` (VoxelIrradiance::direct or ::indirect).
     void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& flux) const;
+    /// Frees the sums, once the stream has finished.
+    void end() { sums_ = {}; }
 
  private:
     float unitsPerWatt_ = 0;

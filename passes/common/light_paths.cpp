@@ -143,8 +143,7 @@ void LightPaths::follow(PassContext& context, const SurfaceVoxels& voxels, const
     }
 }
 
-void LightPaths::finish(PassContext& context, const SurfaceVoxels& voxels,
-                        VoxelIrradiance& irradiance) const {
+void LightPaths::finish(PassContext& context, const SurfaceVoxels& voxels, VoxelIrradiance& irradiance) {
     CommandStream& stream = context.stream;
     const uint64_t fluxBytes = uint64_t(voxels.voxelCount) * kFluxFloats * sizeof(float);
     irradiance.direct = Buffer(context.device, "voxel direct flux", fluxBytes);
@@ -167,6 +166,11 @@ void LightPaths::finish(PassContext& context, const SurfaceVoxels& voxels,
     else
         stream.fill(irradiance.indirect, 0);
 
+    stream.finish();
+    for (FluxSums& sums : fluxes_) sums.end();
+    for (VoxelWrites& writes : irradiances_) writes.end();
+
+    // Darkness everywhere is a mistake in the set-up, not a picture.
     const std::vector<float> direct = stream.readAs<float>(irradiance.direct, fluxBytes / sizeof(float));
     if (std::ranges::none_of(direct, [](float watts) { return watts > 0; }))
         throw Error(

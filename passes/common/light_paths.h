@@ -62,8 +62,8 @@ class LightPaths {
         bool hitsKnown = false;
     };
     void follow(PassContext& context, const SurfaceVoxels& voxels, const Batch& batch);
-    /// Allocates and fills the result. @throws Error where no light fell on any voxel.
-    void finish(PassContext& context, const SurfaceVoxels& voxels, VoxelIrradiance& irradiance) const;
+    /// Allocates and fills the result, and frees the sums. @throws Error where no light fell on any voxel.
+    void finish(PassContext& context, const SurfaceVoxels& voxels, VoxelIrradiance& irradiance);
 
     const Buffer& rays() const { return rays_; }    ///< Ray each.
     const Buffer& hits() const { return hits_; }    ///< Hit each.

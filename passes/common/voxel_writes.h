@@ -74,6 +74,8 @@ class VoxelWrites {
     /// the first resolve() if faces without samples are unknown, fill it with exposed areas if they are dark.
     void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& flux,
                  const Buffer& area) const;
+    /// Frees the sums, once the stream has finished.
+    void end() { sums_ = {}, weights_ = {}; }
 
  private:
     WriteParams params_;

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // Writes the first word of each member of an array's first element, then of the second element: its stride.
+#include "shaders/shared/light_path.h"
 #include "shaders/shared/ray_types.h"
 #include "shaders/shared/scene_types.h"
 #include "shaders/shared/voxel_types.h"
@@ -15,6 +16,8 @@ layout(local_size_x = 1) in;
 #define STRUCT GpuVertexAttributes
 #elif defined(VOXEL)
 #define STRUCT VoxelMaterial
+#elif defined(LIGHT_PATH)
+#define STRUCT LightPath
 #elif defined(RAY)
 #define STRUCT Ray
 #else
@@ -63,6 +66,12 @@ void main() {
     put(source.data[0].exposedNegative.x);
     put(source.data[0].roughness);
     put(source.data[1].albedo.x);
+#elif defined(LIGHT_PATH)
+    put(source.data[0].power.x);
+    put(source.data[0].solidAngle);
+    put(source.data[0].area);
+    put(source.data[0].travelled);
+    put(source.data[1].power.x);
 #elif defined(RAY)
     put(source.data[0].origin.x);
     put(source.data[0].tMin);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "shaders/shared/light_path.h"
 #include "shaders/shared/scene_types.h"
 #include "shaders/shared/voxel_types.h"
 #include "tests/gpu/chain.h"
@@ -78,6 +79,15 @@ TEST(SharedStructs, VoxelMaterial) {
     EXPECT_WORD(gpu::VoxelMaterial, exposedNegative, 7);
     EXPECT_WORD(gpu::VoxelMaterial, roughness, 8);
     EXPECT_EQ(seen[9], sizeof(gpu::VoxelMaterial) / 4);
+}
+
+TEST(SharedStructs, LightPath) {
+    const auto seen = readByShader<gpu::LightPath>("LIGHT_PATH");
+    EXPECT_WORD(gpu::LightPath, power, 0);
+    EXPECT_WORD(gpu::LightPath, solidAngle, 1);
+    EXPECT_WORD(gpu::LightPath, area, 2);
+    EXPECT_WORD(gpu::LightPath, travelled, 3);
+    EXPECT_EQ(seen[4], sizeof(gpu::LightPath) / 4);
 }
 
 TEST(SharedStructs, RayAndHit) {

@@ -177,9 +177,9 @@ TEST(InjectRsm, AgreesWithLightRays) {
     // Totals agree closely; voxel by voxel some twenty rows of texels, one more or less, make the difference.
     for (const std::string light : {"point", "spot", "directional"}) {
         const std::string scene = "{light: " + light + "}";
-        Lit rsm("plane", scene, "resolution: 32", "pass: inject_rsm, secondary: none, resolution: 1024");
-        Lit rays("plane", scene, "resolution: 32",
-                 "pass: inject_light_rays, secondary: none, rays_per_light: 1048576");
+        Lit rsm("plane", scene, "resolution: 16", "pass: inject_rsm, secondary: none, resolution: 512");
+        Lit rays("plane", scene, "resolution: 16",
+                 "pass: inject_light_rays, secondary: none, rays_per_light: 262144");
         EXPECT_NEAR(sum(rsm.direct) / sum(rays.direct), 1.0, 0.005) << light;
         EXPECT_LT(difference(rsm.direct, rays.direct), 0.03) << light;
     }
