@@ -44,6 +44,13 @@ std::string readTextFile(const fs::path& path) {
     return {bytes.begin(), bytes.end()};
 }
 
+bool isTemporaryName(const fs::path& path) {
+    const fs::path name = path.extension() == ".tmp" ? path.filename() : path.stem();
+    const std::string process = name.stem().extension().string();
+    return name.string().starts_with('.') && name.extension() == ".tmp" && process.size() > 1 &&
+           process.find_first_not_of("0123456789", 1) == std::string::npos;
+}
+
 void writeFileAtomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
     std::error_code code;
     if (path.has_parent_path()) fs::create_directories(path.parent_path(), code);

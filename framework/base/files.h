@@ -14,9 +14,13 @@ namespace voxray {
 std::vector<uint8_t> readFile(const std::filesystem::path& path);
 std::string readTextFile(const std::filesystem::path& path);
 
-/// Writes a file whole or not at all: a temporary file beside it, flushed to disk, then renamed.
+/// Writes a file whole or not at all: a temporary file beside it (`.stem.PID.tmp.ext`), flushed to disk, then
+/// renamed.
 /// @throws Error naming the file and the system's reason (full disk, no permission).
 void writeFileAtomically(const std::filesystem::path& path, std::string_view content);
+
+/// Whether a file is called as such a temporary file: left by a killed process, if nobody writes just now.
+bool isTemporaryName(const std::filesystem::path& path);
 
 /// The same for writers that need a path: `write` gets a temporary path with the same extension.
 void writeFileAtomically(const std::filesystem::path& path,

@@ -39,6 +39,10 @@ ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, bool 
     writeText(probe.string(), "x");
     orError(path_, [&] {
         fs::remove(path_ / probe);
+        std::vector<fs::path> left;
+        for (const auto& entry : fs::directory_iterator(path_))
+            if (isTemporaryName(entry.path())) left.push_back(entry.path());
+        for (const fs::path& file : left) fs::remove(file);
         for (const auto& entry : fs::directory_iterator(path_ / "images"))
             if (startsWith(entry.path().filename().string(), kTemporaryPrefix)) fs::remove_all(entry.path());
         if (!resume) removeOldRun();
@@ -58,7 +62,7 @@ void ResultsFolder::checkOwner(const std::string& experiment) const {
         return;
     }
     for (const auto& entry : fs::directory_iterator(path_))
-        if (entry.path().filename() != "images")
+        if (entry.path().filename() != "images" && !isTemporaryName(entry.path()))
             throw Error("{}: is not empty and holds no results of Voxray; choose another folder with --out",
                         path_.string());
     if (fs::exists(path_ / "images") && !fs::is_empty(path_ / "images"))

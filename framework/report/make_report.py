@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-import tempfile
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -17,16 +16,15 @@ from report.load import ReportError, load  # noqa: E402
 
 def write_whole(path: Path, content: str) -> None:
     """Writes a file that is either the old one or wholly the new one, whatever interrupts the writing."""
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    name = path.with_name(f".{path.stem}.{os.getpid()}.tmp{path.suffix}")
     try:
-        with os.fdopen(handle, "w", encoding="utf-8", errors="backslashreplace") as out:
+        with open(name, "w", encoding="utf-8", errors="backslashreplace") as out:
             out.write(content)
             out.flush()
             os.fsync(out.fileno())
-        os.chmod(name, 0o644)
         os.replace(name, path)
     except BaseException:
-        os.unlink(name)
+        name.unlink(missing_ok=True)
         raise
 
 

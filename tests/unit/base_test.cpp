@@ -229,6 +229,14 @@ TEST_F(Folder, UnwritablePlacesAreErrors) {
     EXPECT_THROW(readFile(folder_ / "absent"), Error);
 }
 
+TEST(Files, TemporaryNamesAreKnown) {
+    for (const char* name : {".manifest.12.tmp.json", "a/.results.1.tmp.csv", "..writable.345.tmp"})
+        EXPECT_TRUE(isTemporaryName(name)) << name;
+    for (const char* name : {"manifest.json", "manifest.12.tmp.json", ".manifest.json", ".a.tmp.json",
+                             ".a.b.tmp.json", ".tmp", ".12.tmpx", ".git"})
+        EXPECT_FALSE(isTemporaryName(name)) << name;
+}
+
 TEST(Interrupt, SignalSetsTheFlagWhileTheScopeLives) {
     EXPECT_FALSE(interruptRequested());
     {
