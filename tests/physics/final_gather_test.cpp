@@ -1,0 +1,218 @@
+// Injection at surfels and the final gather, against closed forms, the path tracer and each other.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "passes/common/voxels.h"
+#include "tests/gpu/chain.h"
+
+namespace voxray::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+const VoxelIrradiance& irradiance(const Chain& chain) {
+    return *chain.graph().resource<VoxelIrradiance>("irradiance");
+}
+
+// Sum over all voxels and directions, green channel.
+double total(Chain& chain, const Buffer& flux) {
+    const std::vector<float> values = chain.read<float>(flux);
+    double sum = 0;
+    for (size_t i = 1; i < values.size(); i += 3) sum += values[i];
+    return sum;
+}
+
+std::string gatherGraph(const std::string& inject, const std::string& trace, const std::string& gather,
+                        const std::string& voxelize = "resolution: 16") {
+    return "[{pass: gbuffer}, {pass: voxelize, " + voxelize +
+           "}, {pass: place_surfels, points: 8}, {pass: trace_gather_rays, " + trace + "}, {pass: " + inject +
+           "}, {pass: gather_rays, " + gather +
+           "}, {pass: direct_shadow_rays, samples: 64}, {pass: composite}]";
+}
+
+std::string messageOf(const std::string& scene, const std::string& graph) {
+    try {
+        Chain(scene, "{}", graph);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+double difference(const ImageF& a, const ImageF& b) {
+    double sum = 0;
+    for (size_t i = 0; i < a.data.size(); ++i) sum += std::abs(double(a.data[i]) - b.data[i]);
+    return sum / double(b.data.size()) / mean(b);
+}
+
+const std::vector<std::string> kStrategies = {"inject_light_rays, rays_per_light: 524288, bounces: BOUNCES",
+                                              "inject_voxel_rays, rays: 4, bounces: BOUNCES",
+                                              "inject_voxel_rays, demand: true, bounces: BOUNCES",
+                                              "inject_camera_rays, rays: 131072, bounces: BOUNCES"};
+
+std::string strategy(const std::string& name, int bounces) {
+    std::string text = name;
+    return text.replace(text.find("BOUNCES"), 7, std::to_string(bounces));
+}
+
+TEST(VoxelRays, ClosedRoomCatchesAllLight) {
+    // A point light of 2 W/sr in a closed room: 8 pi W arrive, and albedo's part of that again with each
+    // bounce.
+    Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
+                "[{pass: voxelize, resolution: 24}, {pass: place_surfels, points: 16}, "
+                "{pass: inject_voxel_rays, rays: 4, bounces: 3}]");
+    EXPECT_NEAR(total(chain, irradiance(chain).direct) / (8 * kPi), 1.0, 0.01);
+    EXPECT_NEAR(total(chain, irradiance(chain).indirect) / (8 * kPi * 0.875), 1.0, 0.02);
+}
+
+TEST(VoxelRays, AreDeterministic) {
+    const auto run = [](const std::string& inject) {
+        Chain chain("cornell", "{lights: point}",
+                    gatherGraph(inject, "rays: 4", "filter: 0", "resolution: 24"));
+        return chain.image("indirect").data;
+    };
+    for (const std::string inject : {"inject_voxel_rays, bounces: 2", "inject_voxel_rays, demand: true",
+                                     "inject_camera_rays, rays: 8192"})
+        EXPECT_EQ(run(inject), run(inject)) << inject;
+}
+
+TEST(VoxelRays, AreLinearInLight) {
+    const auto run = [](const std::string& intensity) {
+        Chain chain("white_room", "{intensity: " + intensity + "}",
+                    "[{pass: voxelize, resolution: 12}, {pass: place_surfels}, {pass: inject_voxel_rays, "
+                    "bounces: 3}]");
+        return total(chain, irradiance(chain).indirect);
+    };
+    EXPECT_NEAR(run("7") / run("1"), 7.0, 1e-3);
+}
+
+TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAFurnace) {
+    // Every surface emits 1 and reflects 0.6: after three bounces of light pixels show 1 + 0.6 + 0.36 + 0.216
+    // + 0.1296. The gather itself is one bounce.
+    for (const std::string& name : kStrategies) {
+        const bool fromLights = name.find("light_rays") != std::string::npos;
+        Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
+                    gatherGraph(strategy(fromLights ? name : name + ", light_samples: 16", 2), "rays: 64",
+                                "filter: 0"));
+        EXPECT_NEAR(mean(chain.image("indirect")), 0.36 + 0.216 + 0.1296, 0.02 * 0.7056) << name;
+    }
+}
+
+TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAWhiteRoom) {
+    // The walls of a closed room reflect 0.5 of 4 pi W on 24 m²: the mean of what they reflect of indirect
+    // light over all walls is 4 pi / 24 / pi * (0.25 + 0.125 + 0.0625). The camera sees some walls only, so
+    // the path tracer judges.
+    Chain reference("white_room", "{albedo: 0.5}", "[{pass: path_trace, spp: 1024, bounces: 4}]");
+    for (const std::string& name : kStrategies) {
+        Chain chain("white_room", "{albedo: 0.5}", gatherGraph(strategy(name, 3), "rays: 64", "filter: 0"));
+        EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.02) << name;
+    }
+}
+
+TEST(FinalGather, StrategiesAgreeOnCornell) {
+    std::vector<ImageF> images;
+    for (const std::string& name : kStrategies) {
+        Chain chain("cornell", "{lights: point}",
+                    gatherGraph(strategy(name, 5), "rays: 64", "filter: 0", "resolution: 48"));
+        images.push_back(chain.image("indirect"));
+    }
+    for (size_t i = 1; i < images.size(); ++i)
+        EXPECT_NEAR(mean(images[i]) / mean(images[0]), 1.0, 0.02) << kStrategies[i];
+}
+
+TEST(FinalGather, ConvergesToTheReference) {
+    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 1024, bounces: 6}]");
+    const auto error = [&](const std::string& rays) {
+        Chain chain("cornell", "{lights: point}",
+                    gatherGraph("inject_light_rays, rays_per_light: 1048576, bounces: 5", "rays: " + rays,
+                                "filter: 0", "resolution: 64"));
+        return difference(chain.image("indirect"), reference.image("indirect"));
+    };
+    const double few = error("4"), many = error("256");
+    EXPECT_LT(many, 0.25 * few);
+    EXPECT_LT(many, 0.08);
+}
+
+TEST(FinalGather, BlocksShareRaysWithoutLosingEnergy) {
+    // Each block's rays reach every texel, fewer or more rays than texels: the mean does not depend on the
+    // split.
+    const auto image = [](const std::string& trace) {
+        Chain chain("cornell", "{lights: point}",
+                    gatherGraph("inject_light_rays, rays_per_light: 262144, bounces: 5", trace, "filter: 3",
+                                "resolution: 32"),
+                    64, 64);
+        return mean(chain.image("indirect"));
+    };
+    const double expected = image("rays: 64");
+    for (const std::string trace :
+         {"rays: 16, block: 2", "rays: 24, block: 4", "rays: 8, block: 4", "rays: 3, block: 2"})
+        EXPECT_NEAR(image(trace) / expected, 1.0, 0.02) << trace;
+}
+
+TEST(FinalGather, FilterLowersTheError) {
+    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 1024, bounces: 6}]", 64, 64);
+    const auto error = [&](const std::string& filter) {
+        Chain chain("cornell", "{lights: point}",
+                    gatherGraph("inject_light_rays, rays_per_light: 524288, bounces: 5", "rays: 4",
+                                "filter: " + filter, "resolution: 48"),
+                    64, 64);
+        return difference(chain.image("indirect"), reference.image("indirect"));
+    };
+    EXPECT_LT(error("3"), 0.6 * error("0"));
+}
+
+TEST(FinalGather, SubPixelsAreAveraged) {
+    const auto image = [](const std::string& samples) {
+        Chain chain(
+            "cornell", "{lights: point}",
+            "[{pass: gbuffer, samples: " + samples +
+                "}, {pass: voxelize, resolution: 32}, {pass: inject_light_rays, rays_per_light: 262144}, "
+                "{pass: trace_gather_rays, rays: 32}, {pass: gather_rays}]");
+        return mean(chain.image("indirect"));
+    };
+    EXPECT_NEAR(image("3") / image("1"), 1.0, 0.03);
+}
+
+TEST(FinalGather, BadInputIsNamed) {
+    const std::string scene = "cornell";
+    EXPECT_NE(messageOf(scene, gatherGraph("inject_light_rays", "rays: 4, block: 3", "filter: 0"))
+                  .find("block is 3; it must be 1, 2, 4 or 8"),
+              std::string::npos);
+    EXPECT_NE(messageOf(scene, gatherGraph("inject_light_rays", "rays: 2, block: 4", "filter: 1"))
+                  .find("leaves texels without any"),
+              std::string::npos);
+    EXPECT_NE(
+        messageOf(scene, "[{pass: voxelize}, {pass: place_surfels}, {pass: inject_voxel_rays, demand: true}]")
+            .find("gather_hits"),
+        std::string::npos);
+    for (const std::string inject : {"inject_voxel_rays", "inject_camera_rays"}) {
+        SCOPED_TRACE(inject);
+        const std::string graph =
+            "[{pass: voxelize, resolution: 8}, {pass: place_surfels}, {pass: " + inject + "}]";
+        Scene dark = *makeBuiltinScene("white_room", parseYaml("{}", "scene"));
+        dark.lights.clear();
+        try {
+            Chain(std::make_shared<SceneState>(evaluate(std::make_shared<Scene>(std::move(dark)), 0.0)),
+                  graph, 8, 8, 1);
+            FAIL() << "no error";
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find(inject + ": the scene has no lights"),
+                      std::string::npos);
+        }
+    }
+}
+
+TEST(FinalGather, GridOfOneVoxel) {
+    // One voxel holds all six walls apart by direction: the light of a room is in it, if not its detail.
+    Chain reference("white_room", "{albedo: 0.5}", "[{pass: path_trace, spp: 256, bounces: 4}]");
+    for (const std::string& name : kStrategies) {
+        Chain chain("white_room", "{albedo: 0.5}",
+                    gatherGraph(strategy(name, 3), "rays: 64", "filter: 0", "resolution: 1"));
+        EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.15) << name;
+    }
+}
+
+}  // namespace
+}  // namespace voxray::test
