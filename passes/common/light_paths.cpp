@@ -170,14 +170,7 @@ void LightPaths::finish(PassContext& context, const SurfaceVoxels& voxels, Voxel
     for (FluxSums& sums : fluxes_) sums.end();
     for (VoxelWrites& writes : irradiances_) writes.end();
 
-    // Darkness everywhere is a mistake in the set-up, not a picture.
-    const std::vector<float> direct = stream.readAs<float>(irradiance.direct, fluxBytes / sizeof(float));
-    if (std::ranges::none_of(direct, [](float watts) { return watts > 0; }))
-        throw Error(
-            "no light falls on any voxel: either the lights shine past the scene, or all that they reach has "
-            "another surface within one voxel ({:.3g} m); raise voxelize's 'resolution' or set its "
-            "'exposure_rays: 0'",
-            voxels.grid.voxelSize);
+    requireLight(stream, voxels, irradiance);
 }
 
 }  // namespace voxray

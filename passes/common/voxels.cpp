@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
+
 namespace voxray {
 
 void VoxelIrradiance::allocate(Device& device, uint32_t voxelCount) {
@@ -11,6 +13,17 @@ void VoxelIrradiance::allocate(Device& device, uint32_t voxelCount) {
     direct = Buffer(device, "voxel direct flux", fluxBytes);
     indirect = Buffer(device, "voxel indirect flux", fluxBytes);
     area = Buffer(device, "voxel area", uint64_t(voxelCount) * kAreaFloats * sizeof(float));
+}
+
+void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance) {
+    const std::vector<float> direct =
+        stream.readAs<float>(irradiance.direct, irradiance.direct.bytes() / sizeof(float));
+    if (std::ranges::none_of(direct, [](float watts) { return watts > 0; }))
+        throw Error(
+            "no light falls on any voxel: either the lights shine past the scene, or all that they reach has "
+            "another surface within one voxel ({:.3g} m); raise voxelize's 'resolution' or set its "
+            "'exposure_rays: 0'",
+            voxels.grid.voxelSize);
 }
 
 gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution) {

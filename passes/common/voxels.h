@@ -43,6 +43,10 @@ struct VoxelIrradiance : Resource {
     std::vector<const Buffer*> checkedBuffers() const override { return {&direct, &indirect, &area}; }
 };
 
+/// Darkness everywhere is a mistake in the set-up, not a picture. @throws Error where no direct light arrives
+/// at any voxel. Waits for the device.
+void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance);
+
 /// The smallest grid of cubic voxels round a box, `resolution` voxels along its longest side, with an eighth
 /// of a voxel to spare, so that no surface lies on its border.
 gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution);

@@ -10,6 +10,9 @@ layout(set = 0, binding = 17) uniform sampler2D normal;
 layout(set = 0, binding = 18) uniform sampler2D source;  // Irradiance, weight.
 layout(set = 0, binding = 19) uniform sampler2D surroundings;  // Harmonic mean distance, m.
 layout(set = 0, binding = 20, rgba32f) writeonly uniform image2D result;
+// Texels without rays of their own may have no neighbour that is alike: then any is better than none.
+#define LEAST_ALIKE 1e-5
+
 layout(push_constant) uniform Push {
     int step_;
     float tolerance;
@@ -36,7 +39,7 @@ void main() {
             const float cosine = clamp(dot(n, texelFetch(normal, other, 0).xyz), 0.0, 1.0);
             const float closest = min(reach, texelFetch(surroundings, other, 0).x);
             const float error = distance(p.xyz, q.xyz) / closest + sqrt(1.0 - cosine);
-            const float alike = max(1.0 - error / push.tolerance, 0.0);
+            const float alike = max(1.0 - error / push.tolerance, LEAST_ALIKE);
             const float kernel = (x == 0 ? 2.0 : 1.0) * (y == 0 ? 2.0 : 1.0);
             const vec4 s = texelFetch(source, other, 0);
             sum += kernel * alike * s.w * s.rgb;

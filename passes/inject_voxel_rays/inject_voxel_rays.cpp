@@ -155,6 +155,7 @@ void InjectVoxelRays::lightAll(PassContext& context, uint32_t seed) {
     }
     direct_.resolve(stream, voxels, irradiance.direct, irradiance.area);
     stream.fill(irradiance.indirect, 0);
+    requireLight(stream, voxels, irradiance);
 
     // One more bounce an iteration, from the light that the last one left.
     for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {

