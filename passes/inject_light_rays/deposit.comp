@@ -25,7 +25,7 @@ layout(push_constant, scalar) uniform Push {
     float unitsPerWatt;
 } push;
 
-// The voxel of a hit. Where rasterisation left it empty (the surface fell between its samples), the nearest of the
+// The voxel of a hit. Where voxelization left it empty (three_axis: the surface fell between its samples), the nearest of the
 // voxels around it takes the light, so that none is lost where there is a voxel next door.
 uint receivingVoxel(vec3 position) {
     const ivec3 cell = voxelAt(push.grid, position);
