@@ -27,12 +27,27 @@ void main() {
     const ivec3 resolution = ivec3(turnedVoxels(push.grid.resolution, t.axis));
     const ivec2 first = ivec2(tile.y & 1023u, (tile.y >> 10) & 1023u);
     const ivec4 range = columnRange(t, kMargin, resolution.xy);
-    const ivec2 from = max(range.xy, first), to = min(range.zw, first + 7);
-    for (int y = from.y; y <= to.y; ++y)
-        for (int x = from.x; x <= to.x; ++x) {
-            if (!overlapsColumn(t, ivec2(x, y), kMargin)) continue;
-            const ivec2 depths = depthRange(t, ivec2(x, y), kMargin, resolution.z);
-            for (int z = depths.x; z <= depths.y; ++z)
-                if (overlapsVoxel(t, ivec3(x, y, z), kMargin)) visit(push.grid, t, ivec3(x, y, z), push.emissionScale);
+    const ivec2 from = max(range.xy, first), size = min(range.zw, first + 7) - from + 1;
+    if (any(lessThan(size, ivec2(1)))) return;
+
+    // Each turn finds the tile's next voxel, then visits it: threads whose voxels lie differently still visit together.
+    int column = -1, lastDepth = 0;
+    ivec3 voxel = ivec3(0);
+    for (;;) {
+        bool found = false;
+        while (!found) {
+            if (column >= 0 && voxel.z < lastDepth) {
+                ++voxel.z;
+            } else {
+                if (++column == size.x * size.y) break;
+                voxel.xy = from + ivec2(column % size.x, column / size.x);
+                const ivec2 depths = depthRange(t, voxel.xy, kMargin, resolution.z);
+                voxel.z = depths.x;
+                lastDepth = overlapsColumn(t, voxel.xy, kMargin) ? depths.y : depths.x - 1;
+            }
+            found = voxel.z <= lastDepth && overlapsVoxel(t, voxel, kMargin);
         }
+        if (!found) return;
+        visit(push.grid, t, voxel, push.emissionScale);
+    }
 }

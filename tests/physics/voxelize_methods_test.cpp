@@ -158,6 +158,15 @@ TEST(VoxelizeMethods, RefuseGridsBeyondMemoryBeforeAllocation) {
     device().setMemoryLimitBytes(limit);
 }
 
+TEST(VoxelizeMethods, DirectionsAreOneOrSix) {
+    try {
+        voxelize(makeBuiltinScene("cornell", Value()), "resolution: 4, directions: 3");
+        ADD_FAILURE() << "3 directions were accepted";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("1 or 6"), std::string::npos) << error.what();
+    }
+}
+
 TEST(VoxelizeMethods, OneDirectionLetsLightThroughThinWalls) {
     // A room without light behind a wall of 2 cm, at voxels of 13 cm: one value a voxel mixes both sides.
     const auto leak = [](int directions) {
