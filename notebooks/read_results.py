@@ -69,8 +69,8 @@ for _, row in points.iterrows():
 # The Pareto front, the reference's noise, and what a black and a constant image score.
 front = points.iloc[pareto_front(list(zip(points["frame_ms_median"], points[error])))]
 axes.step(front["frame_ms_median"], front[error], where="post", color="grey", zorder=1)
-levels = {"reference's own noise": (results.noise(error), ":")}
-levels |= {f"{name} image": (results.baseline(name, error), "--") for name in ("black", "constant")}
+levels = {"reference's own noise": (results.noise(error, results.only_reference), ":")}
+levels |= {f"{name} image": (results.baseline(name, error, results.only_reference), "--") for name in ("black", "constant")}
 for name, (level, dashes) in levels.items():
     if level > 0:
         axes.axhline(level, color="grey", linestyle=dashes, linewidth=1)

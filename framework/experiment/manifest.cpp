@@ -100,7 +100,7 @@ std::string manifestJson(const ManifestData& data) {
     json["measure"] = Json::parse(measure.json());
     json["measure"]["metrics"] = experiment.measure.metrics;
 
-    // The report judges by the first reference
+    // What most runs have: one reference
     if (!data.references.empty()) {
         const ReferenceRecord& first = data.references[0];
         json["flip_exposures"] = exposuresJson(first.exposures);
@@ -111,6 +111,9 @@ std::string manifestJson(const ManifestData& data) {
     json["references"] = Json::array();
     for (const ReferenceRecord& r : data.references) {
         Json entry = referenceJson(r, data.referencePass);
+        entry["variants"] = Json::array();
+        for (const auto& [variant, hash] : data.referenceHashes)
+            if (hash == r.hash) entry["variants"].push_back(variant);
         entry["flip_exposures"] = exposuresJson(r.exposures);
         entry["indirect_flip_exposures"] = exposuresJson(r.indirectExposures);
         entry["baselines"] = {{"black", baselineJson(r.black, r.indirectBlack)},

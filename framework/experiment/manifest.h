@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct ManifestData {
     std::string version, commit;
     std::string started, finished;  ///< UTC, ISO 8601; `finished` is empty until the run is.
     std::vector<ReferenceRecord> references;
+    std::map<std::string, std::string> referenceHashes;  ///< Variant -> its reference's hash.
     std::vector<std::string> warnings;
 };
 

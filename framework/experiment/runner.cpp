@@ -115,6 +115,9 @@ void Run::openSession() {
     manifest_.experiment = &experiment_;
     for (const Variant& variant : variants_)
         manifest_.graphs.emplace_back(variant.name, Graph(registry_, variant.setup.graph).resolved());
+    for (const Variant& variant : variants_)
+        manifest_.referenceHashes[variant.name] =
+            session_->referenceHashOf(experiment_, variant.setup, registry_);
     if (!experiment_.reference.isNull())
         manifest_.referencePass = Graph(registry_, referenceGraph(experiment_)).resolved().items[0];
     manifest_.device = session_->device().info();

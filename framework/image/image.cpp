@@ -11,6 +11,7 @@
 #include "base/files.h"
 #include "base/parallel.h"
 #include "image/color.h"
+#include "image/file_check.h"
 
 namespace voxray {
 namespace fs = std::filesystem;
@@ -74,39 +75,6 @@ std::vector<T> readPixels(OIIO::ImageInput& input, const std::string& name, int 
     return values;
 }
 
-bool isJpeg(std::span<const uint8_t> bytes) {
-    return bytes.size() > 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
-}
-bool isPng(std::span<const uint8_t> bytes) {
-    static constexpr uint8_t magic[] = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
-    return bytes.size() > sizeof magic && std::equal(std::begin(magic), std::end(magic), bytes.begin());
-}
-
-// A cut-off JPEG decodes to grey without complaint: look for its end marker.
-bool jpegEnds(std::span<const uint8_t> bytes) {
-    static constexpr uint8_t endOfImage[] = {0xff, 0xd9};
-    return std::find_end(bytes.begin(), bytes.end(), std::begin(endOfImage), std::end(endOfImage)) !=
-           bytes.end();
-}
-
-// Walks a PNG's chunks (length, type, data, checksum) up to IEND.
-bool pngEnds(std::span<const uint8_t> bytes) {
-    for (size_t at = 8; bytes.size() - at >= 12;) {
-        const size_t length = size_t(bytes[at]) << 24 | size_t(bytes[at + 1]) << 16 |
-                              size_t(bytes[at + 2]) << 8 | size_t(bytes[at + 3]);
-        if (bytes.size() - at - 12 < length) return false;
-        if (std::string_view(reinterpret_cast<const char*>(&bytes[at + 4]), 4) == "IEND") return true;
-        at += 12 + length;
-    }
-    return false;
-}
-
-// The decoders speak on stderr, or stay silent, where a file ends early: refuse such files before.
-void checkComplete(std::span<const uint8_t> bytes, const std::string& name) {
-    if ((isJpeg(bytes) && !jpegEnds(bytes)) || (isPng(bytes) && !pngEnds(bytes)))
-        throw Error("{}: is broken or truncated: its end is missing", name);
-}
-
 // Colour under transparent pixels stays as the file has it.
 OIIO::ImageSpec openOptions() {
     OIIO::ImageSpec config;
@@ -137,7 +105,7 @@ void writeWhole(const fs::path& path, const char* format, const OIIO::ImageSpec&
 
 ImageF readImage(const fs::path& path) {
     const std::string name = path.string();
-    checkComplete(readFile(path), name);
+    checkWhole(readFile(path), name);
     try {
         // Open, and refuse what is no flat picture before any memory is taken.
         const OIIO::ImageSpec config = openOptions();
@@ -177,7 +145,7 @@ ImageF readImage(const fs::path& path) {
 DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name) {
     const bool png = isPng(encoded);
     if (!png && !isJpeg(encoded)) throw Error("{}: is neither PNG nor JPEG", name);
-    checkComplete(encoded, name);
+    checkWhole(encoded, name);
     try {
         // Open from memory.
         OIIO::Filesystem::IOMemReader reader(const_cast<uint8_t*>(encoded.data()), encoded.size());
@@ -242,6 +210,24 @@ void writePng(const fs::path& path, const ImageF& display) {
                          OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
     writeWhole(path, "png", spec, OIIO::TypeDesc::UINT8, bytes.data());
+}
+
+std::vector<uint8_t> encodePng(const DecodedImage& image) {
+    if (image.width == 0 || image.height == 0 || image.rgba.size() != size_t(image.width) * image.height * 4)
+        throw Error("a picture of {} x {} with {} bytes can't be a PNG", image.width, image.height,
+                    image.rgba.size());
+    std::vector<unsigned char> file;
+    OIIO::Filesystem::IOVecOutput writer(file);
+    OIIO::Filesystem::IOProxy* proxy = &writer;
+    OIIO::ImageSpec spec(int(image.width), int(image.height), 4, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create("png");
+    if (!out) throw Error("no writer for png: {}", oneLine(OIIO::geterror()));
+    if (!out->open("memory.png", spec) || !out->write_image(OIIO::TypeDesc::UINT8, image.rgba.data()) ||
+        !out->close())
+        throw Error("a PNG can't be made: {}", oneLine(out->geterror()));
+    return file;
 }
 
 ImageF preview(const ImageF& linear, float exposureStops) {

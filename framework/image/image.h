@@ -39,6 +39,10 @@ struct DecodedImage {
 /// 255; alpha is not multiplied in. @param name names the picture in errors. @throws Error as readImage().
 DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name);
 
+/// A PNG file of 8-bit RGBA that decodeImage() gives back byte by byte.
+/// @throws Error where the bytes do not fill the picture.
+std::vector<uint8_t> encodePng(const DecodedImage& image);
+
 /// Writes a float32 EXR (ZIP; channels R, G, B or Y), whole or not at all. Equal images give equal files.
 /// @throws Error where the image is empty or has neither 1 nor 3 channels, or the file cannot be written.
 void writeExr(const std::filesystem::path& path, const ImageF& image);

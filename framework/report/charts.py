@@ -57,8 +57,8 @@ class Chart:
 
 def cost_error_chart(results: Results, metric: Metric, light: str, with_build: bool, styles: dict[str, Style],
                      labels: dict[str, str], anchors: dict[str, str], chart_id: str) -> Chart | None:
-    """Draws time against one error on two log axes, the Pareto front, the reference's own noise, and what
-    a black and a constant image score. None where no variant has both numbers above zero.
+    """Draws time against one error on two log axes, the Pareto front, and, if all variants have one reference,
+    its own noise and what a black and a constant image score. None where no variant has both numbers above zero.
 
     @param with_build Adds the build's time to the frame's.
     @param labels, anchors For each variant, the text at its point and the id that its point links to.
@@ -67,8 +67,8 @@ def cost_error_chart(results: Results, metric: Metric, light: str, with_build: b
     points, not_drawn = _points(results, column, with_build, labels, anchors)
     if not points:
         return None
-    levels = [("reference's own noise", results.noise(column), ":")]
-    levels += [(f"{name} image", results.baseline(name, column), "--") for name in BASELINES]
+    levels = [("reference's own noise", results.noise(column, results.only_reference), ":")]
+    levels += [(f"{name} image", results.baseline(name, column, results.only_reference), "--") for name in BASELINES]
     levels = [level for level in levels if level[1] > 0]
 
     with matplotlib.rc_context(_RC), warnings.catch_warnings():

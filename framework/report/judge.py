@@ -15,15 +15,17 @@ def score_marks(results: Results, metric: Metric, column: str) -> dict[str, str]
     """Marks of one score: variant -> "best" or "tie".
 
     A tie differs from the best by no more than the reference's own noise: another reference of the same
-    quality could have ranked the two the other way round. No marks where fewer than two variants have one.
+    quality could have ranked the two the other way round. Where the two have different references, the larger
+    noise counts. No marks where fewer than two variants have one.
     """
     ranks = results.ok.set_index("variant")[column].map(metric.rank).dropna()
     if len(ranks) < 2:
         return {}
-    noise = results.noise(column)
-    margin = noise if math.isfinite(noise) else 0.0
     best = ranks.min()
-    marks = {name: "tie" for name, rank in ranks.items() if rank <= best + margin}
+    noises = {name: results.noise(column, results.reference_of(name)) for name in ranks.index}
+    noises = {name: noise if math.isfinite(noise) else 0.0 for name, noise in noises.items()}
+    of_best = noises[ranks.idxmin()]
+    marks = {name: "tie" for name, rank in ranks.items() if rank <= best + max(noises[name], of_best)}
     marks[ranks.idxmin()] = "best"
     # Equal to the last digit is no less the best.
     marks.update({name: "best" for name, rank in ranks.items() if rank == best})
@@ -44,14 +46,14 @@ def cost_marks(results: Results, column: str) -> dict[str, str]:
     return marks
 
 
-def beaten_by(results: Results, metric: Metric, column: str, value: float) -> list[str]:
-    """Which of the black and the constant image score better than `value`.
+def beaten_by(results: Results, metric: Metric, column: str, variant: str, value: float) -> list[str]:
+    """Which of the black and the constant image score better than a variant's `value` against its reference.
 
     The mean ratio is left out: the constant image has the right mean by construction.
     """
     if metric.better == "one" or math.isnan(value):
         return []
-    scores = {name: results.baseline(name, column) for name in BASELINES}
+    scores = {name: results.baseline(name, column, results.reference_of(variant)) for name in BASELINES}
     return [name for name, score in scores.items() if metric.rank(score) < metric.rank(value)]
 
 
@@ -87,7 +89,7 @@ def summary(results: Results, light: str) -> list[str]:
         tied = f", which cannot be told from {_names(ties)}" if ties else ""
         sentences.append(f"Lowest {metric.label} of the {light} light: {best} with {scores[best]:.3g}{tied}.")
         for name, value in scores.items():
-            if beaten_by(results, metric, column, value):
+            if beaten_by(results, metric, column, name, value):
                 worse.setdefault(name, []).append(metric.label)
     for measures in dict.fromkeys(map(tuple, worse.values())):
         names = [name for name, its in worse.items() if tuple(its) == measures]

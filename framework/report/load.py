@@ -93,21 +93,34 @@ class Results:
         records = [r for r in listed if isinstance(r, dict)] if isinstance(listed, list) else []
         return records or [section(self.manifest, "reference")]
 
-    def reference_folder(self, variant: str) -> str | None:
-        """The folder below images/ of a variant's reference, None where several are and none is named."""
+    def reference_of(self, variant: str) -> dict | None:
+        """The record of a variant's reference, None where several are and none names the variant."""
         records = self.references()
-        if len(records) > 1:
-            mine = [isinstance(r.get("variants"), list) and variant in r["variants"] for r in records]
-            records = [record for record, is_mine in zip(records, mine) if is_mine]
-        return str(records[0].get("folder") or "reference") if records else None
+        if len(records) == 1:
+            return records[0]
+        return next((r for r in records if isinstance(r.get("variants"), list) and variant in r["variants"]), None)
 
-    def noise(self, column: str) -> float:
-        """The reference's own noise in a score's unit, NaN where the run did not measure it."""
-        return number(section(self.manifest, "reference").get(column + "_noise"))
+    def reference_folder(self, variant: str) -> str | None:
+        """The folder below images/ of a variant's reference, None where it is unknown."""
+        record = self.reference_of(variant)
+        return None if record is None else str(record.get("folder") or "reference")
 
-    def baseline(self, name: str, column: str) -> float:
-        """What the "black" or the "constant" image scores, NaN where the run did not measure it."""
-        return number(section(section(self.manifest, "baselines"), name).get(column))
+    def noise(self, column: str, reference: dict | None) -> float:
+        """A reference's own noise in a score's unit, NaN where the run did not measure it."""
+        return number((reference or {}).get(column + "_noise"))
+
+    def baseline(self, name: str, column: str, reference: dict | None) -> float:
+        """What the "black" or the "constant" image scores against a reference, NaN where it was not measured."""
+        own = section(reference or {}, "baselines")
+        if not own and len(self.references()) == 1:
+            own = section(self.manifest, "baselines")
+        return number(section(own, name).get(column))
+
+    @property
+    def only_reference(self) -> dict | None:
+        """The reference that all variants share, None where they have several."""
+        records = self.references()
+        return records[0] if len(records) == 1 else None
 
     def image(self, folder: str, name: str) -> Path | None:
         """images/<folder>/<name>, None where there is no such file inside the run's images folder."""
@@ -153,7 +166,8 @@ def load(directory: str | Path) -> Results:
     results = Results(directory, variants, passes, manifest, sweep_keys, warnings)
     if (count := len(results.references())) > 1:
         warnings.append(f"The variants have {count} different references, so their scores are not of one "
-                        "image; noise and the black and constant images are the first one's.")
+                        "image. Each is judged by its own one's noise, black and constant image; charts "
+                        "don't show these.")
     return results
 
 

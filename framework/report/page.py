@@ -78,7 +78,7 @@ def render(results: Results) -> str:
         summaries={light: judge.summary(results, light) for light in lights},
         columns=columns, metrics=METRICS,
         rows=table.variant_rows(results, columns, numbers, anchors),
-        baselines=table.baseline_rows(results, columns), noise=table.noise_row(results, columns),
+        baselines=table.baseline_rows(results, columns), noises=table.noise_rows(results, columns),
         charts=chart_groups, not_drawn=not_drawn, legends=legends, markers=style.MARKERS, pass_colors=colors,
         bars=_bars(results, colors, numbers, anchors), reference=_reference(results, lights, warnings),
         variants=[_variant(results, row, lights, colors, numbers, anchors, warnings)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import pandas as pd
 
 from report import judge, text
-from report.load import BASELINES, LIGHTS, METRICS, Metric, Results, section
+from report.load import BASELINES, LIGHTS, METRICS, Metric, Results
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,8 @@ def columns_of(results: Results, lights: list[str]) -> list[Column]:
         for metric in METRICS:
             column = LIGHTS[light] + metric.key
             known = results.ok[column].notna().any() or any(
-                math.isfinite(results.baseline(name, column)) for name in BASELINES)
+                math.isfinite(results.baseline(name, column, reference))
+                for name in BASELINES for reference in results.references())
             if known:
                 unit = f", {metric.unit}" if metric.unit else ""
                 columns.append(Column(column, f"{metric.label}{unit}\u00a0{arrows[metric.better]}",
@@ -103,7 +104,7 @@ def _marks(results: Results, column: Column) -> dict[str, str]:
 def _cell(results: Results, row: pd.Series, column: Column, mark: str) -> Cell:
     value = row[column.key]
     if column.metric:
-        worse = judge.beaten_by(results, column.metric, column.key, value)
+        worse = judge.beaten_by(results, column.metric, column.key, row["variant"], value)
         title = f"worse than a {' and a '.join(worse)} image" if worse else ""
         return Cell(text.figures(value), _sort(value), column.light, "worse" if worse else mark, title)
     if column.key in _COSTS:
@@ -115,22 +116,27 @@ def _cell(results: Results, row: pd.Series, column: Column, mark: str) -> Cell:
 
 def baseline_rows(results: Results, columns: list[Column]) -> list[Row]:
     """What a black and a constant image score, as far as the run measured it."""
-    rows = []
-    for name in BASELINES:
-        if section(section(results.manifest, "baselines"), name):
-            cells = [Cell(text.figures(results.baseline(name, c.key)) if c.light else "", light=c.light)
-                     for c in columns]
-            rows.append(Row("", f"a {name} image", "", cells))
-    return rows
+    return [row for reference in results.references() for name in BASELINES
+            if (row := _reference_row(f"a {name} image{_folder(results, reference)}", columns,
+                                      lambda column: results.baseline(name, column, reference)))]
 
 
-def noise_row(results: Results, columns: list[Column]) -> Row | None:
-    """The reference's own noise in each score's unit; None where the run measured none."""
-    noises = {c.key: results.noise(c.key) for c in columns if c.light}
-    if not any(math.isfinite(value) for value in noises.values()):
+def noise_rows(results: Results, columns: list[Column]) -> list[Row]:
+    """Each reference's own noise in each score's unit, as far as the run measured it."""
+    return [row for reference in results.references()
+            if (row := _reference_row(f"the reference's own noise{_folder(results, reference)}", columns,
+                                      lambda column: results.noise(column, reference)))]
+
+
+def _folder(results: Results, reference: dict) -> str:
+    return "" if results.only_reference is not None else f" ({reference.get('folder')})"
+
+
+def _reference_row(name: str, columns: list[Column], value_of: Callable[[str], float]) -> Row | None:
+    values = {c.key: value_of(c.key) for c in columns if c.light}
+    if not any(math.isfinite(value) for value in values.values()):
         return None
-    return Row("", "the reference's own noise", "",
-               [Cell(text.figures(noises[c.key]) if c.light else "", light=c.light) for c in columns])
+    return Row("", name, "", [Cell(text.figures(values[c.key]) if c.light else "", light=c.light) for c in columns])
 
 
 def _sort(value: float) -> str:

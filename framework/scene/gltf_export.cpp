@@ -8,7 +8,6 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "scene/load.h"
-#include "scene/png.h"
 
 namespace voxray {
 namespace {
@@ -113,7 +112,7 @@ int GltfWriter::addNode(tinygltf::Node node) {
 }
 
 void GltfWriter::addTexture(const Texture& texture) {
-    const std::vector<uint8_t> png = encodePng(texture);
+    const std::vector<uint8_t> png = encodePng({texture.width, texture.height, texture.rgba});
     tinygltf::Image image;
     image.name = texture.name;
     image.mimeType = "image/png";

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "image/metrics.h"
 #include "passes/common/voxels.h"
 #include "tests/gpu/chain.h"
 
@@ -89,6 +90,22 @@ TEST(DirectShadowRays, AreaLightConvergesToTheReference) {
                 "[{pass: gbuffer}, {pass: direct_shadow_rays, samples: 64}, {pass: composite}]", 96, 96);
     Chain reference("quad_light", "{}", "[{pass: path_trace, spp: 64, bounces: 0}]", 96, 96);
     EXPECT_NEAR(mean(chain.image("final")) / mean(reference.image("final")), 1.0, 0.01);
+}
+
+TEST(DirectShadowRays, EnvironmentConvergesToTheReference) {
+    // Spheres and a floor under a white sky and nothing else.
+    Scene scene = *makeBuiltinScene("spheres", parseYaml("{moving: false}", "scene"));
+    scene.lights.clear();
+    scene.environment.radiance = glm::vec3(1.0f);
+    const auto state = std::make_shared<SceneState>(evaluate(std::make_shared<Scene>(scene), 0.0));
+    Chain chain(state,
+                "[{pass: gbuffer, samples: 2}, {pass: direct_shadow_rays, samples: 32}, {pass: composite}]",
+                64, 48, 1);
+    Chain reference(state, "[{pass: path_trace, spp: 128, bounces: 0}]", 64, 48, 1);
+    const ImageF image = chain.image("final"), truth = reference.image("final");
+    EXPECT_NEAR(mean(image) / mean(truth), 1.0, 0.003);
+    EXPECT_LT(nRmse(image, truth), 0.06);
+    EXPECT_LT(mean(truth), 0.95);  // The surfaces are seen, not the sky alone.
 }
 
 TEST(DirectVoxels, ApproachShadowRaysAsVoxelsShrink) {

@@ -130,6 +130,9 @@ TEST_F(RunTest, SeveralReferencesGetTheirOwnFolders) {
     EXPECT_EQ(Truth::runs, 2);
     EXPECT_TRUE(fs::exists(root_ / "out" / "images" / "reference" / "final.exr"));
     EXPECT_EQ(readImage(root_ / "out" / "images" / "reference.2" / "final.exr").width, 16u);
+    const auto manifest = nlohmann::json::parse(readTextFile(root_ / "out" / "manifest.json"));
+    EXPECT_EQ(manifest["references"][0]["variants"], std::vector<std::string>{"width-8"});
+    EXPECT_EQ(manifest["references"][1]["variants"], std::vector<std::string>{"width-16"});
 }
 
 TEST_F(RunTest, ResumeRepeatsNothingThatWasFinished) {

@@ -147,6 +147,30 @@ TEST_F(ImageFiles, ChangedBytesGiveAnErrorOrAPicture) {
     }
 }
 
+TEST_F(ImageFiles, EncodedPngGivesItsBytesBack) {
+    // Colour under transparent texels stays; equal texels take little room.
+    DecodedImage image{64, 33, {}};
+    for (uint32_t i = 0; i < 64 * 33; ++i)
+        for (uint32_t c = 0; c < 4; ++c)
+            image.rgba.push_back(i < 640 ? uint8_t(i * (c + 3)) : uint8_t(50 * c));
+    const std::vector<uint8_t> png = encodePng(image);
+    const DecodedImage back = decodeImage(png, "back.png");
+    EXPECT_EQ(back.width, 64u);
+    EXPECT_EQ(back.height, 33u);
+    EXPECT_EQ(back.rgba, image.rgba);
+    EXPECT_LT(png.size(), image.rgba.size() / 2);
+    EXPECT_EQ(encodePng(image), png);
+    EXPECT_THROW(encodePng({2, 2, {1, 2, 3}}), Error);
+}
+
+TEST_F(ImageFiles, ADamagedPngIsRefusedBeforeItsDecoderSpeaks) {
+    std::vector<uint8_t> png = encodePng({64, 64, std::vector<uint8_t>(64 * 64 * 4, 99)});
+    png[png.size() - 20] ^= 1;  // In the last IDAT chunk.
+    testing::internal::CaptureStderr();
+    EXPECT_THROW(decodeImage(png, "damaged.png"), Error);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST_F(ImageFiles, AHugeClaimIsRefused) {
     // 65535 x 65535 pixels in a few bytes of PNG.
     const std::vector<uint8_t> png = fromHex(

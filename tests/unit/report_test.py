@@ -291,11 +291,27 @@ class Judging(ReportTest):
 
     def test_worse_than_a_black_image(self):
         results = self.results([made_up.variant("a", 10, 0.1)])
-        self.assertEqual(judge.beaten_by(results, _NRMSE, "nrmse", 1.0), ["constant"])
-        self.assertEqual(judge.beaten_by(results, _NRMSE, "nrmse", 2.0), ["black", "constant"])
+        self.assertEqual(judge.beaten_by(results, _NRMSE, "nrmse", "a", 1.0), ["constant"])
+        self.assertEqual(judge.beaten_by(results, _NRMSE, "nrmse", "a", 2.0), ["black", "constant"])
         ssim = next(m for m in METRICS if m.key == "ssim")
-        self.assertEqual(judge.beaten_by(results, ssim, "ssim", 0.9), [])
-        self.assertEqual(judge.beaten_by(results, ssim, "ssim", -1.0), ["black", "constant"])
+        self.assertEqual(judge.beaten_by(results, ssim, "ssim", "a", 0.9), [])
+        self.assertEqual(judge.beaten_by(results, ssim, "ssim", "a", -1.0), ["black", "constant"])
+
+    def test_each_variant_is_judged_by_its_own_reference(self):
+        # Noise 0.01 and 0.1; a black image scores 1.6 and 0.3.
+        first, run = {"folder": "reference", "nrmse_noise": 0.01, "variants": ["a", "b"]}, made_up.manifest([])
+        second = {"folder": "reference.2", "nrmse_noise": 0.1, "variants": ["c"]}
+        first["baselines"] = run["baselines"]
+        second["baselines"] = {"black": {"nrmse": 0.3}, "constant": {"nrmse": 0.25}}
+        rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.28), ("c", 0.28))]
+        results = self.results(rows, references=[first, second])
+        self.assertEqual(judge.score_marks(results, _NRMSE, "nrmse"), {"a": "best", "c": "tie"})
+        self.assertEqual(judge.beaten_by(results, _NRMSE, "nrmse", "b", 0.28), [])
+        self.assertEqual(judge.beaten_by(results, _NRMSE, "nrmse", "c", 0.28), ["constant"])
+        shown = Page(page.render(results))
+        for words in ("a black image (reference)", "a black image (reference.2)",
+                      "the reference's own noise (reference.2)"):
+            self.assertIn(words, shown.text)
 
     def test_pareto_front(self):
         points = [(3, 1), (1, 5), (2, 5), (2, 3), (4, 1), (1, 6)]

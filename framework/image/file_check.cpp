@@ -1,0 +1,78 @@
+#include "image/file_check.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "base/error.h"
+
+namespace voxray {
+namespace {
+
+constexpr std::array<uint32_t, 256> makeCrcTable() {
+    std::array<uint32_t, 256> table{};
+    for (uint32_t i = 0; i < 256; ++i) {
+        uint32_t c = i;
+        for (int bit = 0; bit < 8; ++bit) c = (c & 1) != 0 ? 0xedb88320u ^ (c >> 1) : c >> 1;
+        table[i] = c;
+    }
+    return table;
+}
+constexpr std::array<uint32_t, 256> crcTable = makeCrcTable();
+
+uint32_t crc(std::span<const uint8_t> bytes) {
+    uint32_t c = 0xffffffffu;
+    for (const uint8_t byte : bytes) c = crcTable[(c ^ byte) & 0xff] ^ (c >> 8);
+    return ~c;
+}
+
+uint32_t bigEndian(const uint8_t* bytes) {
+    return uint32_t(bytes[0]) << 24 | uint32_t(bytes[1]) << 16 | uint32_t(bytes[2]) << 8 | bytes[3];
+}
+
+// Walks a PNG's chunks (length, type, data, checksum of type and data) up to IEND. Chunks that a decoder may
+// skip have a lower-case name: their checksums don't matter.
+void checkPng(std::span<const uint8_t> bytes, const std::string& name) {
+    for (size_t at = 8; bytes.size() - at >= 12;) {
+        const size_t length = bigEndian(&bytes[at]);
+        if (bytes.size() - at - 12 < length) break;
+        const auto typeAndData = bytes.subspan(at + 4, 4 + length);
+        const std::string_view type(reinterpret_cast<const char*>(typeAndData.data()), 4);
+        const bool isNamed = std::all_of(type.begin(), type.end(), [](char c) {
+            return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+        });
+        if (!isNamed) throw Error("{}: is broken: a chunk has no name", name);
+        const bool isCritical = (typeAndData[0] & 0x20) == 0;
+        if (isCritical && crc(typeAndData) != bigEndian(&bytes[at + 8 + length]))
+            throw Error("{}: is broken: the checksum of a chunk is wrong", name);
+        if (type == "IEND") return;
+        at += 12 + length;
+    }
+    throw Error("{}: is broken or truncated: its end is missing", name);
+}
+
+// A cut-off JPEG decodes to grey without complaint: look for its end marker.
+bool jpegEnds(std::span<const uint8_t> bytes) {
+    static constexpr uint8_t endOfImage[] = {0xff, 0xd9};
+    return std::find_end(bytes.begin(), bytes.end(), std::begin(endOfImage), std::end(endOfImage)) !=
+           bytes.end();
+}
+
+}  // namespace
+
+bool isJpeg(std::span<const uint8_t> bytes) {
+    return bytes.size() > 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
+}
+
+bool isPng(std::span<const uint8_t> bytes) {
+    static constexpr uint8_t magic[] = {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
+    return bytes.size() > sizeof magic && std::equal(std::begin(magic), std::end(magic), bytes.begin());
+}
+
+void checkWhole(std::span<const uint8_t> bytes, const std::string& name) {
+    if (isPng(bytes)) checkPng(bytes, name);
+    if (isJpeg(bytes) && !jpegEnds(bytes))
+        throw Error("{}: is broken or truncated: its end is missing", name);
+}
+
+}  // namespace voxray

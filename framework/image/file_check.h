@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+/// What is looked at in PNG and JPEG files before a decoder sees them. Internal to the image layer.
+namespace voxray {
+
+bool isJpeg(std::span<const uint8_t> bytes);
+bool isPng(std::span<const uint8_t> bytes);
+
+/// Refuses PNG and JPEG files without their end, and PNG files whose chunks are damaged: decoders speak on
+/// stderr of such files, or stay silent and decode a part. @throws Error that begins with `name`.
+void checkWhole(std::span<const uint8_t> bytes, const std::string& name);
+
+}  // namespace voxray
