@@ -48,12 +48,24 @@ const Workload& workload(const std::string& file) {
     return found != loaded.end() ? found->second : loaded.emplace(file, load(file)).first->second;
 }
 
-/// Agreement with Embree: the share of rays with the same triangle (or a miss in both), the share with
+/// Cosine between a ray and the normal of a triangle; 1 for a triangle without one.
+double cosineAt(const Geometry& g, const Ray& ray, uint32_t triangle) {
+    const glm::uvec3 v = g.triangles[triangle];
+    const glm::dvec3 a = g.positions[v.x];
+    const glm::dvec3 normal = glm::cross(glm::dvec3(g.positions[v.y]) - a, glm::dvec3(g.positions[v.z]) - a);
+    const double length = glm::length(normal);
+    return length > 0 ? std::abs(glm::dot(normal, glm::dvec3(ray.direction))) / length : 1.0;
+}
+
+/// Agreement with Embree: the share of rays with the same triangle (or a miss in both), the number with
 /// another triangle at the same distance (shared edges, coincident triangles), the rest, and the largest
-/// relative difference of t among the first.
-void compare(benchmark::State& state, const std::vector<Hit>& expected, const std::vector<Hit>& hits) {
-    size_t same = 0, ties = 0;
-    double worst = 0;
+/// relative difference of t among the first. A ray that grazes its triangle meets it at a distance that
+/// rounding moves by 1 / cos: `off_plane` is the largest difference of t times that cosine, how far one hit
+/// lies off the other's plane, in metres.
+void compare(benchmark::State& state, const Workload& work, const std::vector<Hit>& hits) {
+    const std::vector<Hit>& expected = work.expected;
+    size_t same = 0, ties = 0, far = 0;
+    double worst = 0, offPlane = 0, farT = 0;
     for (size_t i = 0; i < expected.size(); ++i) {
         const bool isMiss = expected[i].triangle == Hit::kMiss;
         const double difference =
@@ -61,6 +73,13 @@ void compare(benchmark::State& state, const std::vector<Hit>& expected, const st
         if (hits[i].triangle == expected[i].triangle) {
             ++same;
             worst = std::max(worst, difference);
+            if (isMiss) continue;
+            const double cosine = cosineAt(work.state.geometry, work.rays[i], expected[i].triangle);
+            offPlane = std::max(offPlane, difference * double(expected[i].t) * cosine);
+            if (difference > 1e-4) {
+                ++far;
+                farT = std::max(farT, double(expected[i].t));
+            }
         } else if (!isMiss && hits[i].triangle != Hit::kMiss && difference < 1e-4) {
             ++ties;
         }
@@ -70,6 +89,9 @@ void compare(benchmark::State& state, const std::vector<Hit>& expected, const st
     state.counters["ties"] = double(ties);
     state.counters["others"] = count - double(same + ties);
     state.counters["t_difference"] = worst;
+    state.counters["t_above_1e-4"] = double(far);
+    state.counters["their_largest_t"] = farT;
+    state.counters["off_plane"] = offPlane;
 }
 
 void trace(benchmark::State& state, const std::string& file, TracerKind kind, bool occluded) {
@@ -94,7 +116,7 @@ void trace(benchmark::State& state, const std::string& file, TracerKind kind, bo
         state.counters["rays/s"] =
             benchmark::Counter(double(state.iterations()) * kRays, benchmark::Counter::kIsRate);
         state.counters["MiB"] = double(tracer->memoryBytes()) / double(1 << 20);
-        if (!occluded) compare(state, work.expected, stream.readAs<Hit>(results, kRays));
+        if (!occluded) compare(state, work, stream.readAs<Hit>(results, kRays));
     } catch (const Error& error) {
         state.SkipWithError(error.what());
     }
