@@ -16,7 +16,7 @@ struct ShadePush {
 
 struct FilterPush {
     int32_t step;
-    float tolerance;
+    float strictness;
 };
 
 ImageDesc texelImage(const GatherHits& hits, VkFormat format) {
@@ -45,9 +45,8 @@ void GatherRays::plan(PassPlan& plan) {
             "'filter' of gather_rays, or 'rays' of trace_gather_rays to {2}",
             hits.layout.blockSize, hits.layout.raysPerBlock, texelsPerBlock);
     plan.reserve("indirect image", imageBytes(frameImageDesc(plan.frame)));
-    plan.reserve("gathered irradiance", 2 * imageBytes(texelImage(hits, VK_FORMAT_R32G32B32A32_SFLOAT)) +
-                                            imageBytes(texelImage(hits, VK_FORMAT_R32G32_SFLOAT)) +
-                                            imageBytes(texelImage(hits, VK_FORMAT_R32_SFLOAT)));
+    plan.reserve("gathered irradiance", 3 * imageBytes(texelImage(hits, VK_FORMAT_R32G32B32A32_SFLOAT)) +
+                                            imageBytes(texelImage(hits, VK_FORMAT_R32G32_SFLOAT)));
     plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(plan.get(voxels_).voxelCount));
 }
 
@@ -57,8 +56,8 @@ void GatherRays::prepare(PassSetup& setup) {
     const ImageDesc wide = texelImage(hits, VK_FORMAT_R32G32B32A32_SFLOAT);
     gathered_ = Image(setup.device, "gathered irradiance", wide);
     filtered_ = Image(setup.device, "filtered irradiance", wide);
-    nearness_ = Image(setup.device, "nearness", texelImage(hits, VK_FORMAT_R32G32_SFLOAT));
-    surroundings_ = Image(setup.device, "surroundings", texelImage(hits, VK_FORMAT_R32_SFLOAT));
+    moments_ = Image(setup.device, "moments", wide);
+    surroundings_ = Image(setup.device, "surroundings", texelImage(hits, VK_FORMAT_R32G32_SFLOAT));
     const auto program = [&](const char* file) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file));
     };
@@ -88,14 +87,14 @@ void GatherRays::record(PassContext& context) {
                                                 {"hits", hits.batches[b]},
                                                 {"position", gbuffer.position, sampler_},
                                                 {"gathered", gathered_},
-                                                {"nearness", nearness_}}),
+                                                {"moments", moments_}}),
                         ShadePush{voxels.grid, hits.layout, b * hits.blocksPerBatch, hits.batchBlocks(b)},
                         linearGroups(uint64_t(hits.batchBlocks(b)) * texelsPerBlock));
 
     // Share irradiance between texels that see much the same.
     const Image *from = &gathered_, *to = &filtered_;
     if (params_.filter > 0)
-        stream.dispatch(surround_, {{"nearness", nearness_, sampler_}, {"surroundings", surroundings_}},
+        stream.dispatch(surround_, {{"moments", moments_, sampler_}, {"surroundings", surroundings_}},
                         int32_t(hits.layout.blockSize), pixelGroups(texels.x, texels.y));
     for (uint32_t level = 0; level < params_.filter; ++level, std::swap(from, to))
         stream.dispatch(filter_,
@@ -104,7 +103,7 @@ void GatherRays::record(PassContext& context) {
                          {"source", *from, sampler_},
                          {"surroundings", surroundings_, sampler_},
                          {"result", *to}},
-                        FilterPush{1 << level, params_.tolerance}, pixelGroups(texels.x, texels.y));
+                        FilterPush{1 << level, params_.strictness}, pixelGroups(texels.x, texels.y));
 
     stream.dispatch(resolve_,
                     {{"irradiance", *from, sampler_},

@@ -19,16 +19,16 @@ class GatherRays final : public Pass {
         "by: rays. Lambert surfaces only.";
     struct Params {
         uint32_t filter = 0;
-        float tolerance = 0.5f;
+        float strictness = 1.0f;
         static constexpr auto schema() {
             return std::tuple{
                 field("filter", &Params::filter,
                       "Levels of the filter; each doubles its reach: 0 is none, n reaches 2^n - 1 texels.",
                       0u, 6u),
-                field("tolerance", &Params::tolerance,
-                      "Error that the filter may make where irradiance changes, by Ward's bound; more is "
-                      "smoother and blurs.",
-                      0.01f, 10.0f)};
+                field("strictness", &Params::strictness,
+                      "Factor of the bias that the filter expects between texels (1: Ward's bound); more is "
+                      "sharper and noisier.",
+                      0.01f, 100.0f)};
         }
     };
 
@@ -49,7 +49,7 @@ class GatherRays final : public Pass {
     FaceIrradiance faces_;
     Program shade_, surround_, filter_, resolve_;
     Sampler sampler_;
-    Image gathered_, filtered_, nearness_, surroundings_;
+    Image gathered_, filtered_, moments_, surroundings_;
 };
 
 }  // namespace voxray

@@ -12,7 +12,8 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 16, scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(set = 0, binding = 17) uniform sampler2D position;
 layout(set = 0, binding = 18, rgba32f) writeonly uniform image2D gathered;  // Mean irradiance, number of rays.
-layout(set = 0, binding = 19, rg32f) writeonly uniform image2D nearness;    // Sum of 1 / distance, number of rays.
+// Over the texel's rays: sums of 1 / distance, of luminance and of its square; their number.
+layout(set = 0, binding = 19, rgba32f) writeonly uniform image2D moments;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     GatherLayout layout_;
@@ -48,15 +49,18 @@ void main() {
     const uint first = fewer ? max(guess, 1u) - 1u : firstRay(g, t);
     const uint last = min(fewer ? guess + 2u : firstRay(g, t + 1u), g.raysPerBlock);
     vec3 sum = vec3(0.0);
-    float nearSum = 0.0, rays = 0.0;
+    vec3 sums = vec3(0.0);
+    float rays = 0.0;
     for (uint j = first; j < last && p.w > 0.0; ++j) {
         if (fewer && rayTexel(g, shift, j) != t) continue;
         rays += 1.0;
         const Hit hit = hits.data[blockInBatch * g.raysPerBlock + j];
         if (hit.triangle == NO_HIT) continue;
-        nearSum += 1.0 / max(hit.t, 1e-6);
-        sum += reflected(hit, p.xyz);
+        const vec3 light = reflected(hit, p.xyz);
+        const float l = luminance(light);
+        sums += vec3(1.0 / max(hit.t, 1e-6), l, l * l);
+        sum += light;
     }
     imageStore(gathered, texel, vec4(rays > 0.0 ? sum / rays : vec3(0.0), rays));
-    imageStore(nearness, texel, vec4(nearSum, rays, 0.0, 0.0));
+    imageStore(moments, texel, vec4(sums, rays));
 }
