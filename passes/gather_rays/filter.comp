@@ -1,4 +1,5 @@
 #version 460
+#extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 // One level of an edge-avoiding wavelet filter (Dammertz et al. 2010) over irradiance, which weighs noise against bias.
 //
@@ -14,10 +15,16 @@ layout(set = 0, binding = 17) uniform sampler2D normal;
 layout(set = 0, binding = 18) uniform sampler2D source;  // Irradiance, number of rays that it stands for.
 layout(set = 0, binding = 19) uniform sampler2D surroundings;  // Harmonic mean distance, m; relative variance of a ray.
 layout(set = 0, binding = 20, rgba32f) writeonly uniform image2D result;
-layout(push_constant) uniform Push {
+layout(push_constant, scalar) uniform Push {
+    vec3 camera;       // m
+    float texelAngle;  // Width of a texel at unit distance.
     int step_;
     float strictness;
 } push;
+
+// Light from what is nearer than some texels changes within them anyhow: surroundings count as no nearer (as Tabellion and
+// Lamorlette 2004 bound the radius of irradiance records by the pixel).
+#define LEAST_TEXELS 8.0
 
 void main() {
     const ivec2 size = imageSize(result), texel = ivec2(gl_GlobalInvocationID.xy);
@@ -30,6 +37,7 @@ void main() {
     const vec3 n = texelFetch(normal, texel, 0).xyz;
     const vec2 around = texelFetch(surroundings, texel, 0).xy;
     const float noise = around.y / max(texelFetch(source, texel, 0).w, 1e-3);
+    const float least = LEAST_TEXELS * push.texelAngle * distance(p.xyz, push.camera);
     vec3 sum = vec3(0.0);
     float weights = 0.0, variance = 0.0;
     for (int y = -1; y <= 1; ++y)
@@ -40,7 +48,7 @@ void main() {
             const vec4 s = texelFetch(source, other, 0);
             if (q.w == 0.0 || s.w == 0.0) continue;
             const float cosine = clamp(dot(n, texelFetch(normal, other, 0).xyz), 0.0, 1.0);
-            const float closest = min(around.x, texelFetch(surroundings, other, 0).x);
+            const float closest = max(min(around.x, texelFetch(surroundings, other, 0).x), least);
             const float bias = push.strictness * (distance(p.xyz, q.xyz) / closest + sqrt(1.0 - cosine));
             const float kernel = (x == 0 ? 2.0 : 1.0) * (y == 0 ? 2.0 : 1.0);
             const float weight = kernel * s.w * (noise + 1e-12) / (noise + 1e-12 + bias * bias);

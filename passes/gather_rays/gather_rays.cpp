@@ -1,6 +1,7 @@
 #include "passes/gather_rays/gather_rays.h"
 
 #include "base/error.h"
+#include "passes/common/camera_matrix.h"
 #include "passes/common/dispatch.h"
 #include "passes/common/frame_image.h"
 
@@ -15,6 +16,8 @@ struct ShadePush {
 };
 
 struct FilterPush {
+    glm::vec3 camera;
+    float texelAngle;
     int32_t step;
     float strictness;
 };
@@ -93,6 +96,8 @@ void GatherRays::record(PassContext& context) {
 
     // Share irradiance between texels that see much the same.
     const Image *from = &gathered_, *to = &filtered_;
+    const CameraRays camera = cameraRays(context.frame.camera, texels.x, texels.y);
+    const float texelAngle = 2 * glm::length(camera.up) / float(texels.y);
     if (params_.filter > 0)
         stream.dispatch(surround_, {{"moments", moments_, sampler_}, {"surroundings", surroundings_}},
                         int32_t(hits.layout.blockSize), pixelGroups(texels.x, texels.y));
@@ -103,7 +108,8 @@ void GatherRays::record(PassContext& context) {
                          {"source", *from, sampler_},
                          {"surroundings", surroundings_, sampler_},
                          {"result", *to}},
-                        FilterPush{1 << level, params_.strictness}, pixelGroups(texels.x, texels.y));
+                        FilterPush{camera.origin, texelAngle, 1 << level, params_.strictness},
+                        pixelGroups(texels.x, texels.y));
 
     stream.dispatch(resolve_,
                     {{"irradiance", *from, sampler_},
