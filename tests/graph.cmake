@@ -8,3 +8,5 @@ voxray_tests(chain
            physics/voxelize_exact_test.cpp physics/voxelize_material_test.cpp
            physics/voxelize_methods_test.cpp physics/voxelize_test.cpp
   DEPENDS voxray_experiment voxray_passes)
+# Each chain compiles some twenty shaders.
+target_compile_definitions(tests_chain PRIVATE VOXRAY_TEST_CACHE="${CMAKE_BINARY_DIR}/test_cache")
