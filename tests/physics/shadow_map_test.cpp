@@ -122,6 +122,21 @@ TEST(ShadowMap, AgreesWithShadowRays) {
     }
 }
 
+TEST(ShadowMap, WhatAMaskCutsCastsNoShadow) {
+    // Spheres over a floor, cut away entirely.
+    SceneState state = evaluate(makeBuiltinScene("spheres", parseYaml("{moving: false}", "scene")), 0.0);
+    Scene scene = *state.scene;
+    for (size_t m = 1; m < scene.materials.size(); ++m) {
+        scene.materials[m].alphaMode = AlphaMode::Mask;
+        scene.materials[m].baseColor.a = 0;
+    }
+    state.scene = std::make_shared<Scene>(scene);
+    const auto shared = std::make_shared<SceneState>(state);
+    Chain map(shared, injectGraph("inject_shadow_map, bounces: 0"), 8, 8, 1);
+    Chain rays(shared, injectGraph("inject_voxel_rays, bounces: 0"), 8, 8, 1);
+    EXPECT_LT(difference(directFlux(map), directFlux(rays)), 1e-3);
+}
+
 TEST(ShadowMap, IndirectLightOfCornellIsThatOfVoxelRays) {
     const auto indirect = [](const std::string& inject) {
         Chain chain("cornell", "{lights: point}",
