@@ -18,8 +18,7 @@ struct FeedbackParams : WriteParams {
             WriteParams::schema(),
             std::tuple{field("rays", &FeedbackParams::rays, "Gather rays from each point in each iteration.",
                              1u, 1024u),
-                       field("bounces", &FeedbackParams::bounces,
-                             "Bounces of light: iterations, or length of paths.", 0u, 32u)});
+                       field("bounces", &FeedbackParams::bounces, "Bounces of light.", 0u, 32u)});
     }
 };
 
