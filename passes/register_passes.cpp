@@ -8,8 +8,9 @@
 #include "passes/gbuffer/gbuffer_pass.h"
 #include "passes/inject_camera_rays/inject_camera_rays.h"
 #include "passes/inject_light_rays/inject_light_rays.h"
-#include "passes/inject_voxel_rays/inject_voxel_rays.h"
 #include "passes/inject_rsm/inject_rsm.h"
+#include "passes/inject_shadow_map/inject_shadow_map.h"
+#include "passes/inject_voxel_rays/inject_voxel_rays.h"
 #include "passes/path_trace/path_trace_pass.h"
 #include "passes/place_surfels/place_surfels.h"
 #include "passes/trace_gather_rays/trace_gather_rays.h"
@@ -25,6 +26,7 @@ void registerPasses(Registry& registry) {
     registry.add<InjectVoxelRays>();
     registry.add<InjectCameraRays>();
     registry.add<InjectRsm>();
+    registry.add<InjectShadowMap>();
     registry.add<GatherIrradiance>();
     registry.add<TraceGatherRays>();
     registry.add<GatherRays>();

@@ -13,24 +13,6 @@ struct MarkPush {
     uint32_t rays;
 };
 
-struct WritePush {
-    uint32_t count;
-    float scale;
-};
-
-struct GatherPush {
-    uint32_t count;
-    uint32_t ray;
-    uint32_t rays;
-    uint32_t seed;
-};
-
-struct FeedbackPush {
-    gpu::VoxelGrid grid;
-    uint32_t count;
-    float scale;
-};
-
 }  // namespace
 
 void InjectVoxelRays::declare(PassBuilder& builder) {
@@ -46,52 +28,40 @@ void InjectVoxelRays::declare(PassBuilder& builder) {
 void InjectVoxelRays::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
     const SurfaceVoxels& voxels = plan.get(voxels_);
-    VoxelWrites::plan(plan, kName, params_, voxels);
-    VoxelWrites::plan(plan, kName, params_, voxels);
-    plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
     if (params_.demand) {
+        VoxelWrites::plan(plan, kName, params_, voxels);
+        VoxelWrites::plan(plan, kName, params_, voxels);
+        plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
         plan.reserve("paths", SurfelPaths::bytes(paths()));
         plan.reserve("faces asked for (estimated)", uint64_t(voxels.voxelCount) * sizeof(uint32_t));
     } else {
-        plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(voxels.voxelCount));
-        plan.reserve("rays of a chunk of surfels", SurfelLight::bytes(Surfels::kChunk) +
-                                                       Surfels::kChunk * (sizeof(Ray) + sizeof(Hit) + 16));
+        SurfelFeedback::plan(plan, kName, params_, voxels);
+        plan.reserve("shadow rays of a chunk of surfels",
+                     SurfelLight::bytes(Surfels::kChunk) + Surfels::kChunk * 4 * sizeof(float));
     }
 }
 
 void InjectVoxelRays::prepare(PassSetup& setup) {
-    const auto program = [&](const char* file, const Defines& defines = {}) {
-        return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
-    };
-    const auto buffer = [&](const char* name, uint64_t bytes) { return Buffer(setup.device, name, bytes); };
-    direct_ = VoxelWrites(setup.device, setup.compiler, params_);
-    indirect_ = VoxelWrites(setup.device, setup.compiler, params_);
     if (params_.demand) {
+        const auto program = [&](const char* file) {
+            return makeComputeProgram(setup.device, setup.compiler.compile(file));
+        };
+        direct_ = VoxelWrites(setup.device, setup.compiler, params_);
+        indirect_ = VoxelWrites(setup.device, setup.compiler, params_);
         surfelPaths_ = SurfelPaths(setup, paths());
         mark_ = program("passes/inject_voxel_rays/mark.comp");
         select_ = program("passes/inject_voxel_rays/select.comp");
-        count_ = buffer("number of surfels asked for", sizeof(uint32_t));
+        count_ = Buffer(setup.device, "number of surfels asked for", sizeof(uint32_t));
         sampler_ = texelSampler(setup.device);
     } else {
         light_.emplace(setup, Surfels::kChunk);
-        write_ = program("passes/common/surfel_write.comp", VoxelWrites::defines(params_.write));
-        gather_ = program("passes/common/surfel_gather.comp");
-        feedback_ = program("passes/inject_voxel_rays/feedback.comp", VoxelWrites::defines(params_.write));
-        faces_ = FaceIrradiance(setup.device, setup.compiler);
-        surfelDirect_ = buffer("surfels' direct irradiance", Surfels::kChunk * 4 * sizeof(float));
-        rays_ = buffer("gather rays", Surfels::kChunk * sizeof(Ray));
-        rayHits_ = buffer("gather ray hits", Surfels::kChunk * sizeof(Hit));
+        feedback_ = SurfelFeedback(setup, params_);
+        surfelDirect_ =
+            Buffer(setup.device, "surfels' direct irradiance", Surfels::kChunk * 4 * sizeof(float));
     }
 }
 
 void InjectVoxelRays::record(PassContext& context) {
-    const SurfaceVoxels& voxels = context.get(voxels_);
-    VoxelIrradiance& irradiance = context.get(irradiance_);
-    irradiance.allocate(context.device, voxels.voxelCount);
-    context.stream.fill(irradiance.area, 0);
-    const float typical = meanIrradiance(sources_, context.frame.scene->geometry);
-    direct_.begin(context.device, context.stream, voxels, typical);
-    indirect_.begin(context.device, context.stream, voxels, typical);
     const uint32_t seed = uint32_t(context.frame.seed * 0x9e3779b9u) + context.frameIndex * 0x85ebca6bu;
     if (params_.demand)
         lightAsked(context, seed);
@@ -103,7 +73,13 @@ void InjectVoxelRays::record(PassContext& context) {
 void InjectVoxelRays::lightAsked(PassContext& context, uint32_t seed) {
     const SurfaceVoxels& voxels = context.get(voxels_);
     const GatherHits& hits = context.get(hits_);
+    VoxelIrradiance& irradiance = context.get(irradiance_);
     CommandStream& stream = context.stream;
+    irradiance.allocate(context.device, voxels.voxelCount);
+    stream.fill(irradiance.area, 0);
+    const float typical = meanIrradiance(sources_, context.frame.scene->geometry);
+    direct_.begin(context.device, stream, voxels, typical);
+    indirect_.begin(context.device, stream, voxels, typical);
 
     // Mark the faces that the gather rays will read.
     const Buffer asked(context.device, "faces asked for", uint64_t(voxels.voxelCount) * sizeof(uint32_t));
@@ -133,7 +109,6 @@ void InjectVoxelRays::lightAsked(PassContext& context, uint32_t seed) {
         const uint32_t count = stream.readAs<uint32_t>(count_, 1)[0];
         if (count > 0) surfelPaths_.run(context, sources_, count, seed, {voxels, direct_, indirect_});
     }
-    const VoxelIrradiance& irradiance = context.get(irradiance_);
     direct_.resolve(stream, voxels, irradiance.direct, irradiance.area);
     indirect_.resolve(stream, voxels, irradiance.indirect, irradiance.area);
     stream.finish();
@@ -142,49 +117,14 @@ void InjectVoxelRays::lightAsked(PassContext& context, uint32_t seed) {
 void InjectVoxelRays::lightAll(PassContext& context, uint32_t seed) {
     const SurfaceVoxels& voxels = context.get(voxels_);
     const Surfels& surfels = context.get(surfels_);
-    const VoxelIrradiance& irradiance = context.get(irradiance_);
-    CommandStream& stream = context.stream;
-
-    // Direct light of every surfel.
+    VoxelIrradiance& irradiance = context.get(irradiance_);
+    feedback_.begin(context, voxels, sources_, irradiance);
     for (const Surfels::Chunk& chunk : surfels.chunks) {
         light_->measure(context, sources_, chunk.surfels, chunk.count, params_.lightSamples, seed,
                         surfelDirect_);
-        std::vector<Binding> bindings = direct_.bindings();
-        bindings.insert(bindings.end(), {{"surfels", chunk.surfels}, {"irradiance", surfelDirect_}});
-        stream.dispatch(write_, bindings, WritePush{chunk.count, direct_.scale()}, linearGroups(chunk.count));
+        feedback_.addDirect(context, chunk, surfelDirect_);
     }
-    direct_.resolve(stream, voxels, irradiance.direct, irradiance.area);
-    stream.fill(irradiance.indirect, 0);
-    requireLight(stream, voxels, irradiance);
-
-    // One more bounce an iteration, from the light that the last one left.
-    for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {
-        faces_.update(stream, voxels, irradiance);
-        if (bounce > 0)
-            indirect_.begin(context.device, stream, voxels,
-                            meanIrradiance(sources_, context.frame.scene->geometry));
-        for (const Surfels::Chunk& chunk : surfels.chunks) {
-            for (uint32_t ray = 0; ray < params_.rays; ++ray) {
-                stream.dispatch(
-                    gather_, {{"surfels", chunk.surfels}, {"rays", rays_}},
-                    GatherPush{chunk.count, ray, params_.rays, seed + 0x51u + bounce * 0x9e3779b9u},
-                    linearGroups(chunk.count));
-                context.tracer.closestHit(stream, rays_, rayHits_, chunk.count);
-                std::vector<Binding> bindings = context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
-                                                                        {"voxelRank", voxels.rank},
-                                                                        {"faceIrradiance", faces_.buffer()},
-                                                                        {"surfels", chunk.surfels},
-                                                                        {"hits", rayHits_}});
-                const std::vector<Binding> writes = indirect_.bindings();
-                bindings.insert(bindings.end(), writes.begin(), writes.end());
-                stream.dispatch(feedback_, bindings,
-                                FeedbackPush{voxels.grid, chunk.count, indirect_.scale()},
-                                linearGroups(chunk.count));
-            }
-        }
-        indirect_.resolve(stream, voxels, irradiance.indirect, irradiance.area);
-        stream.finish();
-    }
+    feedback_.finish(context, voxels, surfels, seed, irradiance);
 }
 
 }  // namespace voxray

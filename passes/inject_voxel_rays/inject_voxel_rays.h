@@ -2,11 +2,10 @@
 
 #include <optional>
 
-#include "passes/common/face_irradiance.h"
 #include "passes/common/gather_hits.h"
 #include "passes/common/gbuffer.h"
+#include "passes/common/surfel_feedback.h"
 #include "passes/common/surfel_paths.h"
-#include "passes/common/surfels.h"
 
 namespace voxray {
 
@@ -24,18 +23,13 @@ class InjectVoxelRays final : public Pass {
         "own light. Biased by: voxel size. Noisy by: points, rays. Leaves unlit: nothing, or with demand: "
         "true "
         "all that trace_gather_rays (which must come before) does not ask for.";
-    struct Params : WriteParams {
-        uint32_t rays = 1;
-        uint32_t bounces = 8;
+    struct Params : FeedbackParams {
         uint32_t lightSamples = 1;
         bool demand = false;
         static constexpr auto schema() {
             return std::tuple_cat(
-                WriteParams::schema(),
+                FeedbackParams::schema(),
                 std::tuple{
-                    field("rays", &Params::rays, "Gather rays from each point in each iteration.", 1u, 1024u),
-                    field("bounces", &Params::bounces, "Bounces of light: iterations, or length of paths.",
-                          0u, 32u),
                     field("light_samples", &Params::lightSamples,
                           "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u,
                           256u),
@@ -65,9 +59,9 @@ class InjectVoxelRays final : public Pass {
     Port<GatherHits> hits_;
     Port<VoxelIrradiance> irradiance_;
     std::vector<LightSource> sources_;
-    VoxelWrites direct_, indirect_;
 
     // With demand.
+    VoxelWrites direct_, indirect_;
     SurfelPaths surfelPaths_;
     Program mark_, select_;
     Buffer count_;
@@ -75,9 +69,8 @@ class InjectVoxelRays final : public Pass {
 
     // Without.
     std::optional<SurfelLight> light_;
-    Program write_, gather_, feedback_;
-    FaceIrradiance faces_;
-    Buffer surfelDirect_, rays_, rayHits_;
+    SurfelFeedback feedback_;
+    Buffer surfelDirect_;
 };
 
 }  // namespace voxray

@@ -28,7 +28,9 @@ void PlaceSurfels::declare(PassBuilder& builder) {
 
 void PlaceSurfels::plan(PassPlan& plan) {
     const uint64_t points = std::min(uint64_t(plan.get(voxels_).voxelCount) * params_.points, kMostPoints);
-    plan.reserve("surfels (estimated)", 2 * points * sizeof(gpu::Surfel));
+    Surfels& surfels = plan.get(surfels_);
+    surfels.most = 2 * points;
+    plan.reserve("surfels (estimated)", surfels.most * sizeof(gpu::Surfel));
     plan.reserve("a batch of points",
                  kBatchPoints * (sizeof(uint32_t) + 2 * (sizeof(Ray) + 4 + 2 * sizeof(gpu::Surfel))) + 4);
 }

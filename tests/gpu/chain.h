@@ -30,7 +30,7 @@ class Chain {
     Chain(std::shared_ptr<const SceneState> state, const std::string& graphYaml, uint32_t width,
           uint32_t height, uint64_t seed)
         : state_(std::move(state)),
-          compiler_(VOXRAY_SOURCE_DIR, {}),
+          compiler_(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE),
           stream_(device()),
           tracer_(makeRayTracer(TracerKind::Embree, device(), compiler_, *state_)),
           scene_(makeGpuScene(device(), stream_, *state_)) {

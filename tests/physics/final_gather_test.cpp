@@ -26,10 +26,10 @@ double total(Chain& chain, const Buffer& flux) {
 
 std::string gatherGraph(const std::string& inject, const std::string& trace, const std::string& gather,
                         const std::string& voxelize = "resolution: 16", const std::string& samples = "1") {
-    return "[{pass: gbuffer, samples: " + samples + "}, {pass: voxelize, " + voxelize +
-           "}, {pass: place_surfels, points: 8}, {pass: trace_gather_rays, " + trace + "}, {pass: " + inject +
-           "}, {pass: gather_rays, " + gather +
-           "}, {pass: direct_shadow_rays, samples: 64}, {pass: composite}]";
+    const bool atSurfels = inject.starts_with("inject_voxel_rays") || inject.starts_with("inject_shadow_map");
+    return "[{pass: gbuffer, samples: " + samples + "}, {pass: voxelize, " + voxelize + "}, " +
+           (atSurfels ? "{pass: place_surfels, points: 8}, " : "") + "{pass: trace_gather_rays, " + trace +
+           "}, {pass: " + inject + "}, {pass: gather_rays, " + gather + "}]";
 }
 
 std::string messageOf(const std::string& scene, const std::string& graph) {
@@ -47,10 +47,20 @@ double difference(const ImageF& a, const ImageF& b) {
     return sum / double(b.data.size()) / mean(b);
 }
 
-const std::vector<std::string> kStrategies = {"inject_light_rays, rays_per_light: 524288, bounces: BOUNCES",
-                                              "inject_voxel_rays, rays: 4, bounces: BOUNCES",
-                                              "inject_voxel_rays, demand: true, bounces: BOUNCES",
-                                              "inject_camera_rays, rays: 131072, bounces: BOUNCES"};
+const std::vector<std::string> kOfAllLights = {"inject_light_rays, rays_per_light: 131072, bounces: BOUNCES",
+                                               "inject_voxel_rays, rays: 2, bounces: BOUNCES",
+                                               "inject_voxel_rays, demand: true, bounces: BOUNCES",
+                                               "inject_camera_rays, rays: 65536, bounces: BOUNCES"};
+// Of point, spot and directional lights alone.
+const std::vector<std::string> kOfViewpoints = {
+    "inject_rsm, resolution: 128, bounces: BOUNCES",
+    "inject_shadow_map, resolution: 256, rays: 2, bounces: BOUNCES"};
+
+std::vector<std::string> allStrategies() {
+    std::vector<std::string> all = kOfAllLights;
+    all.insert(all.end(), kOfViewpoints.begin(), kOfViewpoints.end());
+    return all;
+}
 
 std::string strategy(const std::string& name, int bounces) {
     std::string text = name;
@@ -91,7 +101,7 @@ TEST(VoxelRays, AreLinearInLight) {
 TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAFurnace) {
     // Every surface emits 1 and reflects 0.6: after three bounces of light pixels show 1 + 0.6 + 0.36 + 0.216
     // + 0.1296. The gather itself is one bounce.
-    for (const std::string& name : kStrategies) {
+    for (const std::string& name : kOfAllLights) {
         const bool fromLights = name.find("light_rays") != std::string::npos;
         Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
                     gatherGraph(strategy(fromLights ? name : name + ", light_samples: 16", 2), "rays: 64",
@@ -104,29 +114,38 @@ TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAWhiteRoom) {
     // The walls of a closed room reflect 0.5 of 4 pi W on 24 m²: the mean of what they reflect of indirect
     // light over all walls is 4 pi / 24 / pi * (0.25 + 0.125 + 0.0625). The camera sees some walls only, so
     // the path tracer judges.
-    Chain reference("white_room", "{albedo: 0.5}", "[{pass: path_trace, spp: 1024, bounces: 4}]");
-    for (const std::string& name : kStrategies) {
+    Chain reference("white_room", "{albedo: 0.5}", "[{pass: path_trace, spp: 256, bounces: 4}]");
+    for (const std::string& name : allStrategies()) {
         Chain chain("white_room", "{albedo: 0.5}", gatherGraph(strategy(name, 3), "rays: 64", "filter: 0"));
         EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.02) << name;
     }
 }
 
-TEST(FinalGather, StrategiesAgreeOnCornell) {
-    std::vector<ImageF> images;
-    for (const std::string& name : kStrategies) {
+// Against the first of them.
+void expectAgreementOnCornell(const std::vector<std::string>& strategies) {
+    double first = 0;
+    for (const std::string& name : strategies) {
         Chain chain("cornell", "{lights: point}",
-                    gatherGraph(strategy(name, 5), "rays: 64", "filter: 0", "resolution: 48"));
-        images.push_back(chain.image("indirect"));
+                    gatherGraph(strategy(name, 3), "rays: 64", "filter: 0", "resolution: 48"));
+        const double indirect = mean(chain.image("indirect"));
+        if (first == 0) first = indirect;
+        EXPECT_NEAR(indirect / first, 1.0, 0.02) << name;
     }
-    for (size_t i = 1; i < images.size(); ++i)
-        EXPECT_NEAR(mean(images[i]) / mean(images[0]), 1.0, 0.02) << kStrategies[i];
+}
+
+TEST(FinalGather, StrategiesAgreeOnCornell) {
+    expectAgreementOnCornell(kOfAllLights);
+}
+
+TEST(FinalGather, ShadowMapsAgreeWithLightRaysOnCornell) {
+    expectAgreementOnCornell({kOfAllLights[0], kOfViewpoints[0], kOfViewpoints[1]});
 }
 
 TEST(FinalGather, ConvergesToTheReference) {
-    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 2048, bounces: 6}]");
+    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 1024, bounces: 6}]");
     const auto error = [&](const std::string& rays) {
         Chain chain("cornell", "{lights: point}",
-                    gatherGraph("inject_light_rays, rays_per_light: 1048576, bounces: 5", "rays: " + rays,
+                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5", "rays: " + rays,
                                 "filter: 0", "resolution: 64", "3"));
         return difference(chain.image("indirect"), reference.image("indirect"));
     };
@@ -139,23 +158,22 @@ TEST(FinalGather, BlocksShareRaysWithoutLosingEnergy) {
     // Each block's rays reach every texel, fewer or more rays than texels: the mean does not depend on the
     // split.
     const auto image = [](const std::string& trace) {
-        Chain chain("cornell", "{lights: point}",
-                    gatherGraph("inject_light_rays, rays_per_light: 262144, bounces: 5", trace, "filter: 3",
-                                "resolution: 32"),
-                    64, 64);
+        Chain chain("white_room", "{albedo: 0.5}",
+                    gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 2", trace, "filter: 3",
+                                "resolution: 16"),
+                    48, 48);
         return mean(chain.image("indirect"));
     };
-    const double expected = image("rays: 64");
-    for (const std::string trace :
-         {"rays: 16, block: 2", "rays: 24, block: 4", "rays: 8, block: 4", "rays: 3, block: 2"})
+    const double expected = image("rays: 32");
+    for (const std::string trace : {"rays: 24, block: 4", "rays: 8, block: 4", "rays: 3, block: 2"})
         EXPECT_NEAR(image(trace) / expected, 1.0, 0.02) << trace;
 }
 
 TEST(FinalGather, FilterLowersTheError) {
-    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 1024, bounces: 6}]", 64, 64);
+    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 128, bounces: 6}]", 64, 64);
     const auto error = [&](const std::string& filter) {
         Chain chain("cornell", "{lights: point}",
-                    gatherGraph("inject_light_rays, rays_per_light: 524288, bounces: 5", "rays: 4",
+                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5", "rays: 4",
                                 "filter: " + filter, "resolution: 48"),
                     64, 64);
         return difference(chain.image("indirect"), reference.image("indirect"));
@@ -164,15 +182,16 @@ TEST(FinalGather, FilterLowersTheError) {
 }
 
 TEST(FinalGather, SubPixelsAreAveraged) {
-    const auto image = [](const std::string& samples) {
+    const auto image = [](const std::string& samples, const std::string& rays) {
         Chain chain(
             "cornell", "{lights: point}",
             "[{pass: gbuffer, samples: " + samples +
-                "}, {pass: voxelize, resolution: 32}, {pass: inject_light_rays, rays_per_light: 262144}, "
-                "{pass: trace_gather_rays, rays: 32}, {pass: gather_rays}]");
+                "}, {pass: voxelize, resolution: 32}, {pass: inject_light_rays, rays_per_light: 65536}, "
+                "{pass: trace_gather_rays, rays: " +
+                rays + "}, {pass: gather_rays}]");
         return mean(chain.image("indirect"));
     };
-    EXPECT_NEAR(image("3") / image("1"), 1.0, 0.03);
+    EXPECT_NEAR(image("3", "16") / image("1", "64"), 1.0, 0.03);
 }
 
 TEST(FinalGather, BadInputIsNamed) {
@@ -212,8 +231,8 @@ TEST(FinalGather, BadInputIsNamed) {
 TEST(FinalGather, GridOfOneVoxel) {
     // One voxel knows neither the walls' inner from their outer sides nor one point from another: light of
     // the right order, half of it lost to the outer sides.
-    Chain reference("white_room", "{albedo: 0.5}", "[{pass: path_trace, spp: 256, bounces: 4}]");
-    for (const std::string& name : kStrategies) {
+    Chain reference("white_room", "{albedo: 0.5}", "[{pass: path_trace, spp: 16, bounces: 4}]");
+    for (const std::string& name : allStrategies()) {
         Chain chain(
             "white_room", "{albedo: 0.5}",
             gatherGraph(strategy(name, 3), "rays: 16", "filter: 0", "resolution: 1, exposure_rays: 0"));

@@ -1,0 +1,96 @@
+#include "passes/inject_shadow_map/inject_shadow_map.h"
+
+#include "passes/common/dispatch.h"
+#include "passes/common/frame_image.h"
+
+namespace voxray {
+namespace {
+
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+constexpr uint32_t kCubeSides = 6;
+
+struct LightPush {
+    gpu::LightView view;
+    uint32_t light;
+    uint32_t resolution;
+    uint32_t side;
+    uint32_t count;
+};
+
+ImageDesc mapDesc(uint32_t resolution) {
+    ImageDesc desc;
+    desc.format = kDepthFormat;
+    desc.extent = {resolution, resolution, 1};
+    desc.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    return desc;
+}
+
+}  // namespace
+
+void InjectShadowMap::declare(PassBuilder& builder) {
+    voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels to light");
+    surfels_ = builder.read<Surfels>("surfels", "points where irradiance is measured");
+    irradiance_ = builder.write<VoxelIrradiance>("irradiance", "light that arrives at the voxels' surfaces");
+}
+
+void InjectShadowMap::plan(PassPlan& plan) {
+    sources_ = requireViewpoints(*plan.frame.scene, kName);
+    SurfelFeedback::plan(plan, kName, params_, plan.get(voxels_));
+    plan.reserve("shadow map", imageBytes(mapDesc(params_.resolution)));
+    plan.reserve("surfels' direct irradiance (estimated)", plan.get(surfels_).most * 4 * sizeof(float));
+}
+
+void InjectShadowMap::prepare(PassSetup& setup) {
+    shadowMap_ = Image(setup.device, "shadow map", mapDesc(params_.resolution));
+    sampler_ = texelSampler(setup.device);
+    const ShaderModule stages[] = {setup.compiler.compile("passes/common/light_view.vert"),
+                                   setup.compiler.compile("passes/inject_shadow_map/shadow_map.frag")};
+    RasterState state;
+    state.depthFormat = kDepthFormat;
+    rasterize_ = makeRasterProgram(setup.device, stages, state);
+    lightSurfels_ = makeComputeProgram(setup.device,
+                                       setup.compiler.compile("passes/inject_shadow_map/light_surfels.comp"));
+    feedback_ = SurfelFeedback(setup, params_);
+}
+
+void InjectShadowMap::record(PassContext& context) {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    const Surfels& surfels = context.get(surfels_);
+    const SceneState& state = *context.frame.scene;
+    CommandStream& stream = context.stream;
+    feedback_.begin(context, voxels, sources_, context.get(irradiance_));
+    std::vector<Buffer> direct;
+    for (const Surfels::Chunk& chunk : surfels.chunks) {
+        direct.emplace_back(context.device, "surfels' direct irradiance", chunk.count * 4 * sizeof(float));
+        stream.fill(direct.back(), 0);
+    }
+
+    for (const LightSource& source : sources_) {
+        const std::vector<gpu::LightView> views = lightViews(state.lights[source.light], state.geometry);
+        for (uint32_t v = 0; v < views.size(); ++v) {
+            RasterTargets targets;
+            targets.depth = &shadowMap_;
+            targets.extent = {params_.resolution, params_.resolution, 1};
+            stream.draw(rasterize_, context.scene.bindings({}), views[v], targets,
+                        context.scene.triangleCount * 3);
+            const uint32_t side = views.size() == kCubeSides ? v : kCubeSides;
+            for (size_t c = 0; c < surfels.chunks.size(); ++c) {
+                const Surfels::Chunk& chunk = surfels.chunks[c];
+                stream.dispatch(lightSurfels_,
+                                context.scene.bindings({{"surfels", chunk.surfels},
+                                                        {"direct", direct[c]},
+                                                        {"shadowMap", shadowMap_, sampler_}}),
+                                LightPush{views[v], source.light, params_.resolution, side, chunk.count},
+                                linearGroups(chunk.count));
+            }
+        }
+    }
+
+    for (size_t c = 0; c < surfels.chunks.size(); ++c)
+        feedback_.addDirect(context, surfels.chunks[c], direct[c]);
+    const uint32_t seed = uint32_t(context.frame.seed * 0x9e3779b9u) + context.frameIndex * 0x85ebca6bu;
+    feedback_.finish(context, voxels, surfels, seed, context.get(irradiance_));
+    stream.finish();
+}
+
+}  // namespace voxray

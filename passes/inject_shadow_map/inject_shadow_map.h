@@ -1,0 +1,50 @@
+#pragma once
+
+#include "passes/common/light_views.h"
+#include "passes/common/surfel_feedback.h"
+
+namespace voxray {
+
+/// Direct light of the voxels' surfaces by shadow maps: a depth view of the scene from every light is
+/// rasterised, and points on the surfaces are tested against it, with percentage-closer filtering over 2x2
+/// texels. Bounces by feedback, as inject_voxel_rays. Source: Arnebäck 2017 tests voxels against a shadow map
+/// as they are voxelized; filtering: Reeves et al. 1987.
+class InjectShadowMap final : public Pass {
+ public:
+    static constexpr const char* kName = "inject_shadow_map";
+    static constexpr const char* kHelp =
+        "Tests points on the voxels' surfaces (place_surfels) against a shadow map of every light; bounces "
+        "by feedback of the voxels' own light. Point lights take a cube of six maps, spots one (wider than "
+        "90° across: the cube), directional lights one over the scene's bounding sphere. No emissive "
+        "surfaces and no environment: they have no single viewpoint. Biased by: voxel size; resolution "
+        "(shadow edges and gaps below a texel). Noisy by: points, rays. Leaves unlit: nothing; what lies "
+        "nearer to a light than 0.0001 of the scene's extent casts no shadow.";
+    struct Params : FeedbackParams {
+        uint32_t resolution = 1024;
+        static constexpr auto schema() {
+            return std::tuple_cat(std::tuple{field("resolution", &Params::resolution,
+                                                   "Texels along a side of each shadow map.", 2u, 8192u)},
+                                  FeedbackParams::schema());
+        }
+    };
+
+    explicit InjectShadowMap(const Params& params) : params_(params) {}
+    Phase phase() const override { return Phase::Build; }
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    Params params_;
+    Port<SurfaceVoxels> voxels_;
+    Port<Surfels> surfels_;
+    Port<VoxelIrradiance> irradiance_;
+    std::vector<LightSource> sources_;
+    Program rasterize_, lightSurfels_;
+    Image shadowMap_;
+    Sampler sampler_;
+    SurfelFeedback feedback_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,63 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Adds the light of one view of a light to the surfels in it, by the share of the four nearest texels, weighted bilinearly,
+// that see the surfel. A texel sees it if nothing lies before the surfel's tangent plane on the texel's own ray: flat surfaces
+// do not shade themselves at any slope. Half a texel's width is to spare for what is curved, and for rounding.
+#include "shaders/light_view.glsl"
+#include "shaders/lights.glsl"
+#include "shaders/linear_index.glsl"
+#include "shaders/shared/surfel_types.h"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(set = 0, binding = 17, scalar) buffer Direct { vec4 data[]; } direct;
+layout(set = 0, binding = 18) uniform sampler2D shadowMap;
+layout(push_constant, scalar) uniform Push {
+    LightView view;
+    uint light;
+    uint resolution;  // Texels a side.
+    uint side;        // Which side of a cube the view is, in the order +x -x +y -y +z -z; 6: it is no cube's.
+    uint count;
+} push;
+
+uint cubeSide(vec3 v) {
+    const vec3 a = abs(v);
+    const uint axis = a.x >= a.y && a.x >= a.z ? 0u : a.y >= a.z ? 1u : 2u;
+    return 2u * axis + (v[axis] < 0.0 ? 1u : 0u);
+}
+
+bool seen(ivec2 texel, Surfel s) {
+    const LightView view = push.view;
+    const TexelRay ray = texelRay(view, texelOnView(view, push.resolution, texel));
+    const float towards = dot(ray.along, s.normal);
+    const float plane = towards < 0.0 ? min(dot(s.position - ray.start, s.normal) / towards, view.farthest) : view.farthest;
+    const float nearest = texelFetch(shadowMap, texel, 0).r * view.farthest;
+    const float width = texelWidth(view, push.resolution) * (view.parallel != 0u ? 1.0 : nearest);
+    return nearest + 0.5 * width >= plane;
+}
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const Surfel s = surfels.data[i];
+    const LightView view = push.view;
+    const vec3 away = s.position - view.origin;
+    if (push.side < 6u && cubeSide(away) != push.side) return;
+    const LightSample l = samplePunctual(sceneLights.data[push.light], s.position);
+    const vec3 irradiance = l.irradiance * max(dot(s.normal, l.direction), 0.0);
+    if (all(equal(irradiance, vec3(0.0)))) return;
+
+    // In texels from the middle of the first; within half a texel of the border there is none further out.
+    vec2 onView = vec2(dot(away, view.right), dot(away, view.up));
+    if (view.parallel == 0u) onView /= dot(away, view.forward);
+    const vec2 at = (onView + view.halfExtent) / texelWidth(view, push.resolution) - 0.5;
+    const ivec2 first = clamp(ivec2(floor(at)), ivec2(0), ivec2(push.resolution) - 2);
+    const vec2 share = clamp(at - vec2(first), 0.0, 1.0);
+    float visible = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        const ivec2 corner = ivec2(k & 1, k >> 1);
+        const vec2 weight = mix(1.0 - share, share, vec2(corner));
+        if (seen(first + corner, s)) visible += weight.x * weight.y;
+    }
+    direct.data[i] += vec4(visible * irradiance, 0.0);
+}
