@@ -9,9 +9,6 @@
 #include "shaders/shared/ray_types.h"
 layout(local_size_x = 64) in;
 
-#define PUNCTUAL 0u
-#define EMITTERS 1u
-
 layout(set = 0, binding = 16) uniform sampler2D position;
 layout(set = 0, binding = 17) uniform sampler2D normal;
 layout(set = 0, binding = 18) uniform sampler2D geometricNormal;
@@ -49,22 +46,8 @@ void main() {
         const vec3 side = normalize(texelFetch(geometricNormal, texel, 0).xyz);
 
         // Irradiance on a plane facing the sample, were it not in shadow.
-        LightSample s;
-        const uint seed = hashCombine(push.seed, push.firstPixel * perPixel + i);
-        if (push.kind == PUNCTUAL) {
-            s = samplePunctual(sceneLights.data[push.light], p.xyz);
-        } else if (push.kind == EMITTERS) {
-            const vec2 u = sobol2(push.light, hashCombine(seed, 0u));
-            const float pick = sobol2(push.light, hashCombine(seed, 1u)).x;
-            s = sampleEmitters(push.emitterCount, p.xyz, pick, u);
-            s.irradiance /= float(push.lightSamples);
-        } else {
-            // By cosine about the normal: radiance * cos / (cos / pi).
-            s.direction = cosineDirection(sobol2(push.light, hashCombine(seed, 2u)), n);
-            s.distance_ = 1.0e30;
-            s.irradiance = environmentRadiance(s.direction) * PI / (float(push.lightSamples) * max(dot(n, s.direction), 1e-6));
-        }
-
+        const LightSample s = sampleSource(push.kind, push.light, push.lightSamples, push.emitterCount, p.xyz, n,
+                                           push.firstPixel * perPixel + i, push.seed);
         const float cosine = dot(n, s.direction);
         if (cosine > 0.0 && dot(side, s.direction) > 0.0) {
             radiance = texelFetch(albedo, texel, 0).rgb / PI * s.irradiance * cosine;

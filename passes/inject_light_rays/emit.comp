@@ -9,10 +9,6 @@
 #include "shaders/shared/ray_types.h"
 layout(local_size_x = 64) in;
 
-#define PUNCTUAL 0u
-#define EMITTERS 1u
-#define ENVIRONMENT 2u
-
 layout(set = 0, binding = 16, scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(set = 0, binding = 17, scalar) writeonly buffer Paths { LightPath data[]; } paths;
 layout(push_constant, scalar) uniform Push {
@@ -46,7 +42,7 @@ void main() {
     ray.tMax = 1.0e30;
     LightPath path = LightPath(vec3(0.0), 0.0, 0.0, 0.0);
 
-    if (push.kind == PUNCTUAL) {
+    if (push.kind == SOURCE_PUNCTUAL) {
         const GpuLight light = sceneLights.data[push.light];
         ray.origin = light.position;
         if (light.type == LIGHT_POINT) {
@@ -66,7 +62,7 @@ void main() {
             path.area = PI * push.sceneRadius * push.sceneRadius;
             path.power = light.intensity * path.area;
         }
-    } else if (push.kind == EMITTERS) {
+    } else if (push.kind == SOURCE_EMITTERS) {
         // A triangle by its power, a point uniform on it, a direction by cosine: flux = L * pi * area / probability.
         const float pick = sobol2(index, hashCombine(push.seed, 2u)).x;
         const GpuEmitter emitter = sceneEmitters.data[pickEmitter(push.emitterCount, pick)];
