@@ -61,11 +61,12 @@ void GatherRays::prepare(PassSetup& setup) {
     filtered_ = Image(setup.device, "filtered irradiance", wide);
     moments_ = Image(setup.device, "moments", wide);
     surroundings_ = Image(setup.device, "surroundings", texelImage(hits, VK_FORMAT_R32G32_SFLOAT));
-    const auto program = [&](const char* file) {
-        return makeComputeProgram(setup.device, setup.compiler.compile(file));
+    const auto program = [&](const char* file, const Defines& defines = {}) {
+        return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
     shade_ = program("passes/gather_rays/shade.comp");
-    surround_ = program("passes/gather_rays/surroundings.comp");
+    surroundRows_ = program("passes/gather_rays/surroundings.comp");
+    surround_ = program("passes/gather_rays/surroundings.comp", {{"COLUMNS", "1"}});
     filter_ = program("passes/gather_rays/filter.comp");
     resolve_ = program("passes/gather_rays/resolve.comp");
     faces_ = FaceIrradiance(setup.device, setup.compiler);
@@ -98,9 +99,14 @@ void GatherRays::record(PassContext& context) {
     const Image *from = &gathered_, *to = &filtered_;
     const CameraRays camera = cameraRays(context.frame.camera, texels.x, texels.y);
     const float texelAngle = 2 * glm::length(camera.up) / float(texels.y);
-    if (params_.filter > 0)
-        stream.dispatch(surround_, {{"moments", moments_, sampler_}, {"surroundings", surroundings_}},
-                        int32_t(hits.layout.blockSize), pixelGroups(texels.x, texels.y));
+    if (params_.filter > 0) {
+        const int32_t radius = int32_t(hits.layout.blockSize);
+        const glm::uvec3 groups = pixelGroups(texels.x, texels.y);
+        stream.dispatch(surroundRows_, {{"moments", moments_, sampler_}, {"rowSums", filtered_}}, radius,
+                        groups);
+        stream.dispatch(surround_, {{"moments", filtered_, sampler_}, {"surroundings", surroundings_}},
+                        radius, groups);
+    }
     for (uint32_t level = 0; level < params_.filter; ++level, std::swap(from, to))
         stream.dispatch(filter_,
                         {{"position", gbuffer.position, sampler_},

@@ -47,7 +47,7 @@ class GatherRays final : public Pass {
     Port<GatherHits> hits_;
     Port<FrameImage> indirect_;
     FaceIrradiance faces_;
-    Program shade_, surround_, filter_, resolve_;
+    Program shade_, surroundRows_, surround_, filter_, resolve_;
     Sampler sampler_;
     Image gathered_, filtered_, moments_, surroundings_;
 };
