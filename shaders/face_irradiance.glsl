@@ -3,6 +3,7 @@
 #ifndef VOXRAY_FACE_IRRADIANCE_GLSL
 #define VOXRAY_FACE_IRRADIANCE_GLSL
 
+#include "shaders/facing.glsl"
 #include "shaders/voxels.glsl"
 
 // By voxel and facing direction +x -x +y -y +z -z: irradiance in W/m² and the area in units of a voxel's face that it is the
@@ -23,7 +24,7 @@ void addFaces(VoxelGrid g, uint voxel, vec3 normal, inout vec3 sum, inout float 
     for (uint axis = 0u; axis < 3u; ++axis) {
         const float weight = normal[axis] * normal[axis];
         if (weight < 1e-6) continue;
-        const vec4 face = faceIrradiance.data[voxel * 6u + 2u * axis + (normal[axis] < 0.0 ? 1u : 0u)];
+        const vec4 face = faceIrradiance.data[voxel * 6u + facing(normal, axis)];
         sum += weight * face.w * face.rgb;
         area += weight * face.w;
     }

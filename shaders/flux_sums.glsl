@@ -7,13 +7,15 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_shader_atomic_int64 : require
 
+#include "shaders/facing.glsl"
+
 layout(set = 0, binding = 13, scalar) buffer FluxSums { uint64_t data[]; } fluxSums;  // 3 a face
 
 // A surface's flux goes to the three directions that it faces, by the squares of its normal's components.
 void addFlux(uint voxel, vec3 normal, vec3 watts, float unitsPerWatt) {
     for (uint axis = 0u; axis < 3u; ++axis) {
         const float share = normal[axis] * normal[axis] * unitsPerWatt;
-        const uint face = voxel * 6u + 2u * axis + (normal[axis] < 0.0 ? 1u : 0u);
+        const uint face = voxel * 6u + facing(normal, axis);
         for (uint c = 0u; c < 3u; ++c) {
             const uint64_t units = uint64_t(watts[c] * share);
             if (units == 0ul) continue;

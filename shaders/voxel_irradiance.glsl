@@ -57,8 +57,4 @@ vec3 voxelIrradiance(VoxelGrid g, vec3 position, vec3 normal, float radius, bool
     return vec3(0.0);
 }
 
-vec3 voxelIrradiance(VoxelGrid g, vec3 position, vec3 normal, float radius) {
-    return voxelIrradiance(g, position, normal, radius, false);
-}
-
 #endif

@@ -5,6 +5,8 @@
 
 #extension GL_EXT_scalar_block_layout : require
 
+#include "shaders/facing.glsl"
+
 #define WRITE_AVERAGE 0
 #define WRITE_MAX 1
 #define WRITE_MOVING_AVERAGE 2
@@ -72,7 +74,7 @@ void writeFace(uint face, vec3 irradiance, float weight, float scale) {
 void writeIrradiance(uint voxel, vec3 normal, vec3 irradiance, float weight, float scale) {
     for (uint axis = 0u; axis < 3u; ++axis) {
         const float share = weight * normal[axis] * normal[axis];
-        if (share > 0.0) writeFace(voxel * 6u + 2u * axis + (normal[axis] < 0.0 ? 1u : 0u), irradiance, share, scale);
+        if (share > 0.0) writeFace(voxel * 6u + facing(normal, axis), irradiance, share, scale);
     }
 }
 

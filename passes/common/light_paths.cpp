@@ -69,8 +69,7 @@ void LightPaths::plan(PassPlan& plan, const std::string& pass, const LightPathPa
     }
     plan.reserve("light rays", uint64_t(batch) * (2 * sizeof(Ray) + sizeof(Hit) + sizeof(gpu::LightPath) +
                                                   sizeof(uint32_t)));
-    plan.reserve("irradiance (estimated)",
-                 uint64_t(voxels.voxelCount) * (2 * kFluxFloats + kAreaFloats) * sizeof(float));
+    plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
 }
 
 LightPaths::LightPaths(PassSetup& setup, const LightPathParams& params, uint32_t batch)
@@ -145,11 +144,7 @@ void LightPaths::follow(PassContext& context, const SurfaceVoxels& voxels, const
 
 void LightPaths::finish(PassContext& context, const SurfaceVoxels& voxels, VoxelIrradiance& irradiance) {
     CommandStream& stream = context.stream;
-    const uint64_t fluxBytes = uint64_t(voxels.voxelCount) * kFluxFloats * sizeof(float);
-    irradiance.direct = Buffer(context.device, "voxel direct flux", fluxBytes);
-    irradiance.indirect = Buffer(context.device, "voxel indirect flux", fluxBytes);
-    irradiance.area =
-        Buffer(context.device, "voxel area", uint64_t(voxels.voxelCount) * kAreaFloats * sizeof(float));
+    irradiance.allocate(context.device, voxels.voxelCount);
 
     // A face that no ray met is dark, not unknown.
     stream.dispatch(exposedArea_, {{"voxelMaterials", voxels.materials}, {"area", irradiance.area}},

@@ -63,12 +63,12 @@ Defines VoxelWrites::defines(Write write) {
 void VoxelWrites::begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels,
                         float typicalIrradiance) {
     const BytesPerVoxel bytes = bytesPerVoxel(params_.write);
-    sums_ = Buffer(device, "voxel irradiance sums", voxels.voxelCount * bytes.sums);
-    stream.fill(sums_, 0);
-    if (bytes.weights > 0) {
-        weights_ = Buffer(device, "voxel irradiance weights", voxels.voxelCount * bytes.weights);
-        stream.fill(weights_, 0);
-    }
+    const auto clear = [&](Buffer& buffer, const char* name, uint64_t size) {
+        if (!buffer || buffer.bytes() != size) buffer = Buffer(device, name, size);
+        stream.fill(buffer, 0);
+    };
+    clear(sums_, "voxel irradiance sums", voxels.voxelCount * bytes.sums);
+    if (bytes.weights > 0) clear(weights_, "voxel irradiance weights", voxels.voxelCount * bytes.weights);
     scale_ = 1;
     if (params_.write == Write::Average && typicalIrradiance > 0)
         scale_ = float(1u << 24) / typicalIrradiance;

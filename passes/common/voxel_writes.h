@@ -61,8 +61,8 @@ class VoxelWrites {
     /// Selects the write for a shader that includes shaders/voxel_writes.glsl.
     static Defines defines(Write write);
 
-    /// Allocates and clears. @param typicalIrradiance W/m², sets the unit of the fixed-point sums: see
-    /// meanIrradiance() in passes/common/light_sources.h.
+    /// Clears, allocating where there is no memory of the right size yet. @param typicalIrradiance W/m², sets
+    /// the unit of the fixed-point sums: see meanIrradiance() in passes/common/light_sources.h.
     void begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels, float typicalIrradiance);
     /// For the shader that writes.
     std::vector<Binding> bindings() const;

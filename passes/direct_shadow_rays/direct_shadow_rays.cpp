@@ -4,6 +4,7 @@
 
 #include "passes/common/dispatch.h"
 #include "passes/common/frame_image.h"
+#include "passes/common/random_seed.h"
 
 namespace voxray {
 namespace {
@@ -68,7 +69,7 @@ void DirectShadowRays::record(PassContext& context) {
     const Frame& frame = context.frame;
     const uint32_t pixels = frame.width * frame.height;
     const uint32_t batch = batchPixels(frame, gbuffer), perPixel = gbuffer.samples * gbuffer.samples;
-    const uint32_t seed = uint32_t(frame.seed * 0x9e3779b9u) + context.frameIndex * 0x85ebca6bu;
+    const uint32_t seed = randomSeed(frame, context.frameIndex);
     stream.clear(direct, {});
 
     // A stream of shadow rays for each light, or for each sample of the emissive surfaces and the

@@ -4,6 +4,7 @@
 
 #include "passes/common/camera_matrix.h"
 #include "passes/common/dispatch.h"
+#include "passes/common/random_seed.h"
 
 namespace voxray {
 namespace {
@@ -61,7 +62,7 @@ void InjectCameraRays::record(PassContext& context) {
     indirect_.begin(context.device, stream, voxels, typical);
 
     const CameraRays camera = cameraRays(context.frame.camera, context.frame.width, context.frame.height);
-    const uint32_t seed = uint32_t(context.frame.seed * 0x9e3779b9u) + context.frameIndex * 0x85ebca6bu;
+    const uint32_t seed = randomSeed(context.frame, context.frameIndex);
     for (uint32_t first = 0; first < params_.rays; first += kBatchRays) {
         const uint32_t batch = std::min(kBatchRays, params_.rays - first);
         stream.dispatch(emit_, {{"rays", rays_}},

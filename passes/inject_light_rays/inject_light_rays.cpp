@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "passes/common/dispatch.h"
+#include "passes/common/random_seed.h"
 
 namespace voxray {
 namespace {
@@ -48,7 +49,7 @@ void InjectLightRays::record(PassContext& context) {
     const BoundingSphere sphere = boundingSphere(context.frame.scene->geometry);
     paths_.begin(context, voxels, sources);
     for (uint32_t s = 0; s < sources.size(); ++s) {
-        const uint32_t seed = uint32_t(context.frame.seed * 0x9e3779b9u) + s * 0x85ebca6bu;
+        const uint32_t seed = randomSeed(context.frame, s);
         for (uint32_t first = 0; first < params_.raysPerLight; first += kMostBatchRays) {
             const uint32_t count = std::min(kMostBatchRays, params_.raysPerLight - first);
             context.stream.dispatch(

@@ -4,6 +4,7 @@
 
 #include "passes/common/dispatch.h"
 #include "passes/common/light_views.h"
+#include "passes/common/random_seed.h"
 
 namespace voxray {
 namespace {
@@ -70,7 +71,7 @@ void InjectRsm::record(PassContext& context) {
     const std::vector<LightSource> sources = lightSources(state);
     paths_.begin(context, voxels, sources);
     for (uint32_t s = 0; s < sources.size(); ++s) {
-        const uint32_t seed = uint32_t(context.frame.seed * 0x9e3779b9u) + s * 0x85ebca6bu;
+        const uint32_t seed = randomSeed(context.frame, s);
         const std::vector<gpu::LightView> views = lightViews(state.lights[sources[s].light], state.geometry);
         for (uint32_t v = 0; v < views.size(); ++v) {
             // What each texel sees.

@@ -2,6 +2,7 @@
 
 #include "passes/common/dispatch.h"
 #include "passes/common/frame_image.h"
+#include "passes/common/random_seed.h"
 
 namespace voxray {
 namespace {
@@ -88,7 +89,7 @@ void InjectShadowMap::record(PassContext& context) {
 
     for (size_t c = 0; c < surfels.chunks.size(); ++c)
         feedback_.addDirect(context, surfels.chunks[c], direct[c]);
-    const uint32_t seed = uint32_t(context.frame.seed * 0x9e3779b9u) + context.frameIndex * 0x85ebca6bu;
+    const uint32_t seed = randomSeed(context.frame, context.frameIndex);
     feedback_.finish(context, voxels, surfels, seed, context.get(irradiance_));
     stream.finish();
 }

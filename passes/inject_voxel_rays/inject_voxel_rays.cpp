@@ -2,6 +2,7 @@
 
 #include "passes/common/dispatch.h"
 #include "passes/common/frame_image.h"
+#include "passes/common/random_seed.h"
 
 namespace voxray {
 namespace {
@@ -62,7 +63,7 @@ void InjectVoxelRays::prepare(PassSetup& setup) {
 }
 
 void InjectVoxelRays::record(PassContext& context) {
-    const uint32_t seed = uint32_t(context.frame.seed * 0x9e3779b9u) + context.frameIndex * 0x85ebca6bu;
+    const uint32_t seed = randomSeed(context.frame, context.frameIndex);
     if (params_.demand)
         lightAsked(context, seed);
     else
@@ -82,8 +83,10 @@ void InjectVoxelRays::lightAsked(PassContext& context, uint32_t seed) {
     indirect_.begin(context.device, stream, voxels, typical);
 
     // Mark the faces that the gather rays will read.
-    const Buffer asked(context.device, "faces asked for", uint64_t(voxels.voxelCount) * sizeof(uint32_t));
-    stream.fill(asked, 0);
+    const uint64_t askedBytes = uint64_t(voxels.voxelCount) * sizeof(uint32_t);
+    if (!asked_ || asked_.bytes() != askedBytes)
+        asked_ = Buffer(context.device, "faces asked for", askedBytes);
+    stream.fill(asked_, 0);
     for (uint32_t b = 0; b < hits.batches.size(); ++b) {
         const uint32_t rays = hits.batchBlocks(b) * hits.layout.raysPerBlock;
         stream.dispatch(mark_,
@@ -92,7 +95,7 @@ void InjectVoxelRays::lightAsked(PassContext& context, uint32_t seed) {
                                                 {"voxelMaterials", voxels.materials},
                                                 {"hits", hits.batches[b]},
                                                 {"position", context.get(gbuffer_).position, sampler_},
-                                                {"asked", asked}}),
+                                                {"asked", asked_}}),
                         MarkPush{voxels.grid, hits.layout, b * hits.blocksPerBatch, rays},
                         linearGroups(rays));
     }
@@ -102,12 +105,14 @@ void InjectVoxelRays::lightAsked(PassContext& context, uint32_t seed) {
         stream.fill(count_, 0);
         stream.dispatch(select_,
                         {{"surfels", chunk.surfels},
-                         {"asked", asked},
+                         {"asked", asked_},
                          {"selected", surfelPaths_.first()},
                          {"count", count_}},
                         chunk.count, linearGroups(chunk.count));
         const uint32_t count = stream.readAs<uint32_t>(count_, 1)[0];
-        if (count > 0) surfelPaths_.run(context, sources_, count, seed, {voxels, direct_, indirect_});
+        for (uint32_t ray = 0; ray < params_.rays && count > 0; ++ray)
+            surfelPaths_.run(context, sources_, count, seed + ray * 0xc2b2ae35u,
+                             {voxels, direct_, indirect_});
     }
     direct_.resolve(stream, voxels, irradiance.direct, irradiance.area);
     indirect_.resolve(stream, voxels, irradiance.indirect, irradiance.area);

@@ -34,7 +34,9 @@ class InjectVoxelRays final : public Pass {
                           "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u,
                           256u),
                     field("demand", &Params::demand,
-                          "Light only the faces that trace_gather_rays asks for, in each frame.")});
+                          "Light only the faces that trace_gather_rays asks for, in each frame, by `rays` "
+                          "paths from "
+                          "each point.")});
         }
     };
 
@@ -64,7 +66,7 @@ class InjectVoxelRays final : public Pass {
     VoxelWrites direct_, indirect_;
     SurfelPaths surfelPaths_;
     Program mark_, select_;
-    Buffer count_;
+    Buffer count_, asked_;
     Sampler sampler_;
 
     // Without.

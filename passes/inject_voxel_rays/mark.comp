@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Marks the voxel faces that the shading of gather rays will read: see irradianceAt() in shaders/face_irradiance.glsl.
+#include "shaders/facing.glsl"
 #include "shaders/gather_layout.glsl"
 #include "shaders/linear_index.glsl"
 #include "shaders/scene.glsl"
@@ -42,9 +43,7 @@ void main() {
     const ivec2 texel = ivec2(texelOf(g, block, rayTexel(g, blockShift(g, block), i % g.raysPerBlock)));
     const vec3 from = texelFetch(position, texel, 0).xyz;
     const vec3 normal = dot(s.geometricNormal, from - s.position) >= 0.0 ? s.geometricNormal : -s.geometricNormal;
-    uint faces = push.grid.directions == 1u ? 63u : 0u;
-    for (uint axis = 0u; axis < 3u; ++axis)
-        if (normal[axis] * normal[axis] > 0.01) faces |= 1u << (2u * axis + (normal[axis] < 0.0 ? 1u : 0u));
+    const uint faces = push.grid.directions == 1u ? 63u : facingBits(normal);
 
     const ivec3 cell = voxelAt(push.grid, s.position);
     const uint own = voxelNumber(push.grid, cell);

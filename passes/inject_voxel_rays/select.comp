@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // Picks the surfels whose voxel faces are asked for. Their order is any; nothing depends on it.
+#include "shaders/facing.glsl"
 #include "shaders/linear_index.glsl"
 #include "shaders/shared/surfel_types.h"
 layout(local_size_x = 64) in;
@@ -18,8 +19,6 @@ void main() {
     const uint bits = asked.data[surfels.data[i].voxel];
     if (bits == 0u) return;
     const vec3 normal = surfels.data[i].normal;
-    uint faces = 0u;
-    for (uint axis = 0u; axis < 3u; ++axis)
-        if (normal[axis] * normal[axis] > 0.01) faces |= 1u << (2u * axis + (normal[axis] < 0.0 ? 1u : 0u));
+    const uint faces = facingBits(normal);
     if ((bits & faces) != 0u) selected.data[atomicAdd(count.value, 1u)] = surfels.data[i];
 }

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "passes/common/dispatch.h"
+#include "passes/common/random_seed.h"
 #include "passes/common/surface_points.h"
 
 namespace voxray {
@@ -57,15 +58,14 @@ void PlaceSurfels::record(PassContext& context) {
     for (uint64_t first = 0; first < points; first += kBatchPoints) {
         const uint32_t batch = uint32_t(std::min<uint64_t>(kBatchPoints, points - first));
         stream.upload(triangles_, std::as_bytes(std::span(triangles).subspan(first, batch)));
-        stream.dispatch(
-            place_,
-            context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
-                                    {"voxelRank", voxels.rank},
-                                    {"pointTriangles", triangles_},
-                                    {"rays", rays_},
-                                    {"candidates", candidates_}}),
-            PlacePush{voxels.grid, uint32_t(first), batch, uint32_t(context.frame.seed * 0x9e3779b9u)},
-            linearGroups(batch));
+        stream.dispatch(place_,
+                        context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
+                                                {"voxelRank", voxels.rank},
+                                                {"pointTriangles", triangles_},
+                                                {"rays", rays_},
+                                                {"candidates", candidates_}}),
+                        PlacePush{voxels.grid, uint32_t(first), batch, randomSeed(context.frame)},
+                        linearGroups(batch));
         if (voxels.exposedOnly)
             context.tracer.occluded(stream, rays_, occluded_, 2 * batch);
         else

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "passes/common/dispatch.h"
 #include "passes/common/frame_image.h"
+#include "passes/common/random_seed.h"
 
 namespace voxray {
 namespace {
@@ -51,7 +52,7 @@ void TraceGatherRays::prepare(PassSetup& setup) {
 void TraceGatherRays::record(PassContext& context) {
     const GBuffer& gbuffer = context.get(gbuffer_);
     GatherHits& hits = context.get(hits_);
-    hits.layout.seed = uint32_t(context.frame.seed * 0x9e3779b9u) + context.frameIndex * 0x85ebca6bu;
+    hits.layout.seed = randomSeed(context.frame, context.frameIndex);
     for (uint32_t b = 0; b < hits.batches.size(); ++b) {
         const uint32_t blocks = hits.batchBlocks(b), rays = blocks * params_.rays;
         context.stream.dispatch(emit_,

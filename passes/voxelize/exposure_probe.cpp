@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "passes/common/dispatch.h"
+#include "passes/common/random_seed.h"
 #include "passes/common/surface_points.h"
 
 namespace voxray {
@@ -41,7 +42,7 @@ Buffer ExposureProbe::run(PassContext& context, const SurfaceVoxels& voxels, uin
     for (uint64_t first = 0; first < count; first += batch) {
         const uint32_t points = uint32_t(std::min<uint64_t>(batch, count - first));
         stream.upload(batchTriangles, std::as_bytes(std::span(triangles).subspan(first, points)));
-        const Push push{voxels.grid, uint32_t(first), points, uint32_t(context.frame.seed * 0x9e3779b9u)};
+        const Push push{voxels.grid, uint32_t(first), points, randomSeed(context.frame)};
         stream.dispatch(emit_, context.scene.bindings({{"pointTriangles", batchTriangles}, {"rays", rays}}),
                         push, linearGroups(points));
         context.tracer.occluded(stream, rays, occluded, 2 * points);

@@ -194,6 +194,19 @@ TEST(FinalGather, SubPixelsAreAveraged) {
     EXPECT_NEAR(image("3", "16") / image("1", "64"), 1.0, 0.03);
 }
 
+TEST(FinalGather, MorePathsOnDemandLowerTheNoise) {
+    const auto image = [](const std::string& rays) {
+        Chain chain("cornell", "{lights: point}",
+                    "[{pass: gbuffer}, {pass: voxelize, resolution: 24}, {pass: place_surfels, points: 2}, "
+                    "{pass: trace_gather_rays, rays: 64}, {pass: inject_voxel_rays, demand: true, rays: " +
+                        rays + "}, {pass: gather_rays}]");
+        return chain.image("indirect");
+    };
+    const ImageF expected = image("64");
+    const double one = difference(image("1"), expected), sixteen = difference(image("16"), expected);
+    EXPECT_LT(sixteen, 0.5 * one);
+}
+
 TEST(FinalGather, BadInputIsNamed) {
     const std::string scene = "cornell";
     EXPECT_NE(messageOf(scene, gatherGraph("inject_light_rays", "rays: 4, block: 3", "filter: 0"))
