@@ -1,13 +1,10 @@
-# The house's own rules: who includes whom, formatting, left-overs, documentation, sanitized parsers.
+# The house's own rules: who includes whom, formatting, left-overs, documentation.
 set(HOUSE ${CMAKE_CURRENT_SOURCE_DIR}/house)
 foreach(check layers format hygiene docs)
   add_test(NAME house.${check} COMMAND /usr/bin/python3 ${HOUSE}/${check}.py ${CMAKE_SOURCE_DIR})
 endforeach()
 set_tests_properties(house.format PROPERTIES SKIP_RETURN_CODE 77)
 add_test(NAME house.selftest COMMAND /usr/bin/python3 -m unittest -q selftest WORKING_DIRECTORY ${HOUSE})
-
-add_test(NAME sanitized.scene_mutation COMMAND ${CMAKE_SOURCE_DIR}/scripts/sanitized-tests.sh)
-set_tests_properties(sanitized.scene_mutation PROPERTIES TIMEOUT 600)
 
 # A few files that are fast to parse: docs/dependencies.md says why not all.
 add_test(NAME house.tidy

@@ -6,8 +6,8 @@
 
 using namespace voxray;
 
-/// Built with AddressSanitizer and UndefinedBehaviorSanitizer in every build type: see
-/// tests/experiment.cmake.
+/// The config reader runs under AddressSanitizer and UndefinedBehaviorSanitizer in every build type: see
+/// tests/mutation.cmake.
 namespace {
 
 const std::string kSeed = R"(name: mutate_me   # comment

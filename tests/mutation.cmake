@@ -1,0 +1,23 @@
+# The readers of outside bytes (glTF and YAML) over mutated input. Their sources are compiled once more, under
+# AddressSanitizer and UndefinedBehaviorSanitizer whatever the build type; all else is linked as it is.
+set(BASE ${CMAKE_SOURCE_DIR}/framework/base)
+set(SCENE ${CMAKE_SOURCE_DIR}/framework/scene)
+set(EXPERIMENT ${CMAKE_SOURCE_DIR}/framework/experiment)
+set(SANITIZERS -fsanitize=address,undefined -fno-sanitize-recover=undefined)
+add_library(sanitized_readers OBJECT
+  ${BASE}/files.cpp ${BASE}/suggest.cpp ${BASE}/value.cpp
+  ${SCENE}/animation.cpp ${SCENE}/geometry.cpp ${SCENE}/gltf_accessor.cpp ${SCENE}/gltf_animation.cpp
+  ${SCENE}/gltf_check.cpp ${SCENE}/gltf_file.cpp ${SCENE}/gltf_material.cpp ${SCENE}/gltf_mesh.cpp
+  ${SCENE}/gltf_nodes.cpp ${SCENE}/load.cpp ${SCENE}/mesh_repair.cpp ${SCENE}/tiny_gltf.cpp
+  ${EXPERIMENT}/config.cpp ${EXPERIMENT}/overrides.cpp ${EXPERIMENT}/scene_settings.cpp
+  ${EXPERIMENT}/sweep.cpp ${EXPERIMENT}/yaml.cpp)
+target_link_libraries(sanitized_readers PRIVATE voxray_options fmt::fmt glm::glm TBB::tbb Vulkan::Headers
+  nlohmann_json::nlohmann_json yaml-cpp PkgConfig::XXHASH)
+# Lightly optimized: the compiler takes longer than the test.
+target_compile_options(sanitized_readers PRIVATE ${SANITIZERS} -fno-omit-frame-pointer -O1 -g1)
+target_precompile_headers(sanitized_readers PRIVATE ${CMAKE_SOURCE_DIR}/framework/precompiled.h)
+
+voxray_tests(mutation
+  SOURCES unit/config_mutation_test.cpp unit/scene_mutation_test.cpp
+  DEPENDS sanitized_readers voxray_config voxray_scene)
+target_link_options(tests_mutation PRIVATE ${SANITIZERS})

@@ -1,0 +1,1 @@
+// The source that tests/precompiled.h is compiled with.
