@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace voxray {
 namespace {
@@ -93,8 +94,8 @@ void writeJson(const Value& value, int indent, int depth, std::string& out) {
             out += "{";
             for (size_t i = 0; i < value.members.size(); ++i) {
                 out +=
-                    (i ? "," : "") + newline + quotedJson(value.members[i].first) + (indent < 0 ? ":" : ": ");
-                writeJson(value.members[i].second, indent, depth + 1, out);
+                    (i ? "," : "") + newline + quotedJson(value.members[i].key) + (indent < 0 ? ":" : ": ");
+                writeJson(value.members[i].value, indent, depth + 1, out);
             }
             out += (value.members.empty() ? "" : lastNewline) + "}";
             return;
@@ -125,7 +126,7 @@ Value Value::map() {
 
 const Value* Value::find(std::string_view key) const {
     for (const Member& member : members)
-        if (member.first == key) return &member.second;
+        if (member.key == key) return &member.value;
     return nullptr;
 }
 
@@ -136,12 +137,12 @@ Value* Value::find(std::string_view key) {
 Value& Value::set(std::string_view key, Value value) {
     if (kind == Kind::Null) kind = Kind::Map;
     if (Value* existing = find(key)) return *existing = std::move(value);
-    members.emplace_back(std::string(key), std::move(value));
-    return members.back().second;
+    members.push_back({std::string(key), std::move(value)});
+    return members.back().value;
 }
 
 bool Value::erase(std::string_view key) {
-    return std::erase_if(members, [&](const Member& member) { return member.first == key; }) > 0;
+    return std::erase_if(members, [&](const Member& member) { return member.key == key; }) > 0;
 }
 
 bool Value::asBool(std::string_view what) const {
@@ -183,7 +184,7 @@ std::string Value::text() const {
         case Kind::Map: {
             std::string out = "{";
             for (size_t i = 0; i < members.size(); ++i)
-                out += (i ? ", " : "") + members[i].first + ": " + members[i].second.text();
+                out += (i ? ", " : "") + members[i].key + ": " + members[i].value.text();
             return out + "}";
         }
     }

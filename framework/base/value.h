@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -15,7 +14,7 @@ namespace voxray {
 /// Scalars stay text until a schema asks for a type, so that the error can name file, line and type.
 struct Value {
     enum class Kind { Null, Scalar, List, Map };
-    using Member = std::pair<std::string, Value>;
+    struct Member;
 
     Kind kind = Kind::Null;
     std::string scalar;           ///< Text of a scalar.
@@ -55,6 +54,13 @@ struct Value {
 
     /// Equality of content; places are ignored.
     bool operator==(const Value& other) const;
+};
+
+/// An entry of a map.
+struct Value::Member {
+    std::string key;
+    Value value;
+    bool operator==(const Member&) const = default;
 };
 
 }  // namespace voxray

@@ -110,7 +110,7 @@ Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
     if (const Value* profiles = root.find("profiles")) {
         for (const auto& member : profiles->members) {
             Value config = root;
-            applyProfile(config, member.first);
+            applyProfile(config, member.key);
             readExperiment(std::move(config));
         }
     }
@@ -160,7 +160,7 @@ std::vector<std::string> profileNames(const std::filesystem::path& path) {
     std::vector<std::string> names;
     const Value config = readYaml(path);
     if (const Value* profiles = config.find("profiles"))
-        for (const auto& member : profiles->members) names.push_back(member.first);
+        for (const auto& member : profiles->members) names.push_back(member.key);
     return names;
 }
 

@@ -91,7 +91,7 @@ std::string manifestJson(const ManifestData& data) {
     json["config_file"] = experiment.file.filename().string();
     json["config"] = Json::parse(experiment.config.json());
     json["sweep_keys"] = Json::array();
-    for (const auto& member : experiment.sweep.members) json["sweep_keys"].push_back(member.first);
+    for (const auto& member : experiment.sweep.members) json["sweep_keys"].push_back(member.key);
     json["seed"] = experiment.setup.general.seed;
     const ImageSettings& image = experiment.setup.image;
     json["image"] = {{"width", image.width}, {"height", image.height}};

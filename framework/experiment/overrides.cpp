@@ -139,7 +139,7 @@ void applyProfile(Value& config, const std::string& name) {
     const Value* profiles = config.find("profiles");
     std::vector<std::string> names;
     if (profiles)
-        for (const auto& member : profiles->members) names.push_back(member.first);
+        for (const auto& member : profiles->members) names.push_back(member.key);
     const Value* profile = profiles ? profiles->find(name) : nullptr;
     if (!profile) {
         const TextLocation where = profiles ? profiles->where : TextLocation{config.where.file, 0};
@@ -162,7 +162,7 @@ void applyAssignment(Value& config, const std::string& assignment) {
     const auto clearLines = [](auto&& self, Value& node) -> void {
         node.where.line = 0;
         for (Value& item : node.items) self(self, item);
-        for (auto& member : node.members) self(self, member.second);
+        for (auto& member : node.members) self(self, member.value);
     };
     clearLines(clearLines, value);
     applyOverride(config, assignment.substr(0, equals), value);

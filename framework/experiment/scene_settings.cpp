@@ -42,7 +42,7 @@ Light readLight(const Value& entry, size_t index) {
         light.outerConeAngle = glm::radians(p.outerDegrees);
     } else {
         const std::vector<std::string> types{"directional", "point", "spot"};
-        const std::string first = entry.members.empty() ? std::string() : entry.members[0].first;
+        const std::string first = entry.members.empty() ? std::string() : entry.members[0].key;
         throw UsageError(entry.where, "{}: not a type of light: '{}'{}", what, first,
                          didYouMean(first, types));
     }

@@ -90,7 +90,7 @@ std::string shortened(const std::string& name) {
 
 std::vector<std::string> sweepKeys(const Experiment& experiment) {
     std::vector<std::string> keys;
-    for (const auto& member : experiment.sweep.members) keys.push_back(member.first);
+    for (const auto& member : experiment.sweep.members) keys.push_back(member.key);
     return keys;
 }
 

@@ -63,7 +63,7 @@ class Converter {
             if (!seen.insert(key).second) throw UsageError(where, "'{}' appears twice in the same map", key);
             Value member = convert(entry.second, depth + 1, where);
             member.where = where;
-            value.members.emplace_back(key, std::move(member));
+            value.members.push_back({key, std::move(member)});
         }
     }
 

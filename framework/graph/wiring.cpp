@@ -32,7 +32,7 @@ GraphNode readNode(const Registry& registry, const Value& entry,
     const Value* passName = entry.find("pass");
     if (!passName) {
         std::string hint;
-        if (!entry.members.empty()) hint = didYouMean(entry.members.front().first, reservedKeys);
+        if (!entry.members.empty()) hint = didYouMean(entry.members.front().key, reservedKeys);
         throw UsageError(entry.where, "graph: entry without 'pass'{}", hint);
     }
     GraphNode node;
