@@ -20,7 +20,9 @@ FlipExposures flipExposures(const ImageF& reference) {
     }
     std::sort(luminances.begin(), luminances.end());
     if (luminances.empty() || !(luminances.back() > 0)) return {};
-    const auto median = [](std::span<const double> sorted) { return sorted[sorted.size() / 2]; };
+    const auto median = [](std::span<const double> sorted) {
+        return (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]) / 2;
+    };
     double middle = median(luminances);
     if (!(middle > 0)) {
         const auto lit = std::upper_bound(luminances.begin(), luminances.end(), 0.0);
