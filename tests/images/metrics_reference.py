@@ -120,7 +120,7 @@ def exposures(reference):
     target = roots.max()
     luminance = np.sort((reference @ LUMINANCE).ravel())
     start = np.log2(target / luminance[-1])
-    stop = np.log2(target / luminance[luminance.size // 2])
+    stop = np.log2(target / np.median(luminance))
     return np.linspace(start, stop, max(2, int(np.ceil(stop - start))))
 
 
