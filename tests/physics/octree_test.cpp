@@ -1,0 +1,179 @@
+// The sparse octree against the same content in a dense pyramid of doubles.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/physics/octree_content.h"
+
+namespace voxray::test {
+namespace {
+
+Faces grey(double radiance, double opacity) {
+    Faces faces;
+    faces.fill(glm::dvec4(glm::dvec3(radiance), opacity));
+    return faces;
+}
+
+/// A share of all voxels, with random light.
+Content randomContent(glm::uvec3 resolution, uint32_t directions, double share, uint32_t seed = 1) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    return Content(resolution, directions, [&](glm::ivec3) {
+        Faces faces{};
+        if (uniform(random) >= share) return faces;
+        for (glm::dvec4& face : faces) {
+            face.a = 0.05 + 0.95 * uniform(random);
+            for (int c = 0; c < 3; ++c) face[c] = face.a * 30 * uniform(random);
+        }
+        return faces;
+    });
+}
+
+/// A sphere's surface, half a voxel thick on either side.
+Content shell(uint32_t resolution, uint32_t directions, double radius) {
+    return Content(glm::uvec3(resolution), directions, [&](glm::ivec3 v) {
+        const double away = glm::length(glm::dvec3(v) + 0.5 - 0.5 * resolution) - radius * resolution;
+        Faces faces = grey(1 + 0.02 * v.x, 1);
+        for (int face = 0; face < 6; ++face) faces[size_t(face)].r *= 1 + face;
+        return std::abs(away) < 0.6 ? faces : Faces{};
+    });
+}
+
+std::vector<TestOctree::Query> randomQueries(const gpu::VoxelGrid& grid, size_t count) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    std::normal_distribution<float> normal;
+    std::vector<TestOctree::Query> list(count);
+    const glm::vec3 extent = glm::vec3(grid.resolution) * grid.voxelSize;
+    for (TestOctree::Query& q : list) {
+        // In the grid and a tenth of it around; footprints from half a voxel to twice the root.
+        for (int axis = 0; axis < 3; ++axis)
+            q.position[axis] = grid.origin[axis] + extent[axis] * (1.2f * uniform(random) - 0.1f);
+        q.footprint =
+            grid.voxelSize * std::exp2(-1 + float(octreeLevels(grid.resolution) + 2) * uniform(random));
+        q.direction = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
+    }
+    return list;
+}
+
+/// Largest difference of samples from those of the dense pyramid: of radiance relative to `brightest`.
+glm::dvec2 worstSample(const Content& content, TestOctree& tree, size_t count, double brightest) {
+    const std::vector<TestOctree::Query> queries = randomQueries(content.grid, count);
+    const std::vector<TestOctree::Answer> answers = tree.sample(queries);
+    glm::dvec2 worst(0);
+    for (size_t i = 0; i < count; ++i) {
+        const glm::dvec4 difference =
+            glm::abs(glm::dvec4(answers[i].radiance) -
+                     content.sample(queries[i].position, queries[i].footprint, queries[i].direction));
+        worst.x =
+            std::max({worst.x, difference.r / brightest, difference.g / brightest, difference.b / brightest});
+        worst.y = std::max(worst.y, difference.a);
+    }
+    return worst;
+}
+
+TEST(Octree, HasALeafForEachVoxelAndNothingElse) {
+    for (const glm::uvec3 resolution :
+         {glm::uvec3(16), glm::uvec3(37, 9, 21), glm::uvec3(1, 1, 1), glm::uvec3(64, 2, 33)}) {
+        const Content content = randomContent(resolution, 1, resolution.x == 1 ? 1.1 : 0.03);
+        TestOctree tree(content);
+        const RadianceOctree& octree = tree.octree();
+        for (uint32_t level = 0; level <= octree.size.levels(); ++level) {
+            uint32_t count = 0;
+            content.forEach(level, [&](glm::ivec3 cell) {
+                const uint32_t node = tree.node(cell, level);
+                ASSERT_EQ(node == NO_NODE, content.empty(level, cell)) << "level " << level;
+                if (node == NO_NODE) return;
+                ++count;
+                ASSERT_GE(node, octree.first[level]);
+                ASSERT_LT(node, octree.first[level] + octree.size.nodes[level]);
+                if (level == 0) {
+                    ASSERT_EQ(TestOctree::cellOf(tree.leaves[node - octree.first[0]]), cell);
+                    ASSERT_EQ(tree.values[node], packRadiance(content.at(0, cell)[0]));
+                }
+            });
+            ASSERT_EQ(count, octree.size.nodes[level]) << "level " << level;
+        }
+    }
+}
+
+TEST(Octree, TableFindsWhatDescentFinds) {
+    const Content content = shell(48, 1, 0.4);
+    TestOctree tree(content);
+    size_t entry = 0;
+    for (uint32_t level = tree.octree().size.tableLevel(); level <= tree.octree().size.levels(); ++level)
+        content.forEach(level,
+                        [&](glm::ivec3 cell) { ASSERT_EQ(tree.table[entry++], tree.node(cell, level)); });
+    EXPECT_EQ(entry, tree.table.size());
+}
+
+TEST(Octree, SamplesAgreeWithADensePyramid) {
+    // Level 0's values are off by 2^-15 of the brightest, each level adds as much.
+    const double tolerance = 8 * std::exp2(-15);
+    for (const uint32_t directions : {1u, 6u}) {
+        for (const glm::uvec3 resolution : {glm::uvec3(32), glm::uvec3(53, 17, 30)}) {
+            const Content content = randomContent(resolution, directions, 0.1);
+            TestOctree tree(content, directions);
+            const glm::dvec2 worst = worstSample(content, tree, 100000, 30);
+            EXPECT_LT(worst.x, tolerance);
+            EXPECT_LT(worst.y, tolerance);
+            std::printf("directions %u: radiance %.2g, opacity %.2g\n", directions, worst.x, worst.y);
+        }
+        const Content content = shell(64, directions, 0.4);
+        TestOctree tree(content, directions);
+        const glm::dvec2 worst = worstSample(content, tree, 100000, 13.7);
+        EXPECT_LT(worst.x, tolerance);
+        EXPECT_LT(worst.y, tolerance);
+    }
+}
+
+TEST(Octree, EmptyDistanceHoldsNothing) {
+    const Content content = shell(64, 1, 0.35);
+    TestOctree tree(content);
+    std::vector<TestOctree::Query> queries = randomQueries(content.grid, 40000);
+    const std::vector<TestOctree::Answer> answers = tree.sample(queries);
+    size_t skips = 0;
+    for (size_t i = 0; i < queries.size(); ++i) {
+        const TestOctree::Query& q = queries[i];
+        if (answers[i].empty <= 0) continue;
+        ++skips;
+        for (const double part : {0.0, 0.1, 0.35, 0.8, 0.999}) {
+            const glm::dvec3 at =
+                glm::dvec3(q.position) + part * double(answers[i].empty) * glm::dvec3(q.direction);
+            ASSERT_LT(content.sample(at, q.footprint, q.direction).a, 1e-5);
+        }
+    }
+    EXPECT_GT(skips, queries.size() / 20);
+    // From the middle of the hollow the whole of the octant's cube is skipped.
+    const float voxel = content.grid.voxelSize;
+    const TestOctree::Query inside{content.grid.origin + voxel * glm::vec3(33.5f), voxel, {1, 0, 0}};
+    EXPECT_GT(tree.sample({inside})[0].empty, 5 * voxel);
+}
+
+TEST(Octree, MemoryIsPredictedExactly) {
+    for (const uint32_t directions : {1u, 6u}) {
+        const Content content = shell(40, directions, 0.3);
+        TestOctree tree(content, directions);
+        const RadianceOctree& octree = tree.octree();
+        OctreeSize counted{content.grid.resolution, directions, {}};
+        for (uint32_t level = 0; level <= octreeLevels(content.grid.resolution); ++level) {
+            counted.nodes.push_back(0);
+            content.forEach(level,
+                            [&](glm::ivec3 cell) { counted.nodes.back() += !content.empty(level, cell); });
+        }
+        EXPECT_EQ(counted.bytes(), octree.header.bytes() + octree.table.bytes() + octree.nodes.bytes() +
+                                       octree.values.bytes());
+    }
+}
+
+TEST(Octree, IsDeterministic) {
+    const Content content = randomContent({40, 33, 24}, 6, 0.05);
+    const TestOctree a(content, 6), b(content, 6);
+    EXPECT_EQ(a.nodes, b.nodes);
+    EXPECT_EQ(a.table, b.table);
+    EXPECT_EQ(a.leaves, b.leaves);
+    EXPECT_EQ(a.values, b.values);
+}
+
+}  // namespace
+}  // namespace voxray::test
