@@ -61,8 +61,8 @@ uint64_t OctreeSize::bytes() const {
     return sizeof(Header) + tableBytes() + nodeBytes() + valueBytes();
 }
 
-RadianceOctree::RadianceOctree(CommandStream& stream, const gpu::VoxelGrid& grid, OctreeSize counted)
-    : size(std::move(counted)), first(size.first()) {
+RadianceOctree::RadianceOctree(CommandStream& stream, const gpu::VoxelGrid& voxelGrid, OctreeSize counted)
+    : grid(voxelGrid), size(std::move(counted)), first(size.first()) {
     if (size.nodes.size() > OCTREE_MOST_LEVELS)
         throw Error("the octree takes at most {} voxels along a side; the grid has {}x{}x{}",
                     1u << (OCTREE_MOST_LEVELS - 1), size.resolution.x, size.resolution.y, size.resolution.z);

@@ -36,8 +36,11 @@ inline glm::uvec3 octreeCells(glm::uvec3 resolution, uint32_t level) {
 struct RadianceOctree {
     /// Allocates what `size` needs and writes the header; the arrays' content is undefined, but for the
     /// table, which finds the root and nothing else.
-    RadianceOctree(CommandStream& stream, const gpu::VoxelGrid& grid, OctreeSize size);
+    RadianceOctree(CommandStream& stream, const gpu::VoxelGrid& voxelGrid, OctreeSize counted);
 
+    uint64_t bytes() const { return header.bytes() + table.bytes() + nodes.bytes() + values.bytes(); }
+
+    gpu::VoxelGrid grid{};
     OctreeSize size;
     std::vector<uint32_t> first;  ///< OctreeSize::first().
     Buffer header;                ///< The block RadianceOctree of shaders/octree.glsl.

@@ -8,6 +8,7 @@
 
 #include "passes/common/dispatch.h"
 #include "passes/filter_voxels/octree_builder.h"
+#include "passes/filter_voxels/octree_collapse.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {
@@ -160,6 +161,12 @@ class TestOctree {
                     packRadiance(content.at(0, cellOf(leaves[leaf]))[face]);
         stream_.upload(tree.values, texels);
         builder_.filter(stream_, tree);
+        refresh();
+    }
+
+    /// Collapses uniform nodes.
+    void collapse() {
+        built_.octree = OctreeCollapse(device(), compiler_).run(stream_, std::move(built_.octree));
         refresh();
     }
 
