@@ -7,31 +7,25 @@
 namespace voxray {
 namespace {
 
-/// The block RadianceOctree of shaders/octree.glsl.
+/// The buffer `radianceVoxels` of shaders/octree.glsl.
 struct Header {
-    gpu::OctreeShape shape;
+    gpu::RadianceGrid grid;
     VkDeviceAddress table, nodes, values;
+    gpu::OctreeShape shape;
 };
-static_assert(offsetof(Header, table) == sizeof(gpu::OctreeShape), "addresses follow without a gap");
+static_assert(sizeof(gpu::RadianceGrid) % sizeof(VkDeviceAddress) == 0);
 
 /// Where the table of each level from the table's on up begins, and its end.
 std::vector<uint32_t> tableOffsets(const OctreeSize& size) {
     std::vector<uint32_t> offsets{0};
-    for (uint32_t level = size.tableLevel(); level <= size.levels(); ++level) {
-        const glm::uvec3 cells = octreeCells(size.resolution, level);
-        offsets.push_back(offsets.back() + cells.x * cells.y * cells.z);
+    for (uint32_t level = size.tableLevel(); level < size.levels(); ++level) {
+        const glm::uvec3 voxels = radianceResolution(size.resolution, level);
+        offsets.push_back(offsets.back() + voxels.x * voxels.y * voxels.z);
     }
     return offsets;
 }
 
 }  // namespace
-
-uint32_t octreeLevels(glm::uvec3 resolution) {
-    const uint32_t longest = std::max({resolution.x, resolution.y, resolution.z});
-    uint32_t levels = 1;
-    while ((1u << levels) < longest) ++levels;
-    return levels;
-}
 
 std::vector<uint32_t> OctreeSize::first() const {
     std::vector<uint32_t> result(nodes.size(), 0);
@@ -41,18 +35,18 @@ std::vector<uint32_t> OctreeSize::first() const {
 }
 
 uint32_t OctreeSize::tableLevel() const {
-    for (uint32_t level = 1; level < levels(); ++level) {
-        const glm::uvec3 cells = octreeCells(resolution, level);
-        if (2ull * cells.x * cells.y * cells.z <= nodes.front()) return level;
+    for (uint32_t level = 1; level + 1 < levels(); ++level) {
+        const glm::uvec3 voxels = radianceResolution(resolution, level);
+        if (2ull * voxels.x * voxels.y * voxels.z <= nodes.front()) return level;
     }
-    return levels();
+    return levels() - 1;
 }
 
 uint64_t OctreeSize::tableBytes() const {
     return uint64_t(tableOffsets(*this).back()) * sizeof(uint32_t);
 }
 uint64_t OctreeSize::nodeBytes() const {
-    return uint64_t(first().front()) / 4 * sizeof(glm::uvec2);
+    return std::max<uint64_t>(first().front() / 4, 1) * sizeof(glm::uvec2);
 }
 uint64_t OctreeSize::valueBytes() const {
     return uint64_t(nodeCount()) * directions * sizeof(glm::uvec2);
@@ -61,30 +55,30 @@ uint64_t OctreeSize::bytes() const {
     return sizeof(Header) + tableBytes() + nodeBytes() + valueBytes();
 }
 
-RadianceOctree::RadianceOctree(CommandStream& stream, const gpu::VoxelGrid& voxelGrid, OctreeSize counted)
-    : grid(voxelGrid), size(std::move(counted)), first(size.first()) {
-    if (size.nodes.size() > OCTREE_MOST_LEVELS)
-        throw Error("the octree takes at most {} voxels along a side; the grid has {}x{}x{}",
+void allocateOctree(CommandStream& stream, const OctreeSize& size, RadianceVoxels& radiance) {
+    if (size.levels() > OCTREE_MOST_LEVELS)
+        throw Error("an octree takes at most {} voxels along an axis; the grid has {}x{}x{}",
                     1u << (OCTREE_MOST_LEVELS - 1), size.resolution.x, size.resolution.y, size.resolution.z);
     Device& device = stream.device();
-    header = Buffer(device, "octree header", sizeof(Header));
-    table = Buffer(device, "octree table", size.tableBytes());
-    nodes = Buffer(device, "octree nodes", size.nodeBytes());
-    values = Buffer(device, "octree values", size.valueBytes());
+    radiance.storage.clear();
+    radiance.storage.emplace_back(device, "octree table", size.tableBytes());
+    radiance.storage.emplace_back(device, "octree nodes", size.nodeBytes());
+    radiance.storage.emplace_back(device, "octree values", size.valueBytes());
+    radiance.header = Buffer(device, "octree header", sizeof(Header));
 
-    Header block{};
-    block.shape = {grid.origin,       grid.voxelSize,   size.resolution, size.levels(),
-                   size.tableLevel(), size.nodeCount(), size.directions, {}};
+    Header header{radiance.grid,
+                  radiance.storage[kOctreeTable].address(),
+                  radiance.storage[kOctreeNodes].address(),
+                  radiance.storage[kOctreeValues].address(),
+                  {size.nodeCount(), size.tableLevel(), {}}};
     const std::vector<uint32_t> offsets = tableOffsets(size);
-    std::copy(offsets.begin(), offsets.end() - 1, block.shape.tableFirst);
-    block.table = table.address();
-    block.nodes = nodes.address();
-    block.values = values.address();
-    stream.upload(header, std::as_bytes(std::span(&block, 1)));
+    std::copy(offsets.begin(), offsets.end() - 1, header.shape.tableFirst);
+    stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
 
     // The root is number 0, and the table's last entry.
-    stream.fill(table, NO_NODE);
+    const Buffer& table = radiance.storage[kOctreeTable];
     const uint32_t root = 0;
+    stream.fill(table, NO_NODE);
     stream.upload(table, std::as_bytes(std::span(&root, 1)), table.bytes() - sizeof(root));
 }
 

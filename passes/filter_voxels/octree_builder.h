@@ -1,33 +1,36 @@
 #pragma once
 
 #include "passes/common/prefix_sum.h"
+#include "passes/common/voxels.h"
 #include "passes/filter_voxels/octree.h"
 
 namespace voxray {
 
 /// Builds the structure of a sparse octree over surface voxels, from the root down (Crassin et al. 2011;
-/// Arnebäck 2017, section 3.2.2): flag the cells that are not empty, count them, allocate, then subdivide and
-/// number level by level. A node's number depends on its place alone: the same voxels give the same bits.
+/// Arnebäck 2017, section 3.2.2): flag the voxels of each level that are not empty, count them, allocate,
+/// then subdivide and number level by level. A node's number depends on its place alone: the same voxels give
+/// the same bits.
 class OctreeBuilder {
  public:
     OctreeBuilder(Device& device, const ShaderCompiler& compiler);
 
-    /// An octree without values, and which voxel each leaf is.
     struct Built {
-        RadianceOctree octree;
-        Buffer leaves;  ///< A leaf's voxel, 10 bits for each coordinate.
+        OctreeSize size;
+        Buffer leaves;  ///< The voxel of each leaf, 10 bits for each coordinate.
     };
-    /// Waits for the device. @throws Error over the memory limit, with the bytes needed, before anything of
-    /// the octree is allocated.
-    Built build(CommandStream& stream, const SurfaceVoxels& voxels, uint32_t directions) const;
+    /// Gives `radiance`, whose grid is set, the structure over `voxels`; values are left undefined. Waits for
+    /// the device. @throws Error over the memory limit, with the bytes needed, before it allocates the
+    /// octree.
+    Built build(CommandStream& stream, const SurfaceVoxels& voxels, RadianceVoxels& radiance) const;
 
     /// Values of all inner nodes from the leaves' values.
-    void filter(CommandStream& stream, const RadianceOctree& octree) const;
+    void filter(CommandStream& stream, const OctreeSize& size, const RadianceVoxels& radiance) const;
 
     /// Bytes that build() takes for a while besides what it returns.
     static uint64_t scratchBytes(const OctreeSize& size);
 
  private:
+    /// The flags of each level above the leaves; sets size.nodes.
     std::vector<Buffer> flag(CommandStream& stream, const SurfaceVoxels& voxels, OctreeSize& size) const;
 
     Program flag_, subdivide_, number_, filter_;

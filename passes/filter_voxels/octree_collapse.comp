@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Moves a level of an octree (binding radianceOctree) into a smaller one without what lies below uniform nodes: the masks of
+// Moves a level of an octree (binding radianceVoxels) into a smaller one without what lies below uniform nodes: the masks of
 // the level's nodes (MASKS), then the numbers and values of their children (CHILDREN). A thread takes four nodes of the new
 // octree; `nodes` tells for each its number in the old one and its cell.
 #include "passes/filter_voxels/octree_cells.glsl"
@@ -15,10 +15,11 @@ layout(set = 0, binding = 2) buffer Masks { uint words[]; } masks;
 layout(set = 0, binding = 3) readonly buffer Before { uint bits[]; } before;
 layout(set = 0, binding = 4) writeonly buffer Children { uvec2 data[]; } children;
 layout(set = 0, binding = 5, scalar) readonly buffer Collapsed {
-    OctreeShape shape;
+    RadianceGrid grid;
     OctreeTable table;
     OctreeNodes nodes;
     OctreeValues values;
+    OctreeShape octree;
 } collapsed;
 #endif
 layout(push_constant) uniform Push {
@@ -49,12 +50,12 @@ void main() {
         const uint old = octreeChild(parent.x, bit & 7u), new = push.firstChild + child;
         const uvec3 cell = 2u * unpackCell(parent.y) + (uvec3(bit, bit >> 1, bit >> 2) & 1u);
         children.data[child] = uvec2(old, packCell(cell));
-        for (uint face = 0u; face < collapsed.shape.directions; ++face)
-            collapsed.values.data[face * collapsed.shape.nodeCount + new] =
-                radianceOctree.values.data[face * radianceOctree.shape.nodeCount + old];
-        if (push.childLevel < collapsed.shape.tableLevel) continue;
+        for (uint face = 0u; face < collapsed.grid.directions; ++face)
+            collapsed.values.data[face * collapsed.octree.nodeCount + new] =
+                radianceVoxels.values.data[face * radianceVoxels.octree.nodeCount + old];
+        if (push.childLevel < collapsed.octree.tableLevel) continue;
         const uvec3 size = octreeCells(push.childLevel);
-        collapsed.table.node[collapsed.shape.tableFirst[push.childLevel - collapsed.shape.tableLevel] +
+        collapsed.table.node[collapsed.octree.tableFirst[push.childLevel - collapsed.octree.tableLevel] +
                              (cell.z * size.y + cell.y) * size.x + cell.x] = new;
     }
 #endif

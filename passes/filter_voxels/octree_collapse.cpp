@@ -34,54 +34,60 @@ OctreeCollapse::OctreeCollapse(Device& device, const ShaderCompiler& compiler)
     table_ = program("octree_collapse_table.comp", {});
 }
 
-RadianceOctree OctreeCollapse::run(CommandStream& stream, RadianceOctree octree) const {
+OctreeSize OctreeCollapse::run(CommandStream& stream, const OctreeSize& size,
+                               RadianceVoxels& radiance) const {
     // From the leaves up: which nodes are uniform.
-    const uint32_t levels = octree.size.levels();
+    const std::vector<uint32_t> first = size.first();
     const Buffer uniform(stream.device(), "octree uniform nodes",
-                         (uint64_t(octree.size.nodeCount()) + 31) / 32 * sizeof(uint32_t));
-    const Buffer counts(stream.device(), "octree uniform counts", (levels + 1) * sizeof(uint32_t));
+                         (uint64_t(size.nodeCount()) + 31) / 32 * sizeof(uint32_t));
+    const Buffer counts(stream.device(), "octree uniform counts", size.levels() * sizeof(uint32_t));
     stream.fill(uniform, 0);
     stream.fill(counts, 0);
-    for (uint32_t level = 1; level <= levels; ++level)
+    for (uint32_t level = 1; level < size.levels(); ++level)
         stream.dispatch(uniform_,
-                        {{"radianceOctree", octree.header}, {"uniform_", uniform}, {"counts", counts}},
-                        UniformPush{octree.first[level], octree.size.nodes[level], level},
-                        linearGroups(octree.size.nodes[level]));
+                        {{"radianceVoxels", radiance.header}, {"uniform_", uniform}, {"counts", counts}},
+                        UniformPush{first[level], size.nodes[level], level}, linearGroups(size.nodes[level]));
 
     // Each of them drops its eight children.
-    const std::vector<uint32_t> uniformNodes = stream.readAs<uint32_t>(counts, levels + 1);
-    if (std::ranges::all_of(uniformNodes, [](uint32_t count) { return count == 0; })) return octree;
-    OctreeSize size = octree.size;
-    for (uint32_t level = 1; level <= levels; ++level) size.nodes[level - 1] -= 8 * uniformNodes[level];
-    return shrink(stream, octree, uniform, std::move(size));
+    const std::vector<uint32_t> uniformNodes = stream.readAs<uint32_t>(counts, size.levels());
+    OctreeSize smaller = size;
+    for (uint32_t level = 1; level < size.levels(); ++level)
+        smaller.nodes[level - 1] -= 8 * uniformNodes[level];
+    if (smaller.nodes != size.nodes) radiance = shrink(stream, radiance, size, uniform, smaller);
+    return smaller;
 }
 
-RadianceOctree OctreeCollapse::shrink(CommandStream& stream, const RadianceOctree& octree,
-                                      const Buffer& uniform, OctreeSize smaller) const {
+RadianceVoxels OctreeCollapse::shrink(CommandStream& stream, const RadianceVoxels& radiance,
+                                      const OctreeSize& size, const Buffer& uniform,
+                                      const OctreeSize& smaller) const {
     Device& device = stream.device();
-    RadianceOctree result(stream, octree.grid, std::move(smaller));
-    for (uint64_t face = 0; face < result.size.directions; ++face)  // The root is number 0 in both.
-        stream.copy(octree.values, result.values, sizeof(glm::uvec2),
-                    face * octree.size.nodeCount() * sizeof(glm::uvec2),
-                    face * result.size.nodeCount() * sizeof(glm::uvec2));
+    RadianceVoxels result;
+    result.layout = radiance.layout;
+    result.grid = radiance.grid;
+    allocateOctree(stream, smaller, result);
+    for (uint64_t face = 0; face < size.directions; ++face)  // The root is number 0 in both.
+        stream.copy(radiance.storage[kOctreeValues], result.storage[kOctreeValues], sizeof(glm::uvec2),
+                    face * size.nodeCount() * sizeof(glm::uvec2),
+                    face * smaller.nodeCount() * sizeof(glm::uvec2));
 
     // From the root down, as it was built.
+    const std::vector<uint32_t> first = smaller.first();
     Buffer nodes(device, "octree root", sizeof(glm::uvec2));
     stream.fill(nodes, 0);
-    for (uint32_t level = result.size.levels(); level > 0 && result.size.nodes[level] > 0; --level) {
-        const uint32_t count = result.size.nodes[level], words = (count + 3) / 4;
-        const uint32_t childCount = std::max(result.size.nodes[level - 1], 1u);
+    for (uint32_t level = smaller.levels() - 1; level > 0 && smaller.nodes[level] > 0; --level) {
+        const uint32_t count = smaller.nodes[level], words = (count + 3) / 4;
         const Buffer masks(device, "octree masks", uint64_t(words) * sizeof(uint32_t));
         const Buffer before(device, "octree ranks", uint64_t(words) * sizeof(uint32_t));
-        Buffer children(device, "octree children", uint64_t(childCount) * sizeof(glm::uvec2));
-        const LevelPush push{count, result.first[level], result.first[level - 1], level - 1};
+        Buffer children(device, "octree children",
+                        uint64_t(std::max(smaller.nodes[level - 1], 1u)) * sizeof(glm::uvec2));
+        const LevelPush push{count, first[level], first[level - 1], level - 1};
         stream.dispatch(
             masks_,
-            {{"radianceOctree", octree.header}, {"nodes", nodes}, {"uniform_", uniform}, {"masks", masks}},
+            {{"radianceVoxels", radiance.header}, {"nodes", nodes}, {"uniform_", uniform}, {"masks", masks}},
             push, linearGroups(words));
         prefixSum_.run(stream, masks, before, words);
         stream.dispatch(children_,
-                        {{"radianceOctree", octree.header},
+                        {{"radianceVoxels", radiance.header},
                          {"nodes", nodes},
                          {"masks", masks},
                          {"before", before},
@@ -92,13 +98,17 @@ RadianceOctree OctreeCollapse::shrink(CommandStream& stream, const RadianceOctre
         nodes = std::move(children);
     }
 
-    for (uint32_t level = result.size.levels(); level-- > result.size.tableLevel();) {
-        const glm::uvec3 cells = octreeCells(result.size.resolution, level);
-        stream.dispatch(table_, {{"radianceOctree", result.header}}, level,
-                        linearGroups(uint64_t(cells.x) * cells.y * cells.z));
+    for (uint32_t level = smaller.levels() - 1; level-- > smaller.tableLevel();) {
+        const glm::uvec3 voxels = radianceResolution(size.resolution, level);
+        stream.dispatch(table_, result.bindings(), level,
+                        linearGroups(uint64_t(voxels.x) * voxels.y * voxels.z));
     }
     stream.finish();
     return result;
+}
+
+uint64_t OctreeCollapse::scratchBytes(const OctreeSize& size) {
+    return (uint64_t(size.nodeCount()) + 31) / 32 * sizeof(uint32_t);
 }
 
 }  // namespace voxray

@@ -12,12 +12,16 @@ class OctreeCollapse {
  public:
     OctreeCollapse(Device& device, const ShaderCompiler& compiler);
 
-    /// The octree as it is where nothing is uniform; else a smaller one. Waits for the device.
-    RadianceOctree run(CommandStream& stream, RadianceOctree octree) const;
+    /// Puts a smaller octree into `radiance`, and leaves it as it is where nothing is uniform. Waits for the
+    /// device. @return the size of what is there now.
+    OctreeSize run(CommandStream& stream, const OctreeSize& size, RadianceVoxels& radiance) const;
+
+    /// Bytes that run() takes for a while, at most, besides a second octree.
+    static uint64_t scratchBytes(const OctreeSize& size);
 
  private:
-    RadianceOctree shrink(CommandStream& stream, const RadianceOctree& octree, const Buffer& uniform,
-                          OctreeSize size) const;
+    RadianceVoxels shrink(CommandStream& stream, const RadianceVoxels& radiance, const OctreeSize& size,
+                          const Buffer& uniform, const OctreeSize& smaller) const;
 
     Program uniform_, masks_, children_, table_;
     PopulationPrefixSum prefixSum_;

@@ -14,9 +14,9 @@ void main() {
     if (i >= size.x * size.y * size.z) return;
     const uvec3 cell = uvec3(i % size.x, i / size.x % size.y, i / size.x / size.y);
     const uint entry = octreeTableEntry(cell, push.level);
-    if (radianceOctree.table.node[entry] != NO_NODE) return;
-    const uint parent = radianceOctree.table.node[octreeTableEntry(cell / 2u, push.level + 1u)];
+    if (radianceVoxels.table.node[entry] != NO_NODE) return;
+    const uint parent = radianceVoxels.table.node[octreeTableEntry(cell / 2u, push.level + 1u)];
     if (parent == NO_NODE) return;
     // Inner cells of the table always lead to a node of their own level: only below a uniform one there is a mask of 0.
-    if (octreeChildren(parent) == 0u) radianceOctree.table.node[entry] = parent;
+    if (octreeChildren(parent) == 0u) radianceVoxels.table.node[entry] = parent;
 }

@@ -23,12 +23,12 @@ void main() {
     if (4u * word >= push.count) return;
     const uint mask = masks.words[word];
     uint child = before.bits[word];
-    radianceOctree.nodes.four[push.firstNode / 4u + word] = uvec2(mask, push.firstChild + child);
+    radianceVoxels.nodes.four[push.firstNode / 4u + word] = uvec2(mask, push.firstChild + child);
     for (uint bits = mask; bits != 0u; bits &= bits - 1u, ++child) {
         const uint bit = findLSB(bits);
         const uvec3 cell = 2u * unpackCell(cells.data[4u * word + bit / 8u]) + (uvec3(bit, bit >> 1, bit >> 2) & 1u);
         childCells.data[child] = packCell(cell);
-        if (push.childLevel >= radianceOctree.shape.tableLevel)
-            radianceOctree.table.node[octreeTableEntry(cell, push.childLevel)] = push.firstChild + child;
+        if (push.childLevel >= radianceVoxels.octree.tableLevel)
+            radianceVoxels.table.node[octreeTableEntry(cell, push.childLevel)] = push.firstChild + child;
     }
 }

@@ -19,9 +19,9 @@ bool isUniform(uint node) {
     const uint first = octreeChild(node, 0u);
     for (uint child = first; child < first + 8u; ++child) {
         if (push.level > 1u && (uniform_.bits[child / 32u] >> (child & 31u) & 1u) == 0u) return false;
-        for (uint face = 0u; face < radianceOctree.shape.directions; ++face) {
-            const uint values = face * radianceOctree.shape.nodeCount;
-            if (radianceOctree.values.data[values + child] != radianceOctree.values.data[values + node]) return false;
+        for (uint face = 0u; face < radianceVoxels.grid.directions; ++face) {
+            const uint values = face * radianceVoxels.octree.nodeCount;
+            if (radianceVoxels.values.data[values + child] != radianceVoxels.values.data[values + node]) return false;
         }
     }
     return true;

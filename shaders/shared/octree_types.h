@@ -4,21 +4,15 @@
 
 #include "shaders/shared/types.h"
 
-#define OCTREE_MOST_LEVELS 11u  // 1024 voxels along a side: levels 0 to 10.
+#define OCTREE_MOST_LEVELS 11u  // 1024 voxels along an axis.
 #define NO_NODE 0xffffffffu
 
 VOXRAY_SHARED_BEGIN
 
-// Level 0 has the finest voxels, a node of level l is a cube of 2^l of them along each side, the root is the one node of
-// level `levels`. Node (x, y, z) of level l spans origin + voxelSize * 2^l * [x, x+1] and so on.
+// What an octree has besides its RadianceGrid. A node is a voxel of a level that is not empty; the root is the one of the last.
 struct OctreeShape {
-    vec3 origin;      // m
-    float voxelSize;  // m
-    uvec3 resolution;  // Voxels of the grid that the root encloses.
-    uint levels;
-    uint tableLevel;  // From this level on up, nodes are found by a table.
     uint nodeCount;   // Of all levels, padding included: the stride from one direction's values to the next.
-    uint directions;  // 1 or 6 values a node.
+    uint tableLevel;  // From this level on up, nodes are found by a table.
     uint tableFirst[OCTREE_MOST_LEVELS];  // Where the table of level tableLevel + i begins.
 };
 

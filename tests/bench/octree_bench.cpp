@@ -36,9 +36,12 @@ void octreeBuild(benchmark::State& state) {
     CommandStream stream(test::device());
     OctreeSize size;
     for (auto _ : state) {
-        const OctreeBuilder::Built built = builder.build(stream, voxels, uint32_t(state.range(1)));
-        size = built.octree.size;
-        builder.filter(stream, built.octree);
+        RadianceVoxels radiance;
+        radiance.grid = {voxels.grid.origin,       voxels.grid.voxelSize,
+                         voxels.grid.resolution,   radianceLevels(voxels.grid.resolution),
+                         uint32_t(state.range(1)), 1.0f};
+        size = builder.build(stream, voxels, radiance).size;
+        builder.filter(stream, size, radiance);
         stream.finish();
     }
     state.counters["voxels"] = voxels.voxelCount;

@@ -1,9 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
-// Samples radiance voxels at a list of places: what sampleRadiance() and emptyDistance() answer for each.
+// Samples of radiance voxels, whatever their layout.
 #include "shaders/linear_index.glsl"
-#include "shaders/radiance_svo.glsl"
+#include "shaders/radiance_voxels.glsl"
 layout(local_size_x = 64) in;
 
 struct Query {
@@ -12,18 +11,13 @@ struct Query {
     vec3 direction;
     float reserved;
 };
-struct Answer {
-    vec4 radiance;
-    float empty;
-};
 layout(set = 0, binding = 0, scalar) readonly buffer Queries { Query data[]; } queries;
-layout(set = 0, binding = 1, scalar) writeonly buffer Answers { Answer data[]; } answers;
+layout(set = 0, binding = 1, scalar) writeonly buffer Answers { vec4 data[]; } answers;
 layout(push_constant) uniform Push { uint count; } push;
 
 void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const Query q = queries.data[i];
-    answers.data[i].radiance = sampleRadiance(q.position, q.footprint, q.direction);
-    answers.data[i].empty = emptyDistance(q.position, q.footprint, q.direction);
+    answers.data[i] = sampleRadiance(q.position, q.footprint, q.direction);
 }

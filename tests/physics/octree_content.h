@@ -6,10 +6,9 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "passes/common/dispatch.h"
 #include "passes/filter_voxels/octree_builder.h"
 #include "passes/filter_voxels/octree_collapse.h"
-#include "tests/gpu/chain.h"
+#include "tests/gpu/radiance_samples.h"
 
 namespace voxray::test {
 
@@ -43,7 +42,7 @@ class Content {
         grid.wordsPerRow = (resolution.x + 31) / 32;
         grid.directions = directions;
         levels.push_back(makeLevel(0, value));
-        for (uint32_t level = 1; level <= octreeLevels(resolution); ++level)
+        for (uint32_t level = 1; level < radianceLevels(resolution); ++level)
             levels.push_back(makeLevel(level, [&](glm::ivec3 cell) { return filtered(level - 1, cell); }));
     }
 
@@ -54,25 +53,29 @@ class Content {
     }
     const Faces& at(uint32_t level, glm::ivec3 cell) const {
         static const Faces nothing{};
-        const glm::ivec3 size(octreeCells(grid.resolution, level));
+        const glm::ivec3 size(radianceResolution(grid.resolution, level));
         for (int axis = 0; axis < 3; ++axis)
             if (cell[axis] < 0 || cell[axis] >= size[axis]) return nothing;
         return levels[level][(size_t(cell.z) * size.y + size_t(cell.y)) * size.x + size_t(cell.x)];
     }
     void forEach(uint32_t level, const std::function<void(glm::ivec3)>& visit) const {
-        const glm::ivec3 size(octreeCells(grid.resolution, level));
+        const glm::ivec3 size(radianceResolution(grid.resolution, level));
         for (int z = 0; z < size.z; ++z)
             for (int y = 0; y < size.y; ++y)
                 for (int x = 0; x < size.x; ++x) visit({x, y, z});
     }
 
-    /// What a sample must answer: trilinear on two levels, linear between them.
+    /// What sampleRadiance() must answer: shaders/radiance_voxels.glsl, in doubles.
     glm::dvec4 sample(glm::dvec3 position, double footprint, glm::dvec3 direction) const {
-        const double level =
-            std::clamp(std::log2(footprint / grid.voxelSize), 0.0, double(levels.size() - 1));
-        const uint32_t fine = std::min(uint32_t(level), uint32_t(levels.size()) - 2);
-        return glm::mix(trilinear(position, fine, direction), trilinear(position, fine + 1, direction),
-                        level - fine);
+        const double voxel = grid.voxelSize;
+        const double level = std::clamp(std::log2(footprint / voxel), 0.0, double(levels.size() - 1));
+        const uint32_t finer = uint32_t(level);
+        glm::dvec4 met = trilinear(position, finer, direction) * (1 - (level - finer)) *
+                         (footprint / voxel / double(1u << finer));
+        if (level > finer)
+            met += trilinear(position, finer + 1, direction) * (level - finer) *
+                   (footprint / voxel / double(2u << finer));
+        return met;
     }
 
     /// The voxels as voxelization leaves them, without materials.
@@ -106,21 +109,23 @@ class Content {
         return result;
     }
 
+    /// Two voxels in a row: what has no room beside the front one is hidden.
+    static glm::dvec4 inARow(const glm::dvec4& front, const glm::dvec4& rear) {
+        return front + rear * (rear.a > 0 ? std::clamp((1 - front.a) / rear.a, 0.0, 1.0) : 0.0);
+    }
+    static glm::ivec3 offset(int octant) { return glm::ivec3(octant, octant >> 1, octant >> 2) & 1; }
+    /// Whether an octant is on the side that a face looks to.
+    static bool isFront(int face, int octant) { return offset(octant)[face / 2] == 1 - face % 2; }
+
     Faces filtered(uint32_t finer, glm::ivec3 cell) const {
         Faces result{};
-        for (int face = 0; face < 6; ++face) {
-            const auto child = [&](int octant) {
-                return at(finer, 2 * cell + (glm::ivec3(octant, octant >> 1, octant >> 2) & 1))[size_t(face)];
-            };
-            const int stride = 1 << face / 2;
+        for (int face = 0; face < 6; ++face)
             for (int octant = 0; octant < 8; ++octant) {
+                const auto child = [&](int o) { return at(finer, 2 * cell + offset(o))[size_t(face)]; };
                 if (directions_ == 1) result[size_t(face)] += child(octant) / 8.0;
-                if (directions_ == 1 || (octant & stride)) continue;
-                const glm::dvec4 front = child(face % 2 == 0 ? octant + stride : octant);
-                const glm::dvec4 back = child(face % 2 == 0 ? octant : octant + stride);
-                result[size_t(face)] += (front + (1 - front.a) * back) / 4.0;
+                if (directions_ == 6 && isFront(face, octant))
+                    result[size_t(face)] += inARow(child(octant), child(octant ^ 1 << face / 2)) / 4.0;
             }
-        }
         return result;
     }
 
@@ -128,16 +133,23 @@ class Content {
         const glm::dvec3 inLevel =
             (position - glm::dvec3(grid.origin)) / (double(grid.voxelSize) * double(1u << level)) - 0.5;
         const glm::dvec3 first = glm::floor(inLevel), between = inLevel - first;
+        const auto value = [&](int octant, int face) {
+            return at(level, glm::ivec3(first) + offset(octant))[size_t(face)];
+        };
+        const auto weight = [&](int octant) {
+            const glm::dvec3 w = glm::mix(1.0 - between, between, glm::dvec3(offset(octant)));
+            return w.x * w.y * w.z;
+        };
         glm::dvec4 sum(0.0);
-        for (int i = 0; i < 8; ++i) {
-            const glm::ivec3 corner = glm::ivec3(i, i >> 1, i >> 2) & 1;
-            const Faces& faces = at(level, glm::ivec3(first) + corner);
-            const glm::dvec3 w = glm::mix(1.0 - between, between, glm::dvec3(corner));
-            if (directions_ == 1) sum += w.x * w.y * w.z * faces[0];
-            for (int axis = 0; axis < 3 && directions_ == 6; ++axis)
-                sum += w.x * w.y * w.z * direction[axis] * direction[axis] *
-                       faces[size_t(2 * axis + (direction[axis] > 0 ? 1 : 0))];
-        }
+        for (int axis = 0; axis < (directions_ == 1 ? 1 : 3); ++axis)
+            for (int octant = 0; octant < 8; ++octant) {
+                const int face = 2 * axis + (direction[axis] > 0 ? 1 : 0), rear = octant ^ 1 << axis;
+                if (directions_ == 1) sum += weight(octant) * value(octant, 0);
+                if (directions_ == 1 || !isFront(face, octant)) continue;
+                const glm::dvec4 front = value(octant, face);
+                sum += std::abs(direction[axis]) *
+                       (weight(octant) * front + weight(rear) * (inARow(front, value(rear, face)) - front));
+            }
         return sum;
     }
 
@@ -148,26 +160,35 @@ class Content {
 class TestOctree {
  public:
     explicit TestOctree(const Content& content, uint32_t directions = 1)
-        : compiler_(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE),
-          stream_(device()),
-          builder_(device(), compiler_),
-          built_(builder_.build(stream_, content.surfaceVoxels(stream_), directions)) {
-        const RadianceOctree& tree = octree();
-        leaves = stream_.readAs<uint32_t>(built_.leaves, tree.size.nodes[0]);
-        std::vector<glm::uvec2> texels(tree.values.bytes() / sizeof(glm::uvec2), glm::uvec2(0));
+        : compiler_(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE), stream_(device()), builder_(device(), compiler_) {
+        const gpu::VoxelGrid& g = content.grid;
+        radiance.layout = RadianceLayout::Svo;
+        radiance.grid = {g.origin, g.voxelSize, g.resolution, radianceLevels(g.resolution), directions, 1.0f};
+        OctreeBuilder::Built built = builder_.build(stream_, content.surfaceVoxels(stream_), radiance);
+        size = built.size;
+        first = size.first();
+        leaves = stream_.readAs<uint32_t>(built.leaves, size.nodes[0]);
+        std::vector<glm::uvec2> texels(size.valueBytes() / sizeof(glm::uvec2), glm::uvec2(0));
         for (size_t face = 0; face < directions; ++face)
             for (size_t leaf = 0; leaf < leaves.size(); ++leaf)
-                texels[face * tree.size.nodeCount() + tree.first[0] + leaf] =
+                texels[face * size.nodeCount() + first[0] + leaf] =
                     packRadiance(content.at(0, cellOf(leaves[leaf]))[face]);
-        stream_.upload(tree.values, texels);
-        builder_.filter(stream_, tree);
+        stream_.upload(radiance.storage[kOctreeValues], texels);
+        builder_.filter(stream_, size, radiance);
         refresh();
     }
 
     /// Collapses uniform nodes.
     void collapse() {
-        built_.octree = OctreeCollapse(device(), compiler_).run(stream_, std::move(built_.octree));
+        size = OctreeCollapse(device(), compiler_).run(stream_, size, radiance);
+        first = size.first();
         refresh();
+    }
+
+    uint64_t bytes() const {
+        uint64_t sum = radiance.header.bytes();
+        for (const Buffer& buffer : radiance.storage) sum += buffer.bytes();
+        return sum;
     }
 
     /// The voxel of an entry of `leaves`.
@@ -176,7 +197,7 @@ class TestOctree {
     /// As octreeNode() in shaders/octree.glsl, from the root down and without the table.
     uint32_t node(glm::ivec3 cell, uint32_t level) const {
         uint32_t result = 0;
-        for (uint32_t l = octree().size.levels(); l-- > level;) {
+        for (uint32_t l = size.levels() - 1; l-- > level;) {
             const glm::ivec3 at = (cell >> int(l - level)) & 1;
             const uint32_t bit = 8 * (result % 4) + uint32_t(at.x + 2 * at.y + 4 * at.z);
             const glm::uvec2 four = nodes[result / 4];
@@ -187,45 +208,41 @@ class TestOctree {
         return result;
     }
 
-    struct Query {
-        glm::vec3 position;
-        float footprint;
-        glm::vec3 direction;
-        float reserved = 0;
-    };
-    struct Answer {
-        glm::vec4 radiance;
-        float empty;
-    };
-    /// sampleRadiance() and emptyDistance() on the device.
-    std::vector<Answer> sample(const std::vector<Query>& list) {
-        const Program program =
-            makeComputeProgram(device(), compiler_.compile("tests/gpu/radiance_samples.comp"));
-        const Buffer in(device(), "queries", list.size() * sizeof(Query));
-        const Buffer out(device(), "answers", list.size() * sizeof(Answer));
-        stream_.upload(in, list);
-        stream_.dispatch(program, {{"queries", in}, {"answers", out}, {"radianceOctree", octree().header}},
-                         uint32_t(list.size()), linearGroups(list.size()));
-        return stream_.readAs<Answer>(out, list.size());
+    std::vector<glm::vec4> sample(const std::vector<RadianceQuery>& queries) const {
+        return sampleRadiance(radiance, queries);
     }
 
-    const RadianceOctree& octree() const { return built_.octree; }
-    CommandStream& stream() { return stream_; }
-    std::vector<uint32_t> leaves, table;
+    /// emptyDistance() and finestFootprint() on the device.
+    std::vector<glm::vec2> empty(const std::vector<RadianceQuery>& queries) {
+        const Program program = makeComputeProgram(
+            device(), compiler_.compile("tests/gpu/empty_distance.comp", radiance.defines()));
+        const Buffer in(device(), "queries", queries.size() * sizeof(RadianceQuery));
+        const Buffer out(device(), "answers", queries.size() * sizeof(glm::vec2));
+        stream_.upload(in, queries);
+        std::vector<Binding> bindings = radiance.bindings();
+        bindings.insert(bindings.end(), {{"queries", in}, {"answers", out}});
+        stream_.dispatch(program, bindings, uint32_t(queries.size()), linearGroups(queries.size()));
+        return stream_.readAs<glm::vec2>(out, queries.size());
+    }
+
+    RadianceVoxels radiance;
+    OctreeSize size;
+    std::vector<uint32_t> first, leaves, table;
     std::vector<glm::uvec2> nodes, values;
 
  private:
     void refresh() {
-        const RadianceOctree& tree = octree();
-        nodes = stream_.readAs<glm::uvec2>(tree.nodes, tree.nodes.bytes() / sizeof(glm::uvec2));
-        values = stream_.readAs<glm::uvec2>(tree.values, tree.values.bytes() / sizeof(glm::uvec2));
-        table = stream_.readAs<uint32_t>(tree.table, tree.table.bytes() / sizeof(uint32_t));
+        const auto read = [&]<typename T>(std::vector<T>& into, OctreeStorage which) {
+            into = stream_.readAs<T>(radiance.storage[which], radiance.storage[which].bytes() / sizeof(T));
+        };
+        read(table, kOctreeTable);
+        read(nodes, kOctreeNodes);
+        read(values, kOctreeValues);
     }
 
     ShaderCompiler compiler_;
     CommandStream stream_;
     OctreeBuilder builder_;
-    OctreeBuilder::Built built_;
 };
 
 }  // namespace voxray::test

@@ -39,18 +39,18 @@ Content shell(uint32_t resolution, uint32_t directions, double radius) {
     });
 }
 
-std::vector<TestOctree::Query> randomQueries(const gpu::VoxelGrid& grid, size_t count) {
+std::vector<RadianceQuery> randomQueries(const gpu::VoxelGrid& grid, size_t count) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> uniform(0, 1);
     std::normal_distribution<float> normal;
-    std::vector<TestOctree::Query> list(count);
+    std::vector<RadianceQuery> list(count);
     const glm::vec3 extent = glm::vec3(grid.resolution) * grid.voxelSize;
-    for (TestOctree::Query& q : list) {
+    for (RadianceQuery& q : list) {
         // In the grid and a tenth of it around; footprints from half a voxel to twice the root.
         for (int axis = 0; axis < 3; ++axis)
             q.position[axis] = grid.origin[axis] + extent[axis] * (1.2f * uniform(random) - 0.1f);
         q.footprint =
-            grid.voxelSize * std::exp2(-1 + float(octreeLevels(grid.resolution) + 2) * uniform(random));
+            grid.voxelSize * std::exp2(-1 + float(radianceLevels(grid.resolution) + 1) * uniform(random));
         q.direction = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
     }
     return list;
@@ -58,12 +58,12 @@ std::vector<TestOctree::Query> randomQueries(const gpu::VoxelGrid& grid, size_t 
 
 /// Largest difference of samples from those of the dense pyramid: of radiance relative to `brightest`.
 glm::dvec2 worstSample(const Content& content, TestOctree& tree, size_t count, double brightest) {
-    const std::vector<TestOctree::Query> queries = randomQueries(content.grid, count);
-    const std::vector<TestOctree::Answer> answers = tree.sample(queries);
+    const std::vector<RadianceQuery> queries = randomQueries(content.grid, count);
+    const std::vector<glm::vec4> answers = tree.sample(queries);
     glm::dvec2 worst(0);
     for (size_t i = 0; i < count; ++i) {
         const glm::dvec4 difference =
-            glm::abs(glm::dvec4(answers[i].radiance) -
+            glm::abs(glm::dvec4(answers[i]) -
                      content.sample(queries[i].position, queries[i].footprint, queries[i].direction));
         worst.x =
             std::max({worst.x, difference.r / brightest, difference.g / brightest, difference.b / brightest});
@@ -77,22 +77,21 @@ TEST(Octree, HasALeafForEachVoxelAndNothingElse) {
          {glm::uvec3(16), glm::uvec3(37, 9, 21), glm::uvec3(1, 1, 1), glm::uvec3(64, 2, 33)}) {
         const Content content = randomContent(resolution, 1, resolution.x == 1 ? 1.1 : 0.03);
         TestOctree tree(content);
-        const RadianceOctree& octree = tree.octree();
-        for (uint32_t level = 0; level <= octree.size.levels(); ++level) {
+        for (uint32_t level = 0; level < tree.size.levels(); ++level) {
             uint32_t count = 0;
             content.forEach(level, [&](glm::ivec3 cell) {
                 const uint32_t node = tree.node(cell, level);
                 ASSERT_EQ(node == NO_NODE, content.empty(level, cell)) << "level " << level;
                 if (node == NO_NODE) return;
                 ++count;
-                ASSERT_GE(node, octree.first[level]);
-                ASSERT_LT(node, octree.first[level] + octree.size.nodes[level]);
+                ASSERT_GE(node, tree.first[level]);
+                ASSERT_LT(node, tree.first[level] + tree.size.nodes[level]);
                 if (level == 0) {
-                    ASSERT_EQ(TestOctree::cellOf(tree.leaves[node - octree.first[0]]), cell);
+                    ASSERT_EQ(TestOctree::cellOf(tree.leaves[node - tree.first[0]]), cell);
                     ASSERT_EQ(tree.values[node], packRadiance(content.at(0, cell)[0]));
                 }
             });
-            ASSERT_EQ(count, octree.size.nodes[level]) << "level " << level;
+            ASSERT_EQ(count, tree.size.nodes[level]) << "level " << level;
         }
     }
 }
@@ -101,7 +100,7 @@ TEST(Octree, TableFindsWhatDescentFinds) {
     const Content content = shell(48, 1, 0.4);
     TestOctree tree(content);
     size_t entry = 0;
-    for (uint32_t level = tree.octree().size.tableLevel(); level <= tree.octree().size.levels(); ++level)
+    for (uint32_t level = tree.size.tableLevel(); level < tree.size.levels(); ++level)
         content.forEach(level,
                         [&](glm::ivec3 cell) { ASSERT_EQ(tree.table[entry++], tree.node(cell, level)); });
     EXPECT_EQ(entry, tree.table.size());
@@ -130,24 +129,24 @@ TEST(Octree, SamplesAgreeWithADensePyramid) {
 TEST(Octree, EmptyDistanceHoldsNothing) {
     const Content content = shell(64, 1, 0.35);
     TestOctree tree(content);
-    std::vector<TestOctree::Query> queries = randomQueries(content.grid, 40000);
-    const std::vector<TestOctree::Answer> answers = tree.sample(queries);
+    std::vector<RadianceQuery> queries = randomQueries(content.grid, 40000);
+    const std::vector<glm::vec2> answers = tree.empty(queries);
     size_t skips = 0;
     for (size_t i = 0; i < queries.size(); ++i) {
-        const TestOctree::Query& q = queries[i];
-        if (answers[i].empty <= 0) continue;
+        const RadianceQuery& q = queries[i];
+        if (answers[i].x <= 0) continue;
         ++skips;
         for (const double part : {0.0, 0.1, 0.35, 0.8, 0.999}) {
             const glm::dvec3 at =
-                glm::dvec3(q.position) + part * double(answers[i].empty) * glm::dvec3(q.direction);
+                glm::dvec3(q.position) + part * double(answers[i].x) * glm::dvec3(q.direction);
             ASSERT_LT(content.sample(at, q.footprint, q.direction).a, 1e-5);
         }
     }
     EXPECT_GT(skips, queries.size() / 20);
     // From the middle of the hollow the whole of the octant's cube is skipped.
     const float voxel = content.grid.voxelSize;
-    const TestOctree::Query inside{content.grid.origin + voxel * glm::vec3(33.5f), voxel, {1, 0, 0}};
-    EXPECT_GT(tree.sample({inside})[0].empty, 5 * voxel);
+    const RadianceQuery inside{content.grid.origin + voxel * glm::vec3(33.5f), voxel, {1, 0, 0}};
+    EXPECT_GT(tree.empty({inside})[0].x, 5 * voxel);
 }
 
 TEST(Octree, UniformPartsCollapse) {
@@ -161,23 +160,25 @@ TEST(Octree, UniformPartsCollapse) {
             return grey(v == glm::ivec3(9, 20, 30) ? 3.0 : 2.0, directions == 1 ? 0.75 : 1.0);
         });
         TestOctree tree(content, directions);
-        const std::vector<TestOctree::Query> queries = randomQueries(content.grid, 20000);
-        const std::vector<TestOctree::Answer> before = tree.sample(queries);
-        const OctreeSize full = tree.octree().size;
+        const std::vector<RadianceQuery> queries = randomQueries(content.grid, 20000);
+        const std::vector<glm::vec4> before = tree.sample(queries);
+        const OctreeSize full = tree.size;
         tree.collapse();
-        const OctreeSize& size = tree.octree().size;
+        const OctreeSize& size = tree.size;
 
         // Of the block's 32^3 leaves those beside the odd one stay: eight; on each level above seven siblings
         // of its parent.
         EXPECT_EQ(size.nodes[0], full.nodes[0] - 32768 + 8);
         for (uint32_t level = 1; level < 5; ++level)
             EXPECT_EQ(size.nodes[level], full.nodes[level] - (32768u >> 3 * level) + 8) << "level " << level;
-        EXPECT_LT(tree.octree().bytes(), full.bytes());
-        EXPECT_EQ(tree.octree().bytes(), size.bytes());
+        EXPECT_LT(tree.bytes(), full.bytes());
+        EXPECT_EQ(tree.bytes(), size.bytes());
+        const RadianceQuery solid{content.grid.origin + content.grid.voxelSize * glm::vec3(4), 1, {1, 0, 0}};
+        EXPECT_EQ(tree.empty({solid})[0].y, 16 * content.grid.voxelSize);
 
         // Samples are the same, bit by bit.
-        const std::vector<TestOctree::Answer> after = tree.sample(queries);
-        for (size_t i = 0; i < queries.size(); ++i) ASSERT_EQ(after[i].radiance, before[i].radiance) << i;
+        const std::vector<glm::vec4> after = tree.sample(queries);
+        for (size_t i = 0; i < queries.size(); ++i) ASSERT_EQ(after[i], before[i]) << i;
     }
 }
 
@@ -185,12 +186,12 @@ TEST(Octree, AWhollyUniformGridIsOneNode) {
     const Content content(glm::uvec3(32), 1, [](glm::ivec3) { return grey(2, 1); });
     TestOctree tree(content);
     tree.collapse();
-    EXPECT_EQ(tree.octree().size.nodes, (std::vector<uint32_t>{0, 0, 0, 0, 0, 1}));
-    EXPECT_LT(tree.octree().bytes(), 400u);
-    const TestOctree::Query inside{
+    EXPECT_EQ(tree.size.nodes, (std::vector<uint32_t>{0, 0, 0, 0, 0, 1}));
+    EXPECT_LT(tree.bytes(), 400u);
+    const RadianceQuery inside{
         content.grid.origin + 16 * content.grid.voxelSize, content.grid.voxelSize, {0, 0, 1}};
-    EXPECT_NEAR(tree.sample({inside})[0].radiance.g, 2.0, 2 * std::exp2(-14));
-    EXPECT_EQ(tree.sample({inside})[0].empty, 0);
+    EXPECT_NEAR(tree.sample({inside})[0].g, 2.0, 2 * std::exp2(-14));
+    EXPECT_EQ(tree.empty({inside})[0].x, 0);
 }
 
 TEST(Octree, NothingUniformStaysAsItIs) {
@@ -205,14 +206,13 @@ TEST(Octree, MemoryIsPredictedExactly) {
     for (const uint32_t directions : {1u, 6u}) {
         const Content content = shell(40, directions, 0.3);
         TestOctree tree(content, directions);
-        const RadianceOctree& octree = tree.octree();
         OctreeSize counted{content.grid.resolution, directions, {}};
-        for (uint32_t level = 0; level <= octreeLevels(content.grid.resolution); ++level) {
+        for (uint32_t level = 0; level < tree.size.levels(); ++level) {
             counted.nodes.push_back(0);
             content.forEach(level,
                             [&](glm::ivec3 cell) { counted.nodes.back() += !content.empty(level, cell); });
         }
-        EXPECT_EQ(counted.bytes(), octree.bytes());
+        EXPECT_EQ(counted.bytes(), tree.bytes());
     }
 }
 
