@@ -1,7 +1,10 @@
-// Access to a sparse voxel octree (docs/svo.md). Nodes of all levels are numbered breadth first, root first; a level
-// begins at a multiple of four. A node is a byte, the mask of its children. The masks of four nodes and the number of
-// their first child are one entry of 64 bits: children of neighbours in the numbering follow each other, so that a child's
-// number is that first number plus the bits set before its own.
+// Access to a sparse voxel octree (docs/svo.md). Nodes are numbered from 1 on, breadth first, root first: the children of a node
+// follow each other, and so do those of neighbours in the numbering. A node above level 0 is a word: the mask of its children in
+// 8 bits and the number of the first of them in 24; or, for a uniform node, which stands for all below it, no mask and its own
+// number. So 0 is a node without anything, number 0 is none, and its values are 0.
+//
+// From one level on up the words also stand in a table, by voxel: a full grid for each level with a border of one voxel, up to
+// one level above the root.
 //
 // Binding 26 of set 0; the arrays stand behind addresses, since they outgrow what devices bind.
 #ifndef VOXRAY_OCTREE_GLSL
@@ -14,56 +17,58 @@
 #include "shaders/shared/octree_types.h"
 #include "shaders/shared/radiance_types.h"
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer OctreeTable { uint node[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer OctreeNodes { uvec2 four[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer OctreeWords { uint data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer OctreeValues { uvec2 data[]; };
 
 layout(set = 0, binding = 26, scalar) readonly buffer RadianceVoxels {
     RadianceGrid grid;
-    OctreeTable table;
-    OctreeNodes nodes;
-    OctreeValues values;  // By direction, then by node: shaders/radiance_texel.glsl.
+    OctreeWords table;
+    OctreeWords nodes;    // By number, those above level 0.
+    OctreeValues values;  // By direction, then by number: shaders/radiance_texel.glsl.
     OctreeShape octree;
 } radianceVoxels;
 
 // Octants are numbered x + 2 y + 4 z.
-uint octantOf(uvec3 cell) { return (cell.x & 1u) | (cell.y & 1u) << 1 | (cell.z & 1u) << 2; }
+uint octantOf(ivec3 voxel) { return uint((voxel.x & 1) | (voxel.y & 1) << 1 | (voxel.z & 1) << 2); }
+ivec3 octantOffset(uint octant) { return ivec3(octant & 1u, octant >> 1 & 1u, octant >> 2); }
+
+uint octreeMask(uint word) { return word & 0xffu; }
+bool isUniform(uint word) { return word != 0u && octreeMask(word) == 0u; }
+
+// Number of a child, NO_NODE where it is empty; of a uniform node, itself.
+uint octreeChild(uint word, uint octant) {
+    const uint mask = octreeMask(word), bit = 1u << octant, first = word >> 8;
+    if (mask == 0u) return first;
+    return (mask & bit) == 0u ? NO_NODE : first + uint(bitCount(mask & (bit - 1u)));
+}
 
 // Voxels of a level along each axis.
-uvec3 octreeCells(uint level) { return (radianceVoxels.grid.resolution + ((1u << level) - 1u)) >> level; }
+ivec3 octreeSize(uint level) { return ivec3((radianceVoxels.grid.resolution + ((1u << level) - 1u)) >> level); }
 
-// Where the table entry of a cell of a level stands; `level` is not below the table's.
-uint octreeTableEntry(uvec3 cell, uint level) {
-    const uvec3 size = octreeCells(level);
-    return radianceVoxels.octree.tableFirst[level - radianceVoxels.octree.tableLevel] +
-           (cell.z * size.y + cell.y) * size.x + cell.x;
+// Whether a voxel is in a level or one beside it.
+bool inOctreeBorder(ivec3 voxel, uint level) {
+    return all(greaterThanEqual(voxel, ivec3(-1))) && all(lessThanEqual(voxel, octreeSize(level)));
 }
 
-// Mask of the children of a node above level 0; 0: the node is uniform and stands for all below it.
-uint octreeChildren(uint node) { return radianceVoxels.nodes.four[node >> 2].x >> (8u * (node & 3u)) & 0xffu; }
-
-// The child of a node above level 0, NO_NODE where it is empty; a uniform node itself.
-uint octreeChild(uint node, uint octant) {
-    const uvec2 four = radianceVoxels.nodes.four[node >> 2];
-    const uint first = 8u * (node & 3u);
-    if ((four.x >> first & 0xffu) == 0u) return node;
-    const uint bit = 1u << (first + octant);
-    return (four.x & bit) == 0u ? NO_NODE : four.y + uint(bitCount(four.x & (bit - 1u)));
+// Where the word of a voxel stands in the table, for a level from the table's on up; the voxel may be in the border.
+uint octreeTableEntry(ivec3 voxel, uint level) {
+    const uvec3 size = uvec3(octreeSize(level) + 2), at = uvec3(voxel + 1);
+    return radianceVoxels.octree.tableFirst[level - radianceVoxels.octree.tableLevel] + (at.z * size.y + at.y) * size.x + at.x;
 }
 
-// The node of a cell of a level: NO_NODE where the cell is empty or outside of the grid; a coarser node where that is
-// uniform.
-uint octreeNode(ivec3 cell, uint level) {
-    if (any(greaterThanEqual(uvec3(cell), octreeCells(level)))) return NO_NODE;  // Negative ones wrap round.
+// The word of a voxel of a level above 0, in the level or its border: 0 where it is empty; of a coarser node where that is uniform.
+uint octreeWord(ivec3 voxel, uint level) {
     const uint top = max(level, radianceVoxels.octree.tableLevel);
-    uint node = radianceVoxels.table.node[octreeTableEntry(uvec3(cell) >> (top - level), top)];
-    for (uint l = top; l > level && node != NO_NODE; --l) node = octreeChild(node, octantOf(uvec3(cell) >> (l - 1u - level)));
-    return node;
+    uint word = radianceVoxels.table.data[octreeTableEntry(voxel >> (top - level), top)];
+    for (uint l = top; l > level; --l) word = radianceVoxels.nodes.data[octreeChild(word, octantOf(voxel >> (l - 1u - level)))];
+    return word;
 }
+
+// The number of a voxel's node.
+uint octreeNode(ivec3 voxel, uint level) { return octreeChild(octreeWord(voxel >> 1, level + 1u), octantOf(voxel)); }
 
 // Radiance times cover and cover of a node, nothing for NO_NODE. `face`: 0 to 5 by facing direction, 0 where all share one.
 vec4 octreeValue(uint node, uint face) {
-    if (node == NO_NODE) return vec4(0.0);
     return unpackRadiance(radianceVoxels.values.data[face * radianceVoxels.octree.nodeCount + node]);
 }
 

@@ -9,21 +9,22 @@
 ivec3 octreeCorner(uint level, vec3 position, out vec3 at) {
     const vec3 inLevel =
         (position - radianceVoxels.grid.origin) / (radianceVoxels.grid.voxelSize * float(1u << level)) - 0.5;
-    const ivec3 corner = ivec3(floor(inLevel));
-    at = inLevel - vec3(corner);
-    return corner;
+    const vec3 corner = floor(inLevel);
+    at = inLevel - corner;
+    return ivec3(corner);
 }
 
 vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     vec3 at;
     const ivec3 corner = octreeCorner(level, position, at);
+    if (!inOctreeBorder(corner, level) || !inOctreeBorder(corner + 1, level)) return vec4(0.0);
     uint node[8];
-    bool empty = true;
+    uint any_ = 0u;
     for (uint cell = 0u; cell < 8u; ++cell) {
-        node[cell] = octreeNode(corner + ivec3(cell & 1u, (cell >> 1) & 1u, cell >> 2), level);
-        empty = empty && node[cell] == NO_NODE;
+        node[cell] = octreeNode(corner + octantOffset(cell), level);
+        any_ |= node[cell];
     }
-    if (empty) return vec4(0.0);
+    if (any_ == 0u) return vec4(0.0);
 
     vec4 value[8];
     vec4 sum = vec4(0.0);
@@ -44,33 +45,35 @@ float emptyDistance(vec3 position, float footprint, vec3 direction) {
     const uint coarser = min(uint(max(ceil(log2(footprint / g.voxelSize)), 0.0)), g.levels - 1u);
     vec3 at;
     const ivec3 corner = octreeCorner(coarser, position, at);
-    const float side = g.voxelSize * float(1u << coarser);
-    float reach = 0.0;
-    for (uint level = coarser; level < g.levels; ++level) {
+    if (!inOctreeBorder(corner, coarser) || !inOctreeBorder(corner + 1, coarser)) return 0.0;
+    uint emptyLevel = 0u;
+    for (uint level = max(coarser, 1u); level <= g.levels; ++level) {
         const ivec3 cube = corner >> (level - coarser);
-        if (any(notEqual(cube, (corner + 1) >> (level - coarser)))) continue;
-        if (octreeNode(cube, level) != NO_NODE) break;
-        // The position may move until a voxel that it reads leaves the cube: to half a voxel before the cube's faces.
-        const vec3 low = g.origin + side * (vec3(cube << (level - coarser)) + 0.5);
-        const vec3 high = g.origin + side * (vec3((cube + 1) << (level - coarser)) - 0.5);
-        vec3 way = vec3(1.0e30);
-        for (uint axis = 0u; axis < 3u; ++axis)
-            if (direction[axis] != 0.0)
-                way[axis] = ((direction[axis] > 0.0 ? high[axis] : low[axis]) - position[axis]) / direction[axis];
-        reach = max(min(way.x, min(way.y, way.z)), 0.0);
+        if (cube != (corner + 1) >> (level - coarser)) continue;
+        if (octreeWord(cube, level) != 0u) break;
+        emptyLevel = level;
     }
-    return reach;
+    if (emptyLevel == 0u) return 0.0;
+
+    // The position may move until a voxel that it reads leaves the cube: to half a voxel before the cube's faces.
+    const uint up = emptyLevel - coarser;
+    const float side = g.voxelSize * float(1u << coarser);
+    const vec3 low = g.origin + side * (vec3((corner >> up) << up) + 0.5);
+    const vec3 high = g.origin + side * (vec3(((corner >> up) + 1) << up) - 0.5);
+    float reach = 1.0e30;
+    for (uint axis = 0u; axis < 3u; ++axis)
+        if (direction[axis] != 0.0)
+            reach = min(reach, ((direction[axis] > 0.0 ? high[axis] : low[axis]) - position[axis]) / direction[axis]);
+    return max(reach, 0.0);
 }
 
 // Side of the finest voxel that describes the surroundings of `position` (m): that of a uniform node where one stands for all.
 float finestFootprint(vec3 position) {
     const RadianceGrid g = radianceVoxels.grid;
     const ivec3 voxel = ivec3(floor((position - g.origin) / g.voxelSize));
-    uint level = g.levels - 1u;
-    for (; level > 0u; --level) {
-        const uint node = octreeNode(voxel >> level, level);
-        if (node != NO_NODE && octreeChildren(node) == 0u) break;
-    }
+    uint level = inOctreeBorder(voxel, 0u) ? g.levels - 1u : 0u;
+    for (; level > 0u; --level)
+        if (isUniform(octreeWord(voxel >> level, level))) break;
     return g.voxelSize * float(1u << level);
 }
 

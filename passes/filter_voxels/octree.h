@@ -14,11 +14,12 @@ struct OctreeSize {
     std::vector<uint32_t> nodes;  ///< By level, as many as radianceLevels(resolution); the last is the root.
 
     uint32_t levels() const { return uint32_t(nodes.size()); }
-    /// Number of the first node of each level: root first, each level at a multiple of four.
+    /// Number of the first node of each level: the root is 1, leaves come last.
     std::vector<uint32_t> first() const;
     uint32_t nodeCount() const { return first().front() + nodes.front(); }
-    /// The finest level above the leaves with at most half as many voxels, empty ones included, as there are
-    /// leaves; else the root's.
+    /// The finest level whose table has at most two words for each leaf; at most the level above the root. So
+    /// the table grows with the surface alone, and what it leaves to descend is short where surfaces are
+    /// dense.
     uint32_t tableLevel() const;
 
     uint64_t tableBytes() const, nodeBytes() const, valueBytes() const;
@@ -28,14 +29,15 @@ struct OctreeSize {
 
 /// The buffers of an octree in RadianceVoxels::storage. GLSL access: shaders/octree.glsl.
 enum OctreeStorage : size_t {
-    kOctreeTable,   ///< Node numbers of a level's voxels, from tableLevel() on up.
-    kOctreeNodes,   ///< Four nodes' masks of children and the number of their first child: 64 bits.
+    kOctreeTable,   ///< A word a voxel, from tableLevel() on up.
+    kOctreeNodes,   ///< A word a node above the leaves.
     kOctreeValues,  ///< 64 bits by direction and node (shaders/radiance_texel.glsl).
 };
 
-/// Gives `radiance`, whose grid is set, the buffers of an octree and their header. The content is undefined
-/// but for the table, which finds the root and nothing else.
-/// @throws Error for more levels than OCTREE_MOST_LEVELS, and over the memory limit, naming the bytes needed.
+/// Gives `radiance`, whose grid is set, the buffers of an octree and their header. Nodes and values are
+/// undefined; the table holds the level above the root and nothing else.
+/// @throws Error for more than OCTREE_MOST_LEVELS or OCTREE_MOST_NODES, and over the memory limit, naming the
+/// number needed.
 void allocateOctree(CommandStream& stream, const OctreeSize& size, RadianceVoxels& radiance);
 
 }  // namespace voxray

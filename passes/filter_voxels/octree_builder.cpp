@@ -17,10 +17,10 @@ struct SubdividePush {
 };
 
 struct NumberPush {
+    uint32_t level;
     uint32_t count;
     uint32_t firstNode;
     uint32_t firstChild;
-    uint32_t childLevel;
 };
 
 struct FilterPush {
@@ -68,7 +68,7 @@ OctreeBuilder::Built OctreeBuilder::build(CommandStream& stream, const SurfaceVo
                          {"masks", masks},
                          {"before", before},
                          {"childCells", children}},
-                        NumberPush{count, first[level], first[level - 1], level - 1}, linearGroups(words));
+                        NumberPush{level, count, first[level], first[level - 1]}, linearGroups(words));
         stream.finish();
         cells = std::move(children);
     }

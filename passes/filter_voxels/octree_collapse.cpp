@@ -8,16 +8,16 @@ namespace voxray {
 namespace {
 
 struct UniformPush {
-    uint32_t firstNode;
-    uint32_t count;
     uint32_t level;
+    uint32_t count;
+    uint32_t firstNode;
 };
 
 struct LevelPush {
+    uint32_t level;
     uint32_t count;
     uint32_t firstNode;
     uint32_t firstChild;
-    uint32_t childLevel;
 };
 
 }  // namespace
@@ -30,7 +30,7 @@ OctreeCollapse::OctreeCollapse(Device& device, const ShaderCompiler& compiler)
     };
     uniform_ = program("octree_uniform.comp", {});
     masks_ = program("octree_collapse.comp", {{"MASKS", "1"}});
-    children_ = program("octree_collapse.comp", {{"CHILDREN", "1"}});
+    words_ = program("octree_collapse.comp", {{"WORDS", "1"}});
     table_ = program("octree_collapse_table.comp", {});
 }
 
@@ -46,7 +46,7 @@ OctreeSize OctreeCollapse::run(CommandStream& stream, const OctreeSize& size,
     for (uint32_t level = 1; level < size.levels(); ++level)
         stream.dispatch(uniform_,
                         {{"radianceVoxels", radiance.header}, {"uniform_", uniform}, {"counts", counts}},
-                        UniformPush{first[level], size.nodes[level], level}, linearGroups(size.nodes[level]));
+                        UniformPush{level, size.nodes[level], first[level]}, linearGroups(size.nodes[level]));
 
     // Each of them drops its eight children.
     const std::vector<uint32_t> uniformNodes = stream.readAs<uint32_t>(counts, size.levels());
@@ -65,40 +65,32 @@ RadianceVoxels OctreeCollapse::shrink(CommandStream& stream, const RadianceVoxel
     result.layout = radiance.layout;
     result.grid = radiance.grid;
     allocateOctree(stream, smaller, result);
-    for (uint64_t face = 0; face < size.directions; ++face)  // The root is number 0 in both.
-        stream.copy(radiance.storage[kOctreeValues], result.storage[kOctreeValues], sizeof(glm::uvec2),
-                    face * size.nodeCount() * sizeof(glm::uvec2),
-                    face * smaller.nodeCount() * sizeof(glm::uvec2));
 
-    // From the root down, as it was built.
+    // From the root down, as it was built: masks, numbers, then words, values and the next level's list.
     const std::vector<uint32_t> first = smaller.first();
     Buffer nodes(device, "octree root", sizeof(glm::uvec2));
-    stream.fill(nodes, 0);
-    for (uint32_t level = smaller.levels() - 1; level > 0 && smaller.nodes[level] > 0; --level) {
+    const glm::uvec2 root(1, 0);
+    stream.upload(nodes, std::as_bytes(std::span(&root, 1)));
+    for (uint32_t level = smaller.levels(); level-- > 0 && smaller.nodes[level] > 0;) {
         const uint32_t count = smaller.nodes[level], words = (count + 3) / 4;
+        const uint32_t childCount = level > 0 ? smaller.nodes[level - 1] : 0;
         const Buffer masks(device, "octree masks", uint64_t(words) * sizeof(uint32_t));
         const Buffer before(device, "octree ranks", uint64_t(words) * sizeof(uint32_t));
-        Buffer children(device, "octree children",
-                        uint64_t(std::max(smaller.nodes[level - 1], 1u)) * sizeof(glm::uvec2));
-        const LevelPush push{count, first[level], first[level - 1], level - 1};
-        stream.dispatch(
-            masks_,
-            {{"radianceVoxels", radiance.header}, {"nodes", nodes}, {"uniform_", uniform}, {"masks", masks}},
-            push, linearGroups(words));
+        Buffer children(device, "octree children", uint64_t(std::max(childCount, 1u)) * sizeof(glm::uvec2));
+        const LevelPush push{level, count, first[level], level > 0 ? first[level - 1] : 0};
+        std::vector<Binding> bindings{
+            {"radianceVoxels", radiance.header}, {"nodes", nodes}, {"uniform_", uniform}, {"masks", masks}};
+        stream.dispatch(masks_, bindings, push, linearGroups(words));
         prefixSum_.run(stream, masks, before, words);
-        stream.dispatch(children_,
-                        {{"radianceVoxels", radiance.header},
-                         {"nodes", nodes},
-                         {"masks", masks},
-                         {"before", before},
-                         {"children", children},
-                         {"collapsed", result.header}},
-                        push, linearGroups(words));
+        bindings.pop_back();
+        bindings.insert(bindings.end(),
+                        {{"before", before}, {"children", children}, {"collapsed", result.header}});
+        stream.dispatch(words_, bindings, push, linearGroups(words));
         stream.finish();
         nodes = std::move(children);
     }
 
-    for (uint32_t level = smaller.levels() - 1; level-- > smaller.tableLevel();) {
+    for (uint32_t level = smaller.levels(); level-- > smaller.tableLevel();) {
         const glm::uvec3 voxels = radianceResolution(size.resolution, level);
         stream.dispatch(table_, result.bindings(), level,
                         linearGroups(uint64_t(voxels.x) * voxels.y * voxels.z));

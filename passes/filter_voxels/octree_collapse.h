@@ -23,7 +23,7 @@ class OctreeCollapse {
     RadianceVoxels shrink(CommandStream& stream, const RadianceVoxels& radiance, const OctreeSize& size,
                           const Buffer& uniform, const OctreeSize& smaller) const;
 
-    Program uniform_, masks_, children_, table_;
+    Program uniform_, masks_, words_, table_;
     PopulationPrefixSum prefixSum_;
 };
 

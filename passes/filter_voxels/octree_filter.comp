@@ -13,11 +13,11 @@ layout(push_constant) uniform Push {
 
 void main() {
     if (linearIndex() >= push.count) return;
-    const uint node = push.firstNode + linearIndex();
+    const uint node = push.firstNode + linearIndex(), word = radianceVoxels.nodes.data[node];
     const uint directions = radianceVoxels.grid.directions;
     for (uint face = 0u; face < directions; ++face) {
         vec4 child[8];
-        for (uint octant = 0u; octant < 8u; ++octant) child[octant] = octreeValue(octreeChild(node, octant), face);
+        for (uint octant = 0u; octant < 8u; ++octant) child[octant] = octreeValue(octreeChild(word, octant), face);
         storeOctreeValue(node, face, directions == 6u ? combineFaces(child, face) : combineAll(child));
     }
 }

@@ -25,9 +25,9 @@ void main() {
     if (4u * word >= push.count) return;
     uint mask = 0u;
     for (uint i = 0u; i < min(4u, push.count - 4u * word); ++i) {
-        const uvec3 first = 2u * unpackCell(cells.data[4u * word + i]);
+        const ivec3 first = 2 * unpackCell(cells.data[4u * word + i]);
         for (uint octant = 0u; octant < 8u; ++octant)
-            if (flagged(first + (uvec3(octant, octant >> 1, octant >> 2) & 1u))) mask |= 1u << (8u * i + octant);
+            if (flagged(uvec3(first) + (uvec3(octant, octant >> 1, octant >> 2) & 1u))) mask |= 1u << (8u * i + octant);
     }
     masks.words[word] = mask;
 }

@@ -18,7 +18,7 @@ layout(push_constant, scalar) uniform Push {
 void main() {
     const uint leaf = linearIndex();
     if (leaf >= push.count) return;
-    const uint voxel = voxelNumber(push.grid, ivec3(unpackCell(leaves.cell[leaf])));
+    const uint voxel = voxelNumber(push.grid, unpackCell(leaves.cell[leaf]));
     const uint node = push.firstLeaf + leaf;
     if (radianceVoxels.grid.directions == 6u) {
         for (uint face = 0u; face < 6u; ++face)

@@ -9,15 +9,16 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) buffer Uniform { uint bits[]; } uniform_;
 layout(set = 0, binding = 1) buffer Counts { uint nodes[]; } counts;
 layout(push_constant) uniform Push {
-    uint firstNode;
-    uint count;
     uint level;
+    uint count;
+    uint firstNode;
 } push;
 
-bool isUniform(uint node) {
-    if (octreeChildren(node) != 0xffu) return false;
-    const uint first = octreeChild(node, 0u);
-    for (uint child = first; child < first + 8u; ++child) {
+bool standsForAll(uint node) {
+    const uint word = radianceVoxels.nodes.data[node];
+    if (octreeMask(word) != 0xffu) return false;
+    for (uint octant = 0u; octant < 8u; ++octant) {
+        const uint child = octreeChild(word, octant);
         if (push.level > 1u && (uniform_.bits[child / 32u] >> (child & 31u) & 1u) == 0u) return false;
         for (uint face = 0u; face < radianceVoxels.grid.directions; ++face) {
             const uint values = face * radianceVoxels.octree.nodeCount;
@@ -30,7 +31,7 @@ bool isUniform(uint node) {
 void main() {
     if (linearIndex() >= push.count) return;
     const uint node = push.firstNode + linearIndex();
-    if (!isUniform(node)) return;
+    if (!standsForAll(node)) return;
     atomicOr(uniform_.bits[node / 32u], 1u << (node & 31u));
     atomicAdd(counts.nodes[push.level], 1u);
 }

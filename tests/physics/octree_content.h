@@ -194,18 +194,17 @@ class TestOctree {
     /// The voxel of an entry of `leaves`.
     static glm::ivec3 cellOf(uint32_t word) { return glm::ivec3(word, word >> 10, word >> 20) & 0x3ff; }
 
-    /// As octreeNode() in shaders/octree.glsl, from the root down and without the table.
-    uint32_t node(glm::ivec3 cell, uint32_t level) const {
-        uint32_t result = 0;
-        for (uint32_t l = size.levels() - 1; l-- > level;) {
-            const glm::ivec3 at = (cell >> int(l - level)) & 1;
-            const uint32_t bit = 8 * (result % 4) + uint32_t(at.x + 2 * at.y + 4 * at.z);
-            const glm::uvec2 four = nodes[result / 4];
-            if (((four.x >> 8 * (result % 4)) & 0xff) == 0) return result;  // Uniform.
-            if (!(four.x >> bit & 1)) return NO_NODE;
-            result = four.y + uint32_t(std::popcount(four.x & ((1u << bit) - 1)));
+    /// Number of a voxel's node, from the root down and without the table: as octreeNode() in
+    /// shaders/octree.glsl.
+    uint32_t node(glm::ivec3 voxel, uint32_t level) const {
+        uint32_t number = 1;
+        for (uint32_t l = size.levels() - 1; l-- > level && number != NO_NODE;) {
+            const glm::ivec3 at = (voxel >> int(l - level)) & 1;
+            const uint32_t word = nodes[number], mask = word & 0xff, bit = 1u << (at.x + 2 * at.y + 4 * at.z);
+            if (mask == 0) return number;  // Uniform.
+            number = mask & bit ? (word >> 8) + uint32_t(std::popcount(mask & (bit - 1))) : NO_NODE;
         }
-        return result;
+        return number;
     }
 
     std::vector<glm::vec4> sample(const std::vector<RadianceQuery>& queries) const {
@@ -227,8 +226,8 @@ class TestOctree {
 
     RadianceVoxels radiance;
     OctreeSize size;
-    std::vector<uint32_t> first, leaves, table;
-    std::vector<glm::uvec2> nodes, values;
+    std::vector<uint32_t> first, leaves, table, nodes;
+    std::vector<glm::uvec2> values;
 
  private:
     void refresh() {

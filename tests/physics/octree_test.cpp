@@ -97,13 +97,30 @@ TEST(Octree, HasALeafForEachVoxelAndNothingElse) {
 }
 
 TEST(Octree, TableFindsWhatDescentFinds) {
-    const Content content = shell(48, 1, 0.4);
-    TestOctree tree(content);
-    size_t entry = 0;
-    for (uint32_t level = tree.size.tableLevel(); level < tree.size.levels(); ++level)
-        content.forEach(level,
-                        [&](glm::ivec3 cell) { ASSERT_EQ(tree.table[entry++], tree.node(cell, level)); });
-    EXPECT_EQ(entry, tree.table.size());
+    for (const uint32_t resolution : {48u, 64u}) {
+        const Content content = shell(resolution, 1, 0.4);
+        TestOctree tree(content);
+        size_t entry = 0;
+        for (uint32_t level = tree.size.tableLevel(); level <= tree.size.levels(); ++level) {
+            const glm::ivec3 cells(radianceResolution(content.grid.resolution, level));
+            for (int z = -1; z <= cells.z; ++z)
+                for (int y = -1; y <= cells.y; ++y)
+                    for (int x = -1; x <= cells.x; ++x) {
+                        const uint32_t word = tree.table[entry++];
+                        const glm::ivec3 v(x, y, z);
+                        const bool inside = glm::all(glm::greaterThanEqual(v, glm::ivec3(0))) &&
+                                            glm::all(glm::lessThan(v, cells));
+                        if (!inside)
+                            ASSERT_EQ(word, 0u);
+                        else if (level == tree.size.levels())
+                            ASSERT_EQ(word, 0x101u);  // Above the root: one child, number 1.
+                        else
+                            ASSERT_EQ(word, tree.nodes[tree.node(v, level)]) << "level " << level;
+                    }
+        }
+        EXPECT_EQ(entry, tree.table.size());
+        EXPECT_LE(tree.table.size(), 3u * tree.size.nodes[0]);
+    }
 }
 
 TEST(Octree, SamplesAgreeWithADensePyramid) {
@@ -196,7 +213,8 @@ TEST(Octree, AWhollyUniformGridIsOneNode) {
 
 TEST(Octree, NothingUniformStaysAsItIs) {
     TestOctree tree(randomContent(glm::uvec3(24), 1, 0.3));
-    const std::vector<glm::uvec2> nodes = tree.nodes, values = tree.values;
+    const std::vector<uint32_t> nodes = tree.nodes;
+    const std::vector<glm::uvec2> values = tree.values;
     tree.collapse();
     EXPECT_EQ(tree.nodes, nodes);
     EXPECT_EQ(tree.values, values);
