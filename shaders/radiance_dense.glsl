@@ -36,7 +36,8 @@ void storeRadiance(uint index, uint side, vec4 value) {
 vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     const RadianceGrid g = radianceVoxels.grid;
     const DenseLevel d = radianceVoxels.level[level];
-    const vec3 inLevel = (position - g.origin) / (g.voxelSize * float(1u << level)) - 0.5;
+    // To 1/1024 of a voxel, so that positions in the middle of a layer read that layer alone.
+    const vec3 inLevel = round(((position - g.origin) / (g.voxelSize * float(1u << level)) - 0.5) * 1024.0) / 1024.0;
     const ivec3 corner = ivec3(floor(inLevel));
     const vec3 at = inLevel - vec3(corner);
 
@@ -45,7 +46,8 @@ vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     bool inside[8];
     for (uint cell = 0u; cell < 8u; ++cell) {
         const ivec3 voxel = corner + ivec3(cell & 1u, (cell >> 1) & 1u, cell >> 2);
-        inside[cell] = all(greaterThanEqual(voxel, ivec3(0))) && all(lessThan(voxel, ivec3(d.resolution)));
+        inside[cell] = cellWeight(cell, at) > 0.0 && all(greaterThanEqual(voxel, ivec3(0))) &&
+                       all(lessThan(voxel, ivec3(d.resolution)));
         index[cell] = inside[cell] ? radianceIndex(d, voxel) : 0u;
     }
 

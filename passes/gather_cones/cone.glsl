@@ -1,0 +1,137 @@
+// A cone through radiance voxels, front to back.
+#ifndef VOXRAY_CONE_GLSL
+#define VOXRAY_CONE_GLSL
+
+#include "shaders/radiance_voxels.glsl"
+
+// Light that what lies behind can't add visibly to.
+#define LEAST_TRANSMITTANCE 0.002
+
+// Where cones start: a point of a surface.
+struct ConeBase {
+    vec3 position;  // m, off the surface by a trace.
+    vec3 side;      // The surface's unit normal.
+    // Height above the surface's plane, in voxels, from which on a sample across each axis doesn't touch it; 0 where the surface
+    // shows nothing along that axis.
+    vec3 reach;
+    // What a cone that sets out along +x -x +y -y +z -z meets within the point's own voxel.
+    vec4 beside[6];
+};
+
+vec3 facingAxis(uint face) {
+    vec3 axis = vec3(0.0);
+    axis[face >> 1] = (face & 1u) == 0u ? 1.0 : -1.0;
+    return axis;
+}
+
+// Whether a wall in the point's own voxel is ahead or behind is not for the voxel to tell. But a surface ends at a wall that
+// stands on it: where it goes on in the next voxel, the wall is behind.
+vec4 wallBeside(ConeBase base, uint face) {
+    const float voxel = radianceVoxels.grid.voxelSize;
+    const vec3 ahead = facingAxis(face);
+    const vec3 size = abs(base.side);
+    const uint axis = size.x >= size.y && size.x >= size.z ? 0u : size.y >= size.z ? 1u : 2u;
+    const vec3 up = facingAxis(2u * axis + (base.side[axis] < 0.0 ? 1u : 0u));
+    const vec3 middle = (floor((base.position - radianceVoxels.grid.origin) / voxel) + 0.5) * voxel + radianceVoxels.grid.origin;
+    const vec3 own = mix(base.position, middle, abs(ahead)), floor_ = mix(base.position, middle, abs(ahead) + abs(up));
+    const float goesOn = sampleLevel(0u, floor_ + voxel * ahead, -up).a;
+    return goesOn > 0.5 ? vec4(0.0) : sampleLevel(0u, own + voxel * up, ahead);
+}
+
+ConeBase coneBase(vec3 position, vec3 side) {
+    ConeBase base;
+    base.position = position + side * (radianceVoxels.grid.voxelSize / 256.0);
+    base.side = side;
+    const vec3 size = abs(side);
+    base.reach = mix(1.5 * (size.x + size.y + size.z) - size, vec3(0.0), lessThan(size, vec3(0.1)));
+    for (uint face = 0u; face < 6u; ++face)
+        base.beside[face] = base.reach[face >> 1] > 0.0 ? vec4(0.0) : wallBeside(base, face);
+    return base;
+}
+
+// A cone meets the sides that face it along each axis layer by layer: each layer of voxels across the axis once, in its middle,
+// interpolated across. So a closed surface covers it once, wherever its voxels lie, and nothing behind the cone's start, or behind
+// a point that it has passed, has a say.
+struct ConeAxis {
+    float start;   // In voxels of level 0, in the direction of travel.
+    float speed;   // Voxels a metre.
+    int next;      // Where the next layer begins.
+    int end;       // Where the grid does.
+    uint level;    // Of the next layer.
+    float middle;  // Metres to its middle.
+};
+
+// The next layer: the largest that begins where the last one ended and is no wider than the cone there, give or take `dither` levels.
+void findLayer(inout ConeAxis axis, float width, float clearance, float dither) {
+    axis.middle = 1.0e30;
+    if (axis.next >= axis.end) return;
+    const float voxel = radianceVoxels.grid.voxelSize;
+    const float t = (float(axis.next) - axis.start) / axis.speed;
+    const float largest = max(min(width * t * exp2(dither), clearance * t), voxel);
+    const uint aligned = uint(findLSB(axis.next));
+    axis.level = min(min(uint(log2(largest / voxel)), aligned), radianceVoxels.grid.levels - 1u);
+    axis.middle = (float(axis.next) + 0.5 * float(1u << axis.level) - axis.start) / axis.speed;
+}
+
+// What has been collected of a cone. Surfaces that it meets within a voxel's diagonal of each other are taken for pieces of one:
+// their covers add up. After a gap the next surface is hidden as if independent of the last one.
+struct ConeLight {
+    vec3 radiance;
+    float transmittance;  // Of the surfaces passed.
+    float cover;          // Of the one that the cone is passing.
+    float last;           // Metres to where it met it last.
+};
+
+void meet(inout ConeLight light, vec4 met, float t, float voxel) {
+    if (met.a <= 0.0) return;
+    if (t - light.last > 1.75 * voxel) {
+        light.transmittance *= 1.0 - light.cover;
+        light.cover = 0.0;
+    }
+    const float added = min(met.a, 1.0 - light.cover);
+    light.radiance += light.transmittance * added / met.a * met.rgb;
+    light.cover += added;
+    light.last = t;
+}
+
+// Radiance that arrives at `base` through a cone along `direction` (unit, above the surface), `width` wide at unit distance.
+vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
+    const RadianceGrid g = radianceVoxels.grid;
+    const float climb = dot(direction, base.side);
+    const vec3 clearance = mix(climb / max(base.reach, 1e-6), vec3(1.0e30), equal(base.reach, vec3(0.0)));
+
+    // Axes are turned so that the cone travels upwards along each.
+    const int turned = 1 << (g.levels - 1u);
+    ConeAxis axis[3];
+    ConeLight light = ConeLight(vec3(0.0), 1.0, 0.0, 0.0);
+    for (uint k = 0u; k < 3u; ++k) {
+        const bool up = direction[k] >= 0.0;
+        const float inGrid = (base.position[k] - g.origin[k]) / g.voxelSize;
+        axis[k].start = up ? inGrid : float(turned) - inGrid;
+        axis[k].speed = max(abs(direction[k]), 1e-6) / g.voxelSize;
+        axis[k].next = int(floor(axis[k].start)) + 1;
+        axis[k].end = abs(direction[k]) < 1e-5 ? axis[k].next : up ? int(g.resolution[k]) : turned;
+        findLayer(axis[k], width, clearance[k], dither);
+        const vec4 beside = abs(direction[k]) * base.beside[2u * k + (up ? 0u : 1u)];
+        meet(light, beside, 0.0, g.voxelSize);
+    }
+
+    const int mostSteps = int(g.resolution.x + g.resolution.y + g.resolution.z);
+    for (int step_ = 0; step_ < mostSteps && light.transmittance * (1.0 - light.cover) > LEAST_TRANSMITTANCE; ++step_) {
+        const uint k = axis[0].middle <= axis[1].middle ? (axis[0].middle <= axis[2].middle ? 0u : 2u)
+                                                        : (axis[1].middle <= axis[2].middle ? 1u : 2u);
+        const float t = axis[k].middle;
+        if (t > 1.0e29) break;
+        const uint level = axis[k].level;
+        const float voxel = radianceVoxelSize(level);
+        if (clearance[k] * t >= voxel) {
+            const uint face = 2u * k + (direction[k] >= 0.0 ? 0u : 1u);
+            meet(light, sampleLevel(level, base.position + t * direction, facingAxis(face)), t, voxel);
+        }
+        axis[k].next += 1 << level;
+        findLayer(axis[k], width, clearance[k], dither);
+    }
+    return light.radiance;
+}
+
+#endif

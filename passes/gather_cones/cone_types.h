@@ -1,0 +1,17 @@
+// A cone of a set, shared by C++ and GLSL.
+#ifndef VOXRAY_CONE_TYPES_H
+#define VOXRAY_CONE_TYPES_H
+
+#include "shaders/shared/types.h"
+
+VOXRAY_SHARED_BEGIN
+
+struct Cone {
+    vec3 direction;  // Unit, in the surface's frame: z is its normal.
+    float weight;  // Part of the irradiance of an even hemisphere that comes through it; a set's add up to 1.
+    float width;   // Of the cone at unit distance: twice the tangent of half its angle.
+};
+
+VOXRAY_SHARED_END
+
+#endif
