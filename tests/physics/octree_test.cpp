@@ -345,9 +345,10 @@ TEST(Octree, ConesGatherWhatTheyGatherInFullGrids) {
     const auto indirect = [](const std::string& layout) {
         Chain chain("white_room", "{albedo: 0.5}",
                     "[{pass: gbuffer}, {pass: voxelize, resolution: 32}, {pass: inject_light_rays, "
-                    "rays_per_light: 1048576,"
-                    " bounces: 8}, {pass: filter_voxels, layout: " +
-                        layout + "}, {pass: gather_cones}]");
+                    "rays_per_light: 131072,"
+                    " bounces: 6}, {pass: filter_voxels, layout: " +
+                        layout + "}, {pass: gather_cones}]",
+                    16, 16);
         return chain.image("indirect");
     };
     const ImageF dense = indirect("dense"), octree = indirect("svo");
