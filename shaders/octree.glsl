@@ -92,8 +92,4 @@ vec4 octreeValue(uint node, uint face) {
     return unpackRadiance(radianceVoxels.values.data[face * radianceVoxels.octree.nodeCount + node]);
 }
 
-void storeOctreeValue(uint node, uint face, vec4 value) {
-    radianceVoxels.values.data[face * radianceVoxels.octree.nodeCount + node] = packRadiance(value);
-}
-
 #endif

@@ -7,8 +7,8 @@
 
 // By voxel and facing direction +x -x +y -y +z -z: W, 3 floats each; area that the flux fell on, in units of a voxel's face.
 layout(set = 0, binding = 12, scalar) readonly buffer VoxelArea { float data[]; } voxelArea;
-layout(set = 0, binding = 24, scalar) readonly buffer DirectFlux { float data[]; } directFlux;
-layout(set = 0, binding = 25, scalar) readonly buffer IndirectFlux { float data[]; } indirectFlux;
+layout(set = 0, binding = 24, scalar) readonly buffer DirectFluxAt { LargeFloats directFlux; };
+layout(set = 0, binding = 25, scalar) readonly buffer IndirectFluxAt { LargeFloats indirectFlux; };
 
 vec3 faceFlux(uint face) {
     const uint at = 3u * face;

@@ -10,8 +10,8 @@ namespace voxray {
 void VoxelIrradiance::allocate(Device& device, uint32_t voxelCount) {
     const uint64_t fluxBytes = uint64_t(voxelCount) * kFluxFloats * sizeof(float);
     if (direct && direct.bytes() == fluxBytes) return;
-    direct = Buffer(device, "voxel direct flux", fluxBytes);
-    indirect = Buffer(device, "voxel indirect flux", fluxBytes);
+    direct = LargeBuffer(device, "voxel direct flux", fluxBytes);
+    indirect = LargeBuffer(device, "voxel indirect flux", fluxBytes);
     area = Buffer(device, "voxel area", uint64_t(voxelCount) * kAreaFloats * sizeof(float));
 }
 

@@ -58,9 +58,9 @@ void FilterVoxels::record(PassContext& context) {
 }
 
 std::vector<Binding> surfaceRadianceBindings(const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance) {
-    return {{"voxelOccupancy", voxels.occupancy},  {"voxelRank", voxels.rank},
-            {"voxelMaterials", voxels.materials},  {"directFlux", irradiance.direct},
-            {"indirectFlux", irradiance.indirect}, {"voxelArea", irradiance.area}};
+    return {{"voxelOccupancy", voxels.occupancy},         {"voxelRank", voxels.rank},
+            {"VoxelMaterialsAt", voxels.materials.at()},  {"DirectFluxAt", irradiance.direct.at()},
+            {"IndirectFluxAt", irradiance.indirect.at()}, {"voxelArea", irradiance.area}};
 }
 
 }  // namespace voxray

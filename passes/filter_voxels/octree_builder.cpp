@@ -97,12 +97,12 @@ std::vector<Buffer> OctreeBuilder::flag(CommandStream& stream, const SurfaceVoxe
     return flags;
 }
 
-void OctreeBuilder::filter(CommandStream& stream, const OctreeSize& size,
-                           const RadianceVoxels& radiance) const {
+void OctreeBuilder::filter(CommandStream& stream, const OctreeSize& size, const RadianceVoxels& radiance,
+                           const Buffer& changed) const {
     const std::vector<uint32_t> first = size.first();
     for (uint32_t level = 1; level < size.levels(); ++level)
-        stream.dispatch(filter_, radiance.bindings(), FilterPush{first[level], size.nodes[level]},
-                        linearGroups(size.nodes[level]));
+        stream.dispatch(filter_, {{"radianceVoxels", radiance.header}, {"changed", changed}},
+                        FilterPush{first[level], size.nodes[level]}, linearGroups(size.nodes[level]));
 }
 
 uint64_t OctreeBuilder::scratchBytes(const OctreeSize& size) {

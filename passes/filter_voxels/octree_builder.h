@@ -23,8 +23,13 @@ class OctreeBuilder {
     /// octree.
     Built build(CommandStream& stream, const SurfaceVoxels& voxels, RadianceVoxels& radiance) const;
 
-    /// Values of all inner nodes from the leaves' values.
-    void filter(CommandStream& stream, const OctreeSize& size, const RadianceVoxels& radiance) const;
+    /// Values of all inner nodes whose children's have changed. `changed`: a bit a node (changedBytes()), set
+    /// for leaves with a new value, or for all nodes; the nodes that get a new value are set.
+    void filter(CommandStream& stream, const OctreeSize& size, const RadianceVoxels& radiance,
+                const Buffer& changed) const;
+    static uint64_t changedBytes(const OctreeSize& size) {
+        return (uint64_t(size.nodeCount()) + 31) / 32 * sizeof(uint32_t);
+    }
 
     /// Bytes that build() takes for a while besides what it returns.
     static uint64_t scratchBytes(const OctreeSize& size);

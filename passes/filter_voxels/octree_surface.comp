@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // The values of an octree's leaves: the surfaces' own radiance and cover. A thread takes a leaf.
 #include "passes/filter_voxels/octree_cells.glsl"
+#include "passes/filter_voxels/octree_change.glsl"
 #include "shaders/linear_index.glsl"
-#include "shaders/octree.glsl"
 #include "shaders/surface_radiance.glsl"
 layout(local_size_x = 64) in;
 
@@ -22,8 +22,8 @@ void main() {
     const uint node = push.firstLeaf + leaf;
     if (radianceVoxels.grid.directions == 6u) {
         for (uint face = 0u; face < 6u; ++face)
-            storeOctreeValue(node, face, faceRadiance(push.grid, voxel, face, push.emission));
+            replaceOctreeValue(node, face, faceRadiance(push.grid, voxel, face, push.emission));
     } else {
-        storeOctreeValue(node, 0u, meanRadiance(push.grid, voxel, push.emission));
+        replaceOctreeValue(node, 0u, meanRadiance(push.grid, voxel, push.emission));
     }
 }

@@ -27,6 +27,7 @@ class SvoStorage final : public RadianceStorage {
                               countSurfaceVoxels(plan.frame.scene->geometry, voxels.grid)};
         plan.reserve("octree (estimated)", size.bytes());
         plan.reserve("leaves (estimated)", uint64_t(size.nodes[0]) * sizeof(uint32_t));
+        plan.reserve("changes (estimated)", OctreeBuilder::changedBytes(size));
         plan.reserve("building (estimated)", OctreeBuilder::scratchBytes(size));
     }
 
@@ -40,20 +41,29 @@ class SvoStorage final : public RadianceStorage {
     void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
              RadianceVoxels& radiance, float emission) override {
         CommandStream& stream = context.stream;
-        if (!built_) built_ = builder_->build(stream, voxels, radiance);
-        std::vector<Binding> bindings = surfaceRadianceBindings(voxels, irradiance);
-        for (const Binding& binding : radiance.bindings()) bindings.push_back(binding);
-        bindings.emplace_back("leaves", built_->leaves);
+        // All is new the first time; later what has another value.
+        const bool first = !built_;
+        if (first) {
+            built_ = builder_->build(stream, voxels, radiance);
+            changed_ = Buffer(context.device, "octree changes", OctreeBuilder::changedBytes(built_->size));
+        }
+        stream.fill(changed_, first ? ~0u : 0u);
+
         const uint32_t leaves = built_->size.nodes[0];
+        std::vector<Binding> bindings = surfaceRadianceBindings(voxels, irradiance);
+        bindings.insert(
+            bindings.end(),
+            {{"radianceVoxels", radiance.header}, {"leaves", built_->leaves}, {"changed", changed_}});
         stream.dispatch(surface_, bindings,
                         SurfacePush{voxels.grid, emission, built_->size.first()[0], leaves},
                         linearGroups(leaves));
-        builder_->filter(stream, built_->size, radiance);
+        builder_->filter(stream, built_->size, radiance, changed_);
         if (eachFrame_) return;
 
         // What never changes again needs no more than its values.
         collapse_->run(stream, built_->size, radiance);
         built_.reset();
+        changed_ = {};
     }
 
  private:
@@ -62,6 +72,7 @@ class SvoStorage final : public RadianceStorage {
     std::optional<OctreeBuilder> builder_;
     std::optional<OctreeCollapse> collapse_;
     std::optional<OctreeBuilder::Built> built_;
+    Buffer changed_;
 };
 
 }  // namespace

@@ -50,7 +50,9 @@ void octreeBuild(benchmark::State& state) {
                          voxels.grid.resolution,   radianceLevels(voxels.grid.resolution),
                          uint32_t(state.range(1)), 1.0f};
         size = builder.build(stream, voxels, radiance).size;
-        builder.filter(stream, size, radiance);
+        const Buffer changed(test::device(), "changed", OctreeBuilder::changedBytes(size));
+        stream.fill(changed, ~0u);
+        builder.filter(stream, size, radiance, changed);
         stream.finish();
     }
     state.counters["voxels"] = voxels.voxelCount;

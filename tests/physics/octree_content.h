@@ -175,8 +175,29 @@ class TestOctree {
                 texels[face * size.nodeCount() + first[0] + leaf] =
                     packRadiance(content.at(0, cellOf(leaves[leaf]))[face]);
         stream_.upload(radiance.storage[kOctreeValues], texels);
-        builder().filter(stream_, size, radiance);
+        changed_ = Buffer(device(), "changed", OctreeBuilder::changedBytes(size));
+        stream_.fill(changed_, ~0u);
+        builder().filter(stream_, size, radiance, changed_);
         refresh();
+    }
+
+    /// Gives one voxel another value and filters what that touches. @return nodes with a new value.
+    uint32_t change(glm::ivec3 voxel, const Faces& value) {
+        const uint32_t leaf = node(voxel, 0);
+        std::vector<uint32_t> bits(changed_.bytes() / sizeof(uint32_t), 0);
+        bits[leaf / 32] |= 1u << leaf % 32;
+        stream_.upload(changed_, bits);
+        for (size_t face = 0; face < size.directions; ++face) {
+            const glm::uvec2 texel = packRadiance(value[face]);
+            stream_.upload(radiance.storage[kOctreeValues], std::as_bytes(std::span(&texel, 1)),
+                           (face * size.nodeCount() + leaf) * sizeof(texel));
+        }
+        builder().filter(stream_, size, radiance, changed_);
+        refresh();
+        uint32_t count = 0;
+        for (const uint32_t word : stream_.readAs<uint32_t>(changed_, bits.size()))
+            count += uint32_t(std::popcount(word));
+        return count;
     }
 
     /// Collapses uniform nodes.
@@ -255,6 +276,7 @@ class TestOctree {
     }
 
     CommandStream stream_;
+    Buffer changed_;
 };
 
 }  // namespace voxray::test

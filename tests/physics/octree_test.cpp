@@ -283,6 +283,20 @@ TEST(Octree, AWhollyUniformGridIsOneNode) {
     EXPECT_EQ(tree.empty({inside})[0].x, 0);
 }
 
+TEST(Octree, FiltersOnlyWhatTheLightHasChanged) {
+    const glm::ivec3 lit(40, 7, 12);
+    const auto room = [&](bool on) {
+        return Content({64, 32, 48}, 6, [&, on](glm::ivec3 v) {
+            if (v.x % 8 && v.y % 16 != 7 && v.z) return Faces{};
+            return grey(on && v == lit ? 5.0 : 0.0, 0.6);
+        });
+    };
+    TestOctree tree(room(false), 6);
+    const uint32_t changed = tree.change(lit, room(true).at(0, lit));
+    EXPECT_EQ(changed, tree.size.levels());  // The voxel and those round it.
+    EXPECT_EQ(tree.values, TestOctree(room(true), 6).values);
+}
+
 TEST(Octree, NothingUniformStaysAsItIs) {
     TestOctree tree(randomContent(glm::uvec3(24), 1, 0.3));
     const std::vector<uint32_t> nodes = tree.nodes;
