@@ -1,25 +1,15 @@
 #version 460
-// Exclusive prefix sum of population counts in three dispatches: sums of blocks of 1024 words (SUM_BLOCKS),
-// their scan by one work group (SCAN_BLOCKS), and the scan within each block (SCAN_WORDS).
+// Exclusive prefix sum of population counts in three dispatches: sums of blocks of 1024 words (SUM_BLOCKS), their scan
+// by one work group (SCAN_BLOCKS), and the scan within each block (SCAN_WORDS).
 layout(local_size_x = 256) in;
 
-layout(set = 0, binding = 0) readonly buffer Source {
-    uint words[];
-}
-source;
-layout(set = 0, binding = 1) writeonly buffer Result {
-    uint before[];
-}
-result;
-layout(set = 0, binding = 2) buffer BlockSums {
-    uint sums[];
-}
-blockSums;
+layout(set = 0, binding = 0) readonly buffer Source { uint words[]; } source;
+layout(set = 0, binding = 1) writeonly buffer Result { uint before[]; } result;
+layout(set = 0, binding = 2) buffer BlockSums { uint sums[]; } blockSums;
 layout(push_constant) uniform Push {
     uint count;
     uint blocks;
-}
-push;
+} push;
 
 shared uint partial[256];
 
@@ -37,9 +27,7 @@ uint scanGroup(uint value) {
     return partial[i];
 }
 
-uint bitsOf(uint word) {
-    return word < push.count ? uint(bitCount(source.words[word])) : 0u;
-}
+uint bitsOf(uint word) { return word < push.count ? uint(bitCount(source.words[word])) : 0u; }
 
 void main() {
     const uint i = gl_LocalInvocationID.x;

@@ -43,7 +43,8 @@ ConeBase coneBase(vec3 position, vec3 side) {
     base.position = position + side * (radianceVoxels.grid.voxelSize / 256.0);
     base.side = side;
     const vec3 size = abs(side);
-    base.reach = mix(1.5 * (size.x + size.y + size.z) - size, vec3(0.0), lessThan(size, vec3(0.1)));
+    base.reach = vec3(1.5 * (size.x + size.y + size.z)) - size;
+    if (radianceVoxels.grid.directions == 6u) base.reach = mix(base.reach, vec3(0.0), lessThan(size, vec3(0.1)));
     for (uint face = 0u; face < 6u; ++face)
         base.beside[face] = base.reach[face >> 1] > 0.0 ? vec4(0.0) : wallBeside(base, face);
     return base;
@@ -67,7 +68,7 @@ void findLayer(inout ConeAxis axis, float width, float clearance, float dither) 
     if (axis.next >= axis.end) return;
     const float voxel = radianceVoxels.grid.voxelSize;
     const float t = (float(axis.next) - axis.start) / axis.speed;
-    const float largest = max(min(width * t * exp2(dither), clearance * t), voxel);
+    const float largest = max(min(0.5 * width * t * exp2(dither), clearance * t), voxel);
     const uint aligned = uint(findLSB(axis.next));
     axis.level = min(min(uint(log2(largest / voxel)), aligned), radianceVoxels.grid.levels - 1u);
     axis.middle = (float(axis.next) + 0.5 * float(1u << axis.level) - axis.start) / axis.speed;
