@@ -43,6 +43,10 @@ vec4 faceRadiance(VoxelGrid g, uint voxel, uint face, float emission) {
     const float area = voxelArea.data[6u * voxel + face] * g.voxelSize * g.voxelSize;
     vec3 radiance = emits(m, face) ? emission * m.emission : vec3(0.0);
     if (area > 0.0) radiance += m.albedo / 3.14159265358979 * faceFlux(6u * voxel + face) / area;
+    if (radiance == vec3(0.0)) {
+        const uint other = face ^ 1u;
+        if (faceFlux(6u * voxel + other) != vec3(0.0) || emits(m, other) && emission > 0.0 && m.emission != vec3(0.0)) return vec4(0.0);
+    }
     return vec4(cover * radiance, cover);
 }
 

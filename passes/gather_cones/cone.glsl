@@ -6,6 +6,7 @@
 
 // Light that what lies behind can't add visibly to.
 #define LEAST_TRANSMITTANCE 0.002
+#define SAMPLES 0.5
 
 // Where cones start: a point of a surface.
 struct ConeBase {
@@ -52,26 +53,47 @@ ConeBase coneBase(vec3 position, vec3 side) {
 
 // A cone meets the sides that face it along each axis layer by layer: each layer of voxels across the axis once, in its middle,
 // interpolated across. So a closed surface covers it once, wherever its voxels lie, and nothing behind the cone's start, or behind
-// a point that it has passed, has a say.
+// a point that it has passed, has a say. While the cone crosses a layer it drifts along it: `samples` places share the layer's say,
+// so that covers of slanted surfaces, too, add up to 1 evenly.
 struct ConeAxis {
     float start;   // In voxels of level 0, in the direction of travel.
     float speed;   // Voxels a metre.
+    float drift;   // Voxels that the cone moves in all for each voxel along this axis.
     int next;      // Where the next layer begins.
     int end;       // Where the grid does.
     uint level;    // Of the next layer.
-    float middle;  // Metres to its middle.
+    int samples;   // Places in it.
+    int sample_;   // The next of them.
+    float t;       // Metres to that.
 };
 
-// The next layer: the largest that begins where the last one ended and is no wider than the cone there, give or take `dither` levels.
+void placeSample(inout ConeAxis axis) {
+    const float part = (float(axis.sample_) + 0.5) / float(axis.samples);
+    axis.t = (float(axis.next) + part * float(1u << axis.level) - axis.start) / axis.speed;
+}
+
+// The next layer: the largest that begins where the last one ended and is no wider than half the cone there, give or take `dither`
+// levels: then a voxel's filter, a tent two voxels wide over a box of one, has the variance of the cone's cross-section.
 void findLayer(inout ConeAxis axis, float width, float clearance, float dither) {
-    axis.middle = 1.0e30;
+    axis.t = 1.0e30;
     if (axis.next >= axis.end) return;
     const float voxel = radianceVoxels.grid.voxelSize;
     const float t = (float(axis.next) - axis.start) / axis.speed;
     const float largest = max(min(0.5 * width * t * exp2(dither), clearance * t), voxel);
     const uint aligned = uint(findLSB(axis.next));
     axis.level = min(min(uint(log2(largest / voxel)), aligned), radianceVoxels.grid.levels - 1u);
-    axis.middle = (float(axis.next) + 0.5 * float(1u << axis.level) - axis.start) / axis.speed;
+    axis.samples = int(ceil(SAMPLES * axis.drift));
+    axis.sample_ = 0;
+    placeSample(axis);
+}
+
+void advance(inout ConeAxis axis, float width, float clearance, float dither) {
+    if (++axis.sample_ < axis.samples) {
+        placeSample(axis);
+        return;
+    }
+    axis.next += 1 << axis.level;
+    findLayer(axis, width, clearance, dither);
 }
 
 // What has been collected of a cone. Surfaces that it meets within a voxel's diagonal of each other are taken for pieces of one:
@@ -79,20 +101,26 @@ void findLayer(inout ConeAxis axis, float width, float clearance, float dither) 
 struct ConeLight {
     vec3 radiance;
     float transmittance;  // Of the surfaces passed.
-    float cover;          // Of the one that the cone is passing.
-    float last;           // Metres to where it met it last.
+    float cover;          // Of the one that the cone is passing, at most 1.
+    float front, back;    // What that one shows in all, of sides that face the cone and of sides that face the way that it goes.
+    float last;           // Metres to where the cone met it last.
 };
 
-void meet(inout ConeLight light, vec4 met, float t, float voxel) {
-    if (met.a <= 0.0) return;
+// `met`: sides that face the cone. `back`: cover of sides that face the way that it goes. A cone that meets more of those passes the
+// surface from behind: it lets nothing through, and its far side is black.
+void meet(inout ConeLight light, vec4 met, float back, float t, float voxel) {
+    if (met.a + back <= 0.0) return;
     if (t - light.last > 1.75 * voxel) {
-        light.transmittance *= 1.0 - light.cover;
-        light.cover = 0.0;
+        light.transmittance *= 1.0 - max(light.cover, min(light.back - light.front, 1.0));
+        light.cover = light.front = light.back = 0.0;
     }
+    light.last = t;
+    light.front += met.a;
+    light.back += back;
+    if (met.a <= 0.0) return;
     const float added = min(met.a, 1.0 - light.cover);
     light.radiance += light.transmittance * added / met.a * met.rgb;
     light.cover += added;
-    light.last = t;
 }
 
 // Radiance that arrives at `base` through a cone along `direction` (unit, above the surface), `width` wide at unit distance.
@@ -103,34 +131,38 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
 
     // Axes are turned so that the cone travels upwards along each.
     const int turned = 1 << (g.levels - 1u);
+    const float speed = abs(direction.x) + abs(direction.y) + abs(direction.z);
     ConeAxis axis[3];
-    ConeLight light = ConeLight(vec3(0.0), 1.0, 0.0, 0.0);
+    ConeLight light = ConeLight(vec3(0.0), 1.0, 0.0, 0.0, 0.0, 0.0);
     for (uint k = 0u; k < 3u; ++k) {
         const bool up = direction[k] >= 0.0;
-        const float inGrid = (base.position[k] - g.origin[k]) / g.voxelSize;
+        const float inGrid = (base.position[k] - g.origin[k]) / g.voxelSize, own = max(abs(direction[k]), 1e-3);
         axis[k].start = up ? inGrid : float(turned) - inGrid;
-        axis[k].speed = max(abs(direction[k]), 1e-6) / g.voxelSize;
+        axis[k].speed = own / g.voxelSize;
+        axis[k].drift = speed / own;
         axis[k].next = int(floor(axis[k].start)) + 1;
-        axis[k].end = abs(direction[k]) < 1e-5 ? axis[k].next : up ? int(g.resolution[k]) : turned;
+        axis[k].end = abs(direction[k]) < 1e-3 ? axis[k].next : up ? int(g.resolution[k]) : turned;
         findLayer(axis[k], width, clearance[k], dither);
-        const vec4 beside = abs(direction[k]) * base.beside[2u * k + (up ? 0u : 1u)];
-        meet(light, beside, 0.0, g.voxelSize);
+        meet(light, abs(direction[k]) * base.beside[2u * k + (up ? 0u : 1u)], 0.0, 0.0, g.voxelSize);
     }
 
-    const int mostSteps = int(g.resolution.x + g.resolution.y + g.resolution.z);
+    const int mostSteps = 16 * int(g.resolution.x + g.resolution.y + g.resolution.z);
     for (int step_ = 0; step_ < mostSteps && light.transmittance * (1.0 - light.cover) > LEAST_TRANSMITTANCE; ++step_) {
-        const uint k = axis[0].middle <= axis[1].middle ? (axis[0].middle <= axis[2].middle ? 0u : 2u)
-                                                        : (axis[1].middle <= axis[2].middle ? 1u : 2u);
-        const float t = axis[k].middle;
+        const uint k = axis[0].t <= axis[1].t ? (axis[0].t <= axis[2].t ? 0u : 2u) : (axis[1].t <= axis[2].t ? 1u : 2u);
+        const float t = axis[k].t;
         if (t > 1.0e29) break;
-        const uint level = axis[k].level;
-        const float voxel = radianceVoxelSize(level);
+        const float voxel = radianceVoxelSize(axis[k].level);
         if (clearance[k] * t >= voxel) {
-            const uint face = 2u * k + (direction[k] >= 0.0 ? 0u : 1u);
-            meet(light, sampleLevel(level, base.position + t * direction, facingAxis(face)), t, voxel);
+            const bool up = direction[k] >= 0.0;
+            const float middle = float(axis[k].next) + 0.5 * float(1u << axis[k].level);
+            vec3 place = base.position + t * direction;
+            place[k] = g.origin[k] + (up ? middle : float(turned) - middle) * g.voxelSize;
+            const vec3 ahead = facingAxis(2u * k + (up ? 0u : 1u));
+            const float share = 1.0 / float(axis[k].samples);
+            const float back = g.directions == 6u ? sampleLevel(axis[k].level, place, -ahead).a : 0.0;
+            meet(light, share * sampleLevel(axis[k].level, place, ahead), share * back, t, voxel);
         }
-        axis[k].next += 1 << level;
-        findLayer(axis[k], width, clearance[k], dither);
+        advance(axis[k], width, clearance[k], dither);
     }
     return light.radiance;
 }
