@@ -64,9 +64,6 @@ uint octreeWord(ivec3 voxel, uint level) {
     return word;
 }
 
-// The number of a voxel's node.
-uint octreeNode(ivec3 voxel, uint level) { return octreeChild(octreeWord(voxel >> 1, level + 1u), octantOf(voxel)); }
-
 // The numbers of the eight voxels from `corner` on, by octant; whether there is any node. This is where the time of a sample goes:
 // what the eight have in common is worked out once, and where the table's level allows there is no descent.
 bool octreeNodes(ivec3 corner, uint level, out uint node[8]) {

@@ -16,7 +16,7 @@ class OctreeCollapse {
     /// device. @return the size of what is there now.
     OctreeSize run(CommandStream& stream, const OctreeSize& size, RadianceVoxels& radiance) const;
 
-    /// Bytes that run() takes for a while, at most, besides a second octree.
+    /// Bytes that run() takes for a while, at most, besides a second, smaller octree.
     static uint64_t scratchBytes(const OctreeSize& size);
 
  private:

@@ -29,6 +29,8 @@ class SvoStorage final : public RadianceStorage {
         plan.reserve("leaves (estimated)", uint64_t(size.nodes[0]) * sizeof(uint32_t));
         plan.reserve("changes (estimated)", OctreeBuilder::changedBytes(size));
         plan.reserve("building (estimated)", OctreeBuilder::scratchBytes(size));
+        if (!eachFrame_)
+            plan.reserve("collapsing (at most)", size.bytes() + OctreeCollapse::scratchBytes(size));
     }
 
     void prepare(PassSetup& setup, RadianceVoxels&) override {

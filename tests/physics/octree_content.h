@@ -216,8 +216,7 @@ class TestOctree {
     /// The voxel of an entry of `leaves`.
     static glm::ivec3 cellOf(uint32_t word) { return glm::ivec3(word, word >> 10, word >> 20) & 0x3ff; }
 
-    /// Number of a voxel's node, from the root down and without the table: as octreeNode() in
-    /// shaders/octree.glsl.
+    /// Number of a voxel's node, from the root down and without the table.
     uint32_t node(glm::ivec3 voxel, uint32_t level) const {
         uint32_t number = 1;
         for (uint32_t l = size.levels() - 1; l-- > level && number != NO_NODE;) {

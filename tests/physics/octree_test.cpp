@@ -426,7 +426,9 @@ TEST(Octree, TakesWhatIsPredicted) {
         uint64_t held = octree.header.bytes();
         for (const Buffer& buffer : octree.storage) held += buffer.bytes();
         EXPECT_NEAR(double(size.bytes()) / double(held), 1.0, 0.03) << scene;
-        EXPECT_NEAR(double(chain.predictedBytes.back()) / double(held), 1.1, 0.1) << scene;
+        // Building takes as much again at most: a collapsed octree beside the first.
+        EXPECT_GT(chain.predictedBytes.back(), held);
+        EXPECT_LT(double(chain.predictedBytes.back()), 2.6 * double(held)) << scene;
         std::printf("%s: %u voxels, %u counted; %.2f MB, %.2f MB predicted with building\n", scene.c_str(),
                     voxels.voxelCount, size.nodes[0], double(held) / 1e6,
                     double(chain.predictedBytes.back()) / 1e6);
