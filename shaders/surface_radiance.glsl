@@ -36,6 +36,15 @@ bool emits(VoxelMaterial m, uint face) {
     return (face & 1u) == 0u ? m.normal[face >> 1] > 0.0 : m.normal[face >> 1] < 0.0;
 }
 
+// A sheet at a slant to the axes faces a ray with parts of both of its sides: with the true one, and with less of the other, which it
+// does not show. So where one side of it is dark and the other lit, as within a solid, the dark one is left out.
+bool isBackOfLit(VoxelMaterial m, uint voxel, uint face, float emission) {
+    const vec3 squares = max(m.exposedPositive, m.exposedNegative);
+    if (squares[face >> 1] > 0.9 * (squares.x + squares.y + squares.z)) return false;
+    const uint other = face ^ 1u;
+    return faceFlux(6u * voxel + other) != vec3(0.0) || (emits(m, other) && emission * m.emission != vec3(0.0));
+}
+
 // Radiance times cover, W/(m² sr), and cover. `emission`: 1 to add what the surfaces emit, 0 to leave it out.
 vec4 faceRadiance(VoxelGrid g, uint voxel, uint face, float emission) {
     const VoxelMaterial m = voxelMaterials.data[voxel];
@@ -43,10 +52,7 @@ vec4 faceRadiance(VoxelGrid g, uint voxel, uint face, float emission) {
     const float area = voxelArea.data[6u * voxel + face] * g.voxelSize * g.voxelSize;
     vec3 radiance = emits(m, face) ? emission * m.emission : vec3(0.0);
     if (area > 0.0) radiance += m.albedo / 3.14159265358979 * faceFlux(6u * voxel + face) / area;
-    if (radiance == vec3(0.0)) {
-        const uint other = face ^ 1u;
-        if (faceFlux(6u * voxel + other) != vec3(0.0) || emits(m, other) && emission > 0.0 && m.emission != vec3(0.0)) return vec4(0.0);
-    }
+    if (radiance == vec3(0.0) && isBackOfLit(m, voxel, face, emission)) return vec4(0.0);
     return vec4(cover * radiance, cover);
 }
 

@@ -102,7 +102,8 @@ struct ConeLight {
     vec3 radiance;
     float transmittance;  // Of the surfaces passed.
     float cover;          // Of the one that the cone is passing, at most 1.
-    float front, back;    // What that one shows in all, of sides that face the cone and of sides that face the way that it goes.
+    float behind;         // What that one shows of sides that face the way that the cone goes, less of those that face the cone.
+    float blocked;        // The most that this has been, which is the cover that is black.
     float last;           // Metres to where the cone met it last.
 };
 
@@ -111,12 +112,14 @@ struct ConeLight {
 void meet(inout ConeLight light, vec4 met, float back, float t, float voxel) {
     if (met.a + back <= 0.0) return;
     if (t - light.last > 1.75 * voxel) {
-        light.transmittance *= 1.0 - max(light.cover, min(light.back - light.front, 1.0));
-        light.cover = light.front = light.back = 0.0;
+        light.transmittance *= 1.0 - light.cover;
+        light.cover = light.behind = light.blocked = 0.0;
     }
     light.last = t;
-    light.front += met.a;
-    light.back += back;
+    light.behind += back - met.a;
+    const float blocked = max(min(light.behind, 1.0) - light.blocked, 0.0);
+    light.blocked += blocked;
+    light.cover = min(light.cover + blocked, 1.0);
     if (met.a <= 0.0) return;
     const float added = min(met.a, 1.0 - light.cover);
     light.radiance += light.transmittance * added / met.a * met.rgb;
