@@ -3,6 +3,8 @@
 #include "passes/composite/composite.h"
 #include "passes/direct_shadow_rays/direct_shadow_rays.h"
 #include "passes/direct_voxels/direct_voxels.h"
+#include "passes/filter_voxels/filter_voxels.h"
+#include "passes/gather_cones/gather_cones.h"
 #include "passes/gather_irradiance/gather_irradiance.h"
 #include "passes/gather_rays/gather_rays.h"
 #include "passes/gbuffer/gbuffer_pass.h"
@@ -27,6 +29,8 @@ void registerPasses(Registry& registry) {
     registry.add<InjectCameraRays>();
     registry.add<InjectRsm>();
     registry.add<InjectShadowMap>();
+    registry.add<FilterVoxels>();
+    registry.add<GatherCones>();
     registry.add<GatherIrradiance>();
     registry.add<TraceGatherRays>();
     registry.add<GatherRays>();

@@ -8,8 +8,10 @@
 #extension GL_EXT_shader_atomic_int64 : require
 
 #include "shaders/facing.glsl"
+#include "shaders/large_buffer.glsl"
 
-layout(set = 0, binding = 13, scalar) buffer FluxSums { uint64_t data[]; } fluxSums;  // 3 a face
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer FluxSums { uint64_t data[]; };
+layout(set = 0, binding = 13, scalar) readonly buffer FluxSumsAt { FluxSums fluxSums; };  // 3 a face
 
 // A surface's flux goes to the three directions that it faces, by the squares of its normal's components.
 void addFlux(uint voxel, vec3 normal, vec3 watts, float unitsPerWatt) {

@@ -5,7 +5,7 @@
 #include "shaders/voxels.glsl"
 
 // W, by voxel and facing direction +x -x +y -y +z -z, 3 floats each.
-layout(set = 0, binding = 11, scalar) readonly buffer VoxelFlux { float data[]; } voxelFlux;
+layout(set = 0, binding = 11, scalar) readonly buffer VoxelFluxAt { LargeFloats voxelFlux; };
 // In units of a voxel's face, by voxel and facing direction.
 layout(set = 0, binding = 12, scalar) readonly buffer VoxelArea { float data[]; } voxelArea;
 

@@ -6,13 +6,15 @@
 
 #extension GL_EXT_scalar_block_layout : require
 
+#include "shaders/large_buffer.glsl"
 #include "shaders/shared/voxel_types.h"
 
 #define NO_VOXEL 0xffffffffu
 
 layout(set = 0, binding = 8, scalar) readonly buffer VoxelOccupancy { uint words[]; } voxelOccupancy;
 layout(set = 0, binding = 9, scalar) readonly buffer VoxelRank { uint before[]; } voxelRank;
-layout(set = 0, binding = 10, scalar) readonly buffer VoxelMaterials { VoxelMaterial data[]; } voxelMaterials;
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelMaterials { VoxelMaterial data[]; };
+layout(set = 0, binding = 10, scalar) readonly buffer VoxelMaterialsAt { VoxelMaterials voxelMaterials; };
 
 uint voxelWord(VoxelGrid g, ivec3 voxel) {
     return (uint(voxel.z) * g.resolution.y + uint(voxel.y)) * g.wordsPerRow + (uint(voxel.x) >> 5);

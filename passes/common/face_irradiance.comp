@@ -2,11 +2,12 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // Flux over area: the irradiance of each voxel's faces, direct and indirect together, and the area.
+#include "shaders/large_buffer.glsl"
 #include "shaders/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0, scalar) readonly buffer Direct { float data[]; } direct;
-layout(set = 0, binding = 1, scalar) readonly buffer Indirect { float data[]; } indirect;
+layout(set = 0, binding = 0, scalar) readonly buffer DirectAt { LargeFloats direct; };
+layout(set = 0, binding = 1, scalar) readonly buffer IndirectAt { LargeFloats indirect; };
 layout(set = 0, binding = 2, scalar) readonly buffer Area { float data[]; } area;
 layout(set = 0, binding = 3, scalar) writeonly buffer Faces { vec4 data[]; } faces;
 layout(push_constant) uniform Push {

@@ -21,8 +21,8 @@ void FaceIrradiance::update(CommandStream& stream, const SurfaceVoxels& voxels,
         faces_ = Buffer(stream.device(), "face irradiance", bytes(voxels.voxelCount));
     const uint32_t faces = voxels.voxelCount * kAreaFloats;
     stream.dispatch(program_,
-                    {{"direct", irradiance.direct},
-                     {"indirect", irradiance.indirect},
+                    {{"DirectAt", irradiance.direct.at()},
+                     {"IndirectAt", irradiance.indirect.at()},
                      {"area", irradiance.area},
                      {"faces", faces_}},
                     Push{faces, voxels.grid.voxelSize * voxels.grid.voxelSize}, linearGroups(faces));

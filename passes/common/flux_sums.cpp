@@ -18,18 +18,18 @@ FluxSums::FluxSums(Device& device, const ShaderCompiler& compiler)
     : resolve_(makeComputeProgram(device, compiler.compile("passes/common/flux_sums_resolve.comp"))) {}
 
 void FluxSums::begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels, double power) {
-    sums_ = Buffer(device, "flux sums", voxels.voxelCount * kBytesPerVoxel);
+    sums_ = LargeBuffer(device, "flux sums", voxels.voxelCount * kBytesPerVoxel);
     stream.fill(sums_, 0);
     unitsPerWatt_ = float(std::ldexp(1.0, 56) / power);
 }
 
 std::vector<Binding> FluxSums::bindings() const {
-    return {{"fluxSums", sums_}};
+    return {{"FluxSumsAt", sums_.at()}};
 }
 
-void FluxSums::resolve(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& flux) const {
+void FluxSums::resolve(CommandStream& stream, const SurfaceVoxels& voxels, const LargeBuffer& flux) const {
     const uint32_t values = voxels.voxelCount * kFluxFloats;
-    stream.dispatch(resolve_, {{"fluxSums", sums_}, {"flux", flux}},
+    stream.dispatch(resolve_, {{"FluxSumsAt", sums_.at()}, {"FluxAt", flux.at()}},
                     ResolvePush{values, 1.0f / unitsPerWatt_}, linearGroups(values));
 }
 

@@ -21,14 +21,14 @@ class FluxSums {
     std::vector<Binding> bindings() const;
     float unitsPerWatt() const { return unitsPerWatt_; }
     /// Watts into `flux` (VoxelIrradiance::direct or ::indirect).
-    void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& flux) const;
+    void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const LargeBuffer& flux) const;
     /// Frees the sums, once the stream has finished.
     void end() { sums_ = {}; }
 
  private:
     float unitsPerWatt_ = 0;
     Program resolve_;
-    Buffer sums_;
+    LargeBuffer sums_;
 };
 
 }  // namespace voxray

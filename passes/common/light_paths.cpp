@@ -147,9 +147,9 @@ void LightPaths::finish(PassContext& context, const SurfaceVoxels& voxels, Voxel
     irradiance.allocate(context.device, voxels.voxelCount);
 
     // A face that no ray met is dark, not unknown.
-    stream.dispatch(exposedArea_, {{"voxelMaterials", voxels.materials}, {"area", irradiance.area}},
+    stream.dispatch(exposedArea_, {{"VoxelMaterialsAt", voxels.materials.at()}, {"area", irradiance.area}},
                     voxels.voxelCount, linearGroups(voxels.voxelCount));
-    const auto resolve = [&](size_t i, const Buffer& flux) {
+    const auto resolve = [&](size_t i, const LargeBuffer& flux) {
         if (sumsFlux_)
             fluxes_[i].resolve(stream, voxels, flux);
         else

@@ -22,7 +22,7 @@ PopulationPrefixSum::PopulationPrefixSum(Device& device, const ShaderCompiler& c
       scanWords_(stage(device, compiler, "SCAN_WORDS")) {}
 
 uint32_t PopulationPrefixSum::run(CommandStream& stream, const Buffer& words, const Buffer& before,
-                                  uint32_t count) {
+                                  uint32_t count) const {
     const uint32_t blocks = (count + kBlockWords - 1) / kBlockWords;
     // One sum a block and, after them, the total.
     const Buffer sums(stream.device(), "prefix sum blocks", (uint64_t(blocks) + 1) * sizeof(uint32_t));

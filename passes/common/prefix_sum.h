@@ -12,7 +12,7 @@ class PopulationPrefixSum {
 
     /// Writes to before[i] the number of bits set in words[0 .. i). @return the number of bits set in all
     /// (waits for the device). `words` and `before` hold `count` uints; sums must stay below 2^32.
-    uint32_t run(CommandStream& stream, const Buffer& words, const Buffer& before, uint32_t count);
+    uint32_t run(CommandStream& stream, const Buffer& words, const Buffer& before, uint32_t count) const;
 
  private:
     Program sumBlocks_, scanBlocks_, scanWords_;

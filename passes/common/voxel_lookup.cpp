@@ -43,7 +43,7 @@ void VoxelLookupPass::record(PassContext& context) {
          {"albedo", gbuffer.albedo, sampler_},
          {"voxelOccupancy", voxels.occupancy},
          {"voxelRank", voxels.rank},
-         {"voxelFlux", irradiance.*flux_},
+         {"VoxelFluxAt", (irradiance.*flux_).at()},
          {"voxelArea", irradiance.area},
          {"result", context.get(reflected_).image}},
         Push{voxels.grid, params_.radius, gbuffer.samples, params_.lookup == VoxelLookup::SevenTap ? 1u : 0u},

@@ -43,13 +43,14 @@ class VoxelLookupPass : public Pass {
 
  protected:
     /// @param port what the pass writes, and its help. @param flux VoxelIrradiance::direct or ::indirect.
-    VoxelLookupPass(const Params& params, std::string port, std::string help, Buffer VoxelIrradiance::*flux)
+    VoxelLookupPass(const Params& params, std::string port, std::string help,
+                    LargeBuffer VoxelIrradiance::*flux)
         : params_(params), portName_(std::move(port)), portHelp_(std::move(help)), flux_(flux) {}
 
  private:
     Params params_;
     std::string portName_, portHelp_;
-    Buffer VoxelIrradiance::*flux_;
+    LargeBuffer VoxelIrradiance::*flux_;
     Port<GBuffer> gbuffer_;
     Port<SurfaceVoxels> voxels_;
     Port<VoxelIrradiance> irradiance_;

@@ -81,10 +81,11 @@ std::vector<Binding> VoxelWrites::bindings() const {
     return list;
 }
 
-void VoxelWrites::resolve(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& flux,
+void VoxelWrites::resolve(CommandStream& stream, const SurfaceVoxels& voxels, const LargeBuffer& flux,
                           const Buffer& area) const {
     std::vector<Binding> all = bindings();
-    all.insert(all.end(), {{"voxelMaterials", voxels.materials}, {"flux", flux}, {"area", area}});
+    all.insert(all.end(),
+               {{"VoxelMaterialsAt", voxels.materials.at()}, {"FluxAt", flux.at()}, {"area", area}});
     stream.dispatch(resolve_, all, ResolvePush{voxels.voxelCount, voxels.grid.voxelSize, scale_},
                     linearGroups(voxels.voxelCount));
 }

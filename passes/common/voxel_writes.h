@@ -72,7 +72,7 @@ class VoxelWrites {
     /// Mean irradiance times exposed area into `flux` (VoxelIrradiance::direct or ::indirect). `area` is
     /// raised to the exposed area of every face that a sample fell on, and kept elsewhere: clear it before
     /// the first resolve() if faces without samples are unknown, fill it with exposed areas if they are dark.
-    void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& flux,
+    void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const LargeBuffer& flux,
                  const Buffer& area) const;
     /// Frees the sums, once the stream has finished.
     void end() { sums_ = {}, weights_ = {}; }

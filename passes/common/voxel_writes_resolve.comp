@@ -6,7 +6,7 @@
 #include "shaders/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) writeonly buffer Flux { float data[]; } flux;
+layout(set = 0, binding = 16, scalar) readonly buffer FluxAt { LargeFloats flux; };
 layout(set = 0, binding = 17, scalar) buffer Area { float data[]; } area;
 layout(push_constant) uniform Push {
     uint voxelCount;

@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include "graph/pass.h"
+#include "passes/common/large_buffer.h"
 #include "shaders/shared/voxel_types.h"
 
 namespace voxray {
@@ -17,7 +18,7 @@ struct SurfaceVoxels : Resource {
     uint32_t voxelCount = 0;  ///< Occupied voxels; known once the voxelizing pass has run.
     Buffer occupancy;         ///< 1 bit a voxel of the grid.
     Buffer rank;              ///< 1 uint a word of `occupancy`: occupied voxels before it.
-    Buffer materials;         ///< VoxelMaterial a surface voxel.
+    LargeBuffer materials;    ///< VoxelMaterial a surface voxel.
 
     uint64_t words() const { return uint64_t(grid.wordsPerRow) * grid.resolution.y * grid.resolution.z; }
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }
@@ -31,9 +32,9 @@ constexpr uint32_t kFluxFloats = 18, kAreaFloats = 6;
 /// lets a lookup interpolate both. Where the area is 0 the injection did not look: nothing is known, and a
 /// lookup passes it over. GLSL access: shaders/voxel_irradiance.glsl.
 struct VoxelIrradiance : Resource {
-    Buffer direct;    ///< W, straight from the lights: 6 directions of 3 floats a voxel.
-    Buffer indirect;  ///< W, after one bounce or more; likewise.
-    Buffer area;      ///< In units of a voxel's face: 6 floats a voxel.
+    LargeBuffer direct;    ///< W, straight from the lights: 6 directions of 3 floats a voxel.
+    LargeBuffer indirect;  ///< W, after one bounce or more; likewise.
+    Buffer area;           ///< In units of a voxel's face: 6 floats a voxel.
 
     static uint64_t bytes(uint32_t voxelCount) {
         return uint64_t(voxelCount) * (2 * kFluxFloats + kAreaFloats) * sizeof(float);
@@ -50,9 +51,5 @@ void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const Voxe
 /// The smallest grid of cubic voxels round a box, `resolution` voxels along its longest side, with an eighth
 /// of a voxel to spare, so that no surface lies on its border.
 gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution);
-
-/// A guess of the number of surface voxels from the triangles' areas and edges, for predicting memory: an
-/// upper bound for scenes of large triangles.
-uint64_t estimateSurfaceVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid);
 
 }  // namespace voxray

@@ -92,7 +92,7 @@ void InjectVoxelRays::lightAsked(PassContext& context, uint32_t seed) {
         stream.dispatch(mark_,
                         context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
                                                 {"voxelRank", voxels.rank},
-                                                {"voxelMaterials", voxels.materials},
+                                                {"VoxelMaterialsAt", voxels.materials.at()},
                                                 {"hits", hits.batches[b]},
                                                 {"position", context.get(gbuffer_).position, sampler_},
                                                 {"asked", asked_}}),

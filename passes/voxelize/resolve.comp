@@ -1,14 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Turns the fixed-point sums of voxel_sums.glsl into area-weighted averages.
 #include "passes/voxelize/sums_layout.h"
 #include "shaders/linear_index.glsl"
-#include "shaders/shared/voxel_types.h"
+#include "shaders/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0) readonly buffer Sums { uint data[]; } sums;
-layout(set = 0, binding = 1, scalar) writeonly buffer Materials { VoxelMaterial data[]; } materials;
+layout(set = 0, binding = 0, scalar) readonly buffer SumsAt { LargeUints sums; };
 // By voxel: exposed points facing +x -x +y -y +z -z, then all points by axis, weighted by normal component squared.
 layout(set = 0, binding = 2) readonly buffer Probes { uint data[]; } probes;
 layout(push_constant) uniform Push {
@@ -44,5 +42,5 @@ void main() {
     const uint covered = at + SUM_COVERED;
     m.opacity = max(coverage(sums.data[covered]), max(coverage(sums.data[covered + 1u]), coverage(sums.data[covered + 2u])));
     m.reserved = 0.0;
-    materials.data[voxel] = m;
+    voxelMaterials.data[voxel] = m;
 }

@@ -19,7 +19,7 @@ void markVoxel(VoxelGrid g, ivec3 voxel) {
 #else
 
 #include "passes/voxelize/sums_layout.h"
-layout(set = 0, binding = 16) buffer Sums { uint data[]; } sums;
+layout(set = 0, binding = 16, scalar) readonly buffer SumsAt { LargeUints sums; };
 
 void add(uint at, float units) {
     const int rounded = int(round(units));

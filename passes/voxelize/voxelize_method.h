@@ -11,7 +11,7 @@ namespace voxray {
 /// carries to its sums (sums_layout.h).
 struct VoxelizeStep {
     bool mark;
-    const Buffer* target;  ///< Occupancy to mark in, or sums to add to.
+    const Buffer* target;  ///< Occupancy to mark in, or the address of sums to add to.
     float emissionScale;   ///< One over the scene's largest emission; 0: nothing emits.
 };
 

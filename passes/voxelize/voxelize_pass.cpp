@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "passes/common/dispatch.h"
+#include "passes/common/voxel_count.h"
 #include "passes/voxelize/sums_layout.h"
 
 namespace voxray {
@@ -42,7 +43,7 @@ void VoxelizePass::plan(PassPlan& plan) {
     v.grid = makeVoxelGrid(geometry.boundsMin, geometry.boundsMax, params_.resolution);
     v.grid.directions = params_.directions;
     plan.reserve("occupancy and ranks", v.words() * 2 * sizeof(uint32_t));
-    v.voxelCount = uint32_t(std::min<uint64_t>(estimateSurfaceVoxels(geometry, v.grid), UINT32_MAX));
+    v.voxelCount = countSurfaceVoxels(geometry, v.grid).front();
     plan.reserve("surface voxels (estimated)", v.voxelCount * sizeof(gpu::VoxelMaterial));
     plan.reserve("sums (estimated)", uint64_t(v.voxelCount) * SUMS_PER_VOXEL * sizeof(uint32_t));
     method_->plan(plan, v);
@@ -75,16 +76,17 @@ void VoxelizePass::record(PassContext& context) {
             "three_axis more 'samples'",
             v.grid.resolution.x, v.grid.resolution.y, v.grid.resolution.z);
     v.materials =
-        Buffer(context.device, "voxel materials", uint64_t(v.voxelCount) * sizeof(gpu::VoxelMaterial));
+        LargeBuffer(context.device, "voxel materials", uint64_t(v.voxelCount) * sizeof(gpu::VoxelMaterial));
 
     // Sum up what surfaces carry, in fixed point, and turn sums into averages.
-    const Buffer sums(context.device, "voxelization sums",
-                      uint64_t(v.voxelCount) * SUMS_PER_VOXEL * sizeof(uint32_t));
+    const LargeBuffer sums(context.device, "voxelization sums",
+                           uint64_t(v.voxelCount) * SUMS_PER_VOXEL * sizeof(uint32_t));
     context.stream.fill(sums, 0);
-    method_->run(context, v, {false, &sums, largestEmission_ > 0 ? 1.0f / largestEmission_ : 0.0f});
+    method_->run(context, v, {false, &sums.at(), largestEmission_ > 0 ? 1.0f / largestEmission_ : 0.0f});
     const Buffer probes = exposureProbe_.run(context, v, params_.exposureRays);
-    context.stream.dispatch(resolve_, {{"sums", sums}, {"materials", v.materials}, {"probes", probes}},
-                            ResolvePush{v.voxelCount, largestEmission_}, linearGroups(v.voxelCount));
+    context.stream.dispatch(
+        resolve_, {{"SumsAt", sums.at()}, {"VoxelMaterialsAt", v.materials.at()}, {"probes", probes}},
+        ResolvePush{v.voxelCount, largestEmission_}, linearGroups(v.voxelCount));
     context.stream.finish();
 }
 
@@ -94,7 +96,7 @@ std::vector<Binding> stepBindings(const PassContext& context, const SurfaceVoxel
     if (step.mark) {
         bindings.emplace_back("occupancy", *step.target);
     } else {
-        bindings.emplace_back("sums", *step.target);
+        bindings.emplace_back("SumsAt", *step.target);
         bindings.emplace_back("voxelOccupancy", voxels.occupancy);
         bindings.emplace_back("voxelRank", voxels.rank);
     }

@@ -30,7 +30,7 @@ struct Merged {
         const Program writer = makeComputeProgram(
             device(), compiler.compile("tests/gpu/voxel_writes.comp", VoxelWrites::defines(write)));
         CommandStream stream(device());
-        const Buffer fluxBuffer(device(), "flux", voxels.voxelCount * kFluxFloats * sizeof(float));
+        const LargeBuffer fluxBuffer(device(), "flux", voxels.voxelCount * kFluxFloats * sizeof(float));
         const Buffer areaBuffer(device(), "area", voxels.voxelCount * kAreaFloats * sizeof(float));
         stream.fill(areaBuffer, 0);
         writes.begin(device(), stream, voxels, firstValue);

@@ -1,0 +1,93 @@
+#include <array>
+#include <cstring>
+
+#include "base/error.h"
+#include "passes/common/dispatch.h"
+#include "passes/filter_voxels/radiance_storage.h"
+#include "shaders/shared/radiance_dense_types.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kValueBytes = 8;  // Four half floats.
+
+/// The buffer `radianceVoxels` of shaders/radiance_dense.glsl.
+struct Header {
+    gpu::RadianceGrid grid;
+    uint64_t values;
+    std::array<gpu::DenseLevel, RADIANCE_DENSE_LEVELS> levels;
+};
+static_assert(sizeof(gpu::RadianceGrid) % 8 == 0);
+
+struct SurfacePush {
+    gpu::VoxelGrid grid;
+    float emission;
+};
+
+uint64_t voxelsOf(glm::uvec3 resolution) {
+    return uint64_t(resolution.x) * resolution.y * resolution.z;
+}
+
+uint64_t allVoxels(const gpu::RadianceGrid& grid) {
+    uint64_t voxels = 0;
+    for (uint32_t level = 0; level < grid.levels; ++level)
+        voxels += voxelsOf(radianceResolution(grid.resolution, level));
+    return voxels;
+}
+
+class DenseStorage final : public RadianceStorage {
+ public:
+    void plan(PassPlan& plan, const SurfaceVoxels&, RadianceVoxels& radiance) override {
+        const gpu::RadianceGrid& grid = radiance.grid;
+        const uint64_t values = allVoxels(grid) * grid.directions;
+        if (values > UINT32_MAX)
+            throw Error(
+                "filter_voxels: {} values of {}x{}x{} voxels and their levels can't be numbered in 32 bits; "
+                "lower voxelize's 'resolution'",
+                values, grid.resolution.x, grid.resolution.y, grid.resolution.z);
+        plan.reserve("radiance voxels", values * kValueBytes + sizeof(Header));
+    }
+
+    void prepare(PassSetup& setup, RadianceVoxels& radiance) override {
+        const gpu::RadianceGrid& grid = radiance.grid;
+        radiance.storage.clear();
+        radiance.storage.emplace_back(setup.device, "radiance voxels",
+                                      allVoxels(grid) * grid.directions * kValueBytes);
+        Header header{grid, radiance.storage[0].address(), {}};
+        uint32_t first = 0;
+        for (uint32_t level = 0; level < grid.levels; ++level) {
+            header.levels[level] = {radianceResolution(grid.resolution, level), first};
+            first += uint32_t(voxelsOf(header.levels[level].resolution));
+        }
+        radiance.header = Buffer(setup.device, "radiance voxels' header", sizeof(Header));
+        setup.stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
+        const auto program = [&](const char* file) {
+            return makeComputeProgram(setup.device, setup.compiler.compile(file, radiance.defines()));
+        };
+        surface_ = program("passes/filter_voxels/dense_surface.comp");
+        level_ = program("passes/filter_voxels/dense_level.comp");
+    }
+
+    void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
+             RadianceVoxels& radiance, float emission) override {
+        std::vector<Binding> bindings = surfaceRadianceBindings(voxels, irradiance);
+        for (const Binding& binding : radiance.bindings()) bindings.push_back(binding);
+        context.stream.dispatch(surface_, bindings, SurfacePush{voxels.grid, emission},
+                                linearGroups(voxelsOf(radiance.grid.resolution)));
+        for (uint32_t level = 1; level < radiance.grid.levels; ++level)
+            context.stream.dispatch(
+                level_, radiance.bindings(), level,
+                linearGroups(voxelsOf(radianceResolution(radiance.grid.resolution, level))));
+    }
+
+ private:
+    Program surface_, level_;
+};
+
+}  // namespace
+
+std::unique_ptr<RadianceStorage> makeDenseStorage() {
+    return std::make_unique<DenseStorage>();
+}
+
+}  // namespace voxray

@@ -1,0 +1,27 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Level 0 of dense radiance voxels: the surfaces' own radiance and cover; nothing where there are none.
+#include "shaders/linear_index.glsl"
+#include "shaders/radiance_voxels.glsl"
+#include "shaders/surface_radiance.glsl"
+layout(local_size_x = 64) in;
+
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    float emission;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    const uvec3 size = radianceVoxels.grid.resolution;
+    if (i >= size.x * size.y * size.z) return;
+    const uint voxel = voxelNumber(push.grid, ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y)));
+    const uint directions = radianceVoxels.grid.directions;
+    for (uint side = 0u; side < directions; ++side) {
+        vec4 value = vec4(0.0);
+        if (voxel != NO_VOXEL)
+            value = directions == 6u ? faceRadiance(push.grid, voxel, side, push.emission)
+                                     : meanRadiance(push.grid, voxel, push.emission);
+        storeRadiance(i, side, value / vec4(vec3(radianceVoxels.grid.unit), 1.0));
+    }
+}

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "passes/common/radiance_voxels.h"
+#include "passes/common/voxels.h"
+#include "passes/filter_voxels/radiance_storage.h"
+
+namespace voxray {
+
+/// Turns lit surface voxels into radiance and cover at all scales, for cone tracing.
+class FilterVoxels final : public Pass {
+ public:
+    static constexpr const char* kName = "filter_voxels";
+    static constexpr const char* kHelp =
+        "Prefilters the light that leaves surface voxels: radiance and the part of a beam that surfaces "
+        "cover, at all scales, for gather_cones. "
+        "Biased by: voxel size; what shares a larger voxel and faces the same way is averaged. "
+        "Source: Crassin et al. 2011, section 4 (anisotropic voxels); Arnebäck 2017, section 3.1.4.";
+    struct Params {
+        RadianceLayout layout = RadianceLayout::Dense;
+        bool emission = false;
+        bool eachFrame = false;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("layout", &Params::layout,
+                      "How voxels are stored: dense, a full grid for each level; svo, a sparse octree: only "
+                      "what "
+                      "surfaces pass through."),
+                field("emission", &Params::emission,
+                      "Whether what surfaces emit is in. Off, cones bring indirect light alone: a direct_* "
+                      "pass adds the rest."),
+                field("each_frame", &Params::eachFrame,
+                      "Whether to filter in each frame, for light that is injected in each frame; else "
+                      "once.")};
+        }
+    };
+
+    explicit FilterVoxels(const Params& params);
+    Phase phase() const override { return params_.eachFrame ? Phase::Frame : Phase::Build; }
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    Params params_;
+    Port<SurfaceVoxels> voxels_;
+    Port<VoxelIrradiance> irradiance_;
+    Port<RadianceVoxels> radiance_;
+    std::unique_ptr<RadianceStorage> storage_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "passes/common/radiance_voxels.h"
+#include "passes/common/voxels.h"
+
+namespace voxray {
+
+/// A way of storing radiance voxels: makes them of surface voxels and the light that they catch.
+class RadianceStorage {
+ public:
+    virtual ~RadianceStorage() = default;
+    /// Reserves memory. `radiance` has its grid; the unit may be set to another. @throws Error for what this
+    /// device can't do.
+    virtual void plan(PassPlan& plan, const SurfaceVoxels& voxels, RadianceVoxels& radiance) = 0;
+    virtual void prepare(PassSetup& setup, RadianceVoxels& radiance) = 0;
+    /// Fills all levels. `emission`: 1 to add what surfaces emit, 0 to leave it out.
+    virtual void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
+                     RadianceVoxels& radiance, float emission) = 0;
+};
+
+/// A full grid for each level.
+std::unique_ptr<RadianceStorage> makeDenseStorage();
+
+/// A sparse octree (docs/svo.md). `eachFrame`: it is filled again and again.
+std::unique_ptr<RadianceStorage> makeSvoStorage(bool eachFrame);
+
+/// What shaders/surface_radiance.glsl reads.
+std::vector<Binding> surfaceRadianceBindings(const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance);
+
+}  // namespace voxray

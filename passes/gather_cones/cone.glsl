@@ -1,0 +1,173 @@
+// A cone through radiance voxels, front to back.
+#ifndef VOXRAY_CONE_GLSL
+#define VOXRAY_CONE_GLSL
+
+#include "shaders/radiance_voxels.glsl"
+
+// Light that what lies behind can't add visibly to.
+#define LEAST_TRANSMITTANCE 0.002
+#define SAMPLES 0.5
+
+// Where cones start: a point of a surface.
+struct ConeBase {
+    vec3 position;  // m, off the surface by a trace.
+    vec3 side;      // The surface's unit normal.
+    // Height above the surface's plane, in voxels, from which on a sample across each axis doesn't touch it; 0 where the surface
+    // shows nothing along that axis.
+    vec3 reach;
+    // What a cone that sets out along +x -x +y -y +z -z meets within the point's own voxel.
+    vec4 beside[6];
+};
+
+vec3 facingAxis(uint face) {
+    vec3 axis = vec3(0.0);
+    axis[face >> 1] = (face & 1u) == 0u ? 1.0 : -1.0;
+    return axis;
+}
+
+// Whether a wall in the point's own voxel is ahead or behind is not for the voxel to tell. But a surface ends at a wall that
+// stands on it: where it goes on in the next voxel, the wall is behind.
+vec4 wallBeside(ConeBase base, uint face) {
+    const float voxel = radianceVoxels.grid.voxelSize;
+    const vec3 ahead = facingAxis(face);
+    const vec3 size = abs(base.side);
+    const uint axis = size.x >= size.y && size.x >= size.z ? 0u : size.y >= size.z ? 1u : 2u;
+    const vec3 up = facingAxis(2u * axis + (base.side[axis] < 0.0 ? 1u : 0u));
+    const vec3 middle = (floor((base.position - radianceVoxels.grid.origin) / voxel) + 0.5) * voxel + radianceVoxels.grid.origin;
+    const vec3 own = mix(base.position, middle, abs(ahead)), floor_ = mix(base.position, middle, abs(ahead) + abs(up));
+    const float goesOn = sampleLevel(0u, floor_ + voxel * ahead, -up).a;
+    return goesOn > 0.5 ? vec4(0.0) : sampleLevel(0u, own + voxel * up, ahead);
+}
+
+ConeBase coneBase(vec3 position, vec3 side) {
+    ConeBase base;
+    base.position = position + side * (radianceVoxels.grid.voxelSize / 256.0);
+    base.side = side;
+    const vec3 size = abs(side);
+    base.reach = vec3(1.5 * (size.x + size.y + size.z)) - size;
+    if (radianceVoxels.grid.directions == 6u) base.reach = mix(base.reach, vec3(0.0), lessThan(size, vec3(0.1)));
+    for (uint face = 0u; face < 6u; ++face)
+        base.beside[face] = base.reach[face >> 1] > 0.0 ? vec4(0.0) : wallBeside(base, face);
+    return base;
+}
+
+// A cone meets the sides that face it along each axis layer by layer: each layer of voxels across the axis once, in its middle,
+// interpolated across. So a closed surface covers it once, wherever its voxels lie, and nothing behind the cone's start, or behind
+// a point that it has passed, has a say. While the cone crosses a layer it drifts along it: `samples` places share the layer's say,
+// so that covers of slanted surfaces, too, add up to 1 evenly.
+struct ConeAxis {
+    float start;   // In voxels of level 0, in the direction of travel.
+    float speed;   // Voxels a metre.
+    float drift;   // Voxels that the cone moves in all for each voxel along this axis.
+    int next;      // Where the next layer begins.
+    int end;       // Where the grid does.
+    uint level;    // Of the next layer.
+    int samples;   // Places in it.
+    int sample_;   // The next of them.
+    float t;       // Metres to that.
+};
+
+void placeSample(inout ConeAxis axis) {
+    const float part = (float(axis.sample_) + 0.5) / float(axis.samples);
+    axis.t = (float(axis.next) + part * float(1u << axis.level) - axis.start) / axis.speed;
+}
+
+// The next layer: the largest that begins where the last one ended and is no wider than half the cone there, give or take `dither`
+// levels: then a voxel's filter, a tent two voxels wide over a box of one, has the variance of the cone's cross-section.
+void findLayer(inout ConeAxis axis, float width, float clearance, float dither) {
+    axis.t = 1.0e30;
+    if (axis.next >= axis.end) return;
+    const float voxel = radianceVoxels.grid.voxelSize;
+    const float t = (float(axis.next) - axis.start) / axis.speed;
+    const float largest = max(min(0.5 * width * t * exp2(dither), clearance * t), voxel);
+    const uint aligned = uint(findLSB(axis.next));
+    axis.level = min(min(uint(log2(largest / voxel)), aligned), radianceVoxels.grid.levels - 1u);
+    axis.samples = int(ceil(SAMPLES * axis.drift));
+    axis.sample_ = 0;
+    placeSample(axis);
+}
+
+void advance(inout ConeAxis axis, float width, float clearance, float dither) {
+    if (++axis.sample_ < axis.samples) {
+        placeSample(axis);
+        return;
+    }
+    axis.next += 1 << axis.level;
+    findLayer(axis, width, clearance, dither);
+}
+
+// What has been collected of a cone. Surfaces that it meets within a voxel's diagonal of each other are taken for pieces of one:
+// their covers add up. After a gap the next surface is hidden as if independent of the last one.
+struct ConeLight {
+    vec3 radiance;
+    float transmittance;  // Of the surfaces passed.
+    float cover;          // Of the one that the cone is passing, at most 1.
+    float behind;         // What that one shows of sides that face the way that the cone goes, less of those that face the cone.
+    float blocked;        // The most that this has been, which is the cover that is black.
+    float last;           // Metres to where the cone met it last.
+};
+
+// `met`: sides that face the cone. `back`: cover of sides that face the way that it goes. A cone that meets more of those passes the
+// surface from behind: it lets nothing through, and its far side is black.
+void meet(inout ConeLight light, vec4 met, float back, float t, float voxel) {
+    if (met.a + back <= 0.0) return;
+    if (t - light.last > 1.75 * voxel) {
+        light.transmittance *= 1.0 - light.cover;
+        light.cover = light.behind = light.blocked = 0.0;
+    }
+    light.last = t;
+    light.behind += back - met.a;
+    const float blocked = max(min(light.behind, 1.0) - light.blocked, 0.0);
+    light.blocked += blocked;
+    light.cover = min(light.cover + blocked, 1.0);
+    if (met.a <= 0.0) return;
+    const float added = min(met.a, 1.0 - light.cover);
+    light.radiance += light.transmittance * added / met.a * met.rgb;
+    light.cover += added;
+}
+
+// Radiance that arrives at `base` through a cone along `direction` (unit, above the surface), `width` wide at unit distance.
+vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
+    const RadianceGrid g = radianceVoxels.grid;
+    const float climb = dot(direction, base.side);
+    const vec3 clearance = mix(climb / max(base.reach, 1e-6), vec3(1.0e30), equal(base.reach, vec3(0.0)));
+
+    // Axes are turned so that the cone travels upwards along each.
+    const int turned = 1 << (g.levels - 1u);
+    const float speed = abs(direction.x) + abs(direction.y) + abs(direction.z);
+    ConeAxis axis[3];
+    ConeLight light = ConeLight(vec3(0.0), 1.0, 0.0, 0.0, 0.0, 0.0);
+    for (uint k = 0u; k < 3u; ++k) {
+        const bool up = direction[k] >= 0.0;
+        const float inGrid = (base.position[k] - g.origin[k]) / g.voxelSize, own = max(abs(direction[k]), 1e-3);
+        axis[k].start = up ? inGrid : float(turned) - inGrid;
+        axis[k].speed = own / g.voxelSize;
+        axis[k].drift = speed / own;
+        axis[k].next = int(floor(axis[k].start)) + 1;
+        axis[k].end = abs(direction[k]) < 1e-3 ? axis[k].next : up ? int(g.resolution[k]) : turned;
+        findLayer(axis[k], width, clearance[k], dither);
+        meet(light, abs(direction[k]) * base.beside[2u * k + (up ? 0u : 1u)], 0.0, 0.0, g.voxelSize);
+    }
+
+    const int mostSteps = 16 * int(g.resolution.x + g.resolution.y + g.resolution.z);
+    for (int step_ = 0; step_ < mostSteps && light.transmittance * (1.0 - light.cover) > LEAST_TRANSMITTANCE; ++step_) {
+        const uint k = axis[0].t <= axis[1].t ? (axis[0].t <= axis[2].t ? 0u : 2u) : (axis[1].t <= axis[2].t ? 1u : 2u);
+        const float t = axis[k].t;
+        if (t > 1.0e29) break;
+        const float voxel = radianceVoxelSize(axis[k].level);
+        if (clearance[k] * t >= voxel) {
+            const bool up = direction[k] >= 0.0;
+            const float middle = float(axis[k].next) + 0.5 * float(1u << axis[k].level);
+            vec3 place = base.position + t * direction;
+            place[k] = g.origin[k] + (up ? middle : float(turned) - middle) * g.voxelSize;
+            const vec3 ahead = facingAxis(2u * k + (up ? 0u : 1u));
+            const float share = 1.0 / float(axis[k].samples);
+            const float back = g.directions == 6u ? sampleLevel(axis[k].level, place, -ahead).a : 0.0;
+            meet(light, share * sampleLevel(axis[k].level, place, ahead), share * back, t, voxel);
+        }
+        advance(axis[k], width, clearance[k], dither);
+    }
+    return light.radiance;
+}
+
+#endif

@@ -1,0 +1,82 @@
+#include "passes/gather_cones/gather_cones.h"
+
+#include "passes/common/dispatch.h"
+#include "passes/common/frame_image.h"
+#include "passes/gather_cones/cone_sets.h"
+
+namespace voxray {
+namespace {
+
+struct TracePush {
+    uint32_t cones;
+    uint32_t sparse;
+};
+
+struct ResolvePush {
+    uint32_t samples;
+    uint32_t sparse;
+    float voxelSize;
+};
+
+/// One texel for each traced texel of the g-buffer, row by row.
+ImageDesc tracedImage(const Frame& frame, uint32_t samples, uint32_t sparse) {
+    ImageDesc desc = frameImageDesc(frame);
+    const glm::uvec2 extent = gbufferExtent(frame, samples);
+    desc.extent = {(extent.x + sparse - 1) / sparse, extent.y, 1};
+    return desc;
+}
+
+}  // namespace
+
+void GatherCones::declare(PassBuilder& builder) {
+    gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
+    radiance_ = builder.read<RadianceVoxels>("radiance", "light that leaves surfaces, at all scales");
+    indirect_ = builder.write<FrameImage>("indirect", "radiance reflected of indirect light");
+}
+
+void GatherCones::plan(PassPlan& plan) {
+    plan.reserve("cones", coneSet(params_.cones).size() * sizeof(gpu::Cone));
+    plan.reserve("indirect image", imageBytes(frameImageDesc(plan.frame)));
+    plan.reserve("gathered irradiance",
+                 imageBytes(tracedImage(plan.frame, plan.get(gbuffer_).samples, params_.sparse)));
+}
+
+void GatherCones::prepare(PassSetup& setup) {
+    const RadianceVoxels& radiance = setup.get(radiance_);
+    const auto program = [&](const char* file, const Defines& defines) {
+        return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
+    };
+    trace_ = program("passes/gather_cones/trace.comp", radiance.defines());
+    resolve_ = program("passes/gather_cones/resolve.comp", {});
+    sampler_ = texelSampler(setup.device);
+    const std::vector<gpu::Cone> cones = coneSet(params_.cones);
+    cones_ = Buffer(setup.device, "cones", cones.size() * sizeof(gpu::Cone));
+    setup.stream.upload(cones_, cones);
+    setup.get(indirect_).image = Image(setup.device, "indirect", frameImageDesc(setup.frame));
+    irradiance_ = Image(setup.device, "gathered irradiance",
+                        tracedImage(setup.frame, setup.get(gbuffer_).samples, params_.sparse));
+}
+
+void GatherCones::record(PassContext& context) {
+    const GBuffer& gbuffer = context.get(gbuffer_);
+    const RadianceVoxels& radiance = context.get(radiance_);
+    std::vector<Binding> bindings = radiance.bindings();
+    bindings.emplace_back("cones", cones_);
+    bindings.emplace_back("position", gbuffer.position, sampler_);
+    bindings.emplace_back("normal", gbuffer.normal, sampler_);
+    bindings.emplace_back("geometricNormal", gbuffer.geometricNormal, sampler_);
+    bindings.emplace_back("irradiance", irradiance_);
+    const glm::uvec3 texels = irradiance_.desc().extent;
+    context.stream.dispatch(trace_, bindings, TracePush{params_.cones, params_.sparse},
+                            pixelGroups(texels.x, texels.y));
+    context.stream.dispatch(resolve_,
+                            {{"irradiance", irradiance_, sampler_},
+                             {"albedo", gbuffer.albedo, sampler_},
+                             {"position", gbuffer.position, sampler_},
+                             {"normal", gbuffer.normal, sampler_},
+                             {"result", context.get(indirect_).image}},
+                            ResolvePush{gbuffer.samples, params_.sparse, radiance.grid.voxelSize},
+                            pixelGroups(context.frame.width, context.frame.height));
+}
+
+}  // namespace voxray

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "passes/common/gbuffer.h"
+#include "passes/common/radiance_voxels.h"
+
+namespace voxray {
+
+/// Indirect light by cone tracing. Source: Crassin et al. 2011; Arnebäck 2017, sections 3.1.5 and 3.2.5.
+class GatherCones final : public Pass {
+ public:
+    static constexpr const char* kName = "gather_cones";
+    static constexpr const char* kHelp =
+        "Indirect light: a few cones from each pixel through prefiltered voxels (filter_voxels). No noise. "
+        "Biased by: voxel size; the number of cones. Lambert surfaces only. "
+        "Source: Crassin et al. 2011; Arnebäck 2017, section 3.1.5.";
+    struct Params {
+        uint32_t cones = 16;
+        uint32_t sparse = 1;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("cones", &Params::cones,
+                      "Cones that share out the hemisphere: 5, 6 (Arnebäck 2017), 16 or 36.", 5u, 36u),
+                field("sparse", &Params::sparse,
+                      "Traces every n-th texel of the g-buffer; the others take what those round them "
+                      "see that lie on the same surface.",
+                      1u, 64u)};
+        }
+    };
+
+    explicit GatherCones(const Params& params) : params_(params) {}
+    Phase phase() const override { return Phase::Frame; }
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    Params params_;
+    Port<GBuffer> gbuffer_;
+    Port<RadianceVoxels> radiance_;
+    Port<FrameImage> indirect_;
+    Program trace_, resolve_;
+    Sampler sampler_;
+    Buffer cones_;
+    Image irradiance_;
+};
+
+}  // namespace voxray

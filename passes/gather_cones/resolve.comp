@@ -1,0 +1,58 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+// Radiance that each pixel reflects: albedo / pi times the irradiance of the traced texels around it that see much the same,
+// averaged over its sub-pixels.
+#include "passes/gather_cones/sparse.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 16) uniform sampler2D irradiance;
+layout(set = 0, binding = 17) uniform sampler2D albedo;
+layout(set = 0, binding = 18) uniform sampler2D position;
+layout(set = 0, binding = 19) uniform sampler2D normal;
+layout(set = 0, binding = 20, rgba32f) writeonly uniform image2D result;
+layout(push_constant, scalar) uniform Push {
+    int samples;
+    int sparse;
+    float voxelSize;  // m
+} push;
+
+// Mean over the traced texels within reach, some 25 of them, so that the turns of their cones even out. A texel counts as far as
+// its irradiance can be taken to be the same: less the farther it lies off the tangent plane, in voxels, below which cones know
+// no detail, and the more its normal is turned (the error bound of Ward et al. 1988).
+vec3 gathered(ivec2 texel) {
+    const vec4 p = texelFetch(position, texel, 0);
+    if (p.w == 0.0) return vec3(0.0);
+    const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
+    const ivec2 size = textureSize(position, 0);
+    const int reach = int(ceil(2.5 * sqrt(float(push.sparse)) - 0.5));
+    vec3 sum = vec3(0.0);
+    float weights = 0.0;
+    for (int y = max(texel.y - reach, 0); y <= min(texel.y + reach, size.y - 1); ++y) {
+        const int shift = rowShift(y, push.sparse);
+        const int first = (max(texel.x - reach, 0) - shift + push.sparse - 1) / push.sparse;
+        const int last = (min(texel.x + reach, size.x - 1) - shift + push.sparse) / push.sparse - 1;
+        for (int i = first; i <= last; ++i) {
+            const ivec2 other = ivec2(i * push.sparse + shift, y);
+            const vec4 q = texelFetch(position, other, 0);
+            if (q.w == 0.0) continue;
+            const float turned = sqrt(max(1.0 - dot(n, normalize(texelFetch(normal, other, 0).xyz)), 0.0));
+            const float weight = max(1.0 - abs(dot(n, q.xyz - p.xyz)) / push.voxelSize - turned, 0.0);
+            sum += weight * texelFetch(irradiance, ivec2(i, y), 0).rgb;
+            weights += weight;
+        }
+    }
+    return weights > 0.0 ? sum / weights : vec3(0.0);
+}
+
+void main() {
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(result)))) return;
+    vec3 sum = vec3(0.0);
+    for (int y = 0; y < push.samples; ++y)
+        for (int x = 0; x < push.samples; ++x) {
+            const ivec2 texel = pixel * push.samples + ivec2(x, y);
+            sum += texelFetch(albedo, texel, 0).rgb * gathered(texel);
+        }
+    imageStore(result, pixel, vec4(sum / (3.14159265358979 * float(push.samples * push.samples)), 1.0));
+}

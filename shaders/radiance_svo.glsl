@@ -1,0 +1,78 @@
+// Radiance voxels in a sparse octree (layout: svo): docs/svo.md.
+#ifndef VOXRAY_RADIANCE_SVO_GLSL
+#define VOXRAY_RADIANCE_SVO_GLSL
+
+#include "shaders/octree.glsl"
+#include "shaders/radiance_filter.glsl"
+
+// The first of the two voxels along each axis between whose middles a position lies, and how far it is on the way to the second.
+ivec3 octreeCorner(uint level, vec3 position, out vec3 at) {
+    const RadianceGrid g = radianceVoxels.grid;
+    // To 1/1024 of a voxel, so that positions in the middle of a layer read that layer alone.
+    const vec3 inLevel = round(((position - g.origin) / (g.voxelSize * float(1u << level)) - 0.5) * 1024.0) / 1024.0;
+    const vec3 corner = floor(inLevel);
+    at = inLevel - corner;
+    return ivec3(corner);
+}
+
+vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
+    vec3 at;
+    const ivec3 corner = octreeCorner(level, position, at);
+    if (!inOctreeBorder(corner, level) || !inOctreeBorder(corner + 1, level)) return vec4(0.0);
+    uint node[8];
+    if (!octreeNodes(corner, level, node)) return vec4(0.0);
+    for (uint cell = 0u; cell < 8u; ++cell)
+        if (cellWeight(cell, at) == 0.0) node[cell] = NO_NODE;
+
+    vec4 value[8];
+    vec4 sum = vec4(0.0);
+    const bool sides = radianceVoxels.grid.directions == 6u;
+    for (uint axis = 0u; axis < (sides ? 3u : 1u); ++axis) {
+        const uint face = 2u * axis + (direction[axis] > 0.0 ? 1u : 0u);
+        if (sides && direction[axis] == 0.0) continue;
+        for (uint cell = 0u; cell < 8u; ++cell) value[cell] = octreeValue(node[cell], sides ? face : 0u);
+        sum += sides ? abs(direction[axis]) * interpolateFaces(value, face, at) : interpolateAll(value, at);
+    }
+    return sum;
+}
+
+// The largest cube that holds none of the voxels that a sample here reads, on either of its two levels: those of the coarser
+// level enclose the others.
+float emptyDistance(vec3 position, float footprint, vec3 direction) {
+    const RadianceGrid g = radianceVoxels.grid;
+    const uint coarser = min(uint(max(ceil(log2(footprint / g.voxelSize)), 0.0)), g.levels - 1u);
+    vec3 at;
+    const ivec3 corner = octreeCorner(coarser, position, at);
+    if (!inOctreeBorder(corner, coarser) || !inOctreeBorder(corner + 1, coarser)) return 0.0;
+    uint emptyLevel = 0u;
+    for (uint level = max(coarser, 1u); level <= g.levels; ++level) {
+        const ivec3 cube = corner >> (level - coarser);
+        if (cube != (corner + 1) >> (level - coarser)) continue;
+        if (octreeWord(cube, level) != 0u) break;
+        emptyLevel = level;
+    }
+    if (emptyLevel == 0u) return 0.0;
+
+    // The position may move until a voxel that it reads leaves the cube: to half a voxel before the cube's faces.
+    const uint up = emptyLevel - coarser;
+    const float side = g.voxelSize * float(1u << coarser);
+    const vec3 low = g.origin + side * (vec3((corner >> up) << up) + 0.5);
+    const vec3 high = g.origin + side * (vec3(((corner >> up) + 1) << up) - 0.5);
+    float reach = 1.0e30;
+    for (uint axis = 0u; axis < 3u; ++axis)
+        if (direction[axis] != 0.0)
+            reach = min(reach, ((direction[axis] > 0.0 ? high[axis] : low[axis]) - position[axis]) / direction[axis]);
+    return max(reach, 0.0);
+}
+
+// Side of the finest voxel that describes the surroundings of `position` (m): that of a uniform node where one stands for all.
+float finestFootprint(vec3 position) {
+    const RadianceGrid g = radianceVoxels.grid;
+    const ivec3 voxel = ivec3(floor((position - g.origin) / g.voxelSize));
+    uint level = inOctreeBorder(voxel, 0u) ? g.levels - 1u : 0u;
+    for (; level > 0u; --level)
+        if (isUniform(octreeWord(voxel >> level, level))) break;
+    return g.voxelSize * float(1u << level);
+}
+
+#endif

@@ -1,0 +1,113 @@
+#include <benchmark/benchmark.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include "passes/common/dispatch.h"
+#include "passes/filter_voxels/octree_builder.h"
+#include "tests/gpu/chain.h"
+
+namespace voxray {
+namespace {
+
+std::filesystem::path scenesFolder() {
+    const char* folder = std::getenv("VOXRAY_SCENES");
+    return folder ? std::filesystem::path(folder)
+                  : std::filesystem::path(VOXRAY_SOURCE_DIR "/../shared/scenes");
+}
+
+/// Sponza's surface voxels; `more`: passes after voxelization.
+test::Chain& sponza(uint32_t resolution, uint32_t directions = 6, const std::string& more = "") {
+    static std::map<std::tuple<uint32_t, uint32_t, std::string>, std::unique_ptr<test::Chain>> chains;
+    std::unique_ptr<test::Chain>& chain = chains[{resolution, directions, more}];
+    if (chain) return *chain;
+    const auto scene = std::make_shared<SceneState>(evaluate(loadGltf(scenesFolder() / "sponza.glb"), 0.0));
+    scene->cameras.emplace_back();
+    Light sun;
+    sun.type = LightType::Directional;
+    sun.direction = glm::normalize(glm::vec3(-0.12f, -1, -0.08f));
+    sun.intensity = glm::vec3(10);
+    scene->lights = {sun};
+    chain = std::make_unique<test::Chain>(
+        scene,
+        fmt::format("[{{pass: voxelize, resolution: {}, directions: {}, exposure_rays: 0}}{}]", resolution,
+                    directions, more),
+        16, 16, 1);
+    return *chain;
+}
+
+/// Building the structure over Sponza, and filtering; memory as the octree holds it.
+void octreeBuild(benchmark::State& state) {
+    const SurfaceVoxels& voxels = *sponza(uint32_t(state.range(0))).graph().resource<SurfaceVoxels>("voxels");
+    const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE);
+    const OctreeBuilder builder(test::device(), compiler);
+    CommandStream stream(test::device());
+    OctreeSize size;
+    for (auto _ : state) {
+        RadianceVoxels radiance;
+        radiance.grid = {voxels.grid.origin,       voxels.grid.voxelSize,
+                         voxels.grid.resolution,   radianceLevels(voxels.grid.resolution),
+                         uint32_t(state.range(1)), 1.0f};
+        size = builder.build(stream, voxels, radiance).size;
+        const Buffer changed(test::device(), "changed", OctreeBuilder::changedBytes(size));
+        stream.fill(changed, ~0u);
+        builder.filter(stream, size, radiance, changed);
+        stream.finish();
+    }
+    state.counters["voxels"] = voxels.voxelCount;
+    state.counters["MB"] = double(size.bytes()) / 1e6;
+    state.counters["bytes_per_voxel"] = double(size.bytes()) / voxels.voxelCount;
+    state.counters["structure_bytes_per_voxel"] =
+        double(size.nodeBytes() + size.tableBytes()) / voxels.voxelCount;
+    state.counters["scratch_MB"] = double(OctreeBuilder::scratchBytes(size)) / 1e6;
+}
+BENCHMARK(octreeBuild)
+    ->ArgNames({"resolution", "directions"})
+    ->ArgsProduct({{64, 128, 256, 512}, {1, 6}})
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
+
+/// Cones of 10 m from the middle of Sponza: layout dense or svo, without and with skipping what is empty.
+void thinCone(benchmark::State& state) {
+    const bool octree = state.range(2) > 0, skip = state.range(2) > 1;
+    const RadianceVoxels& radiance =
+        *sponza(uint32_t(state.range(0)), uint32_t(state.range(1)),
+                fmt::format(", {{pass: inject_light_rays, rays_per_light: 65536, bounces: 2}}"
+                            ", {{pass: filter_voxels, layout: {}}}",
+                            octree ? "svo" : "dense"))
+             .graph()
+             .resource<RadianceVoxels>("radiance");
+    const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE);
+    Defines defines = radiance.defines();
+    if (skip) defines["SKIP"] = "1";
+    const Program program =
+        makeComputeProgram(test::device(), compiler.compile("tests/bench/thin_cone.comp", defines));
+    constexpr uint32_t kCones = 20000;
+    const Buffer met(test::device(), "met", kCones * sizeof(glm::vec4));
+    std::vector<Binding> bindings = radiance.bindings();
+    bindings.emplace_back("met", met);
+    CommandStream stream(test::device());
+    const struct {
+        glm::vec3 origin{0, 3, 0};
+        float reach = 10;
+        float width;
+        uint32_t count = kCones;
+    } push{.width = 0.01f * float(state.range(3))};
+    for (auto _ : state) {
+        stream.dispatch(program, bindings, push, linearGroups(kCones));
+        stream.finish();
+    }
+    double cover = 0;
+    for (const glm::vec4& sum : stream.readAs<glm::vec4>(met, kCones)) cover += sum.a / kCones;
+    state.counters["cover"] = cover;
+}
+BENCHMARK(thinCone)
+    ->ArgNames({"resolution", "directions", "svo", "width_percent"})
+    ->ArgsProduct({{256}, {1, 6}, {0, 1, 2}, {0, 20}})
+    ->MeasureProcessCPUTime()
+    ->Iterations(4)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace voxray

@@ -1,0 +1,23 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Samples of radiance voxels, whatever their layout.
+#include "shaders/linear_index.glsl"
+#include "shaders/radiance_voxels.glsl"
+layout(local_size_x = 64) in;
+
+struct Query {
+    vec3 position;
+    float footprint;
+    vec3 direction;
+    float reserved;
+};
+layout(set = 0, binding = 0, scalar) readonly buffer Queries { Query data[]; } queries;
+layout(set = 0, binding = 1, scalar) writeonly buffer Answers { vec4 data[]; } answers;
+layout(push_constant) uniform Push { uint count; } push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const Query q = queries.data[i];
+    answers.data[i] = sampleRadiance(q.position, q.footprint, q.direction);
+}

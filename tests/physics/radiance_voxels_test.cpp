@@ -1,0 +1,89 @@
+// Radiance voxels: what surfaces send and cover, at all scales, against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/gpu/radiance_samples.h"
+
+namespace voxray::test {
+namespace {
+
+const RadianceVoxels& radiance(const Chain& chain) {
+    return *chain.graph().resource<RadianceVoxels>("radiance");
+}
+
+std::string filterGraph(const std::string& voxelize, const std::string& filter = "emission: false") {
+    return "[{pass: voxelize, " + voxelize +
+           "}, {pass: inject_light_rays, rays_per_light: 65536, bounces: 0}, {pass: filter_voxels, " +
+           filter + "}]";
+}
+
+/// Covers that a ray collects from `from` on, in steps of half a footprint.
+double coverAlong(const Chain& chain, glm::vec3 from, glm::vec3 direction, double length, float footprint) {
+    std::vector<RadianceQuery> queries;
+    for (float t = 0; t < length; t += 0.5f * footprint)
+        queries.push_back({from + t * direction, footprint, direction});
+    double sum = 0;
+    for (const glm::vec4 met : sampleRadiance(radiance(chain), queries)) sum += 0.5 * met.a;
+    return sum;
+}
+
+TEST(RadianceVoxels, AWallCoversARayOnceAtEveryScaleAndAngle) {
+    // The walls of a room of 2 m, at a resolution that no power of two divides.
+    const Chain chain("white_room", "{}", filterGraph("resolution: 48"));
+    const float voxel = radiance(chain).grid.voxelSize;
+    for (const glm::vec3 towards :
+         {glm::vec3(1, 0, 0), glm::vec3(0.8f, 0.36f, 0.48f), glm::vec3(0.3f, 0, -0.9f)})
+        for (const float footprint : {voxel, 1.5f * voxel, 2 * voxel, 5 * voxel})
+            EXPECT_NEAR(coverAlong(chain, {0, 0, 0}, glm::normalize(towards), 3.0, footprint), 1.0, 0.05)
+                << towards.x << ' ' << towards.y << ' ' << towards.z << ", footprint " << footprint / voxel;
+}
+
+TEST(RadianceVoxels, SendWhatTheirSurfacesReflect) {
+    // Furnace without reflection: emission 3 alone; seen from within, and dark from outside.
+    const Chain chain("furnace", "{shape: box, albedo: 0, emission: 3}",
+                      filterGraph("resolution: 32", "emission: true"));
+    const float voxel = radiance(chain).grid.voxelSize;
+    for (const float footprint : {voxel, 3 * voxel, 8 * voxel}) {
+        const std::vector<glm::vec4> met = sampleRadiance(
+            radiance(chain), {{{0.99f, 0, 0}, footprint, {1, 0, 0}}, {{0.99f, 0, 0}, footprint, {-1, 0, 0}}});
+        EXPECT_GT(met[0].a, 0.3) << footprint;
+        EXPECT_NEAR(met[0].y / met[0].a, 3.0, 0.01) << footprint;
+        EXPECT_EQ(met[1].y, 0.0f) << footprint;
+    }
+}
+
+TEST(RadianceVoxels, OneDirectionMixesTheSides) {
+    const Chain chain("furnace", "{shape: box, albedo: 0, emission: 3}",
+                      filterGraph("resolution: 32, directions: 1", "emission: true"));
+    const std::vector<glm::vec4> met =
+        sampleRadiance(radiance(chain), {{{0.99f, 0, 0}, radiance(chain).grid.voxelSize, {-1, 0, 0}}});
+    EXPECT_NEAR(met[0].y / met[0].a, 1.5, 0.01);
+}
+
+TEST(RadianceVoxels, MemoryIsPredicted) {
+    const Chain chain("cornell", "{lights: point}", filterGraph("resolution: 32"));
+    const RadianceVoxels& r = radiance(chain);
+    EXPECT_EQ(chain.predictedBytes.back(), r.header.bytes() + r.storage[0].bytes());
+}
+
+TEST(RadianceVoxels, LightOfEachFrameNeedsFilteringInEachFrame) {
+    const auto run = [](const std::string& filter) {
+        Chain(
+            "cornell", "{lights: point}",
+            "[{pass: gbuffer}, {pass: voxelize, resolution: 8}, {pass: inject_camera_rays, rays: 64}, {pass: "
+            "filter_voxels, " +
+                filter + "}]");
+    };
+    EXPECT_NO_THROW(run("each_frame: true"));
+    try {
+        run("each_frame: false");
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("set its 'each_frame: true'"), std::string::npos)
+            << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace voxray::test
