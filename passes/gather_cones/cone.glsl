@@ -67,7 +67,7 @@ void findLayer(inout ConeAxis axis, float width, float clearance, float dither) 
     if (axis.next >= axis.end) return;
     const float voxel = radianceVoxels.grid.voxelSize;
     const float t = (float(axis.next) - axis.start) / axis.speed;
-    const float largest = max(min(width * t * exp2(dither), clearance * t), voxel);
+    const float largest = max(min(0.5 * width * t * exp2(dither), clearance * t), voxel);
     const uint aligned = uint(findLSB(axis.next));
     axis.level = min(min(uint(log2(largest / voxel)), aligned), radianceVoxels.grid.levels - 1u);
     axis.middle = (float(axis.next) + 0.5 * float(1u << axis.level) - axis.start) / axis.speed;

@@ -3,50 +3,29 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <optional>
 
 #include "base/error.h"
 
 namespace voxray {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-/// Cones of one distance from the normal, evenly spread round it.
+/// Cells side by side round the normal.
 struct Ring {
     uint32_t cones;
-    double outerDegrees;              ///< Its cells end here, at this angle from the normal.
-    std::optional<double> atDegrees;  ///< Of its cones; empty: the mean of their cells, weighted by cosine.
+    double within;  ///< The part of an even hemisphere's irradiance that comes from this ring and those in it:
+                    ///< the squared sine of the angle from the normal at which it ends.
 };
 
-/// Rings from the normal outwards. Where the literature gives no directions, each cone weighs the same:
-/// sin²(outer angle) is the part of all cones that lies within.
+/// Rings from the normal outwards. In the set of six the cap ends halfway between the thesis's cones, at 30°;
+/// in the others each cone weighs the same.
 const std::map<uint32_t, std::vector<Ring>>& sets() {
-    const auto equal = [](std::vector<uint32_t> cones) {
-        uint32_t all = 0, within = 0;
-        for (const uint32_t c : cones) all += c;
-        std::vector<Ring> rings;
-        for (const uint32_t c : cones) {
-            within += c;
-            rings.push_back({c, std::asin(std::sqrt(double(within) / all)) * 180 / kPi, {}});
-        }
-        return rings;
-    };
     static const std::map<uint32_t, std::vector<Ring>> all{
-        {5, equal({1, 4})},
-        {6, {{1, 30, 0.0}, {5, 90, 60.0}}},
-        {16, equal({1, 6, 9})},
-        {36, equal({1, 6, 11, 18})},
+        {5, {{1, 1 / 5.0}, {4, 1}}},
+        {6, {{1, 1 / 4.0}, {5, 1}}},
+        {16, {{1, 1 / 16.0}, {6, 7 / 16.0}, {9, 1}}},
+        {36, {{1, 1 / 36.0}, {6, 7 / 36.0}, {11, 18 / 36.0}, {18, 1}}},
     };
     return all;
-}
-
-/// Angle from the normal of the mean direction of a cell, weighted by cosine: the angles' integrals over the
-/// cell of cos² and of cos sin, times the sine of the solid angle's measure, and the spread of its azimuth.
-double meanAngle(double inner, double outer, double halfAzimuth) {
-    const double along = (std::pow(std::cos(inner), 3) - std::pow(std::cos(outer), 3)) / 3;
-    const double across = (std::pow(std::sin(outer), 3) - std::pow(std::sin(inner), 3)) / 3;
-    return std::atan2(across * std::sin(halfAzimuth) / halfAzimuth, along);
 }
 
 }  // namespace
@@ -58,21 +37,15 @@ std::vector<gpu::Cone> coneSet(uint32_t count) {
     std::vector<gpu::Cone> cones;
     double inner = 0;
     for (const Ring& ring : found->second) {
-        const double outer = ring.outerDegrees * kPi / 180, halfAzimuth = kPi / ring.cones;
-        const double weight = (std::pow(std::sin(outer), 2) - std::pow(std::sin(inner), 2)) / ring.cones;
-        // As wide as a circular cone of the cell's solid angle.
-        const double cosine = 1 - (std::cos(inner) - std::cos(outer)) / ring.cones;
+        // As wide as a circular cone of the cell's solid angle, 2 pi (1 - cosine).
+        const double cosine = 1 - (std::sqrt(1 - inner) - std::sqrt(1 - ring.within)) / ring.cones;
         const double width = 2 * std::sqrt(1 - cosine * cosine) / cosine;
-        const double angle =
-            ring.atDegrees ? *ring.atDegrees * kPi / 180 : meanAngle(inner, outer, halfAzimuth);
-        for (uint32_t i = 0; i < ring.cones; ++i) {
-            const double azimuth = 2 * halfAzimuth * i;
-            cones.push_back({{float(std::sin(angle) * std::cos(azimuth)),
-                              float(std::sin(angle) * std::sin(azimuth)), float(std::cos(angle))},
-                             float(weight),
+        for (uint32_t i = 0; i < ring.cones; ++i)
+            cones.push_back({{float(inner), float(ring.within)},
+                             float(2 * std::numbers::pi * i / ring.cones),
+                             float((ring.within - inner) / ring.cones),
                              float(width)});
-        }
-        inner = outer;
+        inner = ring.within;
     }
     return cones;
 }

@@ -7,9 +7,10 @@
 VOXRAY_SHARED_BEGIN
 
 struct Cone {
-    vec3 direction;  // Unit, in the surface's frame: z is its normal.
-    float weight;  // Part of the irradiance of an even hemisphere that comes through it; a set's add up to 1.
-    float width;   // Of the cone at unit distance: twice the tangent of half its angle.
+    vec2 sineSquared;  // Of the angles from the normal between which its cell lies.
+    float azimuth;     // Of the cell's middle.
+    float weight;      // Part of the irradiance of an even hemisphere that comes through it; a set's add up to 1.
+    float width;       // Of the cone at unit distance: twice the tangent of half its angle.
 };
 
 VOXRAY_SHARED_END

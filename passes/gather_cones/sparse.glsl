@@ -9,10 +9,11 @@ int rowShift(int y, int sparse) { return (y * max(int(round(float(sparse) * 0.38
 // The traced texel number `place.x` of row `place.y`.
 ivec2 tracedTexel(ivec2 place, int sparse) { return ivec2(place.x * sparse + rowShift(place.y, sparse), place.y); }
 
-// Turn of a texel's cones about its normal, and of the levels that they choose, 0 to 1: texels next to each other complement each
-// other (the additive recurrence of Roberts 2018, in the plane).
-vec2 texelTurn(ivec2 texel) {
-    return fract(vec2(0.5) + float(texel.x) * vec2(0.754877666, 0.569840296) + float(texel.y) * vec2(0.569840296, 0.245122334));
+// Three numbers in [0, 1) for a texel that complement those of the texels round it: the additive recurrence of Roberts 2018, along
+// rows and columns.
+vec3 texelDither(ivec2 texel) {
+    return fract(vec3(0.5) + float(texel.x) * vec3(0.754877666, 0.569840296, 0.819172513) +
+                 float(texel.y) * vec3(0.569840296, 0.754877666, 0.671043607));
 }
 
 #endif

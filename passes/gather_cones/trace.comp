@@ -26,18 +26,18 @@ void main() {
     if (p.w > 0.0) {
         const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
         const vec3 side = normalize(texelFetch(geometricNormal, texel, 0).xyz);
-        const vec2 turn = texelTurn(texel);
+        const vec3 dither = texelDither(texel);
         vec3 tangent, bitangent;
         frame(n, tangent, bitangent);
-        const float c = cos(2.0 * PI * turn.x), s = sin(2.0 * PI * turn.x);
-        const mat3 toWorld = mat3(c * tangent + s * bitangent, c * bitangent - s * tangent, n);
         const ConeBase base = coneBase(p.xyz, side);
         for (uint i = 0u; i < push.cones; ++i) {
             const Cone cone = cones.data[i];
-            const vec3 direction = toWorld * cone.direction;
+            const float sine = sqrt(mix(cone.sineSquared.x, cone.sineSquared.y, dither.y));
+            const float azimuth = cone.azimuth + 2.0 * PI * dither.x;
+            const vec3 direction = normalize(sine * (cos(azimuth) * tangent + sin(azimuth) * bitangent) + sqrt(1.0 - sine * sine) * n);
             // A normal map may point cones below the surface: those see the surface itself, which reflects nothing to it.
             if (dot(direction, side) <= 0.0) continue;
-            sum += cone.weight * coneRadiance(base, direction, cone.width, turn.y - 0.5);
+            sum += cone.weight * coneRadiance(base, direction, cone.width, dither.z - 0.5);
         }
     }
     imageStore(irradiance, place, vec4(PI * sum, p.w));
