@@ -67,6 +67,26 @@ uint octreeWord(ivec3 voxel, uint level) {
 // The number of a voxel's node.
 uint octreeNode(ivec3 voxel, uint level) { return octreeChild(octreeWord(voxel >> 1, level + 1u), octantOf(voxel)); }
 
+// The numbers of the eight voxels from `corner` on, by octant; whether there is any node. This is where the time of a sample goes:
+// what the eight have in common is worked out once, and where the table's level allows there is no descent.
+bool octreeNodes(ivec3 corner, uint level, out uint node[8]) {
+    const uint top = max(level + 1u, radianceVoxels.octree.tableLevel), up = top - level;
+    const ivec3 size = octreeSize(top) + 2, low = (corner >> up) + 1, high = ((corner + 1) >> up) + 1;
+    const uint first = radianceVoxels.octree.tableFirst[top - radianceVoxels.octree.tableLevel];
+    const uvec2 x = uvec2(low.x, high.x), y = size.x * uvec2(low.y, high.y), z = first + size.x * size.y * uvec2(low.z, high.z);
+    for (uint cell = 0u; cell < 8u; ++cell)
+        node[cell] = radianceVoxels.table.data[x[cell & 1u] + y[cell >> 1 & 1u] + z[cell >> 2]];
+    uint found = 0u;
+    for (uint l = up - 1u; l > 0u; --l)
+        for (uint cell = 0u; cell < 8u; ++cell)
+            node[cell] = radianceVoxels.nodes.data[octreeChild(node[cell], octantOf((corner + octantOffset(cell)) >> l))];
+    for (uint cell = 0u; cell < 8u; ++cell) {
+        node[cell] = octreeChild(node[cell], octantOf(corner + octantOffset(cell)));
+        found |= node[cell];
+    }
+    return found != 0u;
+}
+
 // Radiance times cover and cover of a node, nothing for NO_NODE. `face`: 0 to 5 by facing direction, 0 where all share one.
 vec4 octreeValue(uint node, uint face) {
     return unpackRadiance(radianceVoxels.values.data[face * radianceVoxels.octree.nodeCount + node]);

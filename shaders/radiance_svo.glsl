@@ -7,8 +7,9 @@
 
 // The first of the two voxels along each axis between whose middles a position lies, and how far it is on the way to the second.
 ivec3 octreeCorner(uint level, vec3 position, out vec3 at) {
-    const vec3 inLevel =
-        (position - radianceVoxels.grid.origin) / (radianceVoxels.grid.voxelSize * float(1u << level)) - 0.5;
+    const RadianceGrid g = radianceVoxels.grid;
+    // To 1/1024 of a voxel, so that positions in the middle of a layer read that layer alone.
+    const vec3 inLevel = round(((position - g.origin) / (g.voxelSize * float(1u << level)) - 0.5) * 1024.0) / 1024.0;
     const vec3 corner = floor(inLevel);
     at = inLevel - corner;
     return ivec3(corner);
@@ -19,12 +20,9 @@ vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     const ivec3 corner = octreeCorner(level, position, at);
     if (!inOctreeBorder(corner, level) || !inOctreeBorder(corner + 1, level)) return vec4(0.0);
     uint node[8];
-    uint any_ = 0u;
-    for (uint cell = 0u; cell < 8u; ++cell) {
-        node[cell] = octreeNode(corner + octantOffset(cell), level);
-        any_ |= node[cell];
-    }
-    if (any_ == 0u) return vec4(0.0);
+    if (!octreeNodes(corner, level, node)) return vec4(0.0);
+    for (uint cell = 0u; cell < 8u; ++cell)
+        if (cellWeight(cell, at) == 0.0) node[cell] = NO_NODE;
 
     vec4 value[8];
     vec4 sum = vec4(0.0);

@@ -8,19 +8,17 @@
 uvec2 packRadiance(vec4 value) {
     const float largest = max(value.r, max(value.g, value.b));
     const uint exponent = floatBitsToUint(largest) >> 23;  // largest < 2^(exponent - 126)
-    uvec3 mantissa = uvec3(0u);
-    if (exponent >= 14u)
-        mantissa = min(uvec3(value.rgb * uintBitsToFloat((267u - exponent) << 23) + 0.5), uvec3(16383u));
-    const uint opacity = uint(clamp(value.a, 0.0, 1.0) * 16383.0 + 0.5);
-    return uvec2(mantissa.r | mantissa.g << 14 | mantissa.b << 28, mantissa.b >> 4 | exponent << 10 | opacity << 18);
+    const uint opacity = uint(clamp(value.a, 0.0, 1.0) * 16383.0 + 0.5) << 18;
+    if (exponent < 14u) return uvec2(0u, opacity);
+    const uvec3 mantissa = min(uvec3(value.rgb * uintBitsToFloat((267u - exponent) << 23) + 0.5), uvec3(16383u));
+    return uvec2(mantissa.r | mantissa.g << 14 | mantissa.b << 28, mantissa.b >> 4 | (exponent - 13u) << 10 | opacity);
 }
 
 vec4 unpackRadiance(uvec2 texel) {
     const uvec3 mantissa = uvec3(texel.x, texel.x >> 14, texel.x >> 28 | texel.y << 4) & 0x3fffu;
-    const uint exponent = texel.y >> 10 & 0xffu;
-    // 2^(exponent - 140), 0 where the exponent is too small for any radiance.
-    const float unit = exponent >= 14u ? uintBitsToFloat((exponent - 13u) << 23) : 0.0;
-    return vec4(vec3(mantissa) * unit, float(texel.y >> 18) / 16383.0);
+    // The exponent is stored as that of the mantissas' unit in a float; 0 is a unit of 0.
+    const float unit = uintBitsToFloat(texel.y << 13 & 0x7f800000u);
+    return vec4(vec3(mantissa) * unit, float(texel.y >> 18) * (1.0 / 16383.0));
 }
 
 #endif

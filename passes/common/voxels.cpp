@@ -42,20 +42,4 @@ gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t 
     return grid;
 }
 
-uint64_t estimateSurfaceVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
-    const double cell = grid.voxelSize;
-    double voxels = 0;
-    for (const glm::uvec3 t : geometry.triangles) {
-        const glm::dvec3 a = geometry.positions[t.x], b = geometry.positions[t.y],
-                         c = geometry.positions[t.z];
-        const double area = 0.5 * glm::length(glm::cross(b - a, c - a)) / (cell * cell);
-        const double perimeter = (glm::length(b - a) + glm::length(c - b) + glm::length(a - c)) / cell;
-        // A plane of unit area meets 1.5 voxels on average over its orientations; edges share voxels with
-        // neighbours.
-        voxels += 1.5 * area + std::min(0.25 * perimeter, 1.0);
-    }
-    const double all = double(grid.resolution.x) * grid.resolution.y * grid.resolution.z;
-    return uint64_t(std::min(voxels, all)) + 1;
-}
-
 }  // namespace voxray

@@ -52,8 +52,4 @@ void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const Voxe
 /// of a voxel to spare, so that no surface lies on its border.
 gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution);
 
-/// A guess of the number of surface voxels from the triangles' areas and edges, for predicting memory: an
-/// upper bound for scenes of large triangles.
-uint64_t estimateSurfaceVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid);
-
 }  // namespace voxray

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "passes/common/dispatch.h"
+#include "passes/common/voxel_count.h"
 #include "passes/filter_voxels/octree_builder.h"
 #include "passes/filter_voxels/octree_collapse.h"
 #include "passes/filter_voxels/radiance_storage.h"
@@ -22,15 +23,8 @@ class SvoStorage final : public RadianceStorage {
 
     void plan(PassPlan& plan, const SurfaceVoxels& voxels, RadianceVoxels& radiance) override {
         radiance.grid.unit = 1;  // Values have an exponent of their own.
-        OctreeSize size{radiance.grid.resolution, radiance.grid.directions, {}};
-        size.nodes = {voxels.voxelCount};
-        gpu::VoxelGrid grid = voxels.grid;
-        for (uint32_t level = 1; level < radiance.grid.levels; ++level) {
-            grid.voxelSize *= 2;
-            grid.resolution = radianceResolution(size.resolution, level);
-            const uint64_t nodes = estimateSurfaceVoxels(plan.frame.scene->geometry, grid);
-            size.nodes.push_back(uint32_t(std::min<uint64_t>(nodes, size.nodes.back())));
-        }
+        const OctreeSize size{radiance.grid.resolution, radiance.grid.directions,
+                              countSurfaceVoxels(plan.frame.scene->geometry, voxels.grid)};
         plan.reserve("octree (estimated)", size.bytes());
         plan.reserve("leaves (estimated)", uint64_t(size.nodes[0]) * sizeof(uint32_t));
         plan.reserve("building (estimated)", OctreeBuilder::scratchBytes(size));

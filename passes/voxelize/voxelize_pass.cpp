@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "passes/common/dispatch.h"
+#include "passes/common/voxel_count.h"
 #include "passes/voxelize/sums_layout.h"
 
 namespace voxray {
@@ -42,7 +43,7 @@ void VoxelizePass::plan(PassPlan& plan) {
     v.grid = makeVoxelGrid(geometry.boundsMin, geometry.boundsMax, params_.resolution);
     v.grid.directions = params_.directions;
     plan.reserve("occupancy and ranks", v.words() * 2 * sizeof(uint32_t));
-    v.voxelCount = uint32_t(std::min<uint64_t>(estimateSurfaceVoxels(geometry, v.grid), UINT32_MAX));
+    v.voxelCount = countSurfaceVoxels(geometry, v.grid).front();
     plan.reserve("surface voxels (estimated)", v.voxelCount * sizeof(gpu::VoxelMaterial));
     plan.reserve("sums (estimated)", uint64_t(v.voxelCount) * SUMS_PER_VOXEL * sizeof(uint32_t));
     method_->plan(plan, v);

@@ -23,7 +23,7 @@ inline glm::uvec2 packRadiance(const glm::dvec4& value) {
         std::frexp(largest, &exponent);  // largest < 2^exponent
         for (int c = 0; c < 3; ++c)
             mantissa[c] = std::min(uint32_t(std::ldexp(value[c], 14 - exponent) + 0.5), 16383u);
-        exponent += 126;
+        exponent += 126 - 13;
     }
     const uint32_t opacity = uint32_t(value.a * 16383 + 0.5);
     return {mantissa.r | mantissa.g << 14 | mantissa.b << 28,
@@ -130,15 +130,17 @@ class Content {
     }
 
     glm::dvec4 trilinear(glm::dvec3 position, uint32_t level, glm::dvec3 direction) const {
+        const double side = double(grid.voxelSize) * double(1u << level);
         const glm::dvec3 inLevel =
-            (position - glm::dvec3(grid.origin)) / (double(grid.voxelSize) * double(1u << level)) - 0.5;
+            glm::round(((position - glm::dvec3(grid.origin)) / side - 0.5) * 1024.0) / 1024.0;
         const glm::dvec3 first = glm::floor(inLevel), between = inLevel - first;
-        const auto value = [&](int octant, int face) {
-            return at(level, glm::ivec3(first) + offset(octant))[size_t(face)];
-        };
         const auto weight = [&](int octant) {
             const glm::dvec3 w = glm::mix(1.0 - between, between, glm::dvec3(offset(octant)));
             return w.x * w.y * w.z;
+        };
+        const auto value = [&](int octant, int face) {
+            return weight(octant) > 0 ? at(level, glm::ivec3(first) + offset(octant))[size_t(face)]
+                                      : glm::dvec4(0.0);
         };
         glm::dvec4 sum(0.0);
         for (int axis = 0; axis < (directions_ == 1 ? 1 : 3); ++axis)
@@ -159,12 +161,11 @@ class Content {
 /// An octree of made-up content, with its arrays read back.
 class TestOctree {
  public:
-    explicit TestOctree(const Content& content, uint32_t directions = 1)
-        : compiler_(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE), stream_(device()), builder_(device(), compiler_) {
+    explicit TestOctree(const Content& content, uint32_t directions = 1) : stream_(device()) {
         const gpu::VoxelGrid& g = content.grid;
         radiance.layout = RadianceLayout::Svo;
         radiance.grid = {g.origin, g.voxelSize, g.resolution, radianceLevels(g.resolution), directions, 1.0f};
-        OctreeBuilder::Built built = builder_.build(stream_, content.surfaceVoxels(stream_), radiance);
+        OctreeBuilder::Built built = builder().build(stream_, content.surfaceVoxels(stream_), radiance);
         size = built.size;
         first = size.first();
         leaves = stream_.readAs<uint32_t>(built.leaves, size.nodes[0]);
@@ -174,13 +175,13 @@ class TestOctree {
                 texels[face * size.nodeCount() + first[0] + leaf] =
                     packRadiance(content.at(0, cellOf(leaves[leaf]))[face]);
         stream_.upload(radiance.storage[kOctreeValues], texels);
-        builder_.filter(stream_, size, radiance);
+        builder().filter(stream_, size, radiance);
         refresh();
     }
 
     /// Collapses uniform nodes.
     void collapse() {
-        size = OctreeCollapse(device(), compiler_).run(stream_, size, radiance);
+        size = collapser().run(stream_, size, radiance);
         first = size.first();
         refresh();
     }
@@ -214,7 +215,7 @@ class TestOctree {
     /// emptyDistance() and finestFootprint() on the device.
     std::vector<glm::vec2> empty(const std::vector<RadianceQuery>& queries) {
         const Program program = makeComputeProgram(
-            device(), compiler_.compile("tests/gpu/empty_distance.comp", radiance.defines()));
+            device(), compiler().compile("tests/gpu/empty_distance.comp", radiance.defines()));
         const Buffer in(device(), "queries", queries.size() * sizeof(RadianceQuery));
         const Buffer out(device(), "answers", queries.size() * sizeof(glm::vec2));
         stream_.upload(in, queries);
@@ -239,9 +240,21 @@ class TestOctree {
         read(values, kOctreeValues);
     }
 
-    ShaderCompiler compiler_;
+    // Programs take longer to make than these octrees.
+    static const ShaderCompiler& compiler() {
+        static const ShaderCompiler shared(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE);
+        return shared;
+    }
+    static const OctreeBuilder& builder() {
+        static const OctreeBuilder shared(device(), compiler());
+        return shared;
+    }
+    static const OctreeCollapse& collapser() {
+        static const OctreeCollapse shared(device(), compiler());
+        return shared;
+    }
+
     CommandStream stream_;
-    OctreeBuilder builder_;
 };
 
 }  // namespace voxray::test

@@ -1,0 +1,105 @@
+#include "passes/common/voxel_count.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace voxray {
+namespace {
+
+/// A bit for each voxel of a level.
+class Bits {
+ public:
+    explicit Bits(glm::uvec3 size)
+        : size_(size), wordsPerRow_((size.x + 63) / 64), words_(wordsPerRow_ * size.y * size.z, 0) {}
+
+    glm::uvec3 size() const { return size_; }
+    void mark(glm::ivec3 v) { words_[word(v)] |= 1ull << (v.x % 64); }
+    uint32_t count() const {
+        uint32_t sum = 0;
+        for (const uint64_t bits : words_) sum += uint32_t(std::popcount(bits));
+        return sum;
+    }
+    template <typename Visit>
+    void forEach(const Visit& visit) const {
+        for (glm::ivec3 v(0); v.z < int(size_.z); ++v.z)
+            for (v.y = 0; v.y < int(size_.y); ++v.y)
+                for (size_t i = 0; i < wordsPerRow_; ++i)
+                    for (uint64_t bits = words_[word({int(64 * i), v.y, v.z})]; bits; bits &= bits - 1)
+                        visit(glm::ivec3(64 * int(i) + std::countr_zero(bits), v.y, v.z));
+    }
+
+ private:
+    size_t word(glm::ivec3 v) const {
+        return (size_t(v.z) * size_.y + size_t(v.y)) * wordsPerRow_ + size_t(v.x) / 64;
+    }
+    glm::uvec3 size_;
+    size_t wordsPerRow_;
+    std::vector<uint64_t> words_;
+};
+
+/// Marks the voxels that a triangle, in units of voxels, passes through.
+void markTriangle(Bits& bits, const std::array<glm::dvec3, 3>& corners) {
+    const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const glm::dvec3 size = glm::abs(normal);
+    const int w = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int u = (w + 1) % 3, v = (w + 2) % 3;
+    if (size[w] <= 0) return;
+    const glm::dvec3 low = glm::min(corners[0], glm::min(corners[1], corners[2]));
+    const glm::dvec3 high = glm::max(corners[0], glm::max(corners[1], corners[2]));
+    const glm::ivec3 first = glm::max(glm::ivec3(glm::floor(low)), glm::ivec3(0));
+    const glm::ivec3 last = glm::min(glm::ivec3(glm::floor(high)), glm::ivec3(bits.size()) - 1);
+
+    // Edges as lines in the plane across the axis: outward normal and the most that a point inside reaches
+    // along it.
+    std::array<glm::dvec3, 3> edges;  // (normal u, normal v, reach)
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 along = corners[(i + 1) % 3] - corners[i];
+        const glm::dvec2 outward = (normal[w] > 0 ? 1.0 : -1.0) * glm::dvec2(along[v], -along[u]);
+        edges[i] = {outward, outward.x * corners[i][u] + outward.y * corners[i][v]};
+    }
+    const double slopeU = -normal[u] / normal[w], slopeV = -normal[v] / normal[w];
+    for (int y = first[v]; y <= last[v]; ++y)
+        for (int x = first[u]; x <= last[u]; ++x) {
+            // A column is passed by where for each edge its nearest corner is outside.
+            const bool outside = std::ranges::any_of(edges, [&](const glm::dvec3& e) {
+                return e.x * (e.x < 0 ? x + 1 : x) + e.y * (e.y < 0 ? y + 1 : y) > e.z;
+            });
+            if (outside) continue;
+            const double middle =
+                corners[0][w] + slopeU * (x + 0.5 - corners[0][u]) + slopeV * (y + 0.5 - corners[0][v]);
+            const double reach = 0.5 * (std::abs(slopeU) + std::abs(slopeV));
+            const int from = std::max(int(std::floor(std::max(middle - reach, low[w]))), first[w]);
+            const int to = std::min(int(std::floor(std::min(middle + reach, high[w]))), last[w]);
+            glm::ivec3 voxel;
+            voxel[u] = x;
+            voxel[v] = y;
+            for (voxel[w] = from; voxel[w] <= to; ++voxel[w]) bits.mark(voxel);
+        }
+}
+
+}  // namespace
+
+std::vector<uint32_t> countSurfaceVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
+    Bits bits(grid.resolution);
+    const glm::dvec3 origin(grid.origin);
+    for (const glm::uvec3 t : geometry.triangles) {
+        std::array<glm::dvec3, 3> corners;
+        for (int i = 0; i < 3; ++i)
+            corners[size_t(i)] = (glm::dvec3(geometry.positions[t[i]]) - origin) / double(grid.voxelSize);
+        markTriangle(bits, corners);
+    }
+
+    std::vector<uint32_t> counts{bits.count()};
+    while (bits.size() != glm::uvec3(1)) {
+        Bits coarser((bits.size() + 1u) / 2u);
+        bits.forEach([&](glm::ivec3 v) { coarser.mark(v / 2); });
+        bits = std::move(coarser);
+        counts.push_back(bits.count());
+    }
+    return counts;
+}
+
+}  // namespace voxray
