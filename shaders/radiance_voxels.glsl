@@ -21,6 +21,8 @@
 #include "shaders/radiance_dense.glsl"
 #elif defined(RADIANCE_SVO)
 #include "shaders/radiance_svo.glsl"
+#elif defined(RADIANCE_CLIPMAP)
+#include "shaders/radiance_clipmap.glsl"
 #endif
 
 float radianceVoxelSize(uint level) { return radianceVoxels.grid.voxelSize * float(1u << level); }

@@ -91,8 +91,15 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
 
     // Frames: the first measured one is judged
     Measurement result;
-    for (uint32_t i = 0; i < settings.warmup; ++i) run(Phase::Frame, kFirstWarmupFrame + i, false);
+    const auto moveCamera = [&](int frameFromJudged) {
+        frame.camera.position = target.frame.camera.position + float(frameFromJudged) * frame.cameraMove;
+    };
+    for (uint32_t i = 0; i < settings.warmup; ++i) {
+        moveCamera(int(i) - int(settings.warmup));
+        run(Phase::Frame, kFirstWarmupFrame + i, false);
+    }
     for (uint32_t i = 0; i < settings.frames; ++i) {
+        moveCamera(int(i));
         frames.add(run(Phase::Frame, i, i == 0 || i + 1 == settings.frames));
         if (i > 0) continue;
         const Image* final = graph.image("final");

@@ -52,7 +52,8 @@ struct GraphTarget {
 
 /// Runs a prepared graph: the build passes once untimed and then `buildRepeats` times, warm-up frames,
 /// measured frames. Measured frames are numbered from 0, warm-up frames from 1,000,000; the image of frame 0
-/// is judged, so it does not depend on how many frames are measured. Outputs are checked for NaN and
+/// is judged, so it does not depend on how many frames are measured. A frame's camera stands as many times
+/// `cameraMove` from the target frame's as the frame is after frame 0. Outputs are checked for NaN and
 /// infinity, outside of the timings, in the first build and in the first and last measured frame.
 /// @param progress called with the fraction done.
 /// @throws Interrupted, Error of a pass.

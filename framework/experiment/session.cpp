@@ -104,6 +104,7 @@ Frame frameOf(const Setup& setup, const PreparedScene& prepared, uint64_t seed) 
     Frame frame;
     frame.scene = &prepared.state;
     frame.camera = prepared.camera;
+    if (setup.scene.camera) frame.cameraMove = setup.scene.camera->move;
     frame.width = setup.image.width;
     frame.height = setup.image.height;
     frame.seed = seed;

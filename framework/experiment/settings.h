@@ -113,14 +113,18 @@ struct CameraSettings {
     glm::vec3 target{0.0f};
     glm::vec3 up{0, 1, 0};
     float fovDegrees = 60;
+    glm::vec3 move{0.0f};
     static constexpr auto schema() {
         constexpr glm::vec3 low(-kMaxCoordinate), high(kMaxCoordinate);
         return std::tuple{
             field("position", &CameraSettings::position, "Where the camera stands, metres.", low, high),
             field("target", &CameraSettings::target, "The point that it looks at, metres.", low, high),
             field("up", &CameraSettings::up, "Which way is up in the picture.", low, high),
-            field("fov_deg", &CameraSettings::fovDegrees, "Vertical field of view in degrees.", 1.0f,
-                  179.0f)};
+            field("fov_deg", &CameraSettings::fovDegrees, "Vertical field of view in degrees.", 1.0f, 179.0f),
+            field("move", &CameraSettings::move,
+                  "How far the camera moves from one frame to the next, metres: warm-up frames lead up to "
+                  "`position`, where the first measured frame is taken; the others go on from there.",
+                  low, high)};
     }
 };
 

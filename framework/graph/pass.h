@@ -87,7 +87,8 @@ class PassBuilder {
 /// What all passes of a graph share. Everything outlives the graph.
 struct Frame {
     const SceneState* scene = nullptr;
-    Camera camera;  ///< World space.
+    Camera camera;               ///< World space.
+    glm::vec3 cameraMove{0.0f};  ///< From this frame to the next, m.
     uint32_t width = 0;
     uint32_t height = 0;
     uint64_t seed = 0;

@@ -12,6 +12,8 @@ Defines RadianceVoxels::defines() const {
             return {{"RADIANCE_DENSE", "1"}};
         case RadianceLayout::Svo:
             return {{"RADIANCE_SVO", "1"}};
+        case RadianceLayout::Clipmap:
+            return {{"RADIANCE_CLIPMAP", "1"}};
     }
     return {};
 }

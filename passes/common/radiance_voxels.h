@@ -9,11 +9,12 @@
 namespace voxray {
 
 /// How radiance voxels are stored.
-enum class RadianceLayout { Dense, Svo };
+enum class RadianceLayout { Dense, Svo, Clipmap };
 template <>
 struct EnumNames<RadianceLayout> {
     static constexpr std::array names{std::pair{RadianceLayout::Dense, "dense"},
-                                      std::pair{RadianceLayout::Svo, "svo"}};
+                                      std::pair{RadianceLayout::Svo, "svo"},
+                                      std::pair{RadianceLayout::Clipmap, "clipmap"}};
 };
 
 /// Radiance that leaves surfaces and the part of a beam that they cover, prefiltered at all scales. A shader

@@ -14,6 +14,8 @@ std::unique_ptr<RadianceStorage> makeStorage(const FilterVoxels::Params& params)
             return makeDenseStorage();
         case RadianceLayout::Svo:
             return makeSvoStorage(params.eachFrame);
+        case RadianceLayout::Clipmap:
+            return makeClipmapStorage(params.clipmapResolution, params.eachFrame);
     }
     return nullptr;
 }
@@ -35,6 +37,8 @@ void FilterVoxels::declare(PassBuilder& builder) {
 }
 
 void FilterVoxels::plan(PassPlan& plan) {
+    if (plan.get(irradiance_).eachFrame && !params_.eachFrame)
+        throw Error("filter_voxels: the voxels are lit anew in each frame; set its 'each_frame: true'");
     const gpu::VoxelGrid& grid = plan.get(voxels_).grid;
     RadianceVoxels& radiance = plan.get(radiance_);
     radiance.layout = params_.layout;
@@ -49,11 +53,7 @@ void FilterVoxels::prepare(PassSetup& setup) {
 }
 
 void FilterVoxels::record(PassContext& context) {
-    const VoxelIrradiance& irradiance = context.get(irradiance_);
-    if (!irradiance.direct)
-        throw Error(
-            "filter_voxels: the voxels are lit in each frame, after it has run; set its 'each_frame: true'");
-    storage_->run(context, context.get(voxels_), irradiance, context.get(radiance_),
+    storage_->run(context, context.get(voxels_), context.get(irradiance_), context.get(radiance_),
                   params_.emission ? 1.0f : 0.0f);
 }
 

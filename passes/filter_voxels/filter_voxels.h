@@ -13,29 +13,35 @@ class FilterVoxels final : public Pass {
     static constexpr const char* kHelp =
         "Prefilters the light that leaves surface voxels: radiance and the part of a beam that surfaces "
         "cover, at all scales, for gather_cones. "
-        "Biased by: voxel size; what shares a larger voxel and faces the same way is averaged. "
+        "Biased by: voxel size; what shares a larger voxel and faces the same way is averaged; in a clipmap "
+        "distance from the camera. "
         "Source: Crassin et al. 2011, section 4 (anisotropic voxels); Arnebäck 2017, section 3.1.4.";
     struct Params {
         RadianceLayout layout = RadianceLayout::Dense;
         bool emission = false;
         bool eachFrame = false;
+        uint32_t clipmapResolution = 64;
         static constexpr auto schema() {
             return std::tuple{
                 field("layout", &Params::layout,
                       "How voxels are stored: dense, a full grid for each level; svo, a sparse octree: only "
-                      "what "
-                      "surfaces pass through."),
+                      "what surfaces pass through; clipmap, of each level a window round the camera, which "
+                      "follows it in each frame."),
                 field("emission", &Params::emission,
                       "Whether what surfaces emit is in. Off, cones bring indirect light alone: a direct_* "
                       "pass adds the rest."),
                 field("each_frame", &Params::eachFrame,
                       "Whether to filter in each frame, for light that is injected in each frame; else "
-                      "once.")};
+                      "once."),
+                field("clipmap_resolution", &Params::clipmapResolution,
+                      "clipmap: voxels along a window's side, a power of two.", 16u, 1024u)};
         }
     };
 
     explicit FilterVoxels(const Params& params);
-    Phase phase() const override { return params_.eachFrame ? Phase::Frame : Phase::Build; }
+    Phase phase() const override {
+        return params_.eachFrame || params_.layout == RadianceLayout::Clipmap ? Phase::Frame : Phase::Build;
+    }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;

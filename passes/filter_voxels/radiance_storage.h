@@ -26,6 +26,10 @@ std::unique_ptr<RadianceStorage> makeDenseStorage();
 /// A sparse octree (docs/svo.md). `eachFrame`: it is filled again and again.
 std::unique_ptr<RadianceStorage> makeSvoStorage(bool eachFrame);
 
+/// Nested windows of at most `side` voxels along an axis, round the camera (docs/clipmap.md). `eachFrame`:
+/// they are filled whole again and again.
+std::unique_ptr<RadianceStorage> makeClipmapStorage(uint32_t side, bool eachFrame);
+
 /// What shaders/surface_radiance.glsl reads.
 std::vector<Binding> surfaceRadianceBindings(const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance);
 

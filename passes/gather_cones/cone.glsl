@@ -12,6 +12,7 @@
 struct ConeBase {
     vec3 position;  // m, off the surface by a trace.
     vec3 side;      // The surface's unit normal.
+    uint level;     // The coarsest that describes its surroundings where no coarser one is asked for.
     // Height above the surface's plane, in voxels, from which on a sample across each axis doesn't touch it; 0 where the surface
     // shows nothing along that axis.
     vec3 reach;
@@ -28,21 +29,23 @@ vec3 facingAxis(uint face) {
 // Whether a wall in the point's own voxel is ahead or behind is not for the voxel to tell. But a surface ends at a wall that
 // stands on it: where it goes on in the next voxel, the wall is behind.
 vec4 wallBeside(ConeBase base, uint face) {
-    const float voxel = radianceVoxels.grid.voxelSize;
+    const float voxel = radianceVoxelSize(base.level);
     const vec3 ahead = facingAxis(face);
     const vec3 size = abs(base.side);
     const uint axis = size.x >= size.y && size.x >= size.z ? 0u : size.y >= size.z ? 1u : 2u;
     const vec3 up = facingAxis(2u * axis + (base.side[axis] < 0.0 ? 1u : 0u));
     const vec3 middle = (floor((base.position - radianceVoxels.grid.origin) / voxel) + 0.5) * voxel + radianceVoxels.grid.origin;
     const vec3 own = mix(base.position, middle, abs(ahead)), floor_ = mix(base.position, middle, abs(ahead) + abs(up));
-    const float goesOn = sampleLevel(0u, floor_ + voxel * ahead, -up).a;
-    return goesOn > 0.5 ? vec4(0.0) : sampleLevel(0u, own + voxel * up, ahead);
+    const float goesOn = sampleLevel(base.level, floor_ + voxel * ahead, -up).a;
+    return goesOn > 0.5 ? vec4(0.0) : sampleLevel(base.level, own + voxel * up, ahead);
 }
 
 ConeBase coneBase(vec3 position, vec3 side) {
     ConeBase base;
     base.position = position + side * (radianceVoxels.grid.voxelSize / 256.0);
     base.side = side;
+    // Up to the rounding of log2 the next level up.
+    base.level = uint(ceil(max(log2(finestFootprint(position) / radianceVoxels.grid.voxelSize) - 1.0 / 256.0, 0.0)));
     const vec3 size = abs(side);
     base.reach = vec3(1.5 * (size.x + size.y + size.z)) - size;
     if (radianceVoxels.grid.directions == 6u) base.reach = mix(base.reach, vec3(0.0), lessThan(size, vec3(0.1)));
@@ -73,13 +76,14 @@ void placeSample(inout ConeAxis axis) {
 }
 
 // The next layer: the largest that begins where the last one ended and is no wider than half the cone there, give or take `dither`
-// levels: then a voxel's filter, a tent two voxels wide over a box of one, has the variance of the cone's cross-section.
-void findLayer(inout ConeAxis axis, float width, float clearance, float dither) {
+// levels: then a voxel's filter, a tent two voxels wide over a box of one, has the variance of the cone's cross-section. At least
+// as wide as the surroundings of the cone's start are described.
+void findLayer(inout ConeAxis axis, float width, float clearance, float dither, uint finest) {
     axis.t = 1.0e30;
     if (axis.next >= axis.end) return;
     const float voxel = radianceVoxels.grid.voxelSize;
     const float t = (float(axis.next) - axis.start) / axis.speed;
-    const float largest = max(min(0.5 * width * t * exp2(dither), clearance * t), voxel);
+    const float largest = max(min(0.5 * width * t * exp2(dither), clearance * t), radianceVoxelSize(finest));
     const uint aligned = uint(findLSB(axis.next));
     axis.level = min(min(uint(log2(largest / voxel)), aligned), radianceVoxels.grid.levels - 1u);
     axis.samples = int(ceil(SAMPLES * axis.drift));
@@ -87,13 +91,13 @@ void findLayer(inout ConeAxis axis, float width, float clearance, float dither) 
     placeSample(axis);
 }
 
-void advance(inout ConeAxis axis, float width, float clearance, float dither) {
+void advance(inout ConeAxis axis, float width, float clearance, float dither, uint finest) {
     if (++axis.sample_ < axis.samples) {
         placeSample(axis);
         return;
     }
     axis.next += 1 << axis.level;
-    findLayer(axis, width, clearance, dither);
+    findLayer(axis, width, clearance, dither, finest);
 }
 
 // What has been collected of a cone. Surfaces that it meets within a voxel's diagonal of each other are taken for pieces of one:
@@ -143,10 +147,11 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
         axis[k].start = up ? inGrid : float(turned) - inGrid;
         axis[k].speed = own / g.voxelSize;
         axis[k].drift = speed / own;
-        axis[k].next = int(floor(axis[k].start)) + 1;
+        axis[k].next = ((int(floor(axis[k].start)) >> base.level) + 1) << base.level;
         axis[k].end = abs(direction[k]) < 1e-3 ? axis[k].next : up ? int(g.resolution[k]) : turned;
-        findLayer(axis[k], width, clearance[k], dither);
-        meet(light, abs(direction[k]) * base.beside[2u * k + (up ? 0u : 1u)], 0.0, 0.0, g.voxelSize);
+        findLayer(axis[k], width, clearance[k], dither, base.level);
+        const vec4 beside = abs(direction[k]) * base.beside[2u * k + (up ? 0u : 1u)];
+        meet(light, beside, 0.0, 0.0, radianceVoxelSize(base.level));
     }
 
     const int mostSteps = 16 * int(g.resolution.x + g.resolution.y + g.resolution.z);
@@ -165,7 +170,7 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
             const float back = g.directions == 6u ? sampleLevel(axis[k].level, place, -ahead).a : 0.0;
             meet(light, share * sampleLevel(axis[k].level, place, ahead), share * back, t, voxel);
         }
-        advance(axis[k], width, clearance[k], dither);
+        advance(axis[k], width, clearance[k], dither, base.level);
     }
     return light.radiance;
 }

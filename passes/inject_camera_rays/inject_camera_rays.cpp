@@ -34,6 +34,7 @@ void InjectCameraRays::declare(PassBuilder& builder) {
 
 void InjectCameraRays::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
+    plan.get(irradiance_).eachFrame = true;
     const SurfaceVoxels& voxels = plan.get(voxels_);
     VoxelWrites::plan(plan, kName, params_, voxels);
     VoxelWrites::plan(plan, kName, params_, voxels);

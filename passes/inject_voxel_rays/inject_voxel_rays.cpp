@@ -28,6 +28,7 @@ void InjectVoxelRays::declare(PassBuilder& builder) {
 
 void InjectVoxelRays::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
+    plan.get(irradiance_).eachFrame = params_.demand;
     const SurfaceVoxels& voxels = plan.get(voxels_);
     if (params_.demand) {
         VoxelWrites::plan(plan, kName, params_, voxels);

@@ -1,5 +1,6 @@
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -68,14 +69,18 @@ BENCHMARK(octreeBuild)
     ->MeasureProcessCPUTime()
     ->Unit(benchmark::kMillisecond);
 
-/// Cones of 10 m from the middle of Sponza: layout dense or svo, without and with skipping what is empty.
+constexpr std::array kThinConeLayouts{"dense", "svo", "svo", "clipmap, clipmap_resolution: 128"};
+constexpr int64_t kSkipping = 2;  ///< The octree once more, jumping over what is empty.
+
+/// Cones of 5 m from the middle of Sponza through each layout: as far as the clipmap's finest window reaches
+/// at 256 voxels, so that all take the same samples.
 void thinCone(benchmark::State& state) {
-    const bool octree = state.range(2) > 0, skip = state.range(2) > 1;
+    const bool skip = state.range(2) == kSkipping;
     const RadianceVoxels& radiance =
         *sponza(uint32_t(state.range(0)), uint32_t(state.range(1)),
                 fmt::format(", {{pass: inject_light_rays, rays_per_light: 65536, bounces: 2}}"
                             ", {{pass: filter_voxels, layout: {}}}",
-                            octree ? "svo" : "dense"))
+                            kThinConeLayouts.at(size_t(state.range(2)))))
              .graph()
              .resource<RadianceVoxels>("radiance");
     const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE);
@@ -90,7 +95,7 @@ void thinCone(benchmark::State& state) {
     CommandStream stream(test::device());
     const struct {
         glm::vec3 origin{0, 3, 0};
-        float reach = 10;
+        float reach = 5;
         float width;
         uint32_t count = kCones;
     } push{.width = 0.01f * float(state.range(3))};
@@ -103,8 +108,8 @@ void thinCone(benchmark::State& state) {
     state.counters["cover"] = cover;
 }
 BENCHMARK(thinCone)
-    ->ArgNames({"resolution", "directions", "svo", "width_percent"})
-    ->ArgsProduct({{256}, {1, 6}, {0, 1, 2}, {0, 20}})
+    ->ArgNames({"resolution", "directions", "layout", "width_percent"})
+    ->ArgsProduct({{256}, {1, 6}, {0, 1, 2, 3}, {0, 20}})
     ->MeasureProcessCPUTime()
     ->Iterations(4)
     ->Unit(benchmark::kMillisecond);

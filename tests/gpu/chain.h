@@ -48,6 +48,12 @@ class Chain {
         frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, 0, true);
     }
 
+    /// Another frame, seen from elsewhere.
+    void runFrameFrom(const glm::vec3& cameraPosition) {
+        frame_.camera.position = cameraPosition;
+        frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, 0, true);
+    }
+
     const SceneState& state() const { return *state_; }
     const Graph& graph() const { return *graph_; }
     ImageF image(const std::string& port) { return downloadImage(device(), stream_, *graph_->image(port)); }

@@ -44,6 +44,7 @@ class Constant : public Pass {
         }
     };
     static inline int runs = 0;
+    static inline std::vector<float> cameraX;  ///< In the last runs.
 
     explicit Constant(const Params& params) : params_(params) {}
     Phase phase() const override { return Phase::Frame; }
@@ -58,6 +59,7 @@ class Constant : public Pass {
     }
     void record(PassContext& context) override {
         ++runs;
+        cameraX.push_back(context.frame.camera.position.x);
         if (params_.interrupt) std::raise(SIGINT);
         const float value = params_.nan ? std::numeric_limits<float>::quiet_NaN() : params_.value;
         context.stream.clear(context.get(final_).image, {{value, value, value, 1}});

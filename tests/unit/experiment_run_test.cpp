@@ -125,6 +125,21 @@ TEST_F(RunTest, ReferenceIsCachedByWhatItDependsOn) {
     EXPECT_EQ(Truth::runs, runs + 1);
 }
 
+TEST_F(RunTest, TheCameraMovesFromFrameToFrame) {
+    // One warm-up frame leads up to the first measured one, where the camera is where the config says.
+    const auto runAndMove = [&](const std::string& move) {
+        Constant::cameraX.clear();
+        const std::string camera = "scene.camera={position: [2, 1, 3], target: [0, 1, 0]" + move + "}";
+        runExperiment(parseExperiment(config(""), "fake.yaml", {"", {camera}}), options(), registry());
+        return Constant::cameraX;
+    };
+    EXPECT_EQ(runAndMove(", move: [0.5, 0, 0]"), (std::vector<float>{1.5f, 2, 2.5f, 3}));
+    // The judge stands still: it is the same.
+    const int references = Truth::runs;
+    EXPECT_EQ(runAndMove(""), (std::vector<float>{2, 2, 2, 2}));
+    EXPECT_EQ(Truth::runs, references);
+}
+
 TEST_F(RunTest, SeveralReferencesGetTheirOwnFolders) {
     EXPECT_EQ(run("sweep: {image.width: [8, 16]}\n").exitStatus(), 0);
     EXPECT_EQ(Truth::runs, 2);

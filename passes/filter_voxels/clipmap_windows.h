@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "shaders/shared/radiance_clipmap_types.h"
+#include "shaders/shared/radiance_types.h"
+
+namespace voxray {
+
+/// A box of voxels of one level.
+struct VoxelBox {
+    glm::ivec3 first{0};
+    glm::uvec3 size{0};
+    uint64_t count() const { return uint64_t(size.x) * size.y * size.z; }
+};
+
+/// What a clipmap over `grid` holds: of each level at most `side` voxels along an axis, round the camera.
+/// Levels that are no larger than that are held whole. `side`: a power of two, 16 or more.
+class ClipmapWindows {
+ public:
+    ClipmapWindows() = default;
+    ClipmapWindows(const gpu::RadianceGrid& grid, uint32_t side);
+
+    /// Voxels of all windows together.
+    uint64_t voxels() const { return voxels_; }
+    uint32_t firstWhole() const { return firstWhole_; }
+    /// The window of a level for a camera at `camera` (m).
+    gpu::ClipmapWindow window(uint32_t level, const glm::vec3& camera) const;
+
+ private:
+    gpu::RadianceGrid grid_{};
+    uint32_t side_ = 0;
+    uint32_t firstWhole_ = 0;
+    uint64_t voxels_ = 0;
+    std::vector<uint32_t> begin_;  ///< By level.
+};
+
+/// What `window` holds that `before` did not: up to three boxes that have no voxel in common. Windows of one
+/// level.
+std::vector<VoxelBox> scrolledIn(const gpu::ClipmapWindow& before, const gpu::ClipmapWindow& window);
+
+}  // namespace voxray

@@ -1,0 +1,102 @@
+// Radiance voxels in a clipmap (layout: clipmap): docs/clipmap.md.
+#ifndef VOXRAY_RADIANCE_CLIPMAP_GLSL
+#define VOXRAY_RADIANCE_CLIPMAP_GLSL
+
+#extension GL_EXT_buffer_reference : require
+
+#include "shaders/radiance_filter.glsl"
+#include "shaders/radiance_texel.glsl"
+#include "shaders/shared/radiance_clipmap_types.h"
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ClipmapValues { uvec2 data[]; };
+layout(set = 0, binding = 26, scalar) readonly buffer RadianceVoxels {
+    RadianceGrid grid;
+    ClipmapValues values;  // By window, slot and direction: shaders/radiance_texel.glsl.
+    uint side;             // Voxels along an axis that a window holds at most; a power of two.
+    uint firstWhole;       // The first level that is held whole, as are all after it.
+    ClipmapWindow window[RADIANCE_CLIPMAP_LEVELS];
+} radianceVoxels;
+
+bool inWindow(ClipmapWindow w, ivec3 voxel) {
+    return all(greaterThanEqual(voxel, w.first)) && all(lessThan(voxel, w.first + ivec3(w.size)));
+}
+
+// Where a voxel in the window stands: its coordinates modulo the window's side, so that what stays in the window stays in place
+// when the window moves.
+uint clipmapSlot(ClipmapWindow w, ivec3 voxel) {
+    const uvec3 slot = uvec3(voxel) & (radianceVoxels.side - 1u);
+    return w.begin + (slot.z * w.size.y + slot.y) * w.size.x + slot.x;
+}
+
+// `side`: 0 to 5 by facing direction, 0 where all share one.
+vec4 clipmapValue(uint slot, uint side) {
+    return unpackRadiance(radianceVoxels.values.data[slot * radianceVoxels.grid.directions + side]);
+}
+
+void storeClipmapValue(uint slot, uint side, vec4 value) {
+    radianceVoxels.values.data[slot * radianceVoxels.grid.directions + side] = packRadiance(value);
+}
+
+// The finest level that has a say at a position. Between two levels the part after the point is the coarser one's share: it grows
+// to 1 before the window ends, by the distance to the camera itself. So nothing jumps when the window follows in whole voxels.
+float minimumLevel(vec3 position) {
+    const RadianceGrid g = radianceVoxels.grid;
+    // Outside of the grid there is nothing: its border decides.
+    const vec3 inGrid = clamp(position, g.origin, g.origin + g.voxelSize * vec3(g.resolution));
+    for (uint level = 0u; level < radianceVoxels.firstWhole; ++level) {
+        const vec3 left = radianceVoxels.window[level].reach - abs(inGrid - radianceVoxels.window[level].middle);
+        const float share = min(left.x, min(left.y, left.z)) * radianceVoxels.window[level].fall;
+        if (share > 0.0) return float(level) + max(1.0 - share, 0.0);
+    }
+    return float(radianceVoxels.firstWhole);
+}
+
+// What a window holds, interpolated; nothing outside of it.
+vec4 sampleWindow(uint level, vec3 position, vec3 direction) {
+    const RadianceGrid g = radianceVoxels.grid;
+    const ClipmapWindow w = radianceVoxels.window[level];
+    // To 1/1024 of a voxel, so that positions in the middle of a layer read that layer alone.
+    const vec3 inLevel = round(((position - g.origin) / (g.voxelSize * float(1u << level)) - 0.5) * 1024.0) / 1024.0;
+    const ivec3 corner = ivec3(floor(inLevel));
+    const vec3 at = inLevel - vec3(corner);
+
+    uint slot[8];
+    bool inside[8];
+    for (uint cell = 0u; cell < 8u; ++cell) {
+        const ivec3 voxel = corner + ivec3(cell & 1u, (cell >> 1) & 1u, cell >> 2);
+        inside[cell] = cellWeight(cell, at) > 0.0 && inWindow(w, voxel);
+        slot[cell] = inside[cell] ? clipmapSlot(w, voxel) : 0u;
+    }
+
+    vec4 value[8];
+    vec4 sum = vec4(0.0);
+    const bool sides = g.directions == 6u;
+    for (uint axis = 0u; axis < (sides ? 3u : 1u); ++axis) {
+        const uint face = 2u * axis + (direction[axis] > 0.0 ? 1u : 0u);
+        if (sides && direction[axis] == 0.0) continue;
+        for (uint cell = 0u; cell < 8u; ++cell) value[cell] = inside[cell] ? clipmapValue(slot[cell], sides ? face : 0u) : vec4(0.0);
+        sum += sides ? abs(direction[axis]) * interpolateFaces(value, face, at) : interpolateAll(value, at);
+    }
+    return sum;
+}
+
+// Where the level isn't held, the finest ones that are stand for it: for a layer of the level's voxels, the share of theirs that is
+// as thick, so that a surface covers the same in all.
+vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
+    const float finest = minimumLevel(position);
+    if (float(level) >= finest) return sampleWindow(level, position, direction);
+    const uint finer = uint(finest);
+    const float part = finest - float(finer);
+    vec4 met = (1.0 - part) * exp2(float(level) - float(finer)) * sampleWindow(finer, position, direction);
+    if (part > 0.0) met += part * exp2(float(level) - float(finer) - 1.0) * sampleWindow(finer + 1u, position, direction);
+    return met;
+}
+
+// Metres from `position` along `direction` that hold nothing at this footprint: 0 where something may be here. Windows keep nothing
+// that tells.
+float emptyDistance(vec3 position, float footprint, vec3 direction) { return 0.0; }
+
+// Side of the finest voxel that describes the surroundings of `position` (m); between two levels it changes smoothly.
+float finestFootprint(vec3 position) { return radianceVoxels.grid.voxelSize * exp2(minimumLevel(position)); }
+
+#endif
