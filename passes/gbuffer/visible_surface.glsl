@@ -24,7 +24,7 @@ VisibleSurface visibleSurface(View view, SurfacePoint s, uint triangle) {
 
     // Textures at the mip level of the texel's footprint on the surface.
     const float area = texelSolidAngle(view, direction) * distance_ * distance_ / max(abs(cosine), 1e-4);
-    visible.normal = shadingNormal(m, s, footprintLevel(m.normalTexture, triangle, area));
+    visible.normal = shadingNormal(m, s, 0.0);
     if (dot(visible.normal, visible.normal) == 0.0) visible.normal = visible.geometricNormal;
     if (dot(visible.normal, visible.geometricNormal) < 0.0) visible.normal = -visible.normal;
     visible.albedo = diffuseAlbedo(m, s, footprintLevel(m.baseColorTexture, triangle, area));
