@@ -4,7 +4,7 @@
 // One level of an edge-avoiding wavelet filter (Dammertz et al. 2010) over irradiance, which weighs noise against bias.
 //
 // How much the irradiance of two texels may differ, relative to either, is at most about their distance times the bound of its
-// change (guide.comp), and for their normals (1 - n n') / n n', without bound where they share no half space. The first adds up
+// change (blocks.comp), and for their normals (1 - n n') / n n', without bound where they share no half space. The first adds up
 // the changes of all surroundings as if none cancelled another, hence `strictness` below 1. How noisy a texel is, is the
 // relative variance of a ray over the number of rays that its value stands for. A neighbour helps as long as the noise that it
 // averages out outweighs the bias that it brings: its weight is noise / (noise + bias²). The more rays, the narrower the filter;

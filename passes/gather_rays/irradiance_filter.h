@@ -6,7 +6,7 @@
 namespace voxray {
 
 /// Edge-avoiding wavelet filter over the irradiance of a g-buffer's texels: Dammertz et al. 2010 with a bound
-/// of Ward et al. 1988 as its edge-stopping function (filter.comp, guide.comp).
+/// of Ward et al. 1988 as its edge-stopping function (filter.comp, blocks.comp).
 class IrradianceFilter {
  public:
     IrradianceFilter() = default;
@@ -22,9 +22,9 @@ class IrradianceFilter {
                       float strictness) const;
 
  private:
-    Program guide_, filter_;
+    Program blocks_, guide_, filter_;
     Sampler sampler_;
-    Buffer gathered_, filtered_, moments_, guides_;
+    Buffer gathered_, filtered_, moments_, blockLight_, guides_;
 };
 
 }  // namespace voxray

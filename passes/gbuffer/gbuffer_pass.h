@@ -19,8 +19,10 @@ class GBufferPass final : public Pass {
  public:
     static constexpr const char* kName = "gbuffer";
     static constexpr const char* kHelp =
-        "Position, normals, albedo and emission of what the camera sees, samples x samples a pixel, at the "
-        "mip level of a sample's footprint. Biased at edges, where the reference averages over the pixel; "
+        "Position, normals, albedo and emission of what the camera sees, samples x samples a pixel; colours "
+        "at "
+        "the mip level of a sample's footprint. Biased at edges, where the reference averages over the "
+        "pixel; "
         "less so the more samples.";
     struct Params {
         GBufferMethod method = GBufferMethod::Rays;
