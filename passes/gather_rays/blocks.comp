@@ -23,12 +23,13 @@ void main() {
         for (int x = -1; x <= 1; ++x) {
             const ivec2 other = clamp(block + ivec2(x, y), ivec2(0), last);
             const GatherMoments m = moments.data[other.y * int(push.count.x) + other.x];
-            sum.rays += m.rays;
-            sum.luminance += m.luminance;
-            sum.squared += m.squared;
-            sum.nearness += m.nearness;
-            sum.nearLuminance += m.nearLuminance;
-            sum.nearSquared += m.nearSquared;
+            const float weight = (x == 0 ? 2.0 : 1.0) * (y == 0 ? 2.0 : 1.0);
+            sum.rays += weight * m.rays;
+            sum.luminance += weight * m.luminance;
+            sum.squared += weight * m.squared;
+            sum.nearness += weight * m.nearness;
+            sum.nearLuminance += weight * m.nearLuminance;
+            sum.nearSquared += weight * m.nearSquared;
         }
     vec2 found = vec2(0.0);
     if (sum.luminance > 0.0) {

@@ -4,11 +4,11 @@
 // One level of an edge-avoiding wavelet filter (Dammertz et al. 2010) over irradiance, which weighs noise against bias.
 //
 // How much the irradiance of two texels may differ, relative to either, is at most about their distance times the bound of its
-// change (blocks.comp), and for their normals (1 - n n') / n n', without bound where they share no half space. The first adds up
-// the changes of all surroundings as if none cancelled another, hence `strictness` below 1. How noisy a texel is, is the
-// relative variance of a ray over the number of rays that its value stands for. A neighbour helps as long as the noise that it
-// averages out outweighs the bias that it brings: its weight is noise / (noise + bias²). The more rays, the narrower the filter;
-// in the limit there is none.
+// change (blocks.comp), plus the relative deviation of a ray times sqrt((1 - n n') / n n'), which for small angles is Ward's
+// bound and has none where normals share no half space. Both add up the changes of all surroundings as if none cancelled another,
+// hence `strictness` below 1. How noisy a texel is, is the relative variance of a ray over the number of rays that its value
+// stands for. A neighbour helps as long as the noise that it averages out outweighs the bias that it brings: its weight is
+// noise / (noise + bias²). The more rays, the narrower the filter; in the limit there is none.
 #include "shaders/octahedral.glsl"
 #include "shaders/shared/gather_filter.h"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -43,8 +43,9 @@ void main() {
             const vec4 light = source.data[at.y * size.x + at.x];
             if (other.change < 0.0 || light.w == 0.0) continue;
             const float cosine = clamp(dot(normal, fromOctahedral(other.normal)), 1e-6, 1.0);
-            const float change = max(own.change, other.change) * distance(own.position, other.position);
-            const float bias = push.strictness * change + (1.0 - cosine) / cosine;
+            const float moved = max(own.change, other.change) * distance(own.position, other.position);
+            const float turned = sqrt(own.variance * (1.0 - cosine) / cosine);
+            const float bias = push.strictness * (moved + turned);
             const float kernel = (x == 0 ? 2.0 : 1.0) * (y == 0 ? 2.0 : 1.0);
             const float weight = kernel * light.w * noise / (noise + bias * bias);
             sum += weight * light.rgb;

@@ -34,7 +34,7 @@ class GatherRays final : public Pass {
         DirectAtHits directAtHits = DirectAtHits::Voxels;
         uint32_t lightSamples = 1;
         uint32_t filter = 0;
-        float strictness = 0.2f;
+        float strictness = 0.1f;
         static constexpr auto schema() {
             return std::tuple{
                 field(

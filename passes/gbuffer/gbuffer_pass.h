@@ -14,6 +14,14 @@ struct EnumNames<GBufferMethod> {
                                       std::pair{GBufferMethod::Raster, "raster"}};
 };
 
+enum class NormalMaps { Filtered, Sharp };
+
+template <>
+struct EnumNames<NormalMaps> {
+    static constexpr std::array names{std::pair{NormalMaps::Filtered, "filtered"},
+                                      std::pair{NormalMaps::Sharp, "sharp"}};
+};
+
 /// What the camera sees, by camera rays through the stream interface or by raster.
 class GBufferPass final : public Pass {
  public:
@@ -27,6 +35,7 @@ class GBufferPass final : public Pass {
     struct Params {
         GBufferMethod method = GBufferMethod::Rays;
         uint32_t samples = 1;
+        NormalMaps normalMaps = NormalMaps::Filtered;
         static constexpr auto schema() {
             return std::tuple{
                 field("method", &Params::method,
@@ -35,7 +44,11 @@ class GBufferPass final : public Pass {
                 field("samples", &Params::samples,
                       "Samples along each side of a pixel: 2 takes 4 a pixel, on a regular grid. Passes that "
                       "read the g-buffer do their work for each.",
-                      1u, 4u)};
+                      1u, 8u),
+                field("normal_maps", &Params::normalMaps,
+                      "filtered: the mean normal of a sample's footprint, which is flatter than each of "
+                      "them: a "
+                      "bias. sharp: the normal at the very point: noise instead, which `samples` lower.")};
         }
     };
 

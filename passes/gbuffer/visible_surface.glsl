@@ -22,11 +22,13 @@ VisibleSurface visibleSurface(View view, SurfacePoint s, uint triangle) {
     visible.geometricNormal = front ? s.geometricNormal : -s.geometricNormal;
     if (dot(s.geometricNormal, s.geometricNormal) == 0.0) visible.geometricNormal = -direction;
 
-    // Colours at the mip level of the texel's footprint on the surface; the normal as it is at the very point. Reflected light
-    // is linear in colour but not in the normal: the mean of many normals is flatter than each, and what it reflects is not the
-    // mean of what they reflect. So a single normal is noise, which more samples lower, and a mean would be bias.
+    // Textures at the mip level of the texel's footprint on the surface; with SHARP_NORMALS, normal maps at the very point.
     const float area = texelSolidAngle(view, direction) * distance_ * distance_ / max(abs(cosine), 1e-4);
+#ifdef SHARP_NORMALS
     visible.normal = shadingNormal(m, s, 0.0);
+#else
+    visible.normal = shadingNormal(m, s, footprintLevel(m.normalTexture, triangle, area));
+#endif
     if (dot(visible.normal, visible.normal) == 0.0) visible.normal = visible.geometricNormal;
     if (dot(visible.normal, visible.geometricNormal) < 0.0) visible.normal = -visible.normal;
     // Mip levels of a cut-out mix in the colour of what is cut away.
