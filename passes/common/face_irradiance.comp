@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Flux over area: the irradiance of each voxel's faces, direct and indirect together, and the area.
+// Flux over area: the irradiance of each voxel's faces, indirect with or without the direct one, and the area.
 #include "shaders/large_buffer.glsl"
 #include "shaders/linear_index.glsl"
 layout(local_size_x = 64) in;
@@ -11,12 +11,13 @@ layout(set = 0, binding = 1, scalar) readonly buffer IndirectAt { LargeFloats in
 layout(set = 0, binding = 2, scalar) readonly buffer Area { float data[]; } area;
 layout(set = 0, binding = 3, scalar) writeonly buffer Faces { vec4 data[]; } faces;
 layout(push_constant) uniform Push {
-    uint count;  // Faces.
+    uint count;           // Faces.
     float voxelFaceArea;  // m²
+    float directShare;    // 1 or 0.
 } push;
 
 vec3 flux(uint at) {
-    return vec3(direct.data[at], direct.data[at + 1u], direct.data[at + 2u]) +
+    return push.directShare * vec3(direct.data[at], direct.data[at + 1u], direct.data[at + 2u]) +
            vec3(indirect.data[at], indirect.data[at + 1u], indirect.data[at + 2u]);
 }
 

@@ -8,6 +8,7 @@ namespace {
 struct Push {
     uint32_t count;
     float voxelFaceArea;
+    float directShare;
 };
 
 }  // namespace
@@ -16,16 +17,18 @@ FaceIrradiance::FaceIrradiance(Device& device, const ShaderCompiler& compiler)
     : program_(makeComputeProgram(device, compiler.compile("passes/common/face_irradiance.comp"))) {}
 
 void FaceIrradiance::update(CommandStream& stream, const SurfaceVoxels& voxels,
-                            const VoxelIrradiance& irradiance) {
+                            const VoxelIrradiance& irradiance, Light light) {
     if (!faces_ || faces_.bytes() != bytes(voxels.voxelCount))
         faces_ = Buffer(stream.device(), "face irradiance", bytes(voxels.voxelCount));
     const uint32_t faces = voxels.voxelCount * kAreaFloats;
-    stream.dispatch(program_,
-                    {{"DirectAt", irradiance.direct.at()},
-                     {"IndirectAt", irradiance.indirect.at()},
-                     {"area", irradiance.area},
-                     {"faces", faces_}},
-                    Push{faces, voxels.grid.voxelSize * voxels.grid.voxelSize}, linearGroups(faces));
+    stream.dispatch(
+        program_,
+        {{"DirectAt", irradiance.direct.at()},
+         {"IndirectAt", irradiance.indirect.at()},
+         {"area", irradiance.area},
+         {"faces", faces_}},
+        Push{faces, voxels.grid.voxelSize * voxels.grid.voxelSize, light == Light::Total ? 1.0f : 0.0f},
+        linearGroups(faces));
 }
 
 }  // namespace voxray

@@ -4,9 +4,8 @@
 
 namespace voxray {
 
-/// The total irradiance of each voxel's six faces, ready for lookups by many rays
-/// (shaders/face_irradiance.glsl). 6 x (W/m², area in voxel faces)
-/// as 24 floats a voxel.
+/// The irradiance of each voxel's six faces, ready for lookups by many rays (shaders/face_irradiance.glsl).
+/// 6 x (W/m², area in voxel faces) as 24 floats a voxel.
 class FaceIrradiance {
  public:
     FaceIrradiance() = default;
@@ -16,8 +15,11 @@ class FaceIrradiance {
     static uint64_t bytes(uint32_t voxelCount) {
         return uint64_t(voxelCount) * 4 * kAreaFloats * sizeof(float);
     }
+    /// Which of the voxels' light to hold.
+    enum class Light { Indirect, Total };
     /// Divides flux by area; allocates on the first call and where the number of voxels has changed.
-    void update(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance);
+    void update(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
+                Light light = Light::Total);
     const Buffer& buffer() const { return faces_; }
 
  private:

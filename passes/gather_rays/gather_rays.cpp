@@ -1,9 +1,9 @@
 #include "passes/gather_rays/gather_rays.h"
 
 #include "base/error.h"
-#include "passes/common/camera_matrix.h"
 #include "passes/common/dispatch.h"
 #include "passes/common/frame_image.h"
+#include "passes/common/random_seed.h"
 
 namespace voxray {
 namespace {
@@ -12,22 +12,26 @@ struct ShadePush {
     gpu::VoxelGrid grid;
     gpu::GatherLayout layout;
     uint32_t firstBlock;
+    uint32_t rays;
+};
+
+struct CollectPush {
+    gpu::GatherLayout layout;
+    uint32_t firstBlock;
     uint32_t batchBlocks;
 };
 
-struct FilterPush {
-    glm::vec3 camera;
-    float texelAngle;
-    int32_t step;
-    float strictness;
+struct MomentsPush {
+    uint32_t firstBlock;
+    uint32_t batchBlocks;
+    uint32_t raysPerBlock;
 };
 
-ImageDesc texelImage(const GatherHits& hits, VkFormat format) {
-    ImageDesc desc;
-    desc.format = format;
-    desc.extent = {hits.layout.texels.x, hits.layout.texels.y, 1};
-    return desc;
+uint64_t batchRays(const GatherHits& hits) {
+    return uint64_t(hits.blocksPerBatch) * hits.layout.raysPerBlock;
 }
+
+constexpr uint64_t kLightBytes = 4 * sizeof(float);  // Of a ray, or of a surfel.
 
 }  // namespace
 
@@ -48,80 +52,87 @@ void GatherRays::plan(PassPlan& plan) {
             "'filter' of gather_rays, or 'rays' of trace_gather_rays to {2}",
             hits.layout.blockSize, hits.layout.raysPerBlock, texelsPerBlock);
     plan.reserve("indirect image", imageBytes(frameImageDesc(plan.frame)));
-    plan.reserve("gathered irradiance", 3 * imageBytes(texelImage(hits, VK_FORMAT_R32G32B32A32_SFLOAT)) +
-                                            imageBytes(texelImage(hits, VK_FORMAT_R32G32_SFLOAT)));
+    plan.reserve("irradiance of texels", IrradianceFilter::bytes(hits));
+    plan.reserve("light of a batch of rays", batchRays(hits) * kLightBytes);
+    if (shadowRays()) {
+        sources_ = lightSources(*plan.frame.scene);
+        plan.reserve("shadow rays of a batch of hits",
+                     SurfelLight::bytes(uint32_t(batchRays(hits))) +
+                         batchRays(hits) * (sizeof(gpu::Surfel) + kLightBytes));
+    }
     plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(plan.get(voxels_).voxelCount));
 }
 
 void GatherRays::prepare(PassSetup& setup) {
     const GatherHits& hits = setup.get(hits_);
     setup.get(indirect_).image = Image(setup.device, "indirect", frameImageDesc(setup.frame));
-    const ImageDesc wide = texelImage(hits, VK_FORMAT_R32G32B32A32_SFLOAT);
-    gathered_ = Image(setup.device, "gathered irradiance", wide);
-    filtered_ = Image(setup.device, "filtered irradiance", wide);
-    moments_ = Image(setup.device, "moments", wide);
-    surroundings_ = Image(setup.device, "surroundings", texelImage(hits, VK_FORMAT_R32G32_SFLOAT));
     const auto program = [&](const char* file, const Defines& defines = {}) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
-    shade_ = program("passes/gather_rays/shade.comp");
-    surroundRows_ = program("passes/gather_rays/surroundings.comp");
-    surround_ = program("passes/gather_rays/surroundings.comp", {{"COLUMNS", "1"}});
-    filter_ = program("passes/gather_rays/filter.comp");
+    const Defines direct = shadowRays() ? Defines{{"SHADOW_RAYS", "1"}} : Defines{};
+    shade_ = program("passes/gather_rays/shade.comp", direct);
+    collect_ = program("passes/gather_rays/collect.comp", direct);
+    moments_ = program("passes/gather_rays/moments.comp", direct);
     resolve_ = program("passes/gather_rays/resolve.comp");
+    filter_ = IrradianceFilter(setup, hits);
     faces_ = FaceIrradiance(setup.device, setup.compiler);
     sampler_ = texelSampler(setup.device);
+    light_ = Buffer(setup.device, "light of gather rays", batchRays(hits) * kLightBytes);
+    if (shadowRays()) {
+        hitLight_.emplace(setup, uint32_t(batchRays(hits)));
+        surfels_ = Buffer(setup.device, "gather ray hits' surfels", batchRays(hits) * sizeof(gpu::Surfel));
+        direct_ = Buffer(setup.device, "gather ray hits' direct light", batchRays(hits) * kLightBytes);
+    }
 }
 
 void GatherRays::record(PassContext& context) {
     const GBuffer& gbuffer = context.get(gbuffer_);
+    faces_.update(context.stream, context.get(voxels_), context.get(irradiance_),
+                  shadowRays() ? FaceIrradiance::Light::Indirect : FaceIrradiance::Light::Total);
+    for (uint32_t b = 0; b < context.get(hits_).batches.size(); ++b) gather(context, b);
+    const Buffer& irradiance =
+        filter_.run(context, gbuffer, context.get(hits_), params_.filter, params_.strictness);
+    context.stream.dispatch(resolve_,
+                            {{"irradiance", irradiance},
+                             {"albedo", gbuffer.albedo, sampler_},
+                             {"result", context.get(indirect_).image}},
+                            int32_t(gbuffer.samples), pixelGroups(context.frame.width, context.frame.height));
+}
+
+void GatherRays::gather(PassContext& context, uint32_t batch) {
+    const GBuffer& gbuffer = context.get(gbuffer_);
     const SurfaceVoxels& voxels = context.get(voxels_);
     const GatherHits& hits = context.get(hits_);
-    const glm::uvec2 texels = hits.layout.texels;
+    const uint32_t firstBlock = batch * hits.blocksPerBatch, blocks = hits.batchBlocks(batch);
+    const uint32_t rays = blocks * hits.layout.raysPerBlock;
     const uint32_t texelsPerBlock = hits.layout.blockSize * hits.layout.blockSize;
     CommandStream& stream = context.stream;
 
-    // Shade the hits with the voxels' irradiance.
-    faces_.update(stream, voxels, context.get(irradiance_));
-    for (uint32_t b = 0; b < hits.batches.size(); ++b)
-        stream.dispatch(shade_,
-                        context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
-                                                {"voxelRank", voxels.rank},
-                                                {"faceIrradiance", faces_.buffer()},
-                                                {"hits", hits.batches[b]},
-                                                {"position", gbuffer.position, sampler_},
-                                                {"gathered", gathered_},
-                                                {"moments", moments_}}),
-                        ShadePush{voxels.grid, hits.layout, b * hits.blocksPerBatch, hits.batchBlocks(b)},
-                        linearGroups(uint64_t(hits.batchBlocks(b)) * texelsPerBlock));
+    // Shade the hits with the voxels' irradiance, and with direct light by shadow rays.
+    std::vector<Binding> shading = context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
+                                                           {"voxelRank", voxels.rank},
+                                                           {"faceIrradiance", faces_.buffer()},
+                                                           {"hits", hits.batches[batch]},
+                                                           {"position", gbuffer.position, sampler_},
+                                                           {"light", light_}});
+    if (shadowRays()) shading.push_back({"surfels", surfels_});
+    stream.dispatch(shade_, shading, ShadePush{voxels.grid, hits.layout, firstBlock, rays},
+                    linearGroups(rays));
+    if (shadowRays())
+        hitLight_->measure(context, sources_, surfels_, rays, params_.lightSamples,
+                           randomSeed(context.frame, context.frameIndex) + 0x51u, direct_);
 
-    // Share irradiance between texels that see much the same.
-    const Image *from = &gathered_, *to = &filtered_;
-    const CameraRays camera = cameraRays(context.frame.camera, texels.x, texels.y);
-    const float texelAngle = 2 * glm::length(camera.up) / float(texels.y);
-    if (params_.filter > 0) {
-        const int32_t radius = int32_t(hits.layout.blockSize);
-        const glm::uvec3 groups = pixelGroups(texels.x, texels.y);
-        stream.dispatch(surroundRows_, {{"moments", moments_, sampler_}, {"rowSums", filtered_}}, radius,
-                        groups);
-        stream.dispatch(surround_, {{"moments", filtered_, sampler_}, {"surroundings", surroundings_}},
-                        radius, groups);
-    }
-    for (uint32_t level = 0; level < params_.filter; ++level, std::swap(from, to))
-        stream.dispatch(filter_,
-                        {{"position", gbuffer.position, sampler_},
-                         {"normal", gbuffer.normal, sampler_},
-                         {"source", *from, sampler_},
-                         {"surroundings", surroundings_, sampler_},
-                         {"result", *to}},
-                        FilterPush{camera.origin, texelAngle, 1 << level, params_.strictness},
-                        pixelGroups(texels.x, texels.y));
-
-    stream.dispatch(resolve_,
-                    {{"irradiance", *from, sampler_},
-                     {"albedo", gbuffer.albedo, sampler_},
-                     {"result", context.get(indirect_).image}},
-                    int32_t(gbuffer.samples), pixelGroups(context.frame.width, context.frame.height));
+    // Add up what the rays of each texel and of each block bring.
+    const auto add = [&](const Program& program, Binding target, PushConstants push, uint64_t threads) {
+        std::vector<Binding> bindings{{"light", light_}, target};
+        if (shadowRays()) bindings.insert(bindings.end(), {{"surfels", surfels_}, {"direct", direct_}});
+        stream.dispatch(program, bindings, push, linearGroups(threads));
+    };
+    add(collect_, {"gathered", filter_.gathered()}, CollectPush{hits.layout, firstBlock, blocks},
+        uint64_t(blocks) * texelsPerBlock);
+    if (params_.filter > 0)
+        add(moments_, {"moments", filter_.moments()},
+            MomentsPush{firstBlock, blocks, hits.layout.raysPerBlock}, blocks);
 }
 
 }  // namespace voxray

@@ -1,33 +1,56 @@
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "passes/common/face_irradiance.h"
 #include "passes/common/gather_hits.h"
 #include "passes/common/gbuffer.h"
+#include "passes/common/surfel_light.h"
+#include "passes/gather_rays/irradiance_filter.h"
 
 namespace voxray {
 
+enum class DirectAtHits { Voxels, ShadowRays };
+
+template <>
+struct EnumNames<DirectAtHits> {
+    static constexpr std::array names{std::pair{DirectAtHits::Voxels, "voxels"},
+                                      std::pair{DirectAtHits::ShadowRays, "shadow_rays"}};
+};
+
 /// Indirect light by a final gather: rays find what each pixel sees, voxels tell how bright that is. Source:
-/// Magalhães 2020 (hybrid of rays and voxels); filter: Dammertz et al. 2010 with the irradiance bound of Ward
-/// et al. 1988 as its edge-stopping function.
+/// Magalhães 2020 (hybrid of rays and voxels); filter: irradiance_filter.h.
 class GatherRays final : public Pass {
  public:
     static constexpr const char* kName = "gather_rays";
     static constexpr const char* kHelp =
         "Indirect light: shades the hits of trace_gather_rays with the irradiance of the voxels there and "
         "their own albedo. "
-        "Biased by: voxel size (light at the hits is as coarse as voxels, not at the pixel); `filter`. Noisy "
-        "by: rays. Lambert surfaces only.";
+        "Biased by: voxel size (light at the hits is as coarse as voxels, not at the pixel; with "
+        "`direct_at_hits: shadow_rays` only indirect light is); `filter`. Noisy by: rays. Lambert surfaces "
+        "only.";
     struct Params {
+        DirectAtHits directAtHits = DirectAtHits::Voxels;
+        uint32_t lightSamples = 1;
         uint32_t filter = 0;
-        float strictness = 1.0f;
+        float strictness = 0.1f;
         static constexpr auto schema() {
             return std::tuple{
+                field(
+                    "direct_at_hits", &Params::directAtHits,
+                    "Direct light at the hits. voxels: as coarse as voxels. shadow_rays: exact, by a shadow "
+                    "ray from each hit to each light; voxels bring indirect light alone."),
+                field("light_samples", &Params::lightSamples,
+                      "With shadow_rays: shadow rays from each hit to the emissive surfaces, and to the "
+                      "environment.",
+                      1u, 256u),
                 field("filter", &Params::filter,
                       "Levels of the filter; each doubles its reach: 0 is none, n reaches 2^n - 1 texels.",
                       0u, 6u),
                 field("strictness", &Params::strictness,
-                      "Factor of the bias that the filter expects between texels (1: Ward's bound); more is "
-                      "sharper and noisier.",
+                      "How much of the bound of irradiance's change between texels the filter expects: 1 is "
+                      "all; more is sharper and noisier, less is smoother.",
                       0.01f, 100.0f)};
         }
     };
@@ -40,6 +63,9 @@ class GatherRays final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    bool shadowRays() const { return params_.directAtHits == DirectAtHits::ShadowRays; }
+    void gather(PassContext& context, uint32_t batch);
+
     Params params_;
     Port<GBuffer> gbuffer_;
     Port<SurfaceVoxels> voxels_;
@@ -47,9 +73,15 @@ class GatherRays final : public Pass {
     Port<GatherHits> hits_;
     Port<FrameImage> indirect_;
     FaceIrradiance faces_;
-    Program shade_, surroundRows_, surround_, filter_, resolve_;
+    Program shade_, collect_, moments_, resolve_;
+    IrradianceFilter filter_;
     Sampler sampler_;
-    Image gathered_, filtered_, moments_, surroundings_;
+    Buffer light_;  ///< What the rays of a batch bring.
+
+    // With shadow rays.
+    std::vector<LightSource> sources_;
+    std::optional<SurfelLight> hitLight_;
+    Buffer surfels_, direct_;  ///< At the hits of a batch.
 };
 
 }  // namespace voxray

@@ -85,7 +85,9 @@ void GBufferPass::prepare(PassSetup& setup) {
     g.emission = Image(setup.device, "gbuffer emission", target(extent, kWide));
 
     const auto compile = [&](const char* file) {
-        return setup.compiler.compile(std::string("passes/gbuffer/") + file);
+        return setup.compiler.compile(
+            std::string("passes/gbuffer/") + file,
+            params_.normalMaps == NormalMaps::Sharp ? Defines{{"SHARP_NORMALS", "1"}} : Defines{});
     };
     if (params_.method == GBufferMethod::Rays) {
         rays_ = Buffer(setup.device, "camera rays", batchRays(extent) * sizeof(Ray));

@@ -14,17 +14,28 @@ struct EnumNames<GBufferMethod> {
                                       std::pair{GBufferMethod::Raster, "raster"}};
 };
 
+enum class NormalMaps { Filtered, Sharp };
+
+template <>
+struct EnumNames<NormalMaps> {
+    static constexpr std::array names{std::pair{NormalMaps::Filtered, "filtered"},
+                                      std::pair{NormalMaps::Sharp, "sharp"}};
+};
+
 /// What the camera sees, by camera rays through the stream interface or by raster.
 class GBufferPass final : public Pass {
  public:
     static constexpr const char* kName = "gbuffer";
     static constexpr const char* kHelp =
-        "Position, normals, albedo and emission of what the camera sees, samples x samples a pixel, at the "
-        "mip level of a sample's footprint. Biased at edges, where the reference averages over the pixel; "
+        "Position, normals, albedo and emission of what the camera sees, samples x samples a pixel; colours "
+        "at "
+        "the mip level of a sample's footprint. Biased at edges, where the reference averages over the "
+        "pixel; "
         "less so the more samples.";
     struct Params {
         GBufferMethod method = GBufferMethod::Rays;
         uint32_t samples = 1;
+        NormalMaps normalMaps = NormalMaps::Filtered;
         static constexpr auto schema() {
             return std::tuple{
                 field("method", &Params::method,
@@ -33,7 +44,11 @@ class GBufferPass final : public Pass {
                 field("samples", &Params::samples,
                       "Samples along each side of a pixel: 2 takes 4 a pixel, on a regular grid. Passes that "
                       "read the g-buffer do their work for each.",
-                      1u, 4u)};
+                      1u, 8u),
+                field("normal_maps", &Params::normalMaps,
+                      "filtered: the mean normal of a sample's footprint, which is flatter than each of "
+                      "them: a "
+                      "bias. sharp: the normal at the very point: noise instead, which `samples` lower.")};
         }
     };
 

@@ -22,12 +22,18 @@ VisibleSurface visibleSurface(View view, SurfacePoint s, uint triangle) {
     visible.geometricNormal = front ? s.geometricNormal : -s.geometricNormal;
     if (dot(s.geometricNormal, s.geometricNormal) == 0.0) visible.geometricNormal = -direction;
 
-    // Textures at the mip level of the texel's footprint on the surface.
+    // Textures at the mip level of the texel's footprint on the surface; with SHARP_NORMALS, normal maps at the very point.
     const float area = texelSolidAngle(view, direction) * distance_ * distance_ / max(abs(cosine), 1e-4);
+#ifdef SHARP_NORMALS
+    visible.normal = shadingNormal(m, s, 0.0);
+#else
     visible.normal = shadingNormal(m, s, footprintLevel(m.normalTexture, triangle, area));
+#endif
     if (dot(visible.normal, visible.normal) == 0.0) visible.normal = visible.geometricNormal;
     if (dot(visible.normal, visible.geometricNormal) < 0.0) visible.normal = -visible.normal;
-    visible.albedo = diffuseAlbedo(m, s, footprintLevel(m.baseColorTexture, triangle, area));
+    // Mip levels of a cut-out mix in the colour of what is cut away.
+    visible.albedo =
+        diffuseAlbedo(m, s, m.alphaMode == ALPHA_MASK ? 0.0 : footprintLevel(m.baseColorTexture, triangle, area));
     visible.emission = front || m.doubleSided != 0u
                            ? emission(m, s, footprintLevel(m.emissiveTexture, triangle, area))
                            : vec3(0.0);

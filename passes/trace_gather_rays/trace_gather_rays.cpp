@@ -11,7 +11,7 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBatchRays = 1u << 20;  // Bounds a buffer of rays to 32 MiB.
+constexpr uint32_t kBatchRays = 1u << 18;  // Bounds what gather_rays needs for a batch to 36 MiB.
 
 struct EmitPush {
     gpu::GatherLayout layout;

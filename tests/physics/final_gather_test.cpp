@@ -110,6 +110,53 @@ TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAFurnace) {
     }
 }
 
+TEST(FinalGather, ShadowRaysAtHitsKeepTheEnergyOfAFurnace) {
+    Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
+                gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 2", "rays: 64",
+                            "direct_at_hits: shadow_rays, light_samples: 4"));
+    EXPECT_NEAR(mean(chain.image("indirect")), 0.36 + 0.216 + 0.1296, 0.02 * 0.7056);
+}
+
+TEST(FinalGather, ShadowRaysAtHitsKeepTheEnergyOfAWhiteRoom) {
+    Chain reference("white_room", "{albedo: 0.5}", "[{pass: path_trace, spp: 256, bounces: 4}]");
+    const auto image = [](const std::string& intensity, const std::string& filter) {
+        Chain chain("white_room", "{albedo: 0.5, intensity: " + intensity + "}",
+                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 3", "rays: 64",
+                                "direct_at_hits: shadow_rays, filter: " + filter));
+        return mean(chain.image("indirect"));
+    };
+    EXPECT_NEAR(image("1", "0") / mean(reference.image("indirect")), 1.0, 0.02);
+    EXPECT_NEAR(image("1", "4") / mean(reference.image("indirect")), 1.0, 0.02);
+    EXPECT_NEAR(image("7", "0") / image("1", "0"), 7.0, 7e-3);
+}
+
+TEST(FinalGather, ShadowRaysAtHitsKnowNoVoxels) {
+    // One bounce of light in all: what the hits reflect is direct light alone, which no voxel coarsens. The
+    // path tracer's image, but for noise, however large voxels are.
+    Chain reference("white_room", "{albedo: 0.5}", "[{pass: path_trace, spp: 1024, bounces: 1}]");
+    const auto error = [&](const std::string& gather) {
+        Chain chain("white_room", "{albedo: 0.5}",
+                    gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 0", "rays: 256", gather,
+                                "resolution: 3, exposure_rays: 0", "2"));
+        return difference(chain.image("indirect"), reference.image("indirect"));
+    };
+    const double exact = error("direct_at_hits: shadow_rays"), coarse = error("direct_at_hits: voxels");
+    EXPECT_LT(exact, 0.02);
+    EXPECT_GT(coarse, 3 * exact);
+}
+
+TEST(FinalGather, FilterKeepsAUniformImage) {
+    // In a furnace irradiance is the same everywhere and no ray is noisy: nothing may change it, edges
+    // included.
+    const auto image = [](const std::string& filter) {
+        Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
+                    gatherGraph("inject_light_rays, rays_per_light: 524288, bounces: 2", "rays: 16, block: 4",
+                                "filter: " + filter, "resolution: 4"));
+        return chain.image("indirect");
+    };
+    EXPECT_LT(difference(image("5"), image("1")), 0.01);
+}
+
 TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAWhiteRoom) {
     // The walls of a closed room reflect 0.5 of 4 pi W on 24 m²: the mean of what they reflect of indirect
     // light over all walls is 4 pi / 24 / pi * (0.25 + 0.125 + 0.0625). The camera sees some walls only, so

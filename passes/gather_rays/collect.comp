@@ -1,0 +1,42 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Irradiance of each G-buffer texel: the mean of what its rays bring.
+#include "passes/gather_rays/arrived.glsl"
+#include "shaders/gather_layout.glsl"
+#include "shaders/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 19, scalar) writeonly buffer Gathered { vec4 data[]; } gathered;  // Irradiance, number of rays.
+layout(push_constant, scalar) uniform Push {
+    GatherLayout layout_;
+    uint firstBlock;
+    uint batchBlocks;
+} push;
+
+void main() {
+    const GatherLayout g = push.layout_;
+    const uint count = g.blockSize * g.blockSize;
+    const uint i = linearIndex();
+    if (i >= push.batchBlocks * count) return;
+    const uint blockInBatch = i / count, t = i % count, blockIndex = push.firstBlock + blockInBatch;
+    const uvec2 block = uvec2(blockIndex % g.blocks.x, blockIndex / g.blocks.x);
+    const uvec2 texel = texelOf(g, block, t);
+    if (any(greaterThanEqual(texel, g.texels))) return;
+
+    // Rays of this texel: a run of the block's, or one of those near its place where texels outnumber rays.
+    const uint shift = blockShift(g, block);
+    const bool fewer = g.raysPerBlock < count;
+    const uint guess = t * g.raysPerBlock / count;
+    const uint first = fewer ? max(guess, 1u) - 1u : firstRay(g, t);
+    const uint last = min(fewer ? guess + 2u : firstRay(g, t + 1u), g.raysPerBlock);
+    vec3 sum = vec3(0.0);
+    float rays = 0.0;
+    for (uint j = first; j < last; ++j) {
+        if (fewer && rayTexel(g, shift, j) != t) continue;
+        const vec4 light_ = arrived(blockInBatch * g.raysPerBlock + j);
+        if (light_.w < 0.0) continue;
+        sum += light_.rgb;
+        rays += 1.0;
+    }
+    gathered.data[texel.y * g.texels.x + texel.x] = vec4(sum / max(rays, 1.0), rays);
+}

@@ -1,0 +1,18 @@
+// Unit vectors in 32 bits: on the octahedron, its lower half folded outwards (Cigolle et al. 2014).
+#ifndef VOXRAY_OCTAHEDRAL_GLSL
+#define VOXRAY_OCTAHEDRAL_GLSL
+
+vec2 signs(vec2 v) { return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0); }
+
+uint toOctahedral(vec3 n) {
+    const vec3 on = n / max(abs(n.x) + abs(n.y) + abs(n.z), 1e-20);
+    return packSnorm2x16(on.z >= 0.0 ? on.xy : (1.0 - abs(on.yx)) * signs(on.xy));
+}
+
+vec3 fromOctahedral(uint bits) {
+    const vec2 on = unpackSnorm2x16(bits);
+    const float z = 1.0 - abs(on.x) - abs(on.y);
+    return normalize(vec3(z >= 0.0 ? on : (1.0 - abs(on.yx)) * signs(on), z));
+}
+
+#endif
