@@ -72,6 +72,7 @@ struct ConeShape {
     float width;   // At unit distance.
     float dither;  // Of levels, -1/2 to 1/2.
     float speed;   // Voxels a metre, of all axes together.
+    float exit_;   // Metres to where it leaves the grid.
 };
 
 void placeSample(inout ConeAxis axis) {
@@ -84,9 +85,9 @@ void placeSample(inout ConeAxis axis) {
 // `clearance`: how wide voxels may be, at unit distance, for not to touch the surface that the cone started from.
 void findLayer(inout ConeAxis axis, ConeShape shape, float clearance) {
     axis.t = 1.0e30;
-    if (axis.next >= axis.end) return;
     const float voxel = radianceVoxels.grid.voxelSize;
     const float t = (float(axis.next) - axis.start) / axis.speed;
+    if (axis.next >= axis.end || t > shape.exit_) return;
     const float largest = max(min(0.5 * shape.width * t * exp2(shape.dither), clearance * t), voxel);
     axis.level = min(min(uint(log2(largest / voxel)), uint(findLSB(axis.next))), radianceVoxels.grid.levels - 1u);
     axis.samples = int(ceil(0.5 * shape.speed / axis.speed));
@@ -141,7 +142,8 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
     const bool sides = g.directions == 6u;
     const vec3 clearance =
         mix(dot(direction, base.side) / max(base.reach, 1e-6), vec3(1.0e30), equal(base.reach, vec3(0.0)));
-    const ConeShape shape = ConeShape(width, dither, (abs(direction.x) + abs(direction.y) + abs(direction.z)) / g.voxelSize);
+    ConeShape shape =
+        ConeShape(width, dither, (abs(direction.x) + abs(direction.y) + abs(direction.z)) / g.voxelSize, 1.0e30);
 
     // Axes are turned so that the cone travels upwards along each.
     const int turned = 1 << (g.levels - 1u);
@@ -155,17 +157,21 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
         axis[k].speed = still ? 1.0 : abs(direction[k]) / g.voxelSize;
         axis[k].next = int(floor(axis[k].start)) + 1;
         axis[k].end = still ? axis[k].next : up ? int(g.resolution[k]) : turned;
-        findLayer(axis[k], shape, clearance[k]);
+        if (!still) shape.exit_ = min(shape.exit_, (float(axis[k].end) - axis[k].start) / axis[k].speed);
         meet(light, abs(direction[k]) * base.beside[2u * k + (up ? 0u : 1u)], 0.0, 0.0, g.voxelSize);
     }
 
-    // A step for each place of a layer: in all no more than three for each voxel that the longest way crosses.
-    const int mostSteps = 8 * int(g.resolution.x + g.resolution.y + g.resolution.z);
+    for (uint k = 0u; k < 3u; ++k) findLayer(axis[k], shape, clearance[k]);
+
+    // A step for each place of a layer: at most one and a half for each voxel's width of the way, along all axes together, and what
+    // an axis that the cone is slow along has in its first layer.
+    const int mostSteps = 4 * int(g.resolution.x + g.resolution.y + g.resolution.z);
     for (int step_ = 0; step_ < mostSteps && light.transmittance * (1.0 - light.cover) > LEAST_TRANSMITTANCE; ++step_) {
         const uint k = axis[0].t <= axis[1].t ? (axis[0].t <= axis[2].t ? 0u : 2u) : (axis[1].t <= axis[2].t ? 1u : 2u);
         const float t = axis[k].t;
-        if (t > 1.0e29) break;
         const float voxel = radianceVoxelSize(axis[k].level);
+        // The last layer may be thicker than the grid.
+        if (t > shape.exit_ + 2.0 * voxel) break;
 
         // What may touch the cone's own surface is no reason to stop. Without sides nothing there can be told from it.
         const bool clear = clearance[k] * t >= voxel;

@@ -9,6 +9,7 @@ namespace voxray::test {
 namespace {
 
 struct Setting {
+    std::string gbuffer = "samples: 1";
     std::string voxelize = "resolution: 32";
     std::string inject = "rays_per_light: 131072, bounces: 3";
     std::string filter = "emission: false";
@@ -16,8 +17,9 @@ struct Setting {
 };
 
 std::string coneGraph(const Setting& s) {
-    return "[{pass: gbuffer}, {pass: voxelize, " + s.voxelize + "}, {pass: inject_light_rays, " + s.inject +
-           "}, {pass: filter_voxels, " + s.filter + "}, {pass: gather_cones, " + s.gather + "}]";
+    return "[{pass: gbuffer, " + s.gbuffer + "}, {pass: voxelize, " + s.voxelize +
+           "}, {pass: inject_light_rays, " + s.inject + "}, {pass: filter_voxels, " + s.filter +
+           "}, {pass: gather_cones, " + s.gather + "}]";
 }
 
 double indirect(const std::string& scene, const std::string& parameters, const Setting& setting) {
@@ -40,16 +42,16 @@ TEST(ConeTracing, EverySetKeepsTheEnergyOfAFurnace) {
     // 0.125.
     for (const std::string& cones : kSets) {
         Setting s;
-        s.inject = "rays_per_light: 262144, bounces: 2";
+        s.inject = "rays_per_light: 131072, bounces: 2";
         s.filter = "emission: true";
         s.gather = "cones: " + cones;
         const auto part = [&](const std::string& shape) {
             return indirect("furnace", "{shape: " + shape + ", albedo: 0.5, emission: 1}", s) / (0.5 * 1.875);
         };
         EXPECT_NEAR(part("box"), 1.0, 0.01) << cones;
-        // Curved walls: all angles to the axes, concave everywhere. What is lost shrinks with the voxels.
-        s.voxelize = "resolution: 64";
-        EXPECT_NEAR(part("sphere"), 1.0, 0.03) << cones;
+        // Curved walls: all angles to the axes, concave everywhere. A few per cent of the cones slip through
+        // between places.
+        EXPECT_NEAR(part("sphere"), 1.0, 0.05) << cones;
     }
 }
 
@@ -97,9 +99,10 @@ TEST(ConeTracing, ConvergesToTheReferenceOnCornell) {
     const ImageF expected = reference.image("indirect");
     const auto error = [&](const std::string& resolution, const std::string& cones) {
         Setting s;
+        s.gbuffer = "samples: 3";
         s.voxelize = "resolution: " + resolution;
-        s.inject = "rays_per_light: 1048576, bounces: 3";
-        s.gather = "cones: " + cones;
+        s.inject = "rays_per_light: 524288, bounces: 3";
+        s.gather = "cones: " + cones + ", sparse: 3";
         Chain chain("cornell", "{lights: point}", coneGraph(s));
         const ImageF image = chain.image("indirect");
         EXPECT_NEAR(mean(image) / mean(expected), 1.0, 0.1) << resolution << ' ' << cones;
@@ -108,7 +111,9 @@ TEST(ConeTracing, ConvergesToTheReferenceOnCornell) {
             sum += std::abs(double(image.data[i]) - expected.data[i]);
         return sum / double(image.data.size()) / mean(expected);
     };
-    EXPECT_LT(error("64", "36"), 0.8 * error("16", "5"));
+    const double fine = error("64", "16");
+    EXPECT_LT(fine, 0.85 * error("16", "5"));
+    EXPECT_LT(fine, 0.12);
 }
 
 TEST(ConeTracing, BadInputIsNamed) {
