@@ -6,7 +6,6 @@
 
 // Light that what lies behind can't add visibly to.
 #define LEAST_TRANSMITTANCE 0.002
-#define SAMPLES 0.5
 
 // Where cones start: a point of a surface.
 struct ConeBase {
@@ -26,18 +25,18 @@ vec3 facingAxis(uint face) {
     return axis;
 }
 
-// Whether a wall in the point's own voxel is ahead or behind is not for the voxel to tell. But a surface ends at a wall that
+// A wall in the point's own voxel: whether it is ahead or behind is not for the voxel to tell. But a surface ends at a wall that
 // stands on it: where it goes on in the next voxel, the wall is behind.
 vec4 wallBeside(ConeBase base, uint face) {
     const float voxel = radianceVoxelSize(base.level);
-    const vec3 ahead = facingAxis(face);
-    const vec3 size = abs(base.side);
+    const vec3 ahead = facingAxis(face), size = abs(base.side);
     const uint axis = size.x >= size.y && size.x >= size.z ? 0u : size.y >= size.z ? 1u : 2u;
     const vec3 up = facingAxis(2u * axis + (base.side[axis] < 0.0 ? 1u : 0u));
-    const vec3 middle = (floor((base.position - radianceVoxels.grid.origin) / voxel) + 0.5) * voxel + radianceVoxels.grid.origin;
-    const vec3 own = mix(base.position, middle, abs(ahead)), floor_ = mix(base.position, middle, abs(ahead) + abs(up));
-    const float goesOn = sampleLevel(base.level, floor_ + voxel * ahead, -up).a;
-    return goesOn > 0.5 ? vec4(0.0) : sampleLevel(base.level, own + voxel * up, ahead);
+    const vec3 origin = radianceVoxels.grid.origin;
+    const vec3 middle = origin + (floor((base.position - origin) / voxel) + 0.5) * voxel;
+    const vec3 inWall = mix(base.position, middle, abs(ahead)), inSurface = mix(inWall, middle, abs(up));
+    if (sampleLevel(base.level, inSurface + voxel * ahead, -up).a > 0.5) return vec4(0.0);
+    return sampleLevel(base.level, inWall + voxel * up, ahead);
 }
 
 ConeBase coneBase(vec3 position, vec3 side) {
@@ -46,6 +45,8 @@ ConeBase coneBase(vec3 position, vec3 side) {
     base.side = side;
     // Up to the rounding of log2 the next level up.
     base.level = uint(ceil(max(log2(finestFootprint(position) / radianceVoxels.grid.voxelSize) - 1.0 / 256.0, 0.0)));
+
+    // A sample reaches half a voxel along its axis and one and a half across it.
     const vec3 size = abs(side);
     base.reach = vec3(1.5 * (size.x + size.y + size.z)) - size;
     if (radianceVoxels.grid.directions == 6u) base.reach = mix(base.reach, vec3(0.0), lessThan(size, vec3(0.1)));
@@ -57,17 +58,25 @@ ConeBase coneBase(vec3 position, vec3 side) {
 // A cone meets the sides that face it along each axis layer by layer: each layer of voxels across the axis once, in its middle,
 // interpolated across. So a closed surface covers it once, wherever its voxels lie, and nothing behind the cone's start, or behind
 // a point that it has passed, has a say. While the cone crosses a layer it drifts along it: `samples` places share the layer's say,
-// so that covers of slanted surfaces, too, add up to 1 evenly.
+// so that the covers of slanted surfaces, too, add up to 1 evenly.
 struct ConeAxis {
-    float start;   // In voxels of level 0, in the direction of travel.
-    float speed;   // Voxels a metre.
-    float drift;   // Voxels that the cone moves in all for each voxel along this axis.
-    int next;      // Where the next layer begins.
-    int end;       // Where the grid does.
-    uint level;    // Of the next layer.
-    int samples;   // Places in it.
-    int sample_;   // The next of them.
-    float t;       // Metres to that.
+    float start;  // In voxels of level 0, in the direction of travel.
+    float speed;  // Voxels a metre.
+    int next;     // Where the next layer begins.
+    int end;      // Where the grid does.
+    uint level;   // Of the next layer.
+    int samples;  // Places in it.
+    int sample_;  // The next of them.
+    float t;      // Metres to that.
+};
+
+// What all axes of a cone share.
+struct ConeShape {
+    float width;   // At unit distance.
+    float dither;  // Of levels, -1/2 to 1/2.
+    float speed;   // Voxels a metre, of all axes together.
+    float exit_;   // Metres to where it leaves the grid.
+    uint finest;   // The finest level that it asks for.
 };
 
 void placeSample(inout ConeAxis axis) {
@@ -75,29 +84,30 @@ void placeSample(inout ConeAxis axis) {
     axis.t = (float(axis.next) + part * float(1u << axis.level) - axis.start) / axis.speed;
 }
 
-// The next layer: the largest that begins where the last one ended and is no wider than half the cone there, give or take `dither`
-// levels: then a voxel's filter, a tent two voxels wide over a box of one, has the variance of the cone's cross-section. At least
-// as wide as the surroundings of the cone's start are described.
-void findLayer(inout ConeAxis axis, float width, float clearance, float dither, uint finest) {
+// The next layer: the largest that begins where the last one ended and is no wider than half the cone there, give or take half a
+// level. A voxel's filter, a tent two voxels wide over a box of one, then has the variance of the cone's cross-section. At least as
+// wide as the surroundings of the cone's start are described.
+// `clearance`: how wide voxels may be, at unit distance, for not to touch the surface that the cone started from.
+void findLayer(inout ConeAxis axis, ConeShape shape, float clearance) {
     axis.t = 1.0e30;
-    if (axis.next >= axis.end) return;
     const float voxel = radianceVoxels.grid.voxelSize;
     const float t = (float(axis.next) - axis.start) / axis.speed;
-    const float largest = max(min(0.5 * width * t * exp2(dither), clearance * t), radianceVoxelSize(finest));
-    const uint aligned = uint(findLSB(axis.next));
-    axis.level = min(min(uint(log2(largest / voxel)), aligned), radianceVoxels.grid.levels - 1u);
-    axis.samples = int(ceil(SAMPLES * axis.drift));
+    if (axis.next >= axis.end || t > shape.exit_) return;
+    const float largest =
+        max(min(0.5 * shape.width * t * exp2(shape.dither), clearance * t), radianceVoxelSize(shape.finest));
+    axis.level = min(min(uint(log2(largest / voxel)), uint(findLSB(axis.next))), radianceVoxels.grid.levels - 1u);
+    axis.samples = int(ceil(0.5 * shape.speed / axis.speed));
     axis.sample_ = 0;
     placeSample(axis);
 }
 
-void advance(inout ConeAxis axis, float width, float clearance, float dither, uint finest) {
+void advance(inout ConeAxis axis, ConeShape shape, float clearance) {
     if (++axis.sample_ < axis.samples) {
         placeSample(axis);
         return;
     }
     axis.next += 1 << axis.level;
-    findLayer(axis, width, clearance, dither, finest);
+    findLayer(axis, shape, clearance);
 }
 
 // What has been collected of a cone. Surfaces that it meets within a voxel's diagonal of each other are taken for pieces of one:
@@ -107,12 +117,13 @@ struct ConeLight {
     float transmittance;  // Of the surfaces passed.
     float cover;          // Of the one that the cone is passing, at most 1.
     float behind;         // What that one shows of sides that face the way that the cone goes, less of those that face the cone.
-    float blocked;        // The most that this has been, which is the cover that is black.
+    float blocked;        // The part of its cover that is black.
     float last;           // Metres to where the cone met it last.
 };
 
-// `met`: sides that face the cone. `back`: cover of sides that face the way that it goes. A cone that meets more of those passes the
-// surface from behind: it lets nothing through, and its far side is black.
+// `met`: sides that face the cone. `back`: cover of those that face the way that it goes. A surface that shows more of these is met
+// from behind: it lets nothing through, and its other side is black. Up to half a cover may belong to a slanted surface that the
+// cone meets from the front; what goes beyond counts twice.
 void meet(inout ConeLight light, vec4 met, float back, float t, float voxel) {
     if (met.a + back <= 0.0) return;
     if (t - light.last > 1.75 * voxel) {
@@ -121,7 +132,7 @@ void meet(inout ConeLight light, vec4 met, float back, float t, float voxel) {
     }
     light.last = t;
     light.behind += back - met.a;
-    const float blocked = max(min(light.behind, 1.0) - light.blocked, 0.0);
+    const float blocked = max(clamp(2.0 * light.behind - 1.0, 0.0, 1.0) - light.blocked, 0.0);
     light.blocked += blocked;
     light.cover = min(light.cover + blocked, 1.0);
     if (met.a <= 0.0) return;
@@ -130,47 +141,59 @@ void meet(inout ConeLight light, vec4 met, float back, float t, float voxel) {
     light.cover += added;
 }
 
-// Radiance that arrives at `base` through a cone along `direction` (unit, above the surface), `width` wide at unit distance.
+// Radiance that arrives at `base` through a cone along `direction` (unit, above the surface), `width` wide at unit distance, whose
+// levels are shifted by `dither`, -1/2 to 1/2.
 vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
     const RadianceGrid g = radianceVoxels.grid;
-    const float climb = dot(direction, base.side);
-    const vec3 clearance = mix(climb / max(base.reach, 1e-6), vec3(1.0e30), equal(base.reach, vec3(0.0)));
+    const bool sides = g.directions == 6u;
+    const vec3 clearance =
+        mix(dot(direction, base.side) / max(base.reach, 1e-6), vec3(1.0e30), equal(base.reach, vec3(0.0)));
+    const float speed = (abs(direction.x) + abs(direction.y) + abs(direction.z)) / g.voxelSize;
+    ConeShape shape = ConeShape(width, dither, speed, 1.0e30, base.level);
 
     // Axes are turned so that the cone travels upwards along each.
     const int turned = 1 << (g.levels - 1u);
-    const float speed = abs(direction.x) + abs(direction.y) + abs(direction.z);
     ConeAxis axis[3];
     ConeLight light = ConeLight(vec3(0.0), 1.0, 0.0, 0.0, 0.0, 0.0);
     for (uint k = 0u; k < 3u; ++k) {
         const bool up = direction[k] >= 0.0;
-        const float inGrid = (base.position[k] - g.origin[k]) / g.voxelSize, own = max(abs(direction[k]), 1e-3);
+        const float inGrid = (base.position[k] - g.origin[k]) / g.voxelSize;
+        const bool still = abs(direction[k]) < 1e-3;
         axis[k].start = up ? inGrid : float(turned) - inGrid;
-        axis[k].speed = own / g.voxelSize;
-        axis[k].drift = speed / own;
+        axis[k].speed = still ? 1.0 : abs(direction[k]) / g.voxelSize;
+        axis[k].level = base.level;
         axis[k].next = ((int(floor(axis[k].start)) >> base.level) + 1) << base.level;
-        axis[k].end = abs(direction[k]) < 1e-3 ? axis[k].next : up ? int(g.resolution[k]) : turned;
-        findLayer(axis[k], width, clearance[k], dither, base.level);
+        axis[k].end = still ? axis[k].next : up ? int(g.resolution[k]) : turned;
+        if (!still) shape.exit_ = min(shape.exit_, (float(axis[k].end) - axis[k].start) / axis[k].speed);
         const vec4 beside = abs(direction[k]) * base.beside[2u * k + (up ? 0u : 1u)];
         meet(light, beside, 0.0, 0.0, radianceVoxelSize(base.level));
     }
 
-    const int mostSteps = 16 * int(g.resolution.x + g.resolution.y + g.resolution.z);
+    for (uint k = 0u; k < 3u; ++k) findLayer(axis[k], shape, clearance[k]);
+
+    // A step for each place of a layer: at most one and a half for each voxel's width of the way, along all axes together, and what
+    // an axis that the cone is slow along has in its first layer.
+    const int mostSteps = 4 * int(g.resolution.x + g.resolution.y + g.resolution.z);
     for (int step_ = 0; step_ < mostSteps && light.transmittance * (1.0 - light.cover) > LEAST_TRANSMITTANCE; ++step_) {
         const uint k = axis[0].t <= axis[1].t ? (axis[0].t <= axis[2].t ? 0u : 2u) : (axis[1].t <= axis[2].t ? 1u : 2u);
         const float t = axis[k].t;
-        if (t > 1.0e29) break;
         const float voxel = radianceVoxelSize(axis[k].level);
-        if (clearance[k] * t >= voxel) {
+        // The last layer may be thicker than the grid.
+        if (t > shape.exit_ + 2.0 * voxel) break;
+
+        // What may touch the cone's own surface is no reason to stop. Without sides nothing there can be told from it.
+        const bool clear = clearance[k] * t >= voxel;
+        if (clear || sides) {
             const bool up = direction[k] >= 0.0;
             const float middle = float(axis[k].next) + 0.5 * float(1u << axis[k].level);
             vec3 place = base.position + t * direction;
             place[k] = g.origin[k] + (up ? middle : float(turned) - middle) * g.voxelSize;
             const vec3 ahead = facingAxis(2u * k + (up ? 0u : 1u));
             const float share = 1.0 / float(axis[k].samples);
-            const float back = g.directions == 6u ? sampleLevel(axis[k].level, place, -ahead).a : 0.0;
+            const float back = clear && sides ? sampleLevel(axis[k].level, place, -ahead).a : 0.0;
             meet(light, share * sampleLevel(axis[k].level, place, ahead), share * back, t, voxel);
         }
-        advance(axis[k], width, clearance[k], dither, base.level);
+        advance(axis[k], shape, clearance[k]);
     }
     return light.radiance;
 }
