@@ -12,8 +12,8 @@ namespace {
 /// Cells side by side round the normal.
 struct Ring {
     uint32_t cones;
-    double within;  ///< The part of an even hemisphere's irradiance that comes from this ring and those in it:
-                    ///< the squared sine of the angle from the normal at which it ends.
+    double within;  ///< The part of an even hemisphere's irradiance that comes from this ring and those in
+                    ///< it: the squared sine of the angle from the normal at which it ends.
 };
 
 /// Rings from the normal outwards. In the set of six the cap ends halfway between the thesis's cones, at 30°;

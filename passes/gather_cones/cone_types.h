@@ -9,8 +9,8 @@ VOXRAY_SHARED_BEGIN
 struct Cone {
     vec2 sineSquared;  // Of the angles from the normal between which its cell lies.
     float azimuth;     // Of the cell's middle.
-    float weight;      // Part of the irradiance of an even hemisphere that comes through it; a set's add up to 1.
-    float width;       // Of the cone at unit distance: twice the tangent of half its angle.
+    float weight;  // Part of the irradiance of an even hemisphere that comes through it; a set's add up to 1.
+    float width;   // Of the cone at unit distance: twice the tangent of half its angle.
 };
 
 VOXRAY_SHARED_END
