@@ -10,8 +10,10 @@ class GatherCones final : public Pass {
  public:
     static constexpr const char* kName = "gather_cones";
     static constexpr const char* kHelp =
-        "Indirect light: a few cones from each pixel through prefiltered voxels (filter_voxels). No noise. "
-        "Biased by: voxel size; the number of cones. Lambert surfaces only. "
+        "Indirect light: a few cones from each pixel through prefiltered voxels (filter_voxels). "
+        "Biased by: voxel size; the number of cones; a mean over some 25 pixels of the same surface, which "
+        "evens "
+        "out the fixed pattern of directions. No noise beside that. Lambert surfaces only. "
         "Source: Crassin et al. 2011; Arnebäck 2017, section 3.1.5.";
     struct Params {
         uint32_t cones = 16;

@@ -42,7 +42,7 @@ TEST(ConeTracing, EverySetKeepsTheEnergyOfAFurnace) {
     // 0.125.
     for (const std::string& cones : kSets) {
         Setting s;
-        s.inject = "rays_per_light: 131072, bounces: 2";
+        s.inject = "rays_per_light: 65536, bounces: 2";
         s.filter = "emission: true";
         s.gather = "cones: " + cones;
         const auto part = [&](const std::string& shape) {
