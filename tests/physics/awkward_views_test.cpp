@@ -6,7 +6,7 @@
 namespace voxray::test {
 namespace {
 
-const std::vector<std::string> kStrategies = {"inject_light_rays, rays_per_light: 131072",
+const std::vector<std::string> kStrategies = {"inject_light_rays, rays_per_light: 65536",
                                               "inject_rsm, resolution: 128",
                                               "inject_voxel_rays, rays: 2",
                                               "inject_voxel_rays, demand: true",

@@ -220,9 +220,10 @@ TEST(Clipmap, ConesKeepTheEnergyOfAFurnace) {
     // 0.125. Windows of 0.5 m and 1 m: what the camera sees 1 m away and more is described by levels 1 to 3.
     Chain chain("furnace", "{shape: box, albedo: 0.5, emission: 1}",
                 "[{pass: gbuffer}, {pass: voxelize, resolution: 64}, "
-                "{pass: inject_light_rays, rays_per_light: 262144, bounces: 2}, "
+                "{pass: inject_light_rays, rays_per_light: 131072, bounces: 2}, "
                 "{pass: filter_voxels, emission: true, layout: clipmap, clipmap_resolution: 16}, "
-                "{pass: gather_cones}]");
+                "{pass: gather_cones, cones: 6}]",
+                16, 16);
     EXPECT_NEAR(mean(chain.image("indirect")) / (0.5 * 1.875), 1.0, 0.03);
 }
 
