@@ -85,7 +85,7 @@ bool octreeNodes(ivec3 corner, uint level, out uint node[8]) {
 }
 
 // Radiance times cover and cover of a node, nothing for NO_NODE. `face`: 0 to 5 by facing direction, 0 where all share one.
-vec4 octreeValue(uint node, uint face) {
+vec4 radianceValue(uint node, uint face) {
     return unpackRadiance(radianceVoxels.values.data[face * radianceVoxels.octree.nodeCount + node]);
 }
 

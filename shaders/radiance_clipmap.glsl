@@ -4,7 +4,6 @@
 
 #extension GL_EXT_buffer_reference : require
 
-#include "shaders/radiance_filter.glsl"
 #include "shaders/radiance_texel.glsl"
 #include "shaders/shared/radiance_clipmap_types.h"
 
@@ -21,6 +20,8 @@ bool inWindow(ClipmapWindow w, ivec3 voxel) {
     return all(greaterThanEqual(voxel, w.first)) && all(lessThan(voxel, w.first + ivec3(w.size)));
 }
 
+#define NO_PLACE 0xffffffffu
+
 // Where a voxel in the window stands: its coordinates modulo the window's side, so that what stays in the window stays in place
 // when the window moves.
 uint clipmapSlot(ClipmapWindow w, ivec3 voxel) {
@@ -29,11 +30,11 @@ uint clipmapSlot(ClipmapWindow w, ivec3 voxel) {
 }
 
 // `side`: 0 to 5 by facing direction, 0 where all share one.
-vec4 clipmapValue(uint slot, uint side) {
+vec4 radianceValue(uint slot, uint side) {
     return unpackRadiance(radianceVoxels.values.data[slot * radianceVoxels.grid.directions + side]);
 }
 
-void storeClipmapValue(uint slot, uint side, vec4 value) {
+void storeRadiance(uint slot, uint side, vec4 value) {
     radianceVoxels.values.data[slot * radianceVoxels.grid.directions + side] = packRadiance(value);
 }
 
@@ -51,33 +52,19 @@ float minimumLevel(vec3 position) {
     return float(radianceVoxels.firstWhole);
 }
 
+#include "shaders/radiance_interpolation.glsl"
+
 // What a window holds, interpolated; nothing outside of it.
 vec4 sampleWindow(uint level, vec3 position, vec3 direction) {
-    const RadianceGrid g = radianceVoxels.grid;
     const ClipmapWindow w = radianceVoxels.window[level];
-    // To 1/1024 of a voxel, so that positions in the middle of a layer read that layer alone.
-    const vec3 inLevel = round(((position - g.origin) / (g.voxelSize * float(1u << level)) - 0.5) * 1024.0) / 1024.0;
-    const ivec3 corner = ivec3(floor(inLevel));
-    const vec3 at = inLevel - vec3(corner);
-
-    uint slot[8];
-    bool inside[8];
+    vec3 at;
+    const ivec3 corner = cornerVoxel(level, position, at);
+    uint place[8];
     for (uint cell = 0u; cell < 8u; ++cell) {
-        const ivec3 voxel = corner + ivec3(cell & 1u, (cell >> 1) & 1u, cell >> 2);
-        inside[cell] = cellWeight(cell, at) > 0.0 && inWindow(w, voxel);
-        slot[cell] = inside[cell] ? clipmapSlot(w, voxel) : 0u;
+        const ivec3 voxel = blockVoxel(corner, cell);
+        place[cell] = inWindow(w, voxel) && cellWeight(cell, at) > 0.0 ? clipmapSlot(w, voxel) : NO_PLACE;
     }
-
-    vec4 value[8];
-    vec4 sum = vec4(0.0);
-    const bool sides = g.directions == 6u;
-    for (uint axis = 0u; axis < (sides ? 3u : 1u); ++axis) {
-        const uint face = 2u * axis + (direction[axis] > 0.0 ? 1u : 0u);
-        if (sides && direction[axis] == 0.0) continue;
-        for (uint cell = 0u; cell < 8u; ++cell) value[cell] = inside[cell] ? clipmapValue(slot[cell], sides ? face : 0u) : vec4(0.0);
-        sum += sides ? abs(direction[axis]) * interpolateFaces(value, face, at) : interpolateAll(value, at);
-    }
-    return sum;
+    return interpolateBlock(place, at, direction);
 }
 
 // Where the level isn't held, the finest ones that are stand for it: for a layer of the level's voxels, the share of theirs that is

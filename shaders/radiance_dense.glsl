@@ -4,7 +4,6 @@
 
 #extension GL_EXT_buffer_reference : require
 
-#include "shaders/radiance_filter.glsl"
 #include "shaders/shared/radiance_dense_types.h"
 
 // By address: a grid outgrows what devices bind as one buffer.
@@ -15,6 +14,7 @@ layout(set = 0, binding = 26, scalar) readonly buffer RadianceVoxels {
     DenseLevel level[RADIANCE_DENSE_LEVELS];
 } radianceVoxels;
 
+#define NO_PLACE 0xffffffffu
 uint radianceIndex(DenseLevel level, ivec3 voxel) {
     const uvec3 v = uvec3(voxel);
     return level.first + (v.z * level.resolution.y + v.y) * level.resolution.x + v.x;
@@ -33,35 +33,20 @@ void storeRadiance(uint index, uint side, vec4 value) {
         uvec2(packHalf2x16(bounded.rg), packHalf2x16(bounded.ba));
 }
 
+#include "shaders/radiance_interpolation.glsl"
+
 vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
-    const RadianceGrid g = radianceVoxels.grid;
     const DenseLevel d = radianceVoxels.level[level];
-    // To 1/1024 of a voxel, so that positions in the middle of a layer read that layer alone.
-    const vec3 inLevel = round(((position - g.origin) / (g.voxelSize * float(1u << level)) - 0.5) * 1024.0) / 1024.0;
-    const ivec3 corner = ivec3(floor(inLevel));
-    const vec3 at = inLevel - vec3(corner);
-
-    // The eight voxels round the position that lie in the grid; nothing is outside.
-    uint index[8];
-    bool inside[8];
+    vec3 at;
+    const ivec3 corner = cornerVoxel(level, position, at);
+    uint place[8];
     for (uint cell = 0u; cell < 8u; ++cell) {
-        const ivec3 voxel = corner + ivec3(cell & 1u, (cell >> 1) & 1u, cell >> 2);
-        inside[cell] = cellWeight(cell, at) > 0.0 && all(greaterThanEqual(voxel, ivec3(0))) &&
-                       all(lessThan(voxel, ivec3(d.resolution)));
-        index[cell] = inside[cell] ? radianceIndex(d, voxel) : 0u;
+        const ivec3 voxel = blockVoxel(corner, cell);
+        const bool inside = all(greaterThanEqual(voxel, ivec3(0))) && all(lessThan(voxel, ivec3(d.resolution)));
+        place[cell] = inside && cellWeight(cell, at) > 0.0 ? radianceIndex(d, voxel) : NO_PLACE;
     }
-
-    vec4 value[8];
-    vec4 sum = vec4(0.0);
-    const bool sides = g.directions == 6u;
-    for (uint axis = 0u; axis < (sides ? 3u : 1u); ++axis) {
-        const uint face = 2u * axis + (direction[axis] > 0.0 ? 1u : 0u);
-        if (sides && direction[axis] == 0.0) continue;
-        for (uint cell = 0u; cell < 8u; ++cell)
-            value[cell] = inside[cell] ? radianceValue(index[cell], sides ? face : 0u) : vec4(0.0);
-        sum += sides ? abs(direction[axis]) * interpolateFaces(value, face, at) : interpolateAll(value, at);
-    }
-    return vec4(g.unit * sum.rgb, sum.a);
+    const vec4 met = interpolateBlock(place, at, direction);
+    return vec4(radianceVoxels.grid.unit * met.rgb, met.a);
 }
 
 // Metres from `position` along `direction` that hold nothing at this footprint: 0 where something may be here. Full grids keep

@@ -3,37 +3,19 @@
 #define VOXRAY_RADIANCE_SVO_GLSL
 
 #include "shaders/octree.glsl"
-#include "shaders/radiance_filter.glsl"
-
-// The first of the two voxels along each axis between whose middles a position lies, and how far it is on the way to the second.
-ivec3 octreeCorner(uint level, vec3 position, out vec3 at) {
-    const RadianceGrid g = radianceVoxels.grid;
-    // To 1/1024 of a voxel, so that positions in the middle of a layer read that layer alone.
-    const vec3 inLevel = round(((position - g.origin) / (g.voxelSize * float(1u << level)) - 0.5) * 1024.0) / 1024.0;
-    const vec3 corner = floor(inLevel);
-    at = inLevel - corner;
-    return ivec3(corner);
-}
+#define NO_PLACE NO_NODE
+#include "shaders/radiance_interpolation.glsl"
 
 vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     vec3 at;
-    const ivec3 corner = octreeCorner(level, position, at);
+    const ivec3 corner = cornerVoxel(level, position, at);
     if (!inOctreeBorder(corner, level) || !inOctreeBorder(corner + 1, level)) return vec4(0.0);
     uint node[8];
     if (!octreeNodes(corner, level, node)) return vec4(0.0);
     for (uint cell = 0u; cell < 8u; ++cell)
         if (cellWeight(cell, at) == 0.0) node[cell] = NO_NODE;
 
-    vec4 value[8];
-    vec4 sum = vec4(0.0);
-    const bool sides = radianceVoxels.grid.directions == 6u;
-    for (uint axis = 0u; axis < (sides ? 3u : 1u); ++axis) {
-        const uint face = 2u * axis + (direction[axis] > 0.0 ? 1u : 0u);
-        if (sides && direction[axis] == 0.0) continue;
-        for (uint cell = 0u; cell < 8u; ++cell) value[cell] = octreeValue(node[cell], sides ? face : 0u);
-        sum += sides ? abs(direction[axis]) * interpolateFaces(value, face, at) : interpolateAll(value, at);
-    }
-    return sum;
+    return interpolateBlock(node, at, direction);
 }
 
 // The largest cube that holds none of the voxels that a sample here reads, on either of its two levels: those of the coarser
@@ -42,7 +24,7 @@ float emptyDistance(vec3 position, float footprint, vec3 direction) {
     const RadianceGrid g = radianceVoxels.grid;
     const uint coarser = min(uint(max(ceil(log2(footprint / g.voxelSize)), 0.0)), g.levels - 1u);
     vec3 at;
-    const ivec3 corner = octreeCorner(coarser, position, at);
+    const ivec3 corner = cornerVoxel(coarser, position, at);
     if (!inOctreeBorder(corner, coarser) || !inOctreeBorder(corner + 1, coarser)) return 0.0;
     uint emptyLevel = 0u;
     for (uint level = max(coarser, 1u); level <= g.levels; ++level) {

@@ -34,7 +34,7 @@ bool isEmpty(ivec3 voxel, uint level) {
 vec4 sourceValue(ivec3 voxel, uint side) {
     if (push.source > 0u) {
         const ClipmapWindow w = radianceVoxels.window[push.source];
-        return inWindow(w, voxel) ? clipmapValue(clipmapSlot(w, voxel), side) : vec4(0.0);
+        return inWindow(w, voxel) ? radianceValue(clipmapSlot(w, voxel), side) : vec4(0.0);
     }
     const uint number = voxelNumber(push.grid, voxel);
     if (number == NO_VOXEL) return vec4(0.0);
@@ -99,5 +99,5 @@ void main() {
     const uint slot = clipmapSlot(radianceVoxels.window[push.level], voxel);
     const bool empty = push.source == 0u && isEmpty(voxel, push.level);
     for (uint side = 0u; side < radianceVoxels.grid.directions; ++side)
-        storeClipmapValue(slot, side, empty ? vec4(0.0) : filtered(voxel, push.level - push.source, side));
+        storeRadiance(slot, side, empty ? vec4(0.0) : filtered(voxel, push.level - push.source, side));
 }

@@ -18,7 +18,7 @@ void main() {
     const uint directions = radianceVoxels.grid.directions;
     for (uint face = 0u; face < directions; ++face) {
         vec4 child[8];
-        for (uint octant = 0u; octant < 8u; ++octant) child[octant] = octreeValue(octreeChild(word, octant), face);
+        for (uint octant = 0u; octant < 8u; ++octant) child[octant] = radianceValue(octreeChild(word, octant), face);
         replaceOctreeValue(node, face, directions == 6u ? combineFaces(child, face) : combineAll(child));
     }
 }
