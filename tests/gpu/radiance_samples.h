@@ -1,10 +1,12 @@
 #pragma once
 
+#include <random>
 #include <string>
 #include <vector>
 
 #include "passes/common/dispatch.h"
 #include "passes/common/radiance_voxels.h"
+#include "shaders/shared/voxel_types.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {
@@ -16,6 +18,23 @@ struct RadianceQuery {
     glm::vec3 direction;
     float reserved = 0;
 };
+
+/// Places in a grid and a tenth of it around; footprints from half a voxel to twice the root.
+inline std::vector<RadianceQuery> randomQueries(const gpu::VoxelGrid& grid, size_t count) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    std::normal_distribution<float> normal;
+    std::vector<RadianceQuery> list(count);
+    const glm::vec3 extent = glm::vec3(grid.resolution) * grid.voxelSize;
+    for (RadianceQuery& q : list) {
+        for (int axis = 0; axis < 3; ++axis)
+            q.position[axis] = grid.origin[axis] + extent[axis] * (1.2f * uniform(random) - 0.1f);
+        q.footprint =
+            grid.voxelSize * std::exp2(-1 + float(radianceLevels(grid.resolution) + 1) * uniform(random));
+        q.direction = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
+    }
+    return list;
+}
 
 /// What sampleRadiance() answers, one by one. Works for every layout.
 inline std::vector<glm::vec4> sampleRadiance(const RadianceVoxels& radiance,

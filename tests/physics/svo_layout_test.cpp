@@ -1,0 +1,94 @@
+// The layout svo of filter_voxels in the whole chain, beside full grids.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtx/component_wise.hpp>
+#include <numbers>
+
+#include "passes/common/voxel_count.h"
+#include "passes/common/voxels.h"
+#include "passes/filter_voxels/octree.h"
+#include "tests/gpu/radiance_samples.h"
+
+namespace voxray::test {
+namespace {
+
+TEST(SvoLayout, AgreesWithTheDenseLayout) {
+    // A lit room: a million samples of place, footprint and direction. Half floats in the one, 14 bits in the
+    // other: both are off by 2^-11 or less of a value at level 0, and as much again from each level.
+    for (const std::string directions : {"1", "6"}) {
+        const auto chain = [&](const std::string& layout) {
+            return std::make_unique<Chain>(
+                "cornell", "{lights: point}",
+                "[{pass: voxelize, resolution: 32, directions: " + directions +
+                    "}, {pass: inject_light_rays, rays_per_light: 65536, bounces: 2},"
+                    " {pass: filter_voxels, layout: " +
+                    layout + "}]");
+        };
+        const auto dense = chain("dense"), svo = chain("svo");
+        const RadianceVoxels& denseVoxels = *dense->graph().resource<RadianceVoxels>("radiance");
+        const RadianceVoxels& octree = *svo->graph().resource<RadianceVoxels>("radiance");
+        const std::vector<RadianceQuery> queries = randomQueries(
+            {octree.grid.origin, octree.grid.voxelSize, octree.grid.resolution, 0, octree.grid.directions},
+            directions == "1" ? 200000 : 1000000);
+        const std::vector<glm::vec4> a = sampleRadiance(denseVoxels, queries),
+                                     b = sampleRadiance(octree, queries);
+        double worst = 0, worstCover = 0, brightest = 0;
+        for (size_t i = 0; i < queries.size(); ++i) {
+            brightest = std::max<double>(brightest, glm::compMax(glm::vec3(a[i])));
+            worst = std::max<double>(worst, glm::compMax(glm::abs(glm::vec3(a[i] - b[i]))));
+            worstCover = std::max<double>(worstCover, std::abs(a[i].a - b[i].a));
+        }
+        EXPECT_GT(brightest, 0.05);
+        EXPECT_LT(worst, 3 * std::exp2(-11) * brightest);
+        EXPECT_LT(worstCover, 3 * std::exp2(-11) * 2);
+        std::printf("directions %s: radiance differs by %.2g of the brightest, cover by %.2g\n",
+                    directions.c_str(), worst / brightest, worstCover);
+    }
+}
+
+TEST(SvoLayout, ConesGatherWhatTheyGatherInFullGrids) {
+    // A closed white room: the same picture, and the walls' mean radiosity E = 4 pi I / (24 m² (1 - a)), of
+    // which all but the direct part comes through cones.
+    const auto indirect = [](const std::string& layout) {
+        Chain chain("white_room", "{albedo: 0.5}",
+                    "[{pass: gbuffer}, {pass: voxelize, resolution: 32}, {pass: inject_light_rays, "
+                    "rays_per_light: 131072,"
+                    " bounces: 6}, {pass: filter_voxels, layout: " +
+                        layout + "}, {pass: gather_cones}]",
+                    16, 16);
+        return chain.image("indirect");
+    };
+    const ImageF dense = indirect("dense"), octree = indirect("svo");
+    EXPECT_NEAR(mean(octree) / mean(dense), 1.0, 1e-3);
+    for (size_t i = 0; i < dense.data.size(); ++i)
+        ASSERT_NEAR(octree.data[i], dense.data[i], 0.01 * mean(dense)) << "value " << i;
+    const double arriving = 4 * std::numbers::pi / 24 * 0.5 / (1 - 0.5);  // Of the second bounce on.
+    EXPECT_NEAR(mean(octree) / (0.5 / std::numbers::pi * arriving), 1.0, 0.05);
+}
+
+TEST(SvoLayout, TakesWhatIsPredicted) {
+    // What the plan counts on the host: within a hundredth or two of the voxels, so of the bytes.
+    for (const std::string scene : {"cornell", "thin_wall", "spheres", "furnace"}) {
+        const Chain chain(scene, "{}",
+                          "[{pass: voxelize, resolution: 64}, {pass: inject_light_rays, rays_per_light: 1024,"
+                          " bounces: 0}, {pass: filter_voxels, layout: svo}]");
+        const RadianceVoxels& octree = *chain.graph().resource<RadianceVoxels>("radiance");
+        const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
+        const OctreeSize size{voxels.grid.resolution, 6,
+                              countSurfaceVoxels(chain.state().geometry, voxels.grid)};
+        EXPECT_NEAR(double(size.nodes[0]) / voxels.voxelCount, 1.0, 0.03) << scene;
+        uint64_t held = octree.header.bytes();
+        for (const Buffer& buffer : octree.storage) held += buffer.bytes();
+        EXPECT_NEAR(double(size.bytes()) / double(held), 1.0, 0.03) << scene;
+        // Building takes as much again at most: a collapsed octree beside the first.
+        EXPECT_GT(chain.predictedBytes.back(), held);
+        EXPECT_LT(double(chain.predictedBytes.back()), 2.6 * double(held)) << scene;
+        std::printf("%s: %u voxels, %u counted; %.2f MB, %.2f MB predicted with building\n", scene.c_str(),
+                    voxels.voxelCount, size.nodes[0], double(held) / 1e6,
+                    double(chain.predictedBytes.back()) / 1e6);
+    }
+}
+
+}  // namespace
+}  // namespace voxray::test
