@@ -2,7 +2,7 @@
 voxray_tests(graph
   SOURCES unit/graph_wiring_test.cpp
   DEPENDS voxray_experiment)
-voxray_tests(chain
+voxray_tests(chain SHARDS 12
   SOURCES gpu/shared_structs_test.cpp physics/awkward_views_test.cpp physics/clipmap_test.cpp
            physics/cone_tracing_test.cpp physics/final_gather_test.cpp physics/gbuffer_test.cpp
            physics/injection_test.cpp physics/light_paths_test.cpp physics/octree_test.cpp

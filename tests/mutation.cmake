@@ -17,7 +17,7 @@ target_link_libraries(sanitized_readers PRIVATE voxray_options fmt::fmt glm::glm
 target_compile_options(sanitized_readers PRIVATE ${SANITIZERS} -fno-omit-frame-pointer -O1 -g1)
 target_precompile_headers(sanitized_readers PRIVATE ${CMAKE_SOURCE_DIR}/framework/precompiled.h)
 
-voxray_tests(mutation
+voxray_tests(mutation SHARDS 3
   SOURCES unit/config_mutation_test.cpp unit/scene_mutation_test.cpp
   DEPENDS sanitized_readers voxray_config voxray_scene)
 target_link_options(tests_mutation PRIVATE ${SANITIZERS})
