@@ -1,0 +1,72 @@
+// Two sides of a wall within one voxel: what each layout tells of them.
+#include <gtest/gtest.h>
+
+#include "scene/shapes.h"
+#include "tests/gpu/radiance_samples.h"
+
+namespace voxray::test {
+namespace {
+
+/// A wall of 2 m x 2 m x 2 cm across x, red towards -x and green towards +x, a light on either side: the case
+/// of Arnebäck 2017, figure 15.
+std::shared_ptr<const SceneState> redAndGreenWall() {
+    SceneBuilder b("red_green_wall");
+    const uint32_t red = b.lambert("red", {0.8f, 0.0f, 0.0f}), green = b.lambert("green", {0.0f, 0.8f, 0.0f}),
+                   black = b.lambert("black", glm::vec3(0.0f));
+    b.quad("red", {-0.01f, -1, -1}, {0, 0, 2}, {0, 2, 0}, red);
+    b.quad("green", {0.01f, -1, -1}, {0, 2, 0}, {0, 0, 2}, green);
+    // Two specks that make the grid a cube of 2.2 m.
+    for (const float x : {-1.1f, 1.09f}) b.box("speck", {x, -1.1f, 0}, glm::vec3(0.01f), 0, black);
+    for (const float x : {-1.0f, 1.0f}) b.pointLight({x, 0, 0}, glm::vec3(1.0f));
+    b.camera({-1, 0, 0}, {0, 0, 0}, 60);
+    return std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
+}
+
+Chain wall(const std::string& voxelize, const std::string& filter) {
+    return Chain(
+        redAndGreenWall(),
+        "[{pass: voxelize, " + voxelize +
+            "}, {pass: inject_light_rays, rays_per_light: 65536, bounces: 0}, {pass: filter_voxels, " +
+            filter + "}]",
+        16, 16, 1);
+}
+
+/// What a ray along ±x (`towards`) meets in the wall, in steps of half a footprint of so many voxels.
+glm::vec3 seen(const Chain& chain, float towards, float footprint) {
+    const RadianceVoxels& radiance = *chain.graph().resource<RadianceVoxels>("radiance");
+    const float width = footprint * radiance.grid.voxelSize;
+    std::vector<RadianceQuery> queries;
+    for (float x = -3 * width; x <= 3 * width; x += 0.5f * width)
+        queries.push_back({{x, 0.1f, 0.1f}, width, {towards, 0, 0}});
+    glm::vec3 sum(0.0f);
+    for (const glm::vec4& met : sampleRadiance(radiance, queries)) sum += 0.5f * glm::vec3(met);
+    return sum;
+}
+
+TEST(ThinWalls, SidesOfAWallInOneVoxelKeepTheirColours) {
+    // Voxels of 7 cm and up to 16 times that.
+    for (const std::string filter :
+         {"layout: dense", "layout: svo", "layout: clipmap, clipmap_resolution: 16"}) {
+        const Chain chain = wall("resolution: 32", filter);
+        for (const float footprint : {1.0f, 2.0f, 4.0f, 16.0f}) {
+            const glm::vec3 red = seen(chain, 1, footprint), green = seen(chain, -1, footprint);
+            EXPECT_GT(red.r, 0.05f) << filter << ", " << footprint;
+            EXPECT_NEAR(green.g, red.r, 0.03f * red.r) << filter << ", " << footprint;
+            EXPECT_EQ(red.g, 0.0f) << filter << ", " << footprint;
+            EXPECT_EQ(green.r, 0.0f) << filter << ", " << footprint;
+        }
+    }
+}
+
+TEST(ThinWalls, OneDirectionMakesThemBrown) {
+    // What six directions are for: with one, both sides look alike.
+    for (const std::string filter : {"layout: dense", "layout: svo"}) {
+        const Chain chain = wall("resolution: 32, directions: 1", filter);
+        const glm::vec3 red = seen(chain, 1, 2.0f), green = seen(chain, -1, 2.0f);
+        EXPECT_NEAR(red.g, red.r, 0.03f * red.r) << filter;
+        EXPECT_NEAR(green.r, red.r, 0.03f * red.r) << filter;
+    }
+}
+
+}  // namespace
+}  // namespace voxray::test
