@@ -56,10 +56,12 @@ TEST(ConeTracing, EverySetKeepsTheEnergyOfAFurnace) {
 }
 
 TEST(ConeTracing, WallsLeakLittle) {
-    // Two sealed rooms side by side, a light in one: nothing arrives in the other. Voxels of 6 cm.
+    // Two sealed rooms side by side, a light in one: nothing arrives in the other. Voxels of 6 and 3 cm.
     Setting s;
     s.voxelize = "resolution: 64";
-    for (const std::string thickness : {"0.05", "0.2"}) EXPECT_LT(leak(thickness, s), 0.01) << thickness;
+    for (const std::string thickness : {"0.05", "0.2"}) EXPECT_LT(leak(thickness, s), 0.005) << thickness;
+    s.voxelize = "resolution: 128";
+    EXPECT_LT(leak("0.05", s), 0.005);
 }
 
 TEST(ConeTracing, EverySetKeepsTheEnergyOfAWhiteRoom) {

@@ -68,5 +68,25 @@ TEST(ThinWalls, OneDirectionMakesThemBrown) {
     }
 }
 
+/// Indirect light by gather rays in a dark room beside a lit one, 5 cm apart, relative to that in the lit
+/// one.
+double leakOfGatherRays(const std::string& inject) {
+    const auto seen = [&](const std::string& view) {
+        Chain chain(
+            "thin_wall", "{thickness: 0.05, view: " + view + "}",
+            "[{pass: gbuffer}, {pass: voxelize, resolution: 64}, {pass: place_surfels}, {pass: " + inject +
+                ", bounces: 3}, {pass: trace_gather_rays, rays: 64}, {pass: gather_rays, filter: 0}]");
+        return mean(chain.image("indirect"));
+    };
+    return seen("dark") / seen("lit");
+}
+
+TEST(ThinWalls, RaysLeakWhereVoxelsAreShared) {
+    // Light rays never enter the dark room. Voxel rays light a voxel's side by points all over it: where
+    // floor and ceiling of both rooms share voxels, by those of the lit room, too.
+    EXPECT_EQ(leakOfGatherRays("inject_light_rays, rays_per_light: 262144"), 0.0);
+    EXPECT_LT(leakOfGatherRays("inject_voxel_rays, rays: 16"), 0.005);
+}
+
 }  // namespace
 }  // namespace voxray::test
