@@ -56,7 +56,9 @@ void octreeBuild(benchmark::State& state) {
         builder.filter(stream, size, radiance, changed);
         stream.finish();
     }
+    const glm::uvec3 grid = voxels.grid.resolution;
     state.counters["voxels"] = voxels.voxelCount;
+    state.counters["grid_voxels"] = double(grid.x) * grid.y * grid.z;
     state.counters["MB"] = double(size.bytes()) / 1e6;
     state.counters["bytes_per_voxel"] = double(size.bytes()) / voxels.voxelCount;
     state.counters["structure_bytes_per_voxel"] =

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import contextlib
 import io
+import json
 import math
 import re
 import subprocess
@@ -129,6 +130,17 @@ class FullRun(unittest.TestCase):
         done = subprocess.run([sys.executable, notebook, self.directory, picture],
                               capture_output=True, text=True, check=True)
         self.assertLess(done.stdout.index("light_rays-256"), done.stdout.index("rsm-64"))  # by rising error
+        with Image.open(picture) as image:
+            self.assertGreater(image.size[0], 500)
+
+    def test_notebook_of_the_octree_reads_a_benchmark(self):
+        runs = [{"name": f"octreeBuild/resolution:{r}/directions:1/process_time", "voxels": 6.0 * r * r, "MB": r * r / 1e4,
+                 "bytes_per_voxel": 16.7, "grid_voxels": float(r ** 3)} for r in (64, 128)]
+        measured, picture = self.directory / "octree.json", self.directory / "octree.png"
+        measured.write_text(json.dumps({"benchmarks": runs}), encoding="utf-8")
+        done = subprocess.run([sys.executable, _ROOT / "notebooks/octree_memory.py", measured, picture],
+                              capture_output=True, text=True, check=True)
+        self.assertIn("24576.0", done.stdout)
         with Image.open(picture) as image:
             self.assertGreater(image.size[0], 500)
 
