@@ -53,6 +53,7 @@ class Run {
     void writeTables();
     VariantInputs inputsOf(const Variant& variant);
     std::string outcome(const VariantResult& result) const;
+    std::vector<std::string> warnings() const;
 
     Experiment experiment_;
     const RunOptions& options_;
@@ -61,6 +62,7 @@ class Run {
     std::optional<Session> session_;
     std::optional<ResultsFolder> folder_;
     ManifestData manifest_;
+    std::vector<std::string> leftOut_;         ///< A line for each pass that some variant does without.
     std::map<size_t, VariantResult> results_;  ///< By index into variants_.
     std::optional<Judge> judge_;
     bool judgeIsWritten_ = true;
@@ -81,7 +83,7 @@ RunSummary Run::execute() {
     // Render what is missing
     {
         Progress progress(variants_.size() - results_.size(), options_.quiet);
-        for (const std::string& warning : session_->warnings()) progress.warn(warning);
+        for (const std::string& warning : warnings()) progress.warn(warning);
         for (size_t i = 0; i < variants_.size() && !summary_.interrupted; ++i)
             if (!results_.count(i)) runVariant(i, progress);
     }
@@ -113,8 +115,16 @@ void Run::openSession() {
         session_->tracerName(variant.setup);
     }
     manifest_.experiment = &experiment_;
-    for (const Variant& variant : variants_)
-        manifest_.graphs.emplace_back(variant.name, Graph(registry_, variant.setup.graph).resolved());
+    std::map<std::string, size_t> variantsWithout;  // By the pass that is left out.
+    for (const Variant& variant : variants_) {
+        std::vector<std::string> leftOut;
+        manifest_.graphs.emplace_back(variant.name, variantGraph(variant, registry_, &leftOut).resolved());
+        for (const std::string& id : leftOut) ++variantsWithout[id];
+    }
+    for (const auto& [id, count] : variantsWithout)
+        leftOut_.push_back(
+            fmt::format("'{}' is left out of {} of {} variants: no image that is judged depends on it there",
+                        id, count, variants_.size()));
     for (const Variant& variant : variants_)
         manifest_.referenceHashes[variant.name] =
             session_->referenceHashOf(experiment_, variant.setup, registry_);
@@ -135,7 +145,7 @@ void Run::printPlan() {
     for (const Variant& variant : variants_) {
         const PreparedScene prepared = session_->loader().prepare(variant.setup.scene);
         const Frame frame = frameOf(variant.setup, prepared, variant.setup.general.seed);
-        Graph graph(registry_, variant.setup.graph);
+        Graph graph = variantGraph(variant, registry_);
         fmt::print("{} (tracer {}, {} x {})\n", variant.name, session_->tracerName(variant.setup),
                    variant.setup.image.width, variant.setup.image.height);
         try {
@@ -267,10 +277,16 @@ std::string Run::outcome(const VariantResult& r) const {
     return line;
 }
 
+std::vector<std::string> Run::warnings() const {
+    std::vector<std::string> lines = session_->warnings();
+    lines.insert(lines.end(), leftOut_.begin(), leftOut_.end());
+    return lines;
+}
+
 void Run::writeTables() {
     std::vector<VariantResult> rows;
     for (const auto& [index, result] : results_) rows.push_back(result);
-    manifest_.warnings = session_->warnings();
+    manifest_.warnings = warnings();
     folder_->writeText("manifest.json", manifestJson(manifest_));
     folder_->writeText("results.csv", resultsCsv(rows, sweepKeys(experiment_), experiment_.measure.metrics));
     folder_->writeText("passes.csv", passesCsv(rows));

@@ -23,6 +23,13 @@ void checkPassNames(const Experiment& experiment, const Registry& registry) {
 
 }  // namespace
 
+Graph variantGraph(const Variant& variant, const Registry& registry, std::vector<std::string>* leftOut) {
+    Graph graph(registry, variant.setup.graph);
+    const std::vector<std::string> dropped = graph.keepOnly({"final", "indirect"});
+    if (leftOut) *leftOut = dropped;
+    return graph;
+}
+
 Value referenceGraph(const Experiment& experiment) {
     Value list = Value::list();
     list.where = experiment.reference.where;

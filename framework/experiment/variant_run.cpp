@@ -34,7 +34,7 @@ RenderedVariant renderVariant(const Variant& variant, const Experiment& experime
         // Plan, prepare, run
         SceneOnDevice& scene = session.scene(variant.setup);
         const Frame frame = frameOf(variant.setup, scene.prepared, variant.setup.general.seed);
-        Graph graph(registry, variant.setup.graph);
+        Graph graph = variantGraph(variant, registry);
         session.plan(graph, frame, experiment.measure.memoryLimitMb);
         graph.prepare(frame, device, session.compiler(), session.stream());
         Measurement m = measureGraph(graph, {frame, device, session.stream(), *scene.tracer, scene.gpu},

@@ -1,7 +1,9 @@
 #include "graph/graph.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
+#include <set>
 
 #include "graph/finite_check.h"
 #include "graph/wiring.h"
@@ -34,6 +36,31 @@ std::vector<Graph::PassInfo> Graph::passes() const {
     std::vector<PassInfo> infos;
     for (const GraphNode& node : impl_->nodes) infos.push_back({node.id, node.kind, node.pass->phase()});
     return infos;
+}
+
+std::vector<std::string> Graph::keepOnly(const std::vector<std::string>& portNames) {
+    // Backwards from the last writers: a node is needed if a needed one reads what it writes.
+    std::vector<GraphNode>& nodes = impl_->nodes;
+    std::set<const Resource*> wanted;
+    std::set<std::string> open(portNames.begin(), portNames.end());
+    std::vector<GraphNode> kept;
+    std::vector<std::string> dropped;
+    for (size_t n = nodes.size(); n-- > 0;) {
+        bool needed = false;
+        for (size_t p = 0; p < nodes[n].ports.size(); ++p)
+            if (nodes[n].ports[p].output)
+                needed |= open.erase(nodes[n].ports[p].name) > 0 || wanted.count(nodes[n].resources[p]) > 0;
+        if (!needed) {
+            dropped.push_back(nodes[n].id);
+            continue;
+        }
+        wanted.insert(nodes[n].resources.begin(), nodes[n].resources.end());
+        kept.push_back(std::move(nodes[n]));
+    }
+    nodes.assign(std::make_move_iterator(kept.rbegin()), std::make_move_iterator(kept.rend()));
+    impl_->memoryBytes.assign(nodes.size(), 0);
+    std::reverse(dropped.begin(), dropped.end());
+    return dropped;
 }
 
 Value Graph::resolved() const {

@@ -44,6 +44,10 @@ class Graph {
     /// The config's list with every default filled in, in execution order.
     Value resolved() const;
 
+    /// Drops every pass that none of the last writers of `portNames` depends on: it would take time and
+    /// memory for nothing. @return the dropped passes' ids.
+    std::vector<std::string> keepOnly(const std::vector<std::string>& portNames);
+
     /// A resource that will be read from outside, by port name: the last pass that writes it.
     bool writes(const std::string& portName) const;
 

@@ -97,6 +97,20 @@ TEST(GraphWiring, RecordsEveryDefault) {
     EXPECT_EQ(g.resolved().text(), "[{pass: make_voxels, resolution: 64, fine: true}]");
 }
 
+TEST(GraphWiring, KeepsOnlyWhatIsAskedFor) {
+    Graph g = graph(
+        "[{pass: make_voxels}, {pass: make_voxels, id: unread}, {pass: light_voxels, id: a, inputs: {voxels: "
+        "make_voxels}}, {pass: light_voxels, id: reads_unread, inputs: {light: a}}, "
+        "{pass: light_voxels, id: b, inputs: {voxels: make_voxels, light: a}}]");
+    EXPECT_EQ(g.keepOnly({"light", "indirect"}), (std::vector<std::string>{"unread", "reads_unread"}));
+    const auto passes = g.passes();
+    ASSERT_EQ(passes.size(), 3u);
+    EXPECT_EQ(passes[0].id, "make_voxels");
+    EXPECT_EQ(passes[1].id, "a");
+    EXPECT_EQ(passes[2].id, "b");
+    EXPECT_EQ(g.keepOnly({"light"}), std::vector<std::string>{});
+}
+
 TEST(GraphWiring, NamesPlaceAndNearestWord) {
     const std::string unknownPass = errorOf("- {pass: make_voxels}\n- {pass: light_voxel}\n");
     EXPECT_HAS(unknownPass, "g.yaml:2");
