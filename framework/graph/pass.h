@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <typeindex>
@@ -92,6 +93,9 @@ struct Frame {
     uint32_t width = 0;
     uint32_t height = 0;
     uint64_t seed = 0;
+    /// Where surfaces came, went or moved since the build phase ran last (old and new bounds of what moves,
+    /// each instance apart); nullopt: everything is new.
+    std::optional<std::vector<Box>> changed;
     /// Called by passes that take long with the part that is done, 0 to 1; false asks them to stop with an
     /// Error.
     std::function<bool(double)> progress;

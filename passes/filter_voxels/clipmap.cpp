@@ -62,7 +62,7 @@ class ClipmapStorage final : public RadianceStorage {
     void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
              RadianceVoxels& radiance, float emission) override {
         // Move the windows.
-        const bool keep = header_ && !eachFrame_;
+        const bool keep = header_ && !eachFrame_ && !context.frame.changed;
         Header header{radiance.grid, radiance.storage[0].address(), side_, windows_.firstWhole(), {}};
         for (uint32_t level = 0; level < radiance.grid.levels; ++level)
             header.windows[level] = windows_.window(level, context.frame.camera.position);
