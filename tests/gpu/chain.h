@@ -54,6 +54,18 @@ class Chain {
         frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, 0, true);
     }
 
+    /// The build phase and a frame once more, after surfaces have moved within the boxes `changed`; nullopt:
+    /// all is new. `state`: the same triangles and bounds, elsewhere.
+    void moveTo(std::shared_ptr<const SceneState> state, std::optional<std::vector<Box>> changed) {
+        state_ = std::move(state);
+        tracer_ = makeRayTracer(TracerKind::Embree, device(), compiler_, *state_);
+        scene_ = makeGpuScene(device(), stream_, *state_);
+        frame_.scene = state_.get();
+        frame_.changed = std::move(changed);
+        buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
+        frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, 0, true);
+    }
+
     const SceneState& state() const { return *state_; }
     const Graph& graph() const { return *graph_; }
     ImageF image(const std::string& port) { return downloadImage(device(), stream_, *graph_->image(port)); }
