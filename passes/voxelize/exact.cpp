@@ -66,10 +66,12 @@ class Exact final : public VoxelizeMethod {
         std::vector<glm::uvec2> tiles;
         for (const uint32_t t : triangles)
             forEachTile(context.frame.scene->geometry, grid, region, t,
-                        [&](uint32_t triangle, uint32_t tile) { tiles.push_back({triangle, tile}); });
+                        [&](uint32_t triangle, uint32_t tile) {
+                            tiles.push_back({triangle, tile});
+                        });
         tileCount_ = uint32_t(tiles.size());
-        tiles_ =
-            Buffer(context.device, "tiles of triangles", std::max<size_t>(tiles.size(), 1) * sizeof(tiles[0]));
+        tiles_ = Buffer(context.device, "tiles of triangles",
+                        std::max<size_t>(tiles.size(), 1) * sizeof(tiles[0]));
         if (!tiles.empty()) context.stream.upload(tiles_, tiles);
     }
 

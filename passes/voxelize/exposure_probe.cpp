@@ -59,13 +59,12 @@ Buffer ExposureProbe::run(PassContext& context, const SurfaceVoxels& voxels,
         if (points.empty()) return;
         stream.upload(batch, points);
         stream.fill(kept, 0);
-        stream.dispatch(emit_,
-                        context.scene.bindings({{"points", batch},
-                                                {"rays", rays},
-                                                {"kept", kept},
-                                                {"voxelOccupancy", voxels.occupancy}}),
-                        EmitPush{voxels.grid, uint32_t(points.size()), randomSeed(context.frame)},
-                        linearGroups(points.size()));
+        stream.dispatch(
+            emit_,
+            context.scene.bindings(
+                {{"points", batch}, {"rays", rays}, {"kept", kept}, {"voxelOccupancy", voxels.occupancy}}),
+            EmitPush{voxels.grid, uint32_t(points.size()), randomSeed(context.frame)},
+            linearGroups(points.size()));
         points.clear();
         const uint32_t count = stream.readAs<uint32_t>(kept, 1)[0];
         if (count == 0) return;

@@ -23,7 +23,9 @@ class RegionJoin {
 
     /// Bytes that a join takes for a while, besides the materials of the voxels: five words for every two of
     /// theirs.
-    static uint64_t scratchBytes(const SurfaceVoxels& voxels) { return 5 * voxels.words() * sizeof(uint32_t); }
+    static uint64_t scratchBytes(const SurfaceVoxels& voxels) {
+        return 5 * voxels.words() * sizeof(uint32_t);
+    }
 
  private:
     Program bits_, join_, materials_;

@@ -101,8 +101,7 @@ void VoxelizePass::voxelize(PassContext& context, const VoxelRegion& region, Sur
     stream.fill(target.occupancy, 0);
     method_->run(context, target, {true, &target.occupancy, 0});
     if (former) join_.occupancy(stream, region, *former, target);
-    target.voxelCount =
-        prefixSum_->run(stream, target.occupancy, target.rank, uint32_t(target.words()));
+    target.voxelCount = prefixSum_->run(stream, target.occupancy, target.rank, uint32_t(target.words()));
     const uint64_t count = std::max(target.voxelCount, 1u);
     target.materials = LargeBuffer(context.device, "voxel materials", count * sizeof(gpu::VoxelMaterial));
 
@@ -111,9 +110,9 @@ void VoxelizePass::voxelize(PassContext& context, const VoxelRegion& region, Sur
     stream.fill(sums, 0);
     method_->run(context, target, {false, &sums.at(), largestEmission_ > 0 ? 1.0f / largestEmission_ : 0.0f});
     const Buffer probes = exposureProbe_.run(context, target, triangles, params_.exposureRays);
-    stream.dispatch(
-        resolve_, {{"SumsAt", sums.at()}, {"VoxelMaterialsAt", target.materials.at()}, {"probes", probes}},
-        ResolvePush{target.voxelCount, largestEmission_}, linearGroups(target.voxelCount));
+    stream.dispatch(resolve_,
+                    {{"SumsAt", sums.at()}, {"VoxelMaterialsAt", target.materials.at()}, {"probes", probes}},
+                    ResolvePush{target.voxelCount, largestEmission_}, linearGroups(target.voxelCount));
     stream.finish();
 }
 

@@ -54,10 +54,11 @@ class VoxelizePass final : public Pass {
                 field("samples", &Params::samples,
                       "three_axis: sample points along a voxel's edge, in each of the three projections.", 1u,
                       16u),
-                field("exposure_rays", &Params::exposureRays,
-                      "Points on a surface as large as a voxel's face that probe both sides for open space; 0 "
-                      "takes all sides for exposed, which darkens thin closed walls.",
-                      0u, 256u)};
+                field(
+                    "exposure_rays", &Params::exposureRays,
+                    "Points on a surface as large as a voxel's face that probe both sides for open space; 0 "
+                    "takes all sides for exposed, which darkens thin closed walls.",
+                    0u, 256u)};
         }
     };
 

@@ -57,10 +57,18 @@ class Chain {
     /// The build phase and a frame once more, after surfaces have moved within the boxes `changed`; nullopt:
     /// all is new. `state`: the same triangles and bounds, elsewhere.
     void moveTo(std::shared_ptr<const SceneState> state, std::optional<std::vector<Box>> changed) {
+        place(std::move(state));
+        rebuild(std::move(changed));
+    }
+    /// The first half of moveTo(): the scene, for passes and rays.
+    void place(std::shared_ptr<const SceneState> state) {
         state_ = std::move(state);
         tracer_ = makeRayTracer(TracerKind::Embree, device(), compiler_, *state_);
         scene_ = makeGpuScene(device(), stream_, *state_);
         frame_.scene = state_.get();
+    }
+    /// The second half: the passes.
+    void rebuild(std::optional<std::vector<Box>> changed) {
         frame_.changed = std::move(changed);
         buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
         frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, 0, true);
