@@ -119,6 +119,7 @@ Value sceneSchema() {
     // Parameters of built-in scenes stand beside the keys that every scene has
     Value schema = mapSchema(describeParams<SceneOptions>());
     Value& properties = *schema.find("properties");
+    properties.set("moving_spheres", mapSchema(describeParams<MovingSpheres>()));
     properties.set("camera", anyOf({string, camera}));
     properties.set("lights", anyOf({string, lightList}));
     properties.set("environment",

@@ -1,6 +1,7 @@
 #include "experiment/measure.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "base/interrupt.h"
@@ -39,6 +40,17 @@ class PhaseSamples {
     std::vector<PassSample> first_;
 };
 
+PassSample timeOnHost(CommandStream& stream, const std::function<void()>& work) {
+    stream.finish();
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    stream.finish();
+    PassSample sample;
+    sample.milliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return sample;
+}
+
 }  // namespace
 
 Percentiles percentiles(std::vector<double> values) {
@@ -68,7 +80,9 @@ ImageF downloadImage(Device& device, CommandStream& stream, const Image& image) 
 
 Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureSettings& settings,
                          const std::function<void(double)>& progress) {
-    const double steps = double(1 + settings.buildRepeats + settings.warmup + settings.frames);
+    const double runsOfFrame = target.goToFrame ? 2 : 1;
+    const double steps =
+        1 + settings.buildRepeats + runsOfFrame * (double(settings.warmup) + settings.frames);
     double done = 0;
     Frame frame = target.frame;
     frame.progress = [&](double part) {
@@ -91,16 +105,23 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
 
     // Frames: the first measured one is judged
     Measurement result;
-    const auto moveCamera = [&](int frameFromJudged) {
-        frame.camera.position = target.frame.camera.position + float(frameFromJudged) * frame.cameraMove;
+    const auto runFrame = [&](int fromJudged, uint32_t frameIndex, bool checkFinite) {
+        frame.camera = target.frame.camera;
+        std::vector<PassSample> samples;
+        if (target.goToFrame) {
+            samples.push_back(timeOnHost(target.stream, [&] { target.goToFrame(frame, fromJudged); }));
+            const auto updates = run(Phase::Build, 0, checkFinite);
+            samples.insert(samples.end(), updates.begin(), updates.end());
+        }
+        frame.camera.position += float(fromJudged) * frame.cameraMove;
+        const auto own = run(Phase::Frame, frameIndex, checkFinite);
+        samples.insert(samples.end(), own.begin(), own.end());
+        return samples;
     };
-    for (uint32_t i = 0; i < settings.warmup; ++i) {
-        moveCamera(int(i) - int(settings.warmup));
-        run(Phase::Frame, kFirstWarmupFrame + i, false);
-    }
+    for (uint32_t i = 0; i < settings.warmup; ++i)
+        runFrame(int(i) - int(settings.warmup), kFirstWarmupFrame + i, false);
     for (uint32_t i = 0; i < settings.frames; ++i) {
-        moveCamera(int(i));
-        frames.add(run(Phase::Frame, i, i == 0 || i + 1 == settings.frames));
+        frames.add(runFrame(int(i), i, i == 0 || i + 1 == settings.frames));
         if (i > 0) continue;
         const Image* final = graph.image("final");
         if (!final || !*final) throw Error("no pass wrote the image 'final'");
@@ -109,19 +130,27 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
             result.indirect = downloadImage(target.device, target.stream, *indirect);
     }
 
-    // Cost of each pass, in the graph's order
-    const std::vector<uint64_t> memory = graph.memoryBytes();
-    const std::vector<Graph::PassInfo> passes = graph.passes();
-    size_t nextBuild = 0, nextFrame = 0;
-    for (size_t i = 0; i < passes.size(); ++i) {
-        const bool isBuild = passes[i].phase == Phase::Build;
-        PassCost cost = isBuild ? build.cost(nextBuild++) : frames.cost(nextFrame++);
-        cost.id = passes[i].id;
-        cost.phase = passes[i].phase;
-        cost.memoryBytes = memory[i];
-        result.memoryBytes += cost.memoryBytes;
+    // Cost of each pass, in the graph's order; what it holds stands in its first row
+    const auto addCost = [&](PassCost cost, const std::string& id, Phase phase, uint64_t memoryBytes) {
+        cost.id = id;
+        cost.phase = phase;
+        cost.memoryBytes = memoryBytes;
+        result.memoryBytes += memoryBytes;
         result.rays += cost.rays;
         result.passes.push_back(cost);
+    };
+    const std::vector<uint64_t> memory = graph.memoryBytes();
+    const std::vector<Graph::PassInfo> passes = graph.passes();
+    size_t nextBuild = 0, nextUpdate = 0;
+    if (target.goToFrame) addCost(frames.cost(nextUpdate++), kSceneUpdate, Phase::Frame, 0);
+    size_t nextFrame = nextUpdate;
+    if (target.goToFrame)
+        for (const Graph::PassInfo& pass : passes) nextFrame += pass.phase == Phase::Build;
+    for (size_t i = 0; i < passes.size(); ++i) {
+        const bool isBuild = passes[i].phase == Phase::Build;
+        addCost(isBuild ? build.cost(nextBuild++) : frames.cost(nextFrame++), passes[i].id, passes[i].phase,
+                memory[i]);
+        if (isBuild && target.goToFrame) addCost(frames.cost(nextUpdate++), passes[i].id, Phase::Frame, 0);
     }
     result.buildMs = build.sum().median;
     result.frameMs = frames.sum();

@@ -34,7 +34,7 @@ struct PassCost {
 struct Measurement {
     std::vector<PassCost> passes;
     double buildMs = 0;        ///< Median of the build passes' sum.
-    Percentiles frameMs;       ///< Of the frame passes' sum.
+    Percentiles frameMs;       ///< Of the frame passes' sum, with all that is brought up to date before them.
     uint64_t memoryBytes = 0;  ///< Held by the passes; the scene itself is not counted.
     uint64_t rays = 0;         ///< Of one build and one frame.
     ImageF final;              ///< 3 channels, of the first measured frame.
@@ -48,13 +48,22 @@ struct GraphTarget {
     CommandStream& stream;
     RayTracer& tracer;
     const GpuScene& scene;
+    /// Takes scene, tracer and the frame's camera and `changed` to a frame, counted from the judged one;
+    /// empty: only the camera moves.
+    std::function<void(Frame&, int)> goToFrame;
 };
+
+/// The pass under whose name the time of GraphTarget::goToFrame stands.
+inline constexpr const char* kSceneUpdate = "scene";
 
 /// Runs a prepared graph: the build passes once untimed and then `buildRepeats` times, warm-up frames,
 /// measured frames. Measured frames are numbered from 0, warm-up frames from 1,000,000; the image of frame 0
 /// is judged, so it does not depend on how many frames are measured. A frame's camera stands as many times
-/// `cameraMove` from the target frame's as the frame is after frame 0. Outputs are checked for NaN and
-/// infinity, outside of the timings, in the first build and in the first and last measured frame.
+/// `cameraMove` from the target frame's as the frame is after frame 0. Where the target has `goToFrame`, it
+/// and the build passes run before the passes of each frame, and build passes have a second cost, of phase
+/// Frame. They always run as in frame 0: they draw the same random numbers each time, so that only what
+/// changed changes. Outputs are checked for NaN and infinity, outside of the timings, in the first build and
+/// in the first and last measured frame.
 /// @param progress called with the fraction done.
 /// @throws Interrupted, Error of a pass.
 Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureSettings& settings,

@@ -14,21 +14,24 @@ glm::vec3 direction(const glm::vec3& vector, const Value& at, const std::string&
 }
 
 // Light entries are named by the key that says their type.
-Light readLight(const Value& entry, size_t index) {
+ConfigLight readLight(const Value& entry, size_t index) {
     const std::string what = fmt::format("scene.lights[{}]", index);
     if (!entry.isMap())
         throw UsageError(entry.where, "{}: expected a map such as {{point: [0, 1, 0], intensity: [5, 5, 5]}}",
                          what);
-    Light light;
+    ConfigLight read;
+    Light& light = read.light;
     light.name = fmt::format("config light {}", index);
     if (const Value* axis = entry.find("directional")) {
         const auto p = readParams<DirectionalLightSettings>(entry, what);
         light.type = LightType::Directional;
         light.intensity = p.irradiance;
+        read.move = p.move;
         light.direction = direction(p.direction, *axis, what + ".directional");
     } else if (entry.find("point")) {
         const auto p = readParams<PointLightSettings>(entry, what);
         light.intensity = p.intensity;
+        read.move = p.move;
         light.position = p.position;
     } else if (entry.find("spot")) {
         const auto p = readParams<SpotLightSettings>(entry, what);
@@ -36,6 +39,7 @@ Light readLight(const Value& entry, size_t index) {
             throw UsageError(entry.where, "{}: inner_deg must be less than outer_deg", what);
         light.type = LightType::Spot;
         light.intensity = p.intensity;
+        read.move = p.move;
         light.position = p.position;
         light.direction = direction(p.direction, entry, what + ".direction");
         light.innerConeAngle = glm::radians(p.innerDegrees);
@@ -46,7 +50,7 @@ Light readLight(const Value& entry, size_t index) {
         throw UsageError(entry.where, "{}: not a type of light: '{}'{}", what, first,
                          didYouMean(first, types));
     }
-    return light;
+    return read;
 }
 
 void readCamera(const Value& value, SceneSettings& settings) {
@@ -112,6 +116,8 @@ SceneSettings readSceneSettings(const Value& map) {
             readCamera(value, settings);
         } else if (key == "environment") {
             readEnvironment(value, settings);
+        } else if (key == "moving_spheres") {
+            settings.movingSpheres = readParams<MovingSpheres>(value, "scene.moving_spheres");
         } else if (key == "lights" && !isBuiltinsLights) {
             if (!value.isList()) throw UsageError(value.where, "scene.lights: expected a list of lights");
             for (size_t i = 0; i < value.items.size(); ++i)
@@ -122,7 +128,8 @@ SceneSettings readSceneSettings(const Value& map) {
             own.set(key, value);
         }
     }
-    settings.options = readParams<SceneOptions>(own, "scene", {"camera", "lights", "environment"});
+    settings.options =
+        readParams<SceneOptions>(own, "scene", {"camera", "lights", "environment", "moving_spheres"});
 
     // One source
     const bool hasFile = !settings.options.file.empty(), hasBuiltin = !settings.options.builtin.empty();

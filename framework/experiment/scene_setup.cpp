@@ -26,7 +26,7 @@ void checkBuiltin(const SceneSettings& settings) {
                          didYouMean(name, names));
 
     // Its own parameters, and in suggestions the keys that every scene has
-    std::vector<std::string> own, all{"camera", "lights", "environment"};
+    std::vector<std::string> own, all{"camera", "lights", "environment", "moving_spheres"};
     for (const ParameterDoc& doc : describeBuiltinScene(name)) own.push_back(doc.name);
     for (const std::string& key : fieldNames<SceneOptions>()) all.push_back(key);
     all.insert(all.end(), own.begin(), own.end());
@@ -69,7 +69,37 @@ Camera chooseCamera(const SceneSettings& settings, const SceneState& state) {
                      didYouMean(settings.cameraName, names));
 }
 
+/// The lights that shine in a frame and its camera, out of those of the evaluated scene.
+void chooseLightsAndCamera(PreparedScene& prepared, const SceneSettings& settings, int frame) {
+    std::vector<Light>& lights = prepared.state.lights;
+    if (!settings.options.keepFileLights) lights.clear();
+    for (const ConfigLight& entry : settings.lights) {
+        Light light = entry.light;
+        const glm::vec3 way = float(frame) * entry.move;
+        if (light.type == LightType::Directional && way != glm::vec3(0.0f)) {
+            const float length = glm::length(light.direction + way);
+            if (!(length > 1e-6f))
+                throw Error(
+                    "{}: 'move' leaves it without a direction {} frames from the judged one; change it or "
+                    "measure fewer frames",
+                    light.name, frame);
+            light.direction = (light.direction + way) / length;
+        } else {
+            light.position += way;
+        }
+        lights.push_back(light);
+    }
+    prepared.camera = chooseCamera(settings, prepared.state);
+    prepared.state.cameras = {prepared.camera};
+}
+
 }  // namespace
+
+bool changesInTime(const SceneSettings& settings) {
+    return settings.options.timeStep > 0 ||
+           std::any_of(settings.lights.begin(), settings.lights.end(),
+                       [](const ConfigLight& entry) { return entry.move != glm::vec3(0.0f); });
+}
 
 std::vector<fs::path> sceneFolders(const fs::path& scenesOption, const fs::path& sourceRoot,
                                    const fs::path& configFile) {
@@ -131,11 +161,13 @@ std::string SceneLoader::key(const SceneSettings& settings) {
     hasher.add(load(settings)->contentHash);
     hasher.addPlain(settings.options.keepFileLights).addPlain(settings.options.materials);
     hasher.addPlain(settings.options.time).add(settings.cameraName);
-    // Where the camera goes from the judged frame on changes nothing in it
+    // Where all goes from the judged frame on changes nothing in it but the bounds
+    hasher.addPlain(settings.options.timeStep > 0);
+    hasher.add(settings.movingSpheres ? writeParams(*settings.movingSpheres).text() : "");
     Value camera = settings.camera ? writeParams(*settings.camera) : Value();
     camera.erase("move");
     hasher.add(settings.camera ? camera.text() : "");
-    for (const Light& light : settings.lights) {
+    for (const auto& [light, move] : settings.lights) {
         hasher.addPlain(light.type)
             .addPlain(light.intensity)
             .addPlain(light.position)
@@ -156,21 +188,28 @@ PreparedScene SceneLoader::prepare(const SceneSettings& settings) {
     // The scene's materials and environment
     std::shared_ptr<const Scene> scene = load(settings);
     if (settings.options.materials == MaterialMode::Lambert) scene = withLambertMaterials(*scene);
-    if (settings.environment) {
+    if (settings.environment || settings.movingSpheres) {
         auto copy = std::make_shared<Scene>(*scene);
-        copy->environment.radiance = settings.environment->scale;
-        copy->environment.map = loadMap(settings);
+        if (settings.environment) {
+            copy->environment.radiance = settings.environment->scale;
+            copy->environment.map = loadMap(settings);
+        }
+        if (settings.movingSpheres) addMovingSpheres(*copy, *settings.movingSpheres);
         scene = copy;
     }
 
-    // Lights and the camera, in world space
     PreparedScene prepared;
-    prepared.state = evaluate(scene, settings.options.time);
-    if (!settings.options.keepFileLights) prepared.state.lights.clear();
-    prepared.state.lights.insert(prepared.state.lights.end(), settings.lights.begin(), settings.lights.end());
-    prepared.camera = chooseCamera(settings, prepared.state);
-    prepared.state.cameras = {prepared.camera};
+    const Playback playback = settings.options.timeStep > 0 ? Playback::Looping : Playback::Frozen;
+    prepared.state = evaluate(scene, settings.options.time, playback);
+    chooseLightsAndCamera(prepared, settings, 0);
     return prepared;
+}
+
+std::vector<Box> SceneLoader::goToFrame(PreparedScene& prepared, const SceneSettings& settings, int frame) {
+    const SceneOptions& options = settings.options;
+    std::vector<Box> changed = advance(prepared.state, options.time + frame * options.timeStep);
+    chooseLightsAndCamera(prepared, settings, frame);
+    return changed;
 }
 
 std::vector<std::string> SceneLoader::warnings() const {

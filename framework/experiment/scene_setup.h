@@ -30,6 +30,9 @@ struct PreparedScene {
     Camera camera;
 };
 
+/// Whether surfaces or lights are elsewhere in the next frame.
+bool changesInTime(const SceneSettings& settings);
+
 /// Loads scenes and puts a config's camera, lights, environment and material mode on them. Keeps every scene
 /// it loaded.
 class SceneLoader {
@@ -42,6 +45,11 @@ class SceneLoader {
 
     /// @throws as key(), and UsageError for a camera that the scene lacks.
     PreparedScene prepare(const SceneSettings& settings);
+
+    /// Takes a prepared scene to a frame, counted from the judged one: animation, lights, and a camera on an
+    /// animated node. A camera's own `move` is not applied.
+    /// @return where surfaces moved, as `advance`. @throws Error for a light that is left without direction.
+    static std::vector<Box> goToFrame(PreparedScene& prepared, const SceneSettings& settings, int frame);
 
     /// What loading left out, a line each, of all scenes loaded.
     std::vector<std::string> warnings() const;

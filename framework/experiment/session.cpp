@@ -22,11 +22,17 @@ std::string Session::tracerName(const Setup& setup) const {
 
 SceneOnDevice& Session::scene(const Setup& setup) {
     const std::string key = loader_.key(setup.scene) + " " + tracerName(setup);
-    if (scene_ && scene_->key == key) return *scene_;
+    if (scene_ && scene_->key == key) {
+        Frame ignored;
+        if (sceneMoved_) goToFrame(setup, ignored, 0);
+        sceneMoved_ = false;
+        return *scene_;
+    }
 
     // The old one goes first: two may not fit. The tracer holds on to the state's address
     scene_.reset();
     scene_.emplace();
+    sceneMoved_ = false;
     try {
         scene_->prepared = loader_.prepare(setup.scene);
         scene_->gpu = makeGpuScene(device_, stream_, scene_->prepared.state);
@@ -38,6 +44,16 @@ SceneOnDevice& Session::scene(const Setup& setup) {
     }
     scene_->key = key;
     return *scene_;
+}
+
+void Session::goToFrame(const Setup& setup, Frame& frame, int fromJudged) {
+    PreparedScene& prepared = scene_->prepared;
+    sceneMoved_ = true;
+    frame.changed = SceneLoader::goToFrame(prepared, setup.scene, fromJudged);
+    frame.camera = prepared.camera;
+    updateGpuScene(stream_, prepared.state, scene_->gpu);
+    scene_->tracer->update(stream_);
+    stream_.finish();
 }
 
 std::vector<uint64_t> Session::plan(Graph& graph, const Frame& frame, uint64_t limitMb) {
@@ -89,7 +105,7 @@ ReferenceImages Session::makeReference(const std::string& hash, const Experiment
     plan(graph, frame, 0);
     graph.prepare(frame, device_, compiler_, stream_);
     ReferenceImages reference =
-        renderReference(graph, {frame, device_, stream_, *onDevice.tracer, onDevice.gpu}, progress);
+        renderReference(graph, {frame, device_, stream_, *onDevice.tracer, onDevice.gpu, {}}, progress);
     reference.hash = hash;
     return reference;
 }

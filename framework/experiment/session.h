@@ -35,8 +35,10 @@ class Session {
     /// The backend that a variant gets. @throws Error where the device lacks what it needs.
     std::string tracerName(const Setup& setup) const;
 
-    /// The variant's scene; the last one stays on the device until another is asked for.
+    /// The variant's scene in the judged frame; the last one stays on the device until another is asked for.
     SceneOnDevice& scene(const Setup& setup);
+    /// Takes the scene on the device, and a frame of it, to a frame counted from the judged one.
+    void goToFrame(const Setup& setup, Frame& frame, int fromJudged);
 
     /// Plans a graph: checks it against scene and device and predicts its memory, bytes by pass.
     /// @param limitMb the config's limit for the graph in MiB, 0: none.
@@ -62,6 +64,7 @@ class Session {
     SceneLoader loader_;
     ReferenceCache cache_;
     std::optional<SceneOnDevice> scene_;
+    bool sceneMoved_ = false;  ///< Out of the judged frame.
     std::optional<ReferenceImages> reference_;
     std::map<std::string, std::string> failedReferences_;  ///< Hash -> error.
     std::vector<std::string> warnings_;

@@ -8,6 +8,7 @@
 
 #include "base/schema.h"
 #include "base/value.h"
+#include "scene/moving_spheres.h"
 #include "scene/scene.h"
 #include "trace/ray_tracer.h"
 
@@ -86,13 +87,14 @@ struct MeasureSettings {
 /// Names for `measure.metrics`.
 std::vector<std::string> metricNames();
 
-/// `scene`, but for `camera`, `lights` and `environment`.
+/// `scene`, but for `camera`, `lights`, `environment` and `moving_spheres`.
 struct SceneOptions {
     std::string file;
     std::string builtin;
     bool keepFileLights = true;
     MaterialMode materials = MaterialMode::AsIs;
     double time = 0;
+    double timeStep = 0;
     static constexpr auto schema() {
         return std::tuple{
             field("file", &SceneOptions::file, "A .glb or .gltf file, looked for in the scene folders."),
@@ -103,7 +105,13 @@ struct SceneOptions {
                   "always stay."),
             field("materials", &SceneOptions::materials,
                   "as_is, or lambert: drop specular and metal, keep base colour and emission."),
-            field("time", &SceneOptions::time, "Time in seconds at which animation is frozen.", 0.0, 1e6)};
+            field("time", &SceneOptions::time, "Time of the judged frame in the animation, seconds.", 0.0,
+                  1e6),
+            field(
+                "time_step", &SceneOptions::timeStep,
+                "Seconds of animation from one frame to the next; 0: everything stands still. Warm-up frames "
+                "lead up to `time`; the animation repeats after its last key.",
+                0.0, 1e6)};
     }
 };
 
@@ -132,22 +140,32 @@ struct CameraSettings {
 struct DirectionalLightSettings {
     glm::vec3 direction{0, -1, 0};
     glm::vec3 irradiance{1.0f};
+    glm::vec3 move{0.0f};
     static constexpr auto schema() {
         return std::tuple{field("directional", &DirectionalLightSettings::direction,
                                 "The way the light travels, any length but 0.", glm::vec3(-kMaxCoordinate),
                                 glm::vec3(kMaxCoordinate)),
                           field("irradiance", &DirectionalLightSettings::irradiance,
-                                "On a surface that faces it, W/m².", glm::vec3(0.0f), glm::vec3(kMaxLight))};
+                                "On a surface that faces it, W/m².", glm::vec3(0.0f), glm::vec3(kMaxLight)),
+                          field("move", &DirectionalLightSettings::move,
+                                "Added to the direction from one frame to the next; in the judged frame it "
+                                "shines along `directional`.",
+                                glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))};
     }
 };
 struct PointLightSettings {
     glm::vec3 position{0.0f};
     glm::vec3 intensity{1.0f};
+    glm::vec3 move{0.0f};
     static constexpr auto schema() {
-        return std::tuple{field("point", &PointLightSettings::position, "Where the light is, metres.",
-                                glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate)),
-                          field("intensity", &PointLightSettings::intensity, "W/sr.", glm::vec3(0.0f),
-                                glm::vec3(kMaxLight))};
+        return std::tuple{
+            field("point", &PointLightSettings::position, "Where the light is, metres.",
+                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate)),
+            field("intensity", &PointLightSettings::intensity, "W/sr.", glm::vec3(0.0f),
+                  glm::vec3(kMaxLight)),
+            field("move", &PointLightSettings::move,
+                  "How far it moves from one frame to the next, metres: at its place in the judged frame.",
+                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))};
     }
 };
 struct SpotLightSettings {
@@ -156,6 +174,7 @@ struct SpotLightSettings {
     glm::vec3 intensity{1.0f};
     float innerDegrees = 0;
     float outerDegrees = 45;
+    glm::vec3 move{0.0f};
     static constexpr auto schema() {
         return std::tuple{
             field("spot", &SpotLightSettings::position, "Where the light is, metres.",
@@ -167,7 +186,10 @@ struct SpotLightSettings {
             field("inner_deg", &SpotLightSettings::innerDegrees,
                   "Angle from the axis, in degrees, up to which it shines in full.", 0.0f, 90.0f),
             field("outer_deg", &SpotLightSettings::outerDegrees,
-                  "Angle from the axis, in degrees, beyond which it doesn't shine.", 0.0f, 90.0f)};
+                  "Angle from the axis, in degrees, beyond which it doesn't shine.", 0.0f, 90.0f),
+            field("move", &SpotLightSettings::move,
+                  "How far it moves from one frame to the next, metres: at its place in the judged frame.",
+                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))};
     }
 };
 
@@ -184,13 +206,21 @@ struct EnvironmentSettings {
     }
 };
 
+/// A light of the config in the judged frame.
+struct ConfigLight {
+    Light light;
+    glm::vec3 move{
+        0.0f};  ///< From one frame to the next: of its position in m, or of a directional's direction.
+};
+
 /// `scene`, read.
 struct SceneSettings {
     SceneOptions options;
     Value builtinParameters = Value::map();
     std::string cameraName;  ///< Empty: `camera`, or the scene's first camera.
     std::optional<CameraSettings> camera;
-    std::vector<Light> lights;
+    std::vector<ConfigLight> lights;
+    std::optional<MovingSpheres> movingSpheres;
     std::optional<EnvironmentSettings> environment;  ///< Empty: the scene's own.
     TextLocation where, sourceWhere, cameraWhere, environmentWhere;
 };

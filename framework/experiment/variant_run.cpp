@@ -37,8 +37,12 @@ RenderedVariant renderVariant(const Variant& variant, const Experiment& experime
         Graph graph(registry, variant.setup.graph);
         session.plan(graph, frame, experiment.measure.memoryLimitMb);
         graph.prepare(frame, device, session.compiler(), session.stream());
-        Measurement m = measureGraph(graph, {frame, device, session.stream(), *scene.tracer, scene.gpu},
-                                     experiment.measure, progress);
+        GraphTarget target{frame, device, session.stream(), *scene.tracer, scene.gpu, {}};
+        if (changesInTime(variant.setup.scene))
+            target.goToFrame = [&](Frame& moved, int fromJudged) {
+                session.goToFrame(variant.setup, moved, fromJudged);
+            };
+        Measurement m = measureGraph(graph, target, experiment.measure, progress);
         result.tracer = scene.tracer->name();
         result.buildMs = m.buildMs;
         result.frameMs = m.frameMs;

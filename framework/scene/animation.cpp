@@ -99,4 +99,13 @@ std::vector<glm::mat4> nodeToWorld(const Scene& scene, double timeSeconds) {
     return world;
 }
 
+double loopedTime(const Scene& scene, double timeSeconds) {
+    double end = 0;
+    for (const AnimationChannel& channel : scene.animation)
+        end = std::max(end, double(channel.timesSeconds.back()));
+    if (!(end > 0)) return 0;
+    const double time = std::fmod(timeSeconds, end);
+    return time < 0 ? time + end : time;
+}
+
 }  // namespace voxray

@@ -15,4 +15,7 @@ glm::vec4 sampleChannel(const AnimationChannel& channel, double timeSeconds);
 /// @throws Error naming the node whose matrix is not finite.
 std::vector<glm::mat4> nodeToWorld(const Scene& scene, double timeSeconds);
 
+/// A time within the animation's span, which repeats from 0 s to the last key; 0 where nothing is animated.
+double loopedTime(const Scene& scene, double timeSeconds);
+
 }  // namespace voxray

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "scene/animation.h"
+#include "scene/swept_bounds.h"
 
 namespace voxray {
 namespace {
@@ -93,17 +94,32 @@ void transformVertices(const Mesh& mesh, const glm::mat4& world, const InstanceR
     });
 }
 
+/// Bounds of an instance's vertices. @throws Error where one is not finite.
+Box boundsOf(const Geometry& geometry, const InstanceRange& range, const std::string& name) {
+    Box box{glm::vec3(std::numeric_limits<float>::infinity()), glm::vec3(0.0f)};
+    box.max = -box.min;
+    bool finite = true;
+    for (uint32_t i = range.firstVertex; i < range.firstVertex + range.vertexCount; ++i) {
+        const glm::vec3& p = geometry.positions[i];
+        finite = finite && std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+        box = {glm::min(box.min, p), glm::max(box.max, p)};
+    }
+    if (!finite) throw Error("{}: transformed positions are not finite; scale the scene down", name);
+    return box;
+}
+
+/// Bounds of all instances, of those that move at all times.
 void findBounds(const Scene& scene, Geometry& geometry) {
     if (geometry.positions.empty()) return;
     geometry.boundsMin = glm::vec3(std::numeric_limits<float>::infinity());
     geometry.boundsMax = -geometry.boundsMin;
-    bool finite = true;
-    for (const glm::vec3& p : geometry.positions) {
-        finite = finite && std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-        geometry.boundsMin = glm::min(geometry.boundsMin, p);
-        geometry.boundsMax = glm::max(geometry.boundsMax, p);
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const InstanceRange& range = geometry.instances[i];
+        Box box = boundsOf(geometry, range, scene.name);
+        if (range.moves) box = sweptBounds(scene, scene.instances[i]);
+        geometry.boundsMin = glm::min(geometry.boundsMin, box.min);
+        geometry.boundsMax = glm::max(geometry.boundsMax, box.max);
     }
-    if (!finite) throw Error("{}: transformed positions are not finite; scale the scene down", scene.name);
 }
 
 /// A node's axis in world space. @throws Error where the node's scale leaves no direction.
@@ -115,25 +131,10 @@ glm::vec3 axisOf(const Scene& scene, const glm::mat4& world, const glm::vec3& ax
     return direction;
 }
 
-}  // namespace
-
-SceneState evaluate(std::shared_ptr<const Scene> scenePointer, double timeSeconds) {
-    const Scene& scene = *scenePointer;
-    const std::vector<glm::mat4> world = nodeToWorld(scene, timeSeconds);
-    SceneState state;
-
-    // Flatten the instances into world-space triangles.
-    state.geometry = allocate(scene);
-    for (size_t i = 0; i < scene.instances.size(); ++i) {
-        const Instance& instance = scene.instances[i];
-        const glm::mat4 toWorld = instance.node < 0 ? glm::mat4(1.0f) : world[size_t(instance.node)];
-        transformVertices(scene.meshes[instance.mesh], toWorld, state.geometry.instances[i], state.geometry);
-    }
-    findBounds(scene, state.geometry);
-
-    // Place lights; scale does not change how bright they are.
-    state.lights = scene.lights;
-    for (Light& light : state.lights) {
+/// Places lights; scale does not change how bright they are.
+std::vector<Light> placeLights(const Scene& scene, const std::vector<glm::mat4>& world) {
+    std::vector<Light> lights = scene.lights;
+    for (Light& light : lights) {
         if (light.node < 0) continue;
         const glm::mat4& toWorld = world[size_t(light.node)];
         light.position = glm::vec3(toWorld[3]);
@@ -141,10 +142,13 @@ SceneState evaluate(std::shared_ptr<const Scene> scenePointer, double timeSecond
             light.direction = axisOf(scene, toWorld, {0, 0, -1}, "light '" + light.name + "'");
         light.node = -1;
     }
+    return lights;
+}
 
-    // Place cameras, with the up vector perpendicular to the view.
-    state.cameras = scene.cameras;
-    for (Camera& camera : state.cameras) {
+/// Places cameras, with the up vector perpendicular to the view.
+std::vector<Camera> placeCameras(const Scene& scene, const std::vector<glm::mat4>& world) {
+    std::vector<Camera> cameras = scene.cameras;
+    for (Camera& camera : cameras) {
         if (camera.node < 0) continue;
         const glm::mat4& toWorld = world[size_t(camera.node)];
         const std::string what = "camera '" + camera.name + "'";
@@ -156,8 +160,70 @@ SceneState evaluate(std::shared_ptr<const Scene> scenePointer, double timeSecond
             throw Error("{}: {} has no up direction; correct its node's transform", scene.name, what);
         camera.node = -1;
     }
+    return cameras;
+}
+
+std::vector<glm::mat4> worldAt(const Scene& scene, double timeSeconds, Playback playback) {
+    return nodeToWorld(scene, playback == Playback::Looping ? loopedTime(scene, timeSeconds) : timeSeconds);
+}
+
+}  // namespace
+
+SceneState evaluate(std::shared_ptr<const Scene> scenePointer, double timeSeconds, Playback playback) {
+    const Scene& scene = *scenePointer;
+    const std::vector<glm::mat4> world = worldAt(scene, timeSeconds, playback);
+    SceneState state;
+    state.playback = playback;
+
+    // Flatten the instances into world-space triangles.
+    state.geometry = allocate(scene);
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        const glm::mat4 toWorld = instance.node < 0 ? glm::mat4(1.0f) : world[size_t(instance.node)];
+        InstanceRange& range = state.geometry.instances[i];
+        transformVertices(scene.meshes[instance.mesh], toWorld, range, state.geometry);
+        range.moves =
+            playback == Playback::Looping && range.vertexCount > 0 && movesInTime(scene, instance.node);
+    }
+    findBounds(scene, state.geometry);
+
+    state.lights = placeLights(scene, world);
+    state.cameras = placeCameras(scene, world);
     state.scene = std::move(scenePointer);
     return state;
+}
+
+std::vector<InstanceRange> movingRuns(const Geometry& geometry) {
+    std::vector<InstanceRange> runs;
+    bool follows = false;
+    for (const InstanceRange& range : geometry.instances) {
+        if (range.moves && follows) {
+            runs.back().triangleCount += range.triangleCount;
+            runs.back().vertexCount += range.vertexCount;
+        } else if (range.moves) {
+            runs.push_back(range);
+        }
+        follows = range.moves;
+    }
+    return runs;
+}
+
+std::vector<Box> advance(SceneState& state, double timeSeconds) {
+    const Scene& scene = *state.scene;
+    const std::vector<glm::mat4> world = worldAt(scene, timeSeconds, state.playback);
+    std::vector<Box> changed;
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const InstanceRange& range = state.geometry.instances[i];
+        if (!range.moves) continue;
+        const Instance& instance = scene.instances[i];
+        const Box before = boundsOf(state.geometry, range, scene.name);
+        transformVertices(scene.meshes[instance.mesh], world[size_t(instance.node)], range, state.geometry);
+        const Box after = boundsOf(state.geometry, range, scene.name);
+        changed.insert(changed.end(), {before, after});
+    }
+    state.lights = placeLights(scene, world);
+    state.cameras = placeCameras(scene, world);
+    return changed;
 }
 
 }  // namespace voxray

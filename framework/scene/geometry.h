@@ -24,12 +24,17 @@ struct VertexAttributes {
     glm::vec4 color{1.0f};          ///< Linear RGBA.
 };
 
+/// Whether a scene's animation stands still at the time that it is evaluated at, or goes on from there and
+/// repeats after its last key.
+enum class Playback { Frozen, Looping };
+
 /// Triangles of one instance: [firstTriangle, firstTriangle + triangleCount).
 struct InstanceRange {
     uint32_t firstTriangle = 0;
     uint32_t triangleCount = 0;
     uint32_t firstVertex = 0;
     uint32_t vertexCount = 0;
+    bool moves = false;  ///< `advance` places it anew; all others stay where they are.
 };
 
 /// The scene at one time as one list of world-space triangles. A triangle's index here is the primitive
@@ -40,13 +45,14 @@ struct Geometry {
     std::vector<glm::uvec3> triangles;         ///< Counter-clockwise seen from the front.
     std::vector<uint32_t> triangleMaterials;   ///< Same length as triangles.
     std::vector<InstanceRange> instances;      ///< In the order of Scene::instances.
-    glm::vec3 boundsMin{0.0f};
+    glm::vec3 boundsMin{0.0f};                 ///< At all times of a looping animation.
     glm::vec3 boundsMax{0.0f};
 };
 
 /// A scene evaluated at one time: geometry, lights and cameras in world space (their node is -1).
 struct SceneState {
     std::shared_ptr<const Scene> scene;  ///< Materials, textures, environment.
+    Playback playback = Playback::Frozen;
     Geometry geometry;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
@@ -55,6 +61,15 @@ struct SceneState {
 /// Evaluates nodes and animation at `timeSeconds` and flattens every instance into world space.
 /// Instances are duplicated: one list of triangles keeps every consumer simple.
 /// @throws Error where a transform is not finite or the vertex or triangle count exceeds 2^31.
-SceneState evaluate(std::shared_ptr<const Scene> scene, double timeSeconds);
+SceneState evaluate(std::shared_ptr<const Scene> scene, double timeSeconds,
+                    Playback playback = Playback::Frozen);
+
+/// Instances that move, those that follow each other as one range.
+std::vector<InstanceRange> movingRuns(const Geometry& geometry);
+
+/// Takes a state to another time, in place and equal to one that is evaluated there: what moves, lights and
+/// cameras. Triangle numbers and bounds stay. Triangles of a frozen state stay too.
+/// @return bounds before and after of each instance that moved, in turn. @throws Error as `evaluate`.
+std::vector<Box> advance(SceneState& state, double timeSeconds);
 
 }  // namespace voxray

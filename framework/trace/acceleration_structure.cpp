@@ -71,14 +71,17 @@ VkAccelerationStructureBuildGeometryInfoKHR describe(const Build& build) {
     return info;
 }
 
-/// Builds one structure and waits, so that scratch memory is needed for one at a time.
-AccelerationStructure run(Device& device, CommandStream& stream, const char* name, const Build& build) {
+/// Builds one structure and waits, so that scratch memory is needed for one at a time. Makes `result` where
+/// it is empty; one of as many primitives is built anew in its place.
+void run(Device& device, CommandStream& stream, const char* name, const Build& build,
+         AccelerationStructure& result) {
     VkAccelerationStructureBuildGeometryInfoKHR info = describe(build);
     auto sizes = structure<VkAccelerationStructureBuildSizesInfoKHR>(
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR);
     device.function<PFN_vkGetAccelerationStructureBuildSizesKHR>("vkGetAccelerationStructureBuildSizesKHR")(
         device.handle(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, &build.primitives, &sizes);
-    AccelerationStructure result(device, name, build.type, sizes.accelerationStructureSize);
+    if (!result.handle())
+        result = AccelerationStructure(device, name, build.type, sizes.accelerationStructureSize);
 
     // Scratch memory starts at an aligned address.
     const uint64_t alignment =
@@ -92,7 +95,6 @@ AccelerationStructure run(Device& device, CommandStream& stream, const char* nam
         device.function<PFN_vkCmdBuildAccelerationStructuresKHR>("vkCmdBuildAccelerationStructuresKHR");
     stream.record([&](VkCommandBuffer commands) { function(commands, 1, &info, &ranges); });
     stream.finish();
-    return result;
 }
 
 Build trianglesBuild(const Buffer& positions, uint32_t vertexCount, const Buffer& indices, uint32_t first,
@@ -115,17 +117,25 @@ Build trianglesBuild(const Buffer& positions, uint32_t vertexCount, const Buffer
     return build;
 }
 
-AccelerationStructure buildTop(Device& device, CommandStream& stream,
-                               const std::vector<AccelerationStructure>& chunks) {
+void buildChunk(Device& device, CommandStream& stream, const TracingOrder& order, size_t chunk,
+                SceneStructure& scene) {
+    const uint32_t first = order.chunkFirst[chunk], count = order.chunkEnd(chunk) - first;
+    const uint32_t vertexCount = uint32_t(scene.positions.bytes() / sizeof(glm::vec3));
+    const Build build =
+        trianglesBuild(scene.positions, vertexCount, scene.corners, first, count, first < order.opaqueCount);
+    run(device, stream, "bottom-level acceleration structures", build, scene.chunks[chunk]);
+}
+
+void buildTop(Device& device, CommandStream& stream, SceneStructure& scene) {
     // Instances as they are: the triangles are in world space. All sides count.
     std::vector<VkAccelerationStructureInstanceKHR> instances;
-    for (uint32_t i = 0; i < chunks.size(); ++i) {
+    for (uint32_t i = 0; i < scene.chunks.size(); ++i) {
         VkAccelerationStructureInstanceKHR instance{};
         for (int axis = 0; axis < 3; ++axis) instance.transform.matrix[axis][axis] = 1.0f;
         instance.instanceCustomIndex = i & 0xffffffu;
         instance.mask = 0xff;
         instance.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
-        instance.accelerationStructureReference = chunks[i].address();
+        instance.accelerationStructureReference = scene.chunks[i].address();
         instances.push_back(instance);
     }
     const Buffer buffer(device, "acceleration structure instances",
@@ -138,7 +148,7 @@ AccelerationStructure buildTop(Device& device, CommandStream& stream,
     build.geometry.geometry.instances = structure<VkAccelerationStructureGeometryInstancesDataKHR>(
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR);
     build.geometry.geometry.instances.data.deviceAddress = buffer.address();
-    return run(device, stream, "top-level acceleration structure", build);
+    run(device, stream, "top-level acceleration structure", build, scene.top);
 }
 
 template <typename T>
@@ -174,18 +184,34 @@ SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const 
 
     // A structure for each chunk, one over all.
     scene.opaqueCount = order.opaqueCount;
-    const uint32_t vertexCount = uint32_t(geometry.positions.size());
-    for (size_t chunk = 0; chunk < order.chunkFirst.size(); ++chunk) {
-        const uint32_t first = order.chunkFirst[chunk], count = order.chunkEnd(chunk) - first;
-        const Build build = trianglesBuild(scene.positions, vertexCount, scene.corners, first, count,
-                                           first < order.opaqueCount);
-        scene.chunks.push_back(run(device, stream, "bottom-level acceleration structures", build));
-    }
-    scene.top = buildTop(device, stream, scene.chunks);
+    scene.chunks.resize(order.chunkFirst.size());
+    for (size_t chunk = 0; chunk < scene.chunks.size(); ++chunk)
+        buildChunk(device, stream, order, chunk, scene);
+    buildTop(device, stream, scene);
     scene.chunkFirst = uploaded(device, stream, "acceleration structure chunks", order.chunkFirst);
     scene.triangleIds = uploaded(device, stream, "acceleration structure triangle numbers", order.triangles);
     stream.finish();
     return scene;
+}
+
+void updateSceneStructure(Device& device, CommandStream& stream, const SceneState& state,
+                          const TracingOrder& order, SceneStructure& scene) {
+    const Geometry& geometry = state.geometry;
+    for (const InstanceRange& range : movingRuns(geometry))
+        stream.upload(
+            scene.positions,
+            std::as_bytes(std::span(geometry.positions).subspan(range.firstVertex, range.vertexCount)),
+            range.firstVertex * sizeof(glm::vec3));
+    for (const TracingOrder::Range& range : order.moving) {
+        const auto triangles = std::span(order.triangles).subspan(range.first, range.end - range.first);
+        std::vector<glm::uvec3> corners;
+        for (const uint32_t t : triangles) corners.push_back(geometry.triangles[t]);
+        stream.upload(scene.corners, std::as_bytes(std::span(corners)), range.first * sizeof(glm::uvec3));
+        stream.upload(scene.triangleIds, std::as_bytes(triangles), range.first * sizeof(uint32_t));
+    }
+    for (size_t chunk = 0; chunk < scene.chunks.size(); ++chunk)
+        if (order.moves(chunk)) buildChunk(device, stream, order, chunk, scene);
+    buildTop(device, stream, scene);
 }
 
 }  // namespace voxray

@@ -23,7 +23,21 @@ constexpr size_t kStreamGrain = 4096;
 /// Triangles that share how they are intersected. Embree's primitive i is the scene's triangle ids[i].
 struct TriangleGroup {
     std::vector<uint32_t> ids;
+    std::vector<uint32_t> skipped;  ///< By primitive: the scene's vertices before its own that Embree lacks.
     const SceneState* state = nullptr;
+};
+
+/// A BVH over the triangles that stay, with all of the scene's vertices, or over those that move, with
+/// theirs.
+struct Part {
+    RTCScene scene = nullptr;
+    TriangleGroup opaque, masked;       ///< Embree's geometries 0 and 1.
+    std::vector<InstanceRange> moving;  ///< Whose vertices there are; none: all.
+    bool sameNumbers = false;           ///< Embree's primitive numbers are the scene's.
+
+    uint32_t triangleOf(const RTCHit& hit) const {
+        return sameNumbers ? hit.primID : (hit.geomID == 0 ? opaque : masked).ids[hit.primID];
+    }
 };
 
 bool isTraceable(float x) {
@@ -69,44 +83,106 @@ void throwEmbreeError(const char* reason) {
 
 struct EmbreeScene::Impl {
     RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
-    TriangleGroup opaque, masked;
-    bool oneGroup = true;  ///< Every triangle is opaque: Embree's numbers are ours.
+    Part still, moving;  ///< `moving` has a scene only where something moves.
     std::atomic<ptrdiff_t> bytes{0};
 
     ~Impl() {
-        if (scene) rtcReleaseScene(scene);
+        for (const Part* part : {&still, &moving})
+            if (part->scene) rtcReleaseScene(part->scene);
         if (device) rtcReleaseDevice(device);
     }
 
-    /// Adds the group's triangles as geometry number `geomId`.
-    void attach(TriangleGroup& group, const Geometry& geometry, unsigned geomId, bool filtered) {
+    /// Sorts the triangles into parts that stay and move, and those into opaque and alpha-masked ones.
+    void sort(const SceneState& state) {
+        const Geometry& geometry = state.geometry;
+        for (Part* part : {&still, &moving}) part->opaque.state = part->masked.state = &state;
+        const auto add = [&](Part& part, uint32_t triangle) -> TriangleGroup& {
+            const Material& material = state.scene->materials[geometry.triangleMaterials[triangle]];
+            TriangleGroup& group = material.alphaMode == AlphaMode::Mask ? part.masked : part.opaque;
+            group.ids.push_back(triangle);
+            return group;
+        };
+        uint32_t next = 0, vertices = 0;
+        moving.moving = movingRuns(geometry);
+        for (const InstanceRange& range : moving.moving) {
+            for (; next < range.firstTriangle; ++next) add(still, next);
+            for (; next < range.firstTriangle + range.triangleCount; ++next)
+                add(moving, next).skipped.push_back(range.firstVertex - vertices);
+            vertices += range.vertexCount;
+        }
+        for (; next < geometry.triangles.size(); ++next) add(still, next);
+        still.sameNumbers = still.opaque.ids.size() == geometry.triangles.size();
+    }
+
+    /// Adds the group's triangles to a part as geometry number `geomId`.
+    void attach(const Part& part, TriangleGroup& group, unsigned geomId, RTCBuildQuality quality) {
         if (group.ids.empty()) return;
+        size_t vertices = part.moving.empty() ? group.state->geometry.positions.size() : 0;
+        for (const InstanceRange& range : part.moving) vertices += range.vertexCount;
         RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
 
         // Embree reads 16 bytes at each vertex: its own buffers have the padding that a std::vector lacks.
-        auto* positions = static_cast<glm::vec3*>(
-            rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
-                                    geometry.positions.size()));
-        auto* corners = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
-            mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), group.ids.size()));
-        if (!positions || !corners) {
+        if (!rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
+                                     vertices) ||
+            !rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3),
+                                     group.ids.size())) {
             rtcReleaseGeometry(mesh);
             throwEmbreeError("out of memory");
         }
-        std::memcpy(positions, geometry.positions.data(), geometry.positions.size() * sizeof(glm::vec3));
-        for (size_t i = 0; i < group.ids.size(); ++i) corners[i] = geometry.triangles[group.ids[i]];
 
         // Alpha masks hold for every kind of ray.
-        if (filtered) {
+        if (geomId == 1) {
             rtcSetGeometryUserData(mesh, &group);
             rtcSetGeometryIntersectFilterFunction(mesh, dropCutAway);
             rtcSetGeometryOccludedFilterFunction(mesh, dropCutAway);
         }
-        rtcSetGeometryBuildQuality(mesh, RTC_BUILD_QUALITY_HIGH);
-        rtcCommitGeometry(mesh);
-        rtcAttachGeometryByID(scene, mesh, geomId);
+        rtcSetGeometryBuildQuality(mesh, quality);
+        rtcAttachGeometryByID(part.scene, mesh, geomId);
         rtcReleaseGeometry(mesh);
+        fill(part, group, geomId);
+    }
+
+    /// Copies the group's vertices and corners as they are now.
+    void fill(const Part& part, const TriangleGroup& group, unsigned geomId) {
+        if (group.ids.empty()) return;
+        const Geometry& geometry = group.state->geometry;
+        RTCGeometry mesh = rtcGetGeometry(part.scene, geomId);
+        auto* positions = static_cast<glm::vec3*>(rtcGetGeometryBufferData(mesh, RTC_BUFFER_TYPE_VERTEX, 0));
+        auto* corners = static_cast<glm::uvec3*>(rtcGetGeometryBufferData(mesh, RTC_BUFFER_TYPE_INDEX, 0));
+        if (part.moving.empty()) std::copy(geometry.positions.begin(), geometry.positions.end(), positions);
+        for (const InstanceRange& range : part.moving)
+            positions =
+                std::copy_n(geometry.positions.begin() + range.firstVertex, range.vertexCount, positions);
+        for (size_t i = 0; i < group.ids.size(); ++i)
+            corners[i] = geometry.triangles[group.ids[i]] - (group.skipped.empty() ? 0 : group.skipped[i]);
+        rtcUpdateGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0);
+        rtcUpdateGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0);
+        rtcCommitGeometry(mesh);
+    }
+
+    void build(Part& part, RTCBuildQuality quality) {
+        part.scene = rtcNewScene(device);
+        rtcSetSceneFlags(part.scene, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(part.scene, quality);
+        attach(part, part.opaque, 0, quality);
+        attach(part, part.masked, 1, quality);
+        commit(part);
+    }
+
+    void commit(const Part& part) {
+        rtcCommitScene(part.scene);
+        switch (rtcGetDeviceError(device)) {
+            case RTC_ERROR_NONE:
+                break;
+            case RTC_ERROR_OUT_OF_MEMORY:
+                throwEmbreeError("out of memory");
+                break;
+            case RTC_ERROR_UNSUPPORTED_CPU:
+                throwEmbreeError("this processor lacks SSE2");
+                break;
+            default:
+                throwEmbreeError("the triangles were refused");
+        }
     }
 
     Hit intersect(const Ray& ray, RTCIntersectContext& context) const {
@@ -114,18 +190,21 @@ struct EmbreeScene::Impl {
         if (!(ray.tMax >= ray.tMin)) return hit;
         RTCRayHit query;
         query.ray = toEmbree(ray);
-        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(scene, &context, &query);
-        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
-        const uint32_t id = query.hit.primID;
-        const uint32_t triangle = oneGroup ? id : (query.hit.geomID == 0 ? opaque : masked).ids[id];
-        return {query.ray.tfar, triangle, query.hit.u, query.hit.v};
+        for (const Part* part : {&still, &moving}) {
+            if (!part->scene) break;
+            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            rtcIntersect1(part->scene, &context, &query);
+            if (query.hit.geomID != RTC_INVALID_GEOMETRY_ID)
+                hit = {query.ray.tfar, part->triangleOf(query.hit), query.hit.u, query.hit.v};
+        }
+        return hit;
     }
 
     bool isOccluded(const Ray& ray, RTCIntersectContext& context) const {
         if (!(ray.tMax >= ray.tMin)) return false;
         RTCRay query = toEmbree(ray);
-        rtcOccluded1(scene, &context, &query);
+        rtcOccluded1(still.scene, &context, &query);
+        if (moving.scene && query.tfar >= 0.0f) rtcOccluded1(moving.scene, &context, &query);
         return query.tfar < 0.0f;
     }
 
@@ -166,34 +245,18 @@ EmbreeScene::EmbreeScene(const SceneState& state) : impl_(std::make_unique<Impl>
         },
         impl_.get());
 
-    // Sort the triangles into opaque and alpha-masked ones.
-    const Geometry& geometry = state.geometry;
-    impl_->opaque.state = impl_->masked.state = &state;
-    for (uint32_t i = 0; i < geometry.triangles.size(); ++i) {
-        const Material& material = state.scene->materials[geometry.triangleMaterials[i]];
-        (material.alphaMode == AlphaMode::Mask ? impl_->masked : impl_->opaque).ids.push_back(i);
-    }
-    impl_->oneGroup = impl_->masked.ids.empty();
+    // What moves is built anew in each frame: in less time, and no worse for its few triangles.
+    impl_->sort(state);
+    impl_->build(impl_->still, RTC_BUILD_QUALITY_HIGH);
+    if (!impl_->moving.moving.empty()) impl_->build(impl_->moving, RTC_BUILD_QUALITY_MEDIUM);
+}
 
-    // Build one BVH over both.
-    impl_->scene = rtcNewScene(impl_->device);
-    rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
-    impl_->attach(impl_->opaque, geometry, 0, false);
-    impl_->attach(impl_->masked, geometry, 1, true);
-    rtcCommitScene(impl_->scene);
-    switch (rtcGetDeviceError(impl_->device)) {
-        case RTC_ERROR_NONE:
-            break;
-        case RTC_ERROR_OUT_OF_MEMORY:
-            throwEmbreeError("out of memory");
-            break;
-        case RTC_ERROR_UNSUPPORTED_CPU:
-            throwEmbreeError("this processor lacks SSE2");
-            break;
-        default:
-            throwEmbreeError("the triangles were refused");
-    }
+void EmbreeScene::update() {
+    const Part& moving = impl_->moving;
+    if (!moving.scene) return;
+    impl_->fill(moving, moving.opaque, 0);
+    impl_->fill(moving, moving.masked, 1);
+    impl_->commit(moving);
 }
 
 EmbreeScene::~EmbreeScene() = default;

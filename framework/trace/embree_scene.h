@@ -9,8 +9,9 @@
 
 namespace voxray {
 
-/// A scene's triangles in an Embree BVH, with alpha masks honoured on every ray. The only user of Embree's
-/// headers is the .cpp. Thread-safe after construction.
+/// A scene's triangles in an Embree BVH, and a second one of those that move, with alpha masks honoured on
+/// every ray. The only user of Embree's headers is the .cpp. Rays may come from any thread, but not during an
+/// update.
 class EmbreeScene {
  public:
     /// `state` must outlive this object. @throws Error where Embree refuses (out of memory).
@@ -18,6 +19,9 @@ class EmbreeScene {
     ~EmbreeScene();
     EmbreeScene(EmbreeScene&&) noexcept;
     EmbreeScene& operator=(EmbreeScene&&) noexcept;
+
+    /// Takes over where the state's moving instances are now (`advance`). @throws Error where Embree refuses.
+    void update();
 
     /// One ray. The ray must be finite with tMin >= 0 (checked by the callers that take rays from outside).
     Hit closestHit(const Ray& ray) const;

@@ -42,4 +42,9 @@ void EmbreeTracer::occluded(CommandStream& stream, const Buffer& rays, const Buf
     trace<uint32_t>(stream, rays, results, count, &EmbreeScene::occluded);
 }
 
+void EmbreeTracer::update(CommandStream& stream) {
+    stream.finish();
+    scene_.update();
+}
+
 }  // namespace voxray

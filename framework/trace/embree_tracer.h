@@ -16,6 +16,7 @@ class EmbreeTracer final : public RayTracer {
     /// @throws Error naming the first ray that is not finite.
     void closestHit(CommandStream& stream, const Buffer& rays, const Buffer& hits, uint32_t count) override;
     void occluded(CommandStream& stream, const Buffer& rays, const Buffer& results, uint32_t count) override;
+    void update(CommandStream& stream) override;
     size_t memoryBytes() const override { return scene_.memoryBytes(); }
 
  private:

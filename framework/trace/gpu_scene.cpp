@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 
 #include "base/error.h"
 #include "shaders/shared/scene_types.h"
@@ -46,6 +47,10 @@ float luminance(glm::vec3 c) {
     return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
 }
 
+bool isEmissive(const SceneState& state, uint32_t triangle) {
+    return luminance(state.scene->materials[state.geometry.triangleMaterials[triangle]].emission) > 0;
+}
+
 // Emissive triangles with the chance of picking each, in proportion to emission (without its texture) times
 // area.
 std::vector<gpu::GpuEmitter> findEmitters(const SceneState& state) {
@@ -72,6 +77,18 @@ std::vector<gpu::GpuEmitter> findEmitters(const SceneState& state) {
         emitters[i].cumulativePower = i + 1 == emitters.size() ? 1.0f : float(running / total);
     }
     return emitters;
+}
+
+void uploadLights(CommandStream& stream, const SceneState& state, const GpuScene& scene) {
+    std::vector<gpu::GpuLight> lights;
+    for (const Light& light : state.lights) lights.push_back(toGpu(light));
+    stream.upload(scene.lights, lights);
+}
+
+void uploadEmitters(CommandStream& stream, const SceneState& state, GpuScene& scene) {
+    const std::vector<gpu::GpuEmitter> emitters = findEmitters(state);
+    stream.upload(scene.emitters, emitters);
+    scene.emitterCount = uint32_t(emitters.size());
 }
 
 VkSamplerAddressMode toVulkan(Wrap wrap) {
@@ -169,13 +186,13 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
     std::vector<gpu::GpuMaterial> materials;
     for (const Material& material : state.scene->materials) materials.push_back(toGpu(material));
     scene.materials = uploaded(device, stream, "scene materials", materials);
-    std::vector<gpu::GpuLight> lights;
-    for (const Light& light : state.lights) lights.push_back(toGpu(light));
-    scene.lights = uploaded(device, stream, "scene lights", lights);
-    scene.lightCount = uint32_t(lights.size());
-    const std::vector<gpu::GpuEmitter> emitters = findEmitters(state);
-    scene.emitters = uploaded(device, stream, "scene emitters", emitters);
-    scene.emitterCount = uint32_t(emitters.size());
+    scene.lightCount = uint32_t(state.lights.size());
+    scene.lights = Buffer(device, "scene lights", std::max(1u, scene.lightCount) * sizeof(gpu::GpuLight));
+    uint32_t emissive = 0;
+    for (uint32_t t = 0; t < scene.triangleCount; ++t) emissive += isEmissive(state, t);
+    scene.emitters = Buffer(device, "scene emitters", std::max(1u, emissive) * sizeof(gpu::GpuEmitter));
+    uploadLights(stream, state, scene);
+    uploadEmitters(stream, state, scene);
 
     // The environment.
     const ImageF environment = environmentImage(state.scene->environment);
@@ -203,6 +220,23 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
     scene.textures = TextureArray(device, entries);
     stream.finish();
     return scene;
+}
+
+void updateGpuScene(CommandStream& stream, const SceneState& state, GpuScene& scene) {
+    const Geometry& g = state.geometry;
+    const auto upload = [&](const Buffer& to, const auto& all, uint32_t first, uint32_t count) {
+        stream.upload(to, std::as_bytes(std::span(all).subspan(first, count)), first * sizeof(all[0]));
+    };
+    for (const InstanceRange& run : movingRuns(g)) {
+        upload(scene.positions, g.positions, run.firstVertex, run.vertexCount);
+        upload(scene.attributes, g.attributes, run.firstVertex, run.vertexCount);
+        upload(scene.triangles, g.triangles, run.firstTriangle, run.triangleCount);
+    }
+    uploadLights(stream, state, scene);
+    const bool emitterMoved = std::any_of(
+        g.instances.begin(), g.instances.end(),
+        [&](const InstanceRange& range) { return range.moves && isEmissive(state, range.firstTriangle); });
+    if (emitterMoved) uploadEmitters(stream, state, scene);
 }
 
 }  // namespace voxray

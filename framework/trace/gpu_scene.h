@@ -40,4 +40,7 @@ uint64_t gpuSceneBytes(const SceneState& state);
 /// Uploads a scene. @throws Error over the memory limit, or for more textures than the device can bind.
 GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& state);
 
+/// Takes over where the state's moving instances and its lights are now (`advance`), in place.
+void updateGpuScene(CommandStream& stream, const SceneState& state, GpuScene& scene);
+
 }  // namespace voxray

@@ -21,11 +21,21 @@ void checkStream(const Buffer& rays, const Buffer& results, uint64_t resultBytes
                     results.bytes() / resultBytes, count);
 }
 
-GpuTracer::GpuTracer(Device& device, const SceneState& state, uint32_t trianglesPerChunk) {
+GpuTracer::GpuTracer(Device& device, const SceneState& state, uint32_t trianglesPerChunk)
+    : device_(device), state_(state), order_(tracingOrder(state, trianglesPerChunk)) {
     CommandStream stream(device);
-    const TracingOrder order = tracingOrder(state, trianglesPerChunk);
-    structure_ = buildSceneStructure(device, stream, state, order);
-    mask_ = makeGpuAlphaMask(device, stream, state, order);
+    structure_ = buildSceneStructure(device, stream, state, order_);
+    mask_ = makeGpuAlphaMask(device, stream, state, order_);
+    stream.finish();
+}
+
+void GpuTracer::update(CommandStream& stream) {
+    const auto& [opaque, masked] = order_.moving;
+    if (opaque.first == opaque.end && masked.first == masked.end) return;
+    stream.finish();
+    sortMoving(state_, order_);
+    updateSceneStructure(device_, stream, state_, order_, structure_);
+    if (masked.first < masked.end) mask_ = makeGpuAlphaMask(device_, stream, state_, order_);
     stream.finish();
 }
 

@@ -13,6 +13,7 @@ class GpuTracer : public RayTracer {
  public:
     void closestHit(CommandStream& stream, const Buffer& rays, const Buffer& hits, uint32_t count) final;
     void occluded(CommandStream& stream, const Buffer& rays, const Buffer& results, uint32_t count) final;
+    void update(CommandStream& stream) final;
     size_t memoryBytes() const final { return structure_.bytes(); }
 
  protected:
@@ -27,6 +28,9 @@ class GpuTracer : public RayTracer {
     void trace(CommandStream& stream, bool occluded, const Buffer& rays, const Buffer& results,
                uint32_t count);
 
+    Device& device_;
+    const SceneState& state_;
+    TracingOrder order_;
     SceneStructure structure_;
     GpuAlphaMask mask_;
 };

@@ -28,6 +28,9 @@ class RayTracer {
                             uint32_t count) = 0;
     virtual void occluded(CommandStream& stream, const Buffer& rays, const Buffer& results,
                           uint32_t count) = 0;
+    /// Takes over where the moving instances of the scene's state are now (`advance`); what stays is not
+    /// built again.
+    virtual void update(CommandStream& stream) = 0;
     /// Bytes of acceleration structures.
     virtual size_t memoryBytes() const = 0;
 

@@ -14,15 +14,15 @@ namespace {
 
 constexpr size_t kParallelTriangles = 8192;
 
-/// Corners' minimum plus maximum, by triangle: twice the middle of its box.
-std::vector<glm::vec3> middles(const Geometry& geometry) {
+/// Corners' minimum plus maximum: twice the middle of the triangle's box. By triangle, for those listed.
+std::vector<glm::vec3> middles(const Geometry& geometry, std::span<const uint32_t> triangles) {
     std::vector<glm::vec3> result(geometry.triangles.size());
-    parallelRanges(result.size(), kParallelTriangles, [&](size_t begin, size_t end) {
-        for (size_t t = begin; t < end; ++t) {
-            const glm::uvec3 v = geometry.triangles[t];
+    parallelRanges(triangles.size(), kParallelTriangles, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const glm::uvec3 v = geometry.triangles[triangles[i]];
             const glm::vec3 &a = geometry.positions[v.x], &b = geometry.positions[v.y];
             const glm::vec3& c = geometry.positions[v.z];
-            result[t] = glm::min(glm::min(a, b), c) + glm::max(glm::max(a, b), c);
+            result[triangles[i]] = glm::min(glm::min(a, b), c) + glm::max(glm::max(a, b), c);
         }
     });
     return result;
@@ -59,37 +59,63 @@ void sortAsTree(std::span<uint32_t> triangles, const std::vector<glm::vec3>& mid
     }
 }
 
-/// Halves until a part is small enough to be a chunk, then orders it.
-void addChunks(std::span<uint32_t> triangles, uint32_t maxChunk, const std::vector<glm::vec3>& middles,
-               TracingOrder& order) {
-    if (triangles.empty()) return;
-    if (triangles.size() <= maxChunk) {
-        order.chunkFirst.push_back(uint32_t(triangles.data() - order.triangles.data()));
-        sortAsTree(triangles, middles);
-        return;
-    }
-    const auto halves = halve(triangles, middles);
-    addChunks(halves.first, maxChunk, middles, order);
-    addChunks(halves.second, maxChunk, middles, order);
+/// Halves until a part is small enough to be a chunk, then orders it. How large the chunks are depends on the
+/// number of triangles alone. @return the first place of each.
+std::vector<uint32_t> sortIntoChunks(TracingOrder& order, const TracingOrder::Range& range,
+                                     const std::vector<glm::vec3>& middles) {
+    std::vector<uint32_t> chunkFirst;
+    const auto split = [&](const auto& self, std::span<uint32_t> part) -> void {
+        if (part.empty()) return;
+        if (part.size() <= order.maxChunk) {
+            chunkFirst.push_back(uint32_t(part.data() - order.triangles.data()));
+            sortAsTree(part, middles);
+            return;
+        }
+        const auto halves = halve(part, middles);
+        self(self, halves.first);
+        self(self, halves.second);
+    };
+    split(split, std::span(order.triangles).subspan(range.first, range.end - range.first));
+    return chunkFirst;
 }
 
 }  // namespace
 
 TracingOrder tracingOrder(const SceneState& state, uint32_t maxChunk) {
+    const Geometry& geometry = state.geometry;
+    std::vector<bool> moves(geometry.triangles.size());
+    for (const InstanceRange& range : movingRuns(geometry))
+        std::fill_n(moves.begin() + ptrdiff_t(range.firstTriangle), range.triangleCount, true);
+
+    // Opaque ones that stay, that move, masked ones that stay, that move.
     TracingOrder order;
-    std::vector<uint32_t> masked;
-    const std::vector<uint32_t>& materials = state.geometry.triangleMaterials;
-    for (uint32_t t = 0; t < materials.size(); ++t) {
-        const bool isMasked = state.scene->materials[materials[t]].alphaMode == AlphaMode::Mask;
-        (isMasked ? masked : order.triangles).push_back(t);
+    order.maxChunk = maxChunk;
+    std::array<TracingOrder::Range, 4> groups;
+    for (uint32_t group = 0; group < 4; ++group) {
+        groups[group].first = uint32_t(order.triangles.size());
+        for (uint32_t t = 0; t < geometry.triangles.size(); ++t) {
+            const Material& material = state.scene->materials[geometry.triangleMaterials[t]];
+            const bool isMasked = material.alphaMode == AlphaMode::Mask;
+            if (group == (isMasked ? 2u : 0u) + (moves[t] ? 1u : 0u)) order.triangles.push_back(t);
+        }
+        groups[group].end = uint32_t(order.triangles.size());
     }
-    order.opaqueCount = uint32_t(order.triangles.size());
-    order.triangles.insert(order.triangles.end(), masked.begin(), masked.end());
-    const std::vector<glm::vec3> centres = middles(state.geometry);
-    const std::span<uint32_t> all = order.triangles;
-    addChunks(all.first(order.opaqueCount), maxChunk, centres, order);
-    addChunks(all.subspan(order.opaqueCount), maxChunk, centres, order);
+    order.opaqueCount = groups[1].end;
+    order.moving = {groups[1], groups[3]};
+
+    const std::vector<glm::vec3> centres = middles(geometry, order.triangles);
+    for (const TracingOrder::Range& group : groups) {
+        const std::vector<uint32_t> chunks = sortIntoChunks(order, group, centres);
+        order.chunkFirst.insert(order.chunkFirst.end(), chunks.begin(), chunks.end());
+    }
     return order;
+}
+
+void sortMoving(const SceneState& state, TracingOrder& order) {
+    for (const TracingOrder::Range& range : order.moving) {
+        const auto triangles = std::span(order.triangles).subspan(range.first, range.end - range.first);
+        if (!triangles.empty()) sortIntoChunks(order, range, middles(state.geometry, triangles));
+    }
 }
 
 }  // namespace voxray

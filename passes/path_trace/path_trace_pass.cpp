@@ -44,6 +44,7 @@ void PathTracePass::record(PassContext& context) {
     const PathTraceOptions options{frame.width, frame.height, params_.spp, params_.bounces,
                                    frame.seed + context.frameIndex};
     context.stream.finish();
+    if (frame.changed && !frame.changed->empty()) embree_->update();
     const PathTraceResult result = pathTrace(*frame.scene, *embree_, frame.camera, options, frame.progress);
     context.extraRays = result.rays;
     upload(context.stream, result.total, context.get(final_).image);

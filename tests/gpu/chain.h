@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,9 +28,9 @@ class Chain {
                     evaluate(makeBuiltinScene(scene, parseYaml(sceneParameters, "scene")), 0.0)),
                 graphYaml, width, height, seed) {}
 
-    Chain(std::shared_ptr<const SceneState> state, const std::string& graphYaml, uint32_t width,
+    Chain(const std::shared_ptr<const SceneState>& state, const std::string& graphYaml, uint32_t width,
           uint32_t height, uint64_t seed)
-        : state_(std::move(state)),
+        : state_(std::make_shared<SceneState>(*state)),
           compiler_(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE),
           stream_(device()),
           tracer_(makeRayTracer(TracerKind::Embree, device(), compiler_, *state_)),
@@ -54,24 +55,24 @@ class Chain {
         frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, 0, true);
     }
 
-    /// The build phase and a frame once more, after surfaces have moved within the boxes `changed`; nullopt:
-    /// all is new. `state`: the same triangles and bounds, elsewhere.
-    void moveTo(std::shared_ptr<const SceneState> state, std::optional<std::vector<Box>> changed) {
-        place(std::move(state));
-        rebuild(std::move(changed));
-    }
-    /// The first half of moveTo(): the scene, for passes and rays.
-    void place(std::shared_ptr<const SceneState> state) {
-        state_ = std::move(state);
-        tracer_ = makeRayTracer(TracerKind::Embree, device(), compiler_, *state_);
-        scene_ = makeGpuScene(device(), stream_, *state_);
-        frame_.scene = state_.get();
-    }
-    /// The second half: the passes.
-    void rebuild(std::optional<std::vector<Box>> changed) {
-        frame_.changed = std::move(changed);
-        buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
+    /// Changes the scene in place, takes over what the change says that it changed, and renders a frame.
+    void update(const std::function<std::vector<Box>(SceneState&)>& change) {
+        frame_.changed = change(*state_);
+        updateGpuScene(stream_, *state_, scene_);
+        tracer_->update(stream_);
+        updateSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
         frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, 0, true);
+    }
+
+    /// The build phase once more, with everything new.
+    void rebuild() {
+        frame_.changed.reset();
+        buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
+    }
+
+    /// Another time of a scene that was evaluated as looping.
+    void goTo(double timeSeconds) {
+        update([&](SceneState& state) { return advance(state, timeSeconds); });
     }
 
     const SceneState& state() const { return *state_; }
@@ -92,10 +93,10 @@ class Chain {
     }
 
     std::vector<uint64_t> predictedBytes;
-    std::vector<PassSample> buildSamples, frameSamples;
+    std::vector<PassSample> buildSamples, updateSamples, frameSamples;
 
  private:
-    std::shared_ptr<const SceneState> state_;
+    std::shared_ptr<SceneState> state_;
     ShaderCompiler compiler_;
     CommandStream stream_;
     std::unique_ptr<RayTracer> tracer_;

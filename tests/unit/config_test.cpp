@@ -110,11 +110,11 @@ TEST(Config, Lights) {
             "    - {spot: [0, 1, 0], direction: [0, 0, 3], intensity: 2, inner_deg: 10, outer_deg: 30}\n"),
         "x");
     ASSERT_EQ(e.setup.scene.lights.size(), 3u);
-    EXPECT_EQ(e.setup.scene.lights[0].type, LightType::Directional);
-    EXPECT_EQ(e.setup.scene.lights[0].direction, glm::vec3(0, -1, 0));
-    EXPECT_EQ(e.setup.scene.lights[1].intensity, glm::vec3(5.0f));
-    EXPECT_EQ(e.setup.scene.lights[2].direction, glm::vec3(0, 0, 1));
-    EXPECT_NEAR(e.setup.scene.lights[2].outerConeAngle, 0.5235988f, 1e-6f);
+    EXPECT_EQ(e.setup.scene.lights[0].light.type, LightType::Directional);
+    EXPECT_EQ(e.setup.scene.lights[0].light.direction, glm::vec3(0, -1, 0));
+    EXPECT_EQ(e.setup.scene.lights[1].light.intensity, glm::vec3(5.0f));
+    EXPECT_EQ(e.setup.scene.lights[2].light.direction, glm::vec3(0, 0, 1));
+    EXPECT_NEAR(e.setup.scene.lights[2].light.outerConeAngle, 0.5235988f, 1e-6f);
 
     expectError(withLights("    - {piont: [0, 0, 0]}\n"), {"demo.yaml:5: ", "did you mean 'point'?"});
     expectError(withLights("    - {directional: [0, 0, 0]}\n"), {"demo.yaml:5: ", "must not be zero"});

@@ -1,0 +1,42 @@
+#include "scene/moving_spheres.h"
+
+#include "scene/shapes.h"
+
+namespace voxray {
+
+void addMovingSpheres(Scene& scene, const MovingSpheres& spheres) {
+    if (spheres.count == 0) return;
+
+    // One mesh for all, of 1280 triangles.
+    Material material;
+    material.name = "moving sphere";
+    material.baseColor = glm::vec4(spheres.albedo, 1.0f);
+    material.metallic = 0;
+    material.specular = 0;
+    scene.materials.push_back(material);
+    const uint32_t mesh = uint32_t(scene.meshes.size());
+    scene.meshes.push_back(sphereMesh("moving sphere", glm::vec3(0.0f), spheres.radius, 3,
+                                      uint32_t(scene.materials.size() - 1), false, true));
+
+    // The smallest lattice of n x n x n that takes them all, centred as far as it is filled.
+    uint32_t side = 1;
+    while (side * side * side < spheres.count) ++side;
+    const uint32_t layers = (spheres.count + side * side - 1) / (side * side);
+    const glm::vec3 half = 0.5f * glm::vec3(side - 1, layers - 1, side - 1);
+    for (uint32_t i = 0; i < spheres.count; ++i) {
+        const glm::vec3 place(i % side, i / (side * side), i / side % side);
+        Node node;
+        node.name = "moving sphere " + std::to_string(i);
+        node.translation = spheres.center + spheres.spacing * (place - half);
+        const glm::vec4 middle(node.translation, 0), swing(spheres.swing, 0);
+        scene.animation.push_back({uint32_t(scene.nodes.size()),
+                                   AnimatedProperty::Translation,
+                                   Interpolation::Linear,
+                                   {0, 0.25f * spheres.period, 0.75f * spheres.period, spheres.period},
+                                   {middle, middle + swing, middle - swing, middle}});
+        scene.instances.push_back({mesh, int32_t(scene.nodes.size())});
+        scene.nodes.push_back(std::move(node));
+    }
+}
+
+}  // namespace voxray

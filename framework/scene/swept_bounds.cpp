@@ -1,0 +1,113 @@
+#include "scene/swept_bounds.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <limits>
+#include <optional>
+
+namespace voxray {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+Box including(const Box& box, const glm::vec3& point) {
+    return {glm::min(box.min, point), glm::max(box.max, point)};
+}
+
+Box hullOf(const std::vector<glm::vec3>& points) {
+    Box hull{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
+    for (const glm::vec3& point : points) hull = including(hull, point);
+    return hull;
+}
+
+/// A box that holds the box's image under an affine map.
+Box transformed(const Box& box, const glm::mat3& linear, const glm::vec3& offset) {
+    Box out{offset, offset};
+    for (int axis = 0; axis < 3; ++axis) {
+        const glm::vec3 a = linear[axis] * box.min[axis], b = linear[axis] * box.max[axis];
+        out.min += glm::min(a, b);
+        out.max += glm::max(a, b);
+    }
+    return out;
+}
+
+bool changes(const AnimationChannel& channel) {
+    return std::any_of(channel.values.begin(), channel.values.end(),
+                       [&](const glm::vec4& value) { return value != channel.values[0]; });
+}
+
+/// A box that holds what an animated vector takes on the way; the control points of a spline's Bezier form
+/// hold the spline.
+Box valuesOf(const AnimationChannel& channel) {
+    std::vector<glm::vec3> points;
+    const bool cubic = channel.interpolation == Interpolation::CubicSpline;
+    for (size_t key = 0; key < channel.timesSeconds.size(); ++key) {
+        points.emplace_back(channel.values[cubic ? 3 * key + 1 : key]);
+        if (!cubic || key == 0) continue;
+        const float third = (channel.timesSeconds[key] - channel.timesSeconds[key - 1]) / 3;
+        points.emplace_back(channel.values[3 * key - 2] + third * channel.values[3 * key - 1]);
+        points.emplace_back(channel.values[3 * key + 1] - third * channel.values[3 * key]);
+    }
+    return hullOf(points);
+}
+
+/// What a node's properties take in time; no rotation: any.
+struct NodeRange {
+    Box translation, scale;
+    std::optional<glm::quat> rotation;
+};
+
+NodeRange rangeOf(const Scene& scene, uint32_t index) {
+    const Node& node = scene.nodes[index];
+    NodeRange range{{node.translation, node.translation}, {node.scale, node.scale}, node.rotation};
+    for (const AnimationChannel& channel : scene.animation) {
+        if (channel.node != index) continue;
+        if (channel.property == AnimatedProperty::Translation)
+            range.translation = valuesOf(channel);
+        else if (channel.property == AnimatedProperty::Scale)
+            range.scale = valuesOf(channel);
+        else
+            range.rotation.reset();
+    }
+    return range;
+}
+
+/// From the node's own space to its parent's.
+Box swept(const Box& box, const Scene& scene, uint32_t index) {
+    if (const auto& matrix = scene.nodes[index].matrix)
+        return transformed(box, glm::mat3(*matrix), glm::vec3((*matrix)[3]));
+    const NodeRange range = rangeOf(scene, index);
+    Box out = hullOf({box.min * range.scale.min, box.min * range.scale.max, box.max * range.scale.min,
+                      box.max * range.scale.max});
+    if (range.rotation) {
+        out = transformed(out, glm::mat3_cast(*range.rotation), glm::vec3(0.0f));
+    } else {
+        const float radius = glm::length(glm::max(glm::abs(out.min), glm::abs(out.max)));
+        out = {glm::vec3(-radius), glm::vec3(radius)};
+    }
+    return {out.min + range.translation.min, out.max + range.translation.max};
+}
+
+}  // namespace
+
+bool movesInTime(const Scene& scene, int32_t node) {
+    for (; node >= 0; node = scene.nodes[size_t(node)].parent)
+        for (const AnimationChannel& channel : scene.animation)
+            if (channel.node == uint32_t(node) && changes(channel)) return true;
+    return false;
+}
+
+Box sweptBounds(const Scene& scene, const Instance& instance) {
+    Box box = hullOf(scene.meshes[instance.mesh].positions);
+    for (int32_t node = instance.node; node >= 0; node = scene.nodes[size_t(node)].parent)
+        box = swept(box, scene, uint32_t(node));
+
+    // Vertices are placed by one matrix, with its own rounding.
+    const glm::vec3 largest = glm::max(glm::abs(box.min), glm::abs(box.max));
+    const float spare = 1e-5f * std::max({largest.x, largest.y, largest.z});
+    return {box.min - spare, box.max + spare};
+}
+
+}  // namespace voxray
