@@ -46,6 +46,8 @@ void VoxelizePass::plan(PassPlan& plan) {
     v.voxelCount = countSurfaceVoxels(geometry, v.grid).front();
     plan.reserve("surface voxels (estimated)", v.voxelCount * sizeof(gpu::VoxelMaterial));
     plan.reserve("sums (estimated)", uint64_t(v.voxelCount) * SUMS_PER_VOXEL * sizeof(uint32_t));
+    // While an update is joined the materials are there twice, which is less than with their sums.
+    if (!movingRuns(geometry).empty()) plan.reserve("update of a region", RegionJoin::scratchBytes(v));
     method_->plan(plan, v);
 
     for (const Material& material : plan.frame.scene->scene->materials)

@@ -2,8 +2,8 @@
 
 #include <cstring>
 
-#include "gpu/chain.h"
 #include "scene/moving_spheres.h"
+#include "tests/gpu/chain.h"
 
 namespace voxray::test {
 namespace {
