@@ -141,4 +141,10 @@ SceneSettings readSceneSettings(const Value& map) {
     return settings;
 }
 
+bool changesInTime(const SceneSettings& settings) {
+    return settings.options.timeStep > 0 ||
+           std::any_of(settings.lights.begin(), settings.lights.end(),
+                       [](const ConfigLight& entry) { return entry.move != glm::vec3(0.0f); });
+}
+
 }  // namespace voxray

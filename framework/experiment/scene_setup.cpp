@@ -95,12 +95,6 @@ void chooseLightsAndCamera(PreparedScene& prepared, const SceneSettings& setting
 
 }  // namespace
 
-bool changesInTime(const SceneSettings& settings) {
-    return settings.options.timeStep > 0 ||
-           std::any_of(settings.lights.begin(), settings.lights.end(),
-                       [](const ConfigLight& entry) { return entry.move != glm::vec3(0.0f); });
-}
-
 std::vector<fs::path> sceneFolders(const fs::path& scenesOption, const fs::path& sourceRoot,
                                    const fs::path& configFile) {
     std::vector<fs::path> folders;

@@ -30,9 +30,6 @@ struct PreparedScene {
     Camera camera;
 };
 
-/// Whether surfaces or lights are elsewhere in the next frame.
-bool changesInTime(const SceneSettings& settings);
-
 /// Loads scenes and puts a config's camera, lights, environment and material mode on them. Keeps every scene
 /// it loaded.
 class SceneLoader {

@@ -228,4 +228,7 @@ struct SceneSettings {
 /// Reads the block `scene`. Touches no file. @throws UsageError with file, line and the nearest valid word.
 SceneSettings readSceneSettings(const Value& map);
 
+/// Whether surfaces or lights are elsewhere in the next frame.
+bool changesInTime(const SceneSettings& settings);
+
 }  // namespace voxray

@@ -123,6 +123,37 @@ TEST(Config, Lights) {
     expectError(withLights("    - {point: [0, 0, 0], intensity: -3}\n"), {"demo.yaml:5: ", "out of range"});
 }
 
+TEST(Config, Motion) {
+    const auto with = [](const std::string& scene) {
+        return "name: x\nscene:\n  file: a.glb\n" + scene + "graph: [{pass: a}]\n";
+    };
+    const SceneSettings still = parseExperiment(with(""), "x").setup.scene;
+    EXPECT_FALSE(changesInTime(still));
+    EXPECT_FALSE(still.movingSpheres);
+    const SceneSettings moving =
+        parseExperiment(
+            with("  time_step: 0.1\n  moving_spheres: {count: 27, swing: [0, 2, 0], albedo: 0.25}\n"), "x")
+            .setup.scene;
+    EXPECT_TRUE(changesInTime(moving));
+    EXPECT_EQ(moving.options.timeStep, 0.1);
+    ASSERT_TRUE(moving.movingSpheres);
+    EXPECT_EQ(moving.movingSpheres->count, 27u);
+    EXPECT_EQ(moving.movingSpheres->swing, glm::vec3(0, 2, 0));
+    EXPECT_EQ(moving.movingSpheres->albedo, glm::vec3(0.25f));
+    const SceneSettings lamp =
+        parseExperiment(with("  lights: [{point: [0, 0, 0], move: [1, 0, 0]}]\n"), "x").setup.scene;
+    EXPECT_TRUE(changesInTime(lamp));
+    EXPECT_EQ(lamp.lights[0].move, glm::vec3(1, 0, 0));
+
+    expectError(with("  time_step: -1\n"), {"demo.yaml:4: ", "scene.time_step", "out of range"});
+    expectError(with("  moving_spheres: {cuont: 9}\n"), {"demo.yaml:4: ", "did you mean 'count'?"});
+    expectError(with("  moving_spheres: {period: 0}\n"), {"demo.yaml:4: ", "period", "out of range"});
+    expectError(with("  moving_spheres: 9\n"), {"demo.yaml:4: ", "scene.moving_spheres"});
+    expectError(with("  moving_sphere: {count: 9}\n"), {"demo.yaml:4: ", "did you mean 'moving_spheres'?"});
+    expectError(with("  lights: [{point: [0, 0, 0], move: 3 m}]\n"),
+                {"demo.yaml:4: ", "scene.lights[0].move"});
+}
+
 TEST(Config, Environment) {
     const auto with = [](const std::string& environment) {
         return parseExperiment(

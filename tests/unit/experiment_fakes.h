@@ -131,11 +131,41 @@ class Relay : public Pass {
     void record(PassContext&) override {}
 };
 
+/// Runs in the build phase and notes what it sees of the scene.
+class Witness : public Pass {
+ public:
+    static constexpr const char* kName = "witness";
+    static constexpr const char* kHelp = "Notes what it sees.";
+    struct Params {
+        static constexpr auto schema() { return std::tuple{}; }
+    };
+    struct Sight {
+        glm::vec3 corner;  ///< Last vertex of the scene.
+        glm::vec3 light;   ///< Last light's position.
+        int changed;       ///< Boxes; -1: everything is new.
+        uint32_t frameIndex;
+    };
+    static inline std::vector<Sight> sights;
+
+    explicit Witness(const Params&) {}
+    Phase phase() const override { return Phase::Build; }
+    void declare(PassBuilder&) override {}
+    void plan(PassPlan&) override {}
+    void prepare(PassSetup&) override {}
+    void record(PassContext& context) override {
+        const SceneState& state = *context.frame.scene;
+        const auto& changed = context.frame.changed;
+        sights.push_back({state.geometry.positions.back(), state.lights.back().position,
+                          changed ? int(changed->size()) : -1, context.frameIndex});
+    }
+};
+
 inline Registry registry() {
     Registry registry;
     registry.add<Constant>();
     registry.add<Truth>();
     registry.add<Relay>();
+    registry.add<Witness>();
     return registry;
 }
 

@@ -140,6 +140,73 @@ TEST_F(RunTest, TheCameraMovesFromFrameToFrame) {
     EXPECT_EQ(Truth::runs, references);
 }
 
+TEST_F(RunTest, SurfacesAndLightsMoveFromFrameToFrame) {
+    const auto runWith = [&](const std::string& scene) {
+        Witness::sights.clear();
+        const std::string text =
+            "name: fake\nscene: {builtin: cornell, " + scene +
+            "}\nimage: {width: 8, height: 4}\ngraph: [{pass: witness}, {pass: constant}]\n"
+            "reference: {pass: truth}\nmeasure: {frames: 2, warmup: 1}\n";
+        EXPECT_EQ(runExperiment(parseExperiment(text, "fake.yaml"), options(), registry()).exitStatus(), 0);
+        return Witness::sights;
+    };
+    const std::string lights = "lights: [{point: [0, 1, 0], move: [0.5, 0, 0]}]";
+    const std::string spheres = "moving_spheres: {count: 9, swing: [1, 0, 0], period: 4}";
+
+    // Two builds in the judged frame, then a frame before it, the frame itself, and one after it.
+    const auto moving = runWith(lights + ", time: 0.25, time_step: 0.5, " + spheres);
+    ASSERT_EQ(moving.size(), 5u);
+    const int changed[] = {-1, -1, 18, 18, 18};
+    const float lightX[] = {0, 0, -0.5f, 0, 0.5f};
+    // At 0.25 s it is 0.25 m on, at -0.25 s as far back.
+    const float shift[] = {0, 0, -0.5f, 0, 0.5f};
+    for (size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(moving[i].changed, changed[i]) << i;
+        EXPECT_EQ(moving[i].light.x, lightX[i]) << i;
+        EXPECT_NEAR(moving[i].corner.x - moving[0].corner.x, shift[i], 1e-6f) << i;
+        EXPECT_EQ(moving[i].frameIndex, 0u);
+    }
+    EXPECT_EQ(Truth::runs, 1);
+
+    // Build passes have a row for their build and one for their update, and the scene has one.
+    std::vector<std::string> rows;
+    std::istringstream lines(readTextFile(root_ / "out" / "passes.csv"));
+    for (std::string line; std::getline(lines, line);) rows.push_back(split(line)[1] + " " + split(line)[2]);
+    EXPECT_EQ(rows, (std::vector<std::string>{"pass phase", "scene frame", "witness build", "witness frame",
+                                              "constant frame"}));
+
+    // A light alone: no surface changes; it needs no new reference for where it goes.
+    const auto lamp = runWith(lights);
+    ASSERT_EQ(lamp.size(), 5u);
+    EXPECT_EQ(lamp[3].changed, 0);
+    EXPECT_EQ(lamp[4].light.x, 0.5f);
+    EXPECT_EQ(Truth::runs, 2);
+    EXPECT_EQ(runWith("lights: [{point: [0, 1, 0]}]").size(), 2u);
+    EXPECT_EQ(Truth::runs, 2);
+}
+
+TEST_F(RunTest, VariantsOfOneSceneBeginInTheJudgedFrame) {
+    Witness::sights.clear();
+    const std::string text =
+        "name: fake\nscene: {builtin: spheres, time_step: 0.5}\nimage: {width: 8, height: 4}\n"
+        "graph: [{pass: witness}, {pass: constant}]\nsweep: {constant.value: [1, 2]}\n"
+        "measure: {frames: 2, warmup: 0}\n";
+    EXPECT_EQ(runExperiment(parseExperiment(text, "fake.yaml"), options(), registry()).exitStatus(), 0);
+    ASSERT_EQ(Witness::sights.size(), 8u);
+    for (size_t i = 0; i < 4; ++i) EXPECT_EQ(Witness::sights[i].corner, Witness::sights[4 + i].corner) << i;
+    EXPECT_NE(Witness::sights[3].corner, Witness::sights[0].corner);
+}
+
+TEST_F(RunTest, LightThatLosesItsDirectionIsNamed) {
+    const RunSummary summary =
+        runExperiment(parseExperiment(config(""), "fake.yaml",
+                                      {"", {"scene.lights=[{directional: [0, -1, 0], move: [0, 1, 0]}]"}}),
+                      options(), registry());
+    EXPECT_EQ(summary.exitStatus(), 1);
+    EXPECT_NE(cell("default", "error").find("config light 0: 'move' leaves it without a direction"),
+              std::string::npos);
+}
+
 TEST_F(RunTest, SeveralReferencesGetTheirOwnFolders) {
     EXPECT_EQ(run("sweep: {image.width: [8, 16]}\n").exitStatus(), 0);
     EXPECT_EQ(Truth::runs, 2);
