@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// A bit for each voxel of a region that is made of boxes. A work group's y is a box, a thread takes a word in it.
+// A bit for each voxel of a region that is made of boxes. A work group's z is a box, a thread takes a word in it.
+#include "shaders/linear_index.glsl"
 #include "shaders/shared/voxel_types.h"
 layout(local_size_x = 64) in;
 
@@ -14,9 +15,9 @@ layout(set = 0, binding = 1) buffer Region { uint words[]; } region;
 layout(push_constant, scalar) uniform Push { VoxelGrid grid; } push;
 
 void main() {
-    const uvec3 first = uvec3(boxes.data[gl_WorkGroupID.y].first), size = boxes.data[gl_WorkGroupID.y].size;
+    const uvec3 first = uvec3(boxes.data[gl_WorkGroupID.z].first), size = boxes.data[gl_WorkGroupID.z].size;
     const uint firstWord = first.x / 32u, words = (first.x + size.x - 1u) / 32u - firstWord + 1u;
-    const uint i = gl_GlobalInvocationID.x;
+    const uint i = linearIndex();
     if (i >= words * size.y * size.z) return;
     const uint word = firstWord + i % words;
     const uint y = first.y + i / words % size.y, z = first.z + i / words / size.y;

@@ -24,8 +24,9 @@ void RegionJoin::occupancy(CommandStream& stream, const VoxelRegion& region, con
         uint64_t words = 0;  // Of the largest box, at most.
         for (const VoxelBox& box : list)
             words = std::max(words, (uint64_t(box.size.x) / 32 + 2) * box.size.y * box.size.z);
+        const glm::uvec3 groups = linearGroups(words);
         stream.dispatch(bits_, {{"boxes", boxes}, {"region", bits}}, former.grid,
-                        {uint32_t((words + 63) / 64), uint32_t(list.size()), 1});
+                        {groups.x, groups.y, uint32_t(list.size())});
     }
 
     joined_ = Buffer(device, "voxel occupancy", former.occupancy.bytes());
