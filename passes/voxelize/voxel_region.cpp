@@ -32,15 +32,21 @@ VoxelRegion::VoxelRegion(const gpu::VoxelGrid& grid, const std::vector<Box>& cha
         const glm::vec3 high = (box.max - grid.origin) / grid.voxelSize + kProbeReach;
         const glm::ivec3 first = glm::max(glm::ivec3(glm::floor(low)), glm::ivec3(0));
         const glm::ivec3 last = glm::min(glm::ivec3(glm::floor(high)), glm::ivec3(grid.resolution) - 1);
-        if (glm::all(glm::lessThanEqual(first, last)))
-            boxes_.push_back({first, glm::uvec3(last - first + 1)});
+        if (glm::any(glm::greaterThan(first, last))) continue;
+        boxes_.push_back({first, glm::uvec3(last - first + 1)});
+        const glm::vec3 end(last + 1);
+        low_ = boxes_.size() == 1 ? glm::vec3(first) : glm::min(low_, glm::vec3(first));
+        high_ = boxes_.size() == 1 ? end : glm::max(high_, end);
     }
 }
 
 bool VoxelRegion::meets(const glm::vec3& low, const glm::vec3& high) const {
-    return everywhere_ || std::ranges::any_of(boxes_, [&](const VoxelBox& box) {
-               const glm::vec3 first(box.first), end = first + glm::vec3(box.size);
-               return glm::all(glm::lessThanEqual(low, end)) && glm::all(glm::greaterThanEqual(high, first));
+    const auto meet = [&](const glm::vec3& first, const glm::vec3& end) {
+        return glm::all(glm::lessThanEqual(low, end)) && glm::all(glm::greaterThanEqual(high, first));
+    };
+    if (everywhere_) return true;
+    return meet(low_, high_) && std::ranges::any_of(boxes_, [&](const VoxelBox& box) {
+               return meet(glm::vec3(box.first), glm::vec3(box.first) + glm::vec3(box.size));
            });
 }
 

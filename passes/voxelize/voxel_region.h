@@ -29,6 +29,7 @@ class VoxelRegion {
     gpu::VoxelGrid grid_;
     bool everywhere_;
     std::vector<VoxelBox> boxes_;
+    glm::vec3 low_{0}, high_{0};  ///< Round all boxes, in grid coordinates.
 };
 
 /// A triangle's bounds in grid coordinates, larger by more than the margin of grid_triangle.glsl.
