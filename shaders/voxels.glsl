@@ -24,6 +24,10 @@ bool insideGrid(VoxelGrid g, ivec3 voxel) {
     return all(greaterThanEqual(voxel, ivec3(0))) && all(lessThan(voxel, ivec3(g.resolution)));
 }
 
+bool isOccupied(VoxelGrid g, ivec3 voxel) {
+    return insideGrid(g, voxel) && (voxelOccupancy.words[voxelWord(g, voxel)] >> (uint(voxel.x) & 31u) & 1u) != 0u;
+}
+
 // Number of an occupied voxel, or NO_VOXEL.
 uint voxelNumber(VoxelGrid g, ivec3 voxel) {
     if (!insideGrid(g, voxel)) return NO_VOXEL;

@@ -80,15 +80,17 @@ void markTriangle(Bits& bits, const std::array<glm::dvec3, 3>& corners) {
         }
 }
 
-}  // namespace
-
-std::vector<uint32_t> countSurfaceVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
+/// Voxels of each level that the triangles chosen by `selected` pass through.
+std::vector<uint32_t> count(const Geometry& geometry, const gpu::VoxelGrid& grid,
+                            const std::vector<bool>& selected) {
     Bits bits(grid.resolution);
     const glm::dvec3 origin(grid.origin);
-    for (const glm::uvec3 t : geometry.triangles) {
+    for (size_t t = 0; t < geometry.triangles.size(); ++t) {
+        if (!selected[t]) continue;
         std::array<glm::dvec3, 3> corners;
         for (int i = 0; i < 3; ++i)
-            corners[size_t(i)] = (glm::dvec3(geometry.positions[t[i]]) - origin) / double(grid.voxelSize);
+            corners[size_t(i)] =
+                (glm::dvec3(geometry.positions[geometry.triangles[t][i]]) - origin) / double(grid.voxelSize);
         markTriangle(bits, corners);
     }
 
@@ -99,6 +101,22 @@ std::vector<uint32_t> countSurfaceVoxels(const Geometry& geometry, const gpu::Vo
         bits = std::move(coarser);
         counts.push_back(bits.count());
     }
+    return counts;
+}
+
+}  // namespace
+
+std::vector<uint32_t> countSurfaceVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
+    std::vector<bool> still(geometry.triangles.size(), true);
+    const std::vector<InstanceRange> runs = movingRuns(geometry);
+    for (const InstanceRange& run : runs)
+        std::fill_n(still.begin() + run.firstTriangle, run.triangleCount, false);
+    std::vector<uint32_t> counts = count(geometry, grid, still);
+    if (runs.empty()) return counts;
+
+    still.flip();
+    const std::vector<uint32_t> moving = count(geometry, grid, still);
+    for (size_t level = 0; level < counts.size(); ++level) counts[level] += 2 * moving[level];
     return counts;
 }
 

@@ -8,6 +8,7 @@
 namespace voxray {
 
 void VoxelIrradiance::allocate(Device& device, uint32_t voxelCount) {
+    ++version;
     const uint64_t fluxBytes = uint64_t(voxelCount) * kFluxFloats * sizeof(float);
     if (direct && direct.bytes() == fluxBytes) return;
     direct = LargeBuffer(device, "voxel direct flux", fluxBytes);

@@ -16,6 +16,7 @@ struct SurfaceVoxels : Resource {
     bool exposedOnly =
         false;  ///< Areas count only sides with open space before them; so must what lands on them.
     uint32_t voxelCount = 0;  ///< Occupied voxels; known once the voxelizing pass has run.
+    uint64_t version = 0;     ///< Another one whenever the content is.
     Buffer occupancy;         ///< 1 bit a voxel of the grid.
     Buffer rank;              ///< 1 uint a word of `occupancy`: occupied voxels before it.
     LargeBuffer materials;    ///< VoxelMaterial a surface voxel.
@@ -36,11 +37,13 @@ struct VoxelIrradiance : Resource {
     LargeBuffer indirect;    ///< W, after one bounce or more; likewise.
     Buffer area;             ///< In units of a voxel's face: 6 floats a voxel.
     bool eachFrame = false;  ///< Whether it is measured anew in each frame; known from plan() on.
+    uint64_t version = 0;    ///< Another one whenever the light has been measured anew.
 
     static uint64_t bytes(uint32_t voxelCount) {
         return uint64_t(voxelCount) * (2 * kFluxFloats + kAreaFloats) * sizeof(float);
     }
-    /// Makes the buffers where they don't have the right size; their content is undefined.
+    /// Before light is measured: makes the buffers where they don't have the right size; their content is
+    /// undefined.
     void allocate(Device& device, uint32_t voxelCount);
     std::vector<const Buffer*> checkedBuffers() const override { return {&direct, &indirect, &area}; }
 };

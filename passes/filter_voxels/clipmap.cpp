@@ -1,6 +1,7 @@
 #include <array>
 #include <bit>
 #include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "passes/common/dispatch.h"
@@ -62,13 +63,14 @@ class ClipmapStorage final : public RadianceStorage {
     void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
              RadianceVoxels& radiance, float emission) override {
         // Move the windows.
-        const bool keep = header_ && !eachFrame_ && !context.frame.changed;
+        const std::pair version{voxels.version, irradiance.version};
+        const bool keep = header_ && !eachFrame_ && version == version_;
         Header header{radiance.grid, radiance.storage[0].address(), side_, windows_.firstWhole(), {}};
         for (uint32_t level = 0; level < radiance.grid.levels; ++level)
             header.windows[level] = windows_.window(level, context.frame.camera.position);
         context.stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
 
-        // Fill what is new in them; of light that changes, everything.
+        // Fill what is new in them; where surfaces or their light are, everything.
         std::vector<Binding> bindings = surfaceRadianceBindings(voxels, irradiance);
         for (const Binding& binding : radiance.bindings()) bindings.push_back(binding);
         for (uint32_t level = 0; level < radiance.grid.levels; ++level) {
@@ -84,6 +86,7 @@ class ClipmapStorage final : public RadianceStorage {
             }
         }
         header_ = header;
+        version_ = version;
     }
 
  private:
@@ -91,7 +94,8 @@ class ClipmapStorage final : public RadianceStorage {
     bool eachFrame_;
     ClipmapWindows windows_;
     Program fill_;
-    std::optional<Header> header_;  ///< As it was in the last run.
+    std::optional<Header> header_;             ///< As it was in the last run.
+    std::pair<uint64_t, uint64_t> version_{};  ///< Of the voxels and their light, likewise.
 };
 
 }  // namespace

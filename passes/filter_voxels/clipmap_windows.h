@@ -3,17 +3,11 @@
 #include <array>
 #include <vector>
 
+#include "passes/common/voxel_box.h"
 #include "shaders/shared/radiance_clipmap_types.h"
 #include "shaders/shared/radiance_types.h"
 
 namespace voxray {
-
-/// A box of voxels of one level.
-struct VoxelBox {
-    glm::ivec3 first{0};
-    glm::uvec3 size{0};
-    uint64_t count() const { return uint64_t(size.x) * size.y * size.z; }
-};
 
 /// What a clipmap over `grid` holds: of each level at most `side` voxels along an axis, round the camera.
 /// Levels that are no larger than that are held whole. `side`: a power of two, 16 or more.

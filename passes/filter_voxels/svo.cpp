@@ -15,8 +15,8 @@ struct SurfacePush {
     uint32_t count;
 };
 
-/// The structure is built on the first run, from the voxels that there are then, and kept for as long as
-/// light is filtered again.
+/// The structure is built of the voxels that there are, and kept for as long as they are the same and light
+/// is filtered again.
 class SvoStorage final : public RadianceStorage {
  public:
     explicit SvoStorage(bool eachFrame) : eachFrame_(eachFrame) {}
@@ -43,13 +43,14 @@ class SvoStorage final : public RadianceStorage {
     void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
              RadianceVoxels& radiance, float emission) override {
         CommandStream& stream = context.stream;
-        // All is new the first time; later what has another value.
-        const bool first = !built_;
-        if (first) {
+        // All is new where the voxels are; else what has another value.
+        const bool anew = !built_ || version_ != voxels.version;
+        if (anew) {
             built_ = builder_->build(stream, voxels, radiance);
+            version_ = voxels.version;
             changed_ = Buffer(context.device, "octree changes", OctreeBuilder::changedBytes(built_->size));
         }
-        stream.fill(changed_, first ? ~0u : 0u);
+        stream.fill(changed_, anew ? ~0u : 0u);
 
         const uint32_t leaves = built_->size.nodes[0];
         std::vector<Binding> bindings = surfaceRadianceBindings(voxels, irradiance);
@@ -62,7 +63,7 @@ class SvoStorage final : public RadianceStorage {
         builder_->filter(stream, built_->size, radiance, changed_);
         if (eachFrame_) return;
 
-        // What never changes again needs no more than its values.
+        // What is not filtered again needs no more than its values.
         collapse_->run(stream, built_->size, radiance);
         built_.reset();
         changed_ = {};
@@ -74,6 +75,7 @@ class SvoStorage final : public RadianceStorage {
     std::optional<OctreeBuilder> builder_;
     std::optional<OctreeCollapse> collapse_;
     std::optional<OctreeBuilder::Built> built_;
+    uint64_t version_ = 0;  ///< Of the voxels that it is built of.
     Buffer changed_;
 };
 

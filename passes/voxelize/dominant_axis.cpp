@@ -16,14 +16,15 @@ struct Push {
 /// along it. A fragment is made for each column that the triangle touches (not only for those whose centre it
 /// covers) and reaches each voxel that the triangle's plane passes through there. Sources: Magalhães 2020,
 /// section 3.2.4.3; Crassin and Green 2012; Hasselgren et al. 2005 for growing triangles by half a pixel.
-class DominantAxis final : public VoxelizeMethod {
+class DominantAxis final : public RasterMethod {
  public:
-    void plan(PassPlan& plan, const SurfaceVoxels&) override {
+    void plan(PassPlan& plan, const SurfaceVoxels& voxels) override {
         if (!plan.device.geometryShader)
             throw Error(
                 "voxelize: method dominant_axis needs geometry shaders (geometryShader), which device '{}' "
                 "lacks; use method exact",
                 plan.device.name);
+        RasterMethod::plan(plan, voxels);
     }
 
     void prepare(PassSetup& setup) override {
@@ -43,9 +44,8 @@ class DominantAxis final : public VoxelizeMethod {
         const uint32_t side = std::max({r.x, r.y, r.z});
         RasterTargets targets;
         targets.extent = {side, side, 1};
-        context.stream.draw(step.mark ? mark_ : add_, stepBindings(context, voxels, step),
-                            Push{voxels.grid, side, step.emissionScale}, targets,
-                            context.scene.triangleCount * 3);
+        context.stream.draw(step.mark ? mark_ : add_, bindings(context, voxels, step),
+                            Push{voxels.grid, side, step.emissionScale}, targets, corners());
     }
 
  private:

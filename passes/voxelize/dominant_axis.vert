@@ -1,8 +1,10 @@
 #version 460
 // Numbers the triangles' corners; the geometry shader reads what belongs to them.
+layout(set = 0, binding = 17) readonly buffer DrawnTriangles { uint data[]; } drawnTriangles;
+
 layout(location = 0) flat out uint triangle;
 
 void main() {
-    triangle = uint(gl_VertexIndex) / 3u;
+    triangle = drawnTriangles.data[gl_VertexIndex / 3];
     gl_Position = vec4(0.0);
 }

@@ -15,31 +15,30 @@ struct Push {
     float emissionScale;
 };
 
-/// Calls visit(triangle, packed tile) for the 8x8 tiles of columns that each triangle's bounds meet, seen
-/// along the axis that it faces most, so that no thread walks all of a large triangle.
+/// Calls visit(triangle, packed tile) for the 8x8 tiles of columns that a triangle's bounds meet, seen along
+/// the axis that it faces most, so that no thread walks all of a large triangle; only tiles that may reach
+/// into the region.
 template <typename Visit>
-void forEachTile(const Geometry& geometry, const gpu::VoxelGrid& grid, const Visit& visit) {
-    const auto toGrid = [&](uint32_t vertex) {
-        return (geometry.positions[vertex] - grid.origin) / grid.voxelSize;
+void forEachTile(const Geometry& geometry, const gpu::VoxelGrid& grid, const VoxelRegion& region,
+                 uint32_t triangle, const Visit& visit) {
+    const auto corner = [&](int k) {
+        return (geometry.positions[geometry.triangles[triangle][k]] - grid.origin) / grid.voxelSize;
     };
-    constexpr float kSpare = 1.0f / 256;  // More than the margin of grid_triangle.glsl.
-    for (uint32_t t = 0; t < geometry.triangles.size(); ++t) {
-        const glm::uvec3 v = geometry.triangles[t];
-        const glm::vec3 a = toGrid(v.x), b = toGrid(v.y), c = toGrid(v.z);
-        const glm::vec3 n = glm::abs(glm::cross(b - a, c - a));
-        const uint32_t axis = n.x > n.y ? (n.x > n.z ? 0u : 2u) : (n.y > n.z ? 1u : 2u);
-        const glm::vec3 low = glm::min(a, glm::min(b, c)) - kSpare,
-                        high = glm::max(a, glm::max(b, c)) + kSpare;
-        int first[2], last[2];
-        for (int k = 0; k < 2; ++k) {
-            const int along = (int(axis) + 1 + k) % 3, end = int(grid.resolution[along]) - 1;
-            first[k] = std::clamp(int(std::floor(low[along])), 0, end);
-            last[k] = std::clamp(int(std::floor(high[along])), 0, end);
+    const glm::vec3 n = glm::abs(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+    const int axis = n.x > n.y ? (n.x > n.z ? 0 : 2) : (n.y > n.z ? 1 : 2);
+    const int u = (axis + 1) % 3, w = (axis + 2) % 3;
+    const GridBounds bounds(geometry, grid, triangle);
+    const auto column = [&](float at, int along) {
+        return std::clamp(int(std::floor(at)), 0, int(grid.resolution[along]) - 1);
+    };
+    for (int y = column(bounds.low[w], w); y <= column(bounds.high[w], w); y += kTileSide)
+        for (int x = column(bounds.low[u], u); x <= column(bounds.high[u], u); x += kTileSide) {
+            glm::vec3 low = bounds.low, high = bounds.high;
+            low[u] = float(x), high[u] = float(x + kTileSide);
+            low[w] = float(y), high[w] = float(y + kTileSide);
+            if (region.meets(low, high))
+                visit(triangle, uint32_t(x) | uint32_t(y) << 10 | uint32_t(axis) << 20);
         }
-        for (int y = first[1]; y <= last[1]; y += kTileSide)
-            for (int x = first[0]; x <= last[0]; x += kTileSide)
-                visit(t, uint32_t(x) | uint32_t(y) << 10 | axis << 20);
-    }
 }
 
 /// Triangle-box overlap by separating axes. A thread takes one tile of a triangle and walks its columns. What
@@ -49,7 +48,10 @@ class Exact final : public VoxelizeMethod {
  public:
     void plan(PassPlan& plan, const SurfaceVoxels& voxels) override {
         uint64_t tiles = 0;
-        forEachTile(plan.frame.scene->geometry, voxels.grid, [&](uint32_t, uint32_t) { ++tiles; });
+        const Geometry& geometry = plan.frame.scene->geometry;
+        const VoxelRegion everywhere(voxels.grid);
+        for (uint32_t t = 0; t < geometry.triangles.size(); ++t)
+            forEachTile(geometry, voxels.grid, everywhere, t, [&](uint32_t, uint32_t) { ++tiles; });
         plan.reserve("tiles of triangles", tiles * sizeof(glm::uvec2));
     }
 
@@ -59,16 +61,21 @@ class Exact final : public VoxelizeMethod {
                 setup.device, setup.compiler.compile("passes/voxelize/exact.comp", stepDefines(mark)));
     }
 
+    void select(PassContext& context, const gpu::VoxelGrid& grid, const VoxelRegion& region,
+                const std::vector<uint32_t>& triangles) override {
+        std::vector<glm::uvec2> tiles;
+        for (const uint32_t t : triangles)
+            forEachTile(context.frame.scene->geometry, grid, region, t,
+                        [&](uint32_t triangle, uint32_t tile) {
+                            tiles.push_back({triangle, tile});
+                        });
+        tileCount_ = uint32_t(tiles.size());
+        tiles_ = Buffer(context.device, "tiles of triangles",
+                        std::max<size_t>(tiles.size(), 1) * sizeof(tiles[0]));
+        if (!tiles.empty()) context.stream.upload(tiles_, tiles);
+    }
+
     void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelizeStep& step) override {
-        if (step.mark) {
-            std::vector<glm::uvec2> tiles;
-            forEachTile(context.frame.scene->geometry, voxels.grid, [&](uint32_t triangle, uint32_t tile) {
-                tiles.push_back({triangle, tile});
-            });
-            tileCount_ = uint32_t(tiles.size());
-            tiles_ = Buffer(context.device, "tiles of triangles", tiles.size() * sizeof(tiles[0]));
-            context.stream.upload(tiles_, tiles);
-        }
         context.stream.dispatch(step.mark ? mark_ : add_,
                                 stepBindings(context, voxels, step, {{"tiles", tiles_}}),
                                 Push{voxels.grid, tileCount_, step.emissionScale}, linearGroups(tileCount_));

@@ -1,24 +1,39 @@
 #include "passes/voxelize/exposure_probe.h"
 
 #include <algorithm>
-#include <vector>
+#include <glm/geometric.hpp>
 
 #include "passes/common/dispatch.h"
 #include "passes/common/random_seed.h"
-#include "passes/common/surface_points.h"
 
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBatchPoints =
-    1u << 19;  // Two rays each: bounds the memory of rays and results to 36 MiB.
+constexpr uint32_t kBatchPoints = 1u << 18;
 
-struct Push {
+struct EmitPush {
     gpu::VoxelGrid grid;
-    uint32_t firstPoint;
     uint32_t points;
     uint32_t seed;
 };
+
+struct CountPush {
+    gpu::VoxelGrid grid;
+    uint32_t points;
+};
+
+/// Points on a triangle: its area in voxel faces times the points of one, rounded up for as many of the
+/// triangles as it takes to have the right number in all. The part that is rounded is compared with the van
+/// der Corput sequence, which is spread evenly over neighbours in the list.
+uint64_t pointsOn(const Geometry& g, const gpu::VoxelGrid& grid, uint32_t triangle, uint32_t pointsPerFace) {
+    const glm::uvec3 v = g.triangles[triangle];
+    const glm::dvec3 p0 = g.positions[v.x], p1 = g.positions[v.y], p2 = g.positions[v.z];
+    const double face = double(grid.voxelSize) * grid.voxelSize;
+    uint32_t reversed = 0;
+    for (uint32_t bit = 0; bit < 32; ++bit) reversed |= (triangle >> bit & 1u) << (31 - bit);
+    const double points = 0.5 * glm::length(glm::cross(p1 - p0, p2 - p0)) / face * pointsPerFace;
+    return uint64_t(points + double(reversed) / 4294967296.0);
+}
 
 }  // namespace
 
@@ -26,36 +41,56 @@ ExposureProbe::ExposureProbe(Device& device, const ShaderCompiler& compiler)
     : emit_(makeComputeProgram(device, compiler.compile("passes/voxelize/probe_emit.comp"))),
       count_(makeComputeProgram(device, compiler.compile("passes/voxelize/probe_count.comp"))) {}
 
-Buffer ExposureProbe::run(PassContext& context, const SurfaceVoxels& voxels, uint32_t pointsPerVoxel) const {
+Buffer ExposureProbe::run(PassContext& context, const SurfaceVoxels& voxels,
+                          const std::vector<uint32_t>& triangles, uint32_t pointsPerFace) const {
     CommandStream& stream = context.stream;
-    Buffer counts(context.device, "exposure counts", uint64_t(voxels.voxelCount) * 9 * sizeof(uint32_t));
+    Buffer counts(context.device, "exposure counts",
+                  std::max<uint64_t>(voxels.voxelCount, 1) * 9 * sizeof(uint32_t));
     stream.fill(counts, 0);
-    if (pointsPerVoxel == 0) return counts;
+    if (pointsPerFace == 0 || voxels.voxelCount == 0) return counts;
 
-    // Evenly spread points, batch by batch: two rays each, as long as a voxel.
-    const uint64_t count = std::min<uint64_t>(uint64_t(voxels.voxelCount) * pointsPerVoxel, 1u << 28);
-    const std::vector<uint32_t> triangles = spreadPoints(context.frame.scene->geometry, count);
-    const uint32_t batch = uint32_t(std::min<uint64_t>(count, kBatchPoints));
-    const Buffer batchTriangles(context.device, "exposure points", batch * sizeof(uint32_t));
-    const Buffer rays(context.device, "exposure rays", 2ull * batch * sizeof(Ray));
-    const Buffer occluded(context.device, "exposure results", 2ull * batch * sizeof(uint32_t));
-    for (uint64_t first = 0; first < count; first += batch) {
-        const uint32_t points = uint32_t(std::min<uint64_t>(batch, count - first));
-        stream.upload(batchTriangles, std::as_bytes(std::span(triangles).subspan(first, points)));
-        const Push push{voxels.grid, uint32_t(first), points, randomSeed(context.frame)};
-        stream.dispatch(emit_, context.scene.bindings({{"pointTriangles", batchTriangles}, {"rays", rays}}),
-                        push, linearGroups(points));
-        context.tracer.occluded(stream, rays, occluded, 2 * points);
+    // Batch by batch the points, of those that lie in the voxels two rays each, and what these find.
+    const Buffer batch(context.device, "exposure points", kBatchPoints * sizeof(glm::uvec2));
+    const Buffer kept(context.device, "number of exposure points", sizeof(uint32_t));
+    const Buffer rays(context.device, "exposure rays", 2ull * kBatchPoints * sizeof(Ray));
+    const Buffer occluded(context.device, "exposure results", 2ull * kBatchPoints * sizeof(uint32_t));
+    std::vector<glm::uvec2> points;  // Triangle, and which of its points.
+    const auto probe = [&] {
+        if (points.empty()) return;
+        stream.upload(batch, points);
+        stream.fill(kept, 0);
+        stream.dispatch(
+            emit_,
+            context.scene.bindings(
+                {{"points", batch}, {"rays", rays}, {"kept", kept}, {"voxelOccupancy", voxels.occupancy}}),
+            EmitPush{voxels.grid, uint32_t(points.size()), randomSeed(context.frame)},
+            linearGroups(points.size()));
+        points.clear();
+        const uint32_t count = stream.readAs<uint32_t>(kept, 1)[0];
+        if (count == 0) return;
+        context.tracer.occluded(stream, rays, occluded, 2 * count);
         stream.dispatch(count_,
                         {{"voxelOccupancy", voxels.occupancy},
                          {"voxelRank", voxels.rank},
                          {"rays", rays},
                          {"occluded", occluded},
                          {"counts", counts}},
-                        push, linearGroups(points));
+                        CountPush{voxels.grid, count}, linearGroups(count));
+    };
+    for (const uint32_t triangle : triangles) {
+        const uint64_t count = pointsOn(context.frame.scene->geometry, voxels.grid, triangle, pointsPerFace);
+        for (uint64_t i = 0; i < count; ++i) {
+            points.push_back({triangle, uint32_t(i)});
+            if (points.size() == kBatchPoints) probe();
+        }
     }
+    probe();
     stream.finish();
     return counts;
+}
+
+uint64_t ExposureProbe::scratchBytes() {
+    return kBatchPoints * (sizeof(glm::uvec2) + 2 * (sizeof(Ray) + sizeof(uint32_t))) + sizeof(uint32_t);
 }
 
 }  // namespace voxray

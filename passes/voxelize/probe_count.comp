@@ -12,14 +12,12 @@ layout(set = 0, binding = 17) readonly buffer Occluded { uint data[]; } occluded
 layout(set = 0, binding = 18) buffer Counts { uint data[]; } counts;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
-    uint firstPoint;
     uint points;
-    uint seed;
 } push;
 
 void main() {
     const uint i = linearIndex();
-    if (i >= push.points || rays.data[2u * i].tMax < 0.0) return;
+    if (i >= push.points) return;
     const uint voxel = voxelNumber(push.grid, voxelAt(push.grid, rays.data[2u * i].origin));
     if (voxel == NO_VOXEL) return;
     for (uint axis = 0u; axis < 3u; ++axis) {

@@ -14,11 +14,9 @@ struct Push {
 /// triangle with unit normal n, seen along axis a, weighs |n_a| / samples²; over the three axes that sums to
 /// the triangle's area in units of voxel faces (because n_x² + n_y² + n_z² = 1). Source: Magalhães 2020,
 /// section 3.2.4.2; the area weights are ours.
-class ThreeAxis final : public VoxelizeMethod {
+class ThreeAxis final : public RasterMethod {
  public:
     explicit ThreeAxis(uint32_t samples) : samples_(samples) {}
-
-    void plan(PassPlan&, const SurfaceVoxels&) override {}
 
     void prepare(PassSetup& setup) override {
         const ShaderModule vertex = setup.compiler.compile("passes/voxelize/three_axis.vert");
@@ -30,15 +28,14 @@ class ThreeAxis final : public VoxelizeMethod {
     }
 
     void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelizeStep& step) override {
-        const std::vector<Binding> bindings = stepBindings(context, voxels, step);
+        const std::vector<Binding> read = bindings(context, voxels, step);
         for (uint32_t axis = 0; axis < 3; ++axis) {
             // The image plane is spanned by the two axes that follow in cyclic order.
             RasterTargets targets;
             targets.extent = {voxels.grid.resolution[int(axis + 1) % 3] * samples_,
                               voxels.grid.resolution[int(axis + 2) % 3] * samples_, 1};
-            context.stream.draw(step.mark ? mark_ : add_, bindings,
-                                Push{voxels.grid, axis, samples_, step.emissionScale}, targets,
-                                context.scene.triangleCount * 3);
+            context.stream.draw(step.mark ? mark_ : add_, read,
+                                Push{voxels.grid, axis, samples_, step.emissionScale}, targets, corners());
         }
     }
 

@@ -14,6 +14,7 @@ layout(push_constant, scalar) uniform Push {
 layout(location = 0) in vec3 gridPosition;
 layout(location = 1) in vec2 barycentrics;
 layout(location = 2) flat in uint triangle;
+layout(location = 3) flat in vec2 depths;
 
 // The 4x4 sub-samples of the voxel's face that this sample stands for: those nearest to it.
 uint subSamples() {
@@ -30,10 +31,11 @@ void main() {
     const SurfacePoint s = surfacePoint(triangle, barycentrics);
     if (alphaCut(sceneMaterials.data[s.material], s)) discard;
 
-    // The voxel: two coordinates from the sample point, so that rounding can't move it, the third from depth.
+    // The voxel: two coordinates from the sample point, so that rounding can't move it, the third from depth, which
+    // interpolation may carry far beyond a triangle that is nearly edge-on.
     const uint a = push.axis, b = (a + 1u) % 3u, c = (a + 2u) % 3u;
     ivec3 voxel;
-    voxel[a] = int(floor(gridPosition[a]));
+    voxel[a] = int(floor(clamp(gridPosition[a], depths.x, depths.y)));
     voxel[b] = int(gl_FragCoord.x) / int(push.samples);
     voxel[c] = int(gl_FragCoord.y) / int(push.samples);
     voxel = clamp(voxel, ivec3(0), ivec3(push.grid.resolution) - 1);

@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "passes/common/voxels.h"
+#include "passes/voxelize/voxel_region.h"
 
 namespace voxray {
 
 /// What a method does with each voxel that it finds: mark it in the occupancy, or add what the surface
-/// carries to its sums (sums_layout.h).
+/// carries to its sums (sums_layout.h), where it is marked.
 struct VoxelizeStep {
     bool mark;
     const Buffer* target;  ///< Occupancy to mark in, or the address of sums to add to.
@@ -22,7 +23,28 @@ class VoxelizeMethod {
     /// Checks the device and reserves memory. @throws Error naming the feature that is missing.
     virtual void plan(PassPlan& plan, const SurfaceVoxels& voxels) = 0;
     virtual void prepare(PassSetup& setup) = 0;
+    /// Chooses what run() works on: `triangles`, those that may have a part in the region. All of the
+    /// region's voxels are found; others may be.
+    virtual void select(PassContext& context, const gpu::VoxelGrid& grid, const VoxelRegion& region,
+                        const std::vector<uint32_t>& triangles) = 0;
     virtual void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelizeStep& step) = 0;
+};
+
+/// A method that draws triangles: vertex shaders number the corners of `drawnTriangles`.
+class RasterMethod : public VoxelizeMethod {
+ public:
+    void plan(PassPlan& plan, const SurfaceVoxels& voxels) override;
+    void select(PassContext& context, const gpu::VoxelGrid& grid, const VoxelRegion& region,
+                const std::vector<uint32_t>& triangles) override;
+
+ protected:
+    std::vector<Binding> bindings(const PassContext& context, const SurfaceVoxels& voxels,
+                                  const VoxelizeStep& step) const;
+    uint32_t corners() const { return corners_; }
+
+ private:
+    Buffer drawn_;
+    uint32_t corners_ = 0;
 };
 
 /// Rasterises along all three axes, `samples` squared points a voxel.

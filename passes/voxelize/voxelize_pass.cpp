@@ -46,6 +46,8 @@ void VoxelizePass::plan(PassPlan& plan) {
     v.voxelCount = countSurfaceVoxels(geometry, v.grid).front();
     plan.reserve("surface voxels (estimated)", v.voxelCount * sizeof(gpu::VoxelMaterial));
     plan.reserve("sums (estimated)", uint64_t(v.voxelCount) * SUMS_PER_VOXEL * sizeof(uint32_t));
+    // While an update is joined the materials are there twice, which is less than with their sums.
+    if (!movingRuns(geometry).empty()) plan.reserve("update of a region", RegionJoin::scratchBytes(v));
     method_->plan(plan, v);
 
     for (const Material& material : plan.frame.scene->scene->materials)
@@ -56,51 +58,64 @@ void VoxelizePass::prepare(PassSetup& setup) {
     SurfaceVoxels& v = setup.get(voxels_);
     v.occupancy = Buffer(setup.device, "voxel occupancy", v.words() * sizeof(uint32_t));
     v.rank = Buffer(setup.device, "voxel ranks", v.words() * sizeof(uint32_t));
+    v.materials = {};
     method_->prepare(setup);
     resolve_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/voxelize/resolve.comp"));
     prefixSum_.emplace(setup.device, setup.compiler);
     exposureProbe_ = ExposureProbe(setup.device, setup.compiler);
+    join_ = RegionJoin(setup.device, setup.compiler);
 }
 
 void VoxelizePass::record(PassContext& context) {
     SurfaceVoxels& v = context.get(voxels_);
-
-    // Mark occupied voxels, then number them.
-    context.stream.fill(v.occupancy, 0);
-    method_->run(context, v, {true, &v.occupancy, 0});
-    v.voxelCount = prefixSum_->run(context.stream, v.occupancy, v.rank, uint32_t(v.words()));
+    const std::optional<std::vector<Box>>& changed = context.frame.changed;
+    if (!changed || !v.materials) {
+        voxelize(context, VoxelRegion(v.grid), v);
+        ++v.version;
+    } else if (!changed->empty()) {
+        update(context, VoxelRegion(v.grid, *changed), v);
+        ++v.version;
+    }
     if (v.voxelCount == 0)
         throw Error(
             "voxelize: no surface meets the grid of {}x{}x{} voxels; the scene needs triangles with an area, "
             "and "
             "three_axis more 'samples'",
             v.grid.resolution.x, v.grid.resolution.y, v.grid.resolution.z);
-    v.materials =
-        LargeBuffer(context.device, "voxel materials", uint64_t(v.voxelCount) * sizeof(gpu::VoxelMaterial));
-
-    // Sum up what surfaces carry, in fixed point, and turn sums into averages.
-    const LargeBuffer sums(context.device, "voxelization sums",
-                           uint64_t(v.voxelCount) * SUMS_PER_VOXEL * sizeof(uint32_t));
-    context.stream.fill(sums, 0);
-    method_->run(context, v, {false, &sums.at(), largestEmission_ > 0 ? 1.0f / largestEmission_ : 0.0f});
-    const Buffer probes = exposureProbe_.run(context, v, params_.exposureRays);
-    context.stream.dispatch(
-        resolve_, {{"SumsAt", sums.at()}, {"VoxelMaterialsAt", v.materials.at()}, {"probes", probes}},
-        ResolvePush{v.voxelCount, largestEmission_}, linearGroups(v.voxelCount));
-    context.stream.finish();
 }
 
-std::vector<Binding> stepBindings(const PassContext& context, const SurfaceVoxels& voxels,
-                                  const VoxelizeStep& step, std::initializer_list<Binding> more) {
-    std::vector<Binding> bindings = context.scene.bindings(more);
-    if (step.mark) {
-        bindings.emplace_back("occupancy", *step.target);
-    } else {
-        bindings.emplace_back("SumsAt", *step.target);
-        bindings.emplace_back("voxelOccupancy", voxels.occupancy);
-        bindings.emplace_back("voxelRank", voxels.rank);
-    }
-    return bindings;
+void VoxelizePass::update(PassContext& context, const VoxelRegion& region, SurfaceVoxels& v) {
+    SurfaceVoxels fresh;
+    fresh.grid = v.grid;
+    fresh.occupancy = Buffer(context.device, "new voxels", v.occupancy.bytes());
+    fresh.rank = Buffer(context.device, "new voxels' ranks", v.rank.bytes());
+    voxelize(context, region, fresh, &v);
+    join_.materials(context.stream, *prefixSum_, fresh, v);
+}
+
+void VoxelizePass::voxelize(PassContext& context, const VoxelRegion& region, SurfaceVoxels& target,
+                            const SurfaceVoxels* former) {
+    CommandStream& stream = context.stream;
+    const std::vector<uint32_t> triangles = region.triangles(context.frame.scene->geometry);
+    method_->select(context, target.grid, region, triangles);
+
+    // Mark occupied voxels, then number them.
+    stream.fill(target.occupancy, 0);
+    method_->run(context, target, {true, &target.occupancy, 0});
+    if (former) join_.occupancy(stream, region, *former, target);
+    target.voxelCount = prefixSum_->run(stream, target.occupancy, target.rank, uint32_t(target.words()));
+    const uint64_t count = std::max(target.voxelCount, 1u);
+    target.materials = LargeBuffer(context.device, "voxel materials", count * sizeof(gpu::VoxelMaterial));
+
+    // Sum up what surfaces carry, in fixed point, and turn sums into averages.
+    const LargeBuffer sums(context.device, "voxelization sums", count * SUMS_PER_VOXEL * sizeof(uint32_t));
+    stream.fill(sums, 0);
+    method_->run(context, target, {false, &sums.at(), largestEmission_ > 0 ? 1.0f / largestEmission_ : 0.0f});
+    const Buffer probes = exposureProbe_.run(context, target, triangles, params_.exposureRays);
+    stream.dispatch(resolve_,
+                    {{"SumsAt", sums.at()}, {"VoxelMaterialsAt", target.materials.at()}, {"probes", probes}},
+                    ResolvePush{target.voxelCount, largestEmission_}, linearGroups(target.voxelCount));
+    stream.finish();
 }
 
 }  // namespace voxray

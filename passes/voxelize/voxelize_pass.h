@@ -5,6 +5,7 @@
 #include "passes/common/prefix_sum.h"
 #include "passes/common/voxels.h"
 #include "passes/voxelize/exposure_probe.h"
+#include "passes/voxelize/region_join.h"
 #include "passes/voxelize/voxelize_method.h"
 
 namespace voxray {
@@ -19,7 +20,9 @@ struct EnumNames<VoxelizeMethodName> {
 
 /// Turns triangles into surface voxels. A method finds the voxels, twice: first to mark them, then, once they
 /// are numbered, to sum up what their surfaces carry, weighted by area. Sums are integers: the result does
-/// not depend on the order of additions.
+/// not depend on the order of additions. All is done within a region: everywhere the first time, later where
+/// surfaces have changed; what was made before is then joined with what is new, bit for bit as if all had
+/// been made anew.
 class VoxelizePass final : public Pass {
  public:
     static constexpr const char* kName = "voxelize";
@@ -51,11 +54,11 @@ class VoxelizePass final : public Pass {
                 field("samples", &Params::samples,
                       "three_axis: sample points along a voxel's edge, in each of the three projections.", 1u,
                       16u),
-                field("exposure_rays", &Params::exposureRays,
-                      "Points a surface voxel, on average, that probe both sides for open space; 0 takes all "
-                      "sides for "
-                      "exposed, which darkens thin closed walls.",
-                      0u, 256u)};
+                field(
+                    "exposure_rays", &Params::exposureRays,
+                    "Points on a surface as large as a voxel's face that probe both sides for open space; 0 "
+                    "takes all sides for exposed, which darkens thin closed walls.",
+                    0u, 256u)};
         }
     };
 
@@ -67,12 +70,19 @@ class VoxelizePass final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    /// The voxels of a region, into `target`, whose occupancy and ranks are allocated. `former`: those of the
+    /// whole grid as they were, where the region is a part of it.
+    void voxelize(PassContext& context, const VoxelRegion& region, SurfaceVoxels& target,
+                  const SurfaceVoxels* former = nullptr);
+    void update(PassContext& context, const VoxelRegion& region, SurfaceVoxels& voxels);
+
     Params params_;
     Port<SurfaceVoxels> voxels_;
     std::unique_ptr<VoxelizeMethod> method_;
     Program resolve_;
     std::optional<PopulationPrefixSum> prefixSum_;
     ExposureProbe exposureProbe_;
+    RegionJoin join_;
     float largestEmission_ = 0;
 };
 

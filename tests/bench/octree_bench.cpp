@@ -1,12 +1,15 @@
 #include <benchmark/benchmark.h>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <map>
 
 #include "passes/common/dispatch.h"
 #include "passes/filter_voxels/octree_builder.h"
+#include "scene/moving_spheres.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray {
@@ -69,6 +72,70 @@ BENCHMARK(octreeBuild)
     ->ArgNames({"resolution", "directions"})
     ->ArgsProduct({{64, 128, 256, 512}, {1, 6}})
     ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
+
+/// CPU seconds of the process so far, on all its threads.
+double cpuSeconds() {
+    return double(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// Voxels and octree of Sponza made anew, and following spheres of 0.5 m that move by 5 cm: CPU time of both,
+/// and how they compare. The update has that of scene and ray tracer too. The octree's structure is built
+/// anew in either case; light is left out.
+void octreeUpdate(benchmark::State& state) {
+    auto scene = std::make_shared<Scene>(*loadGltf(scenesFolder() / "sponza.glb"));
+    MovingSpheres spheres;
+    spheres.count = uint32_t(state.range(1));
+    spheres.center = {0, 2.5f, 0};
+    spheres.spacing = 0.8f;
+    addMovingSpheres(*scene, spheres);
+    auto start = std::make_shared<SceneState>(evaluate(std::move(scene), 0.0, Playback::Looping));
+    start->cameras.emplace_back();
+    test::Chain chain(start, fmt::format("[{{pass: voxelize, resolution: {}}}]", state.range(0)), 16, 16, 1);
+    const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
+    const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE);
+    const OctreeBuilder builder(test::device(), compiler);
+    CommandStream stream(test::device());
+    const auto octree = [&] {
+        RadianceVoxels radiance;
+        radiance.grid = {voxels.grid.origin,
+                         voxels.grid.voxelSize,
+                         voxels.grid.resolution,
+                         radianceLevels(voxels.grid.resolution),
+                         1,
+                         1.0f};
+        const OctreeSize size = builder.build(stream, voxels, radiance).size;
+        const Buffer all(test::device(), "changed", OctreeBuilder::changedBytes(size));
+        stream.fill(all, ~0u);
+        builder.filter(stream, size, radiance, all);
+        stream.finish();
+    };
+    double whole = 0, update = 0, structure = 0, seconds = 0;
+    for (auto _ : state) {
+        const double begin = cpuSeconds();
+        chain.rebuild();
+        const double middle = cpuSeconds();
+        octree();
+        const double end = cpuSeconds();
+        seconds += 0.05;
+        chain.goTo(seconds);
+        octree();
+        whole += end - begin;
+        structure += end - middle;
+        update += cpuSeconds() - end;
+    }
+    const double runs = double(state.iterations());
+    state.counters["voxels"] = voxels.voxelCount;
+    state.counters["whole_ms"] = 1000 * whole / runs;
+    state.counters["update_ms"] = 1000 * update / runs;
+    state.counters["octree_ms"] = 1000 * structure / runs;
+    state.counters["update_over_whole"] = update / whole;
+}
+BENCHMARK(octreeUpdate)
+    ->ArgNames({"resolution", "spheres"})
+    ->ArgsProduct({{256}, {1, 125}})
+    ->MeasureProcessCPUTime()
+    ->Iterations(5)
     ->Unit(benchmark::kMillisecond);
 
 constexpr std::array kThinConeLayouts{"dense", "svo", "svo", "clipmap, clipmap_resolution: 128"};

@@ -64,6 +64,12 @@ class Chain {
         frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, 0, true);
     }
 
+    /// The build phase once more, with everything new.
+    void rebuild() {
+        frame_.changed.reset();
+        buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
+    }
+
     /// Another time of a scene that was evaluated as looping.
     void goTo(double timeSeconds) {
         update([&](SceneState& state) { return advance(state, timeSeconds); });

@@ -1,0 +1,144 @@
+// Voxels that follow moving surfaces: after each move they are, bit by bit, those of a chain that was made
+// there.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "passes/common/voxel_count.h"
+#include "tests/gpu/radiance_samples.h"
+#include "tests/physics/voxels_read.h"
+
+namespace voxray::test {
+namespace {
+
+/// Places of two spheres in Cornell, one a second. Through the room: in the open; a fraction of a voxel on;
+/// to the wall and over a box, less than a voxel from it; into boxes, floor and walls; back to where it
+/// began.
+const std::vector<std::array<glm::vec3, 2>> kWalk{{{{0.3f, 1.4f, 0.3f}, {0.5f, 1.5f, -0.5f}}},
+                                                  {{{0.32f, 1.41f, 0.3f}, {0.5f, 1.5f, -0.5f}}},
+                                                  {{{-0.86f, 0.7f, 0.3f}, {-0.3f, 1.34f, -0.25f}}},
+                                                  {{{0.333f, 0.5f, 0.7f}, {0.87f, 0.13f, -0.8f}}},
+                                                  {{{0.3f, 1.4f, 0.3f}, {0.5f, 1.5f, -0.5f}}}};
+
+/// Cornell with two spheres on their walk, one of which glows.
+std::shared_ptr<const Scene> roomWithSpheres() {
+    auto scene = std::make_shared<Scene>(*makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")));
+    for (size_t i = 0; i < 2; ++i) {
+        Material material = scene->materials.front();
+        if (i == 1) material.emission = glm::vec3(2, 1, 0.5f);
+        scene->materials.push_back(material);
+        scene->meshes.push_back(
+            sphereMesh("sphere", glm::vec3(0), 0.13f, 2, uint32_t(scene->materials.size() - 1), false, true));
+        AnimationChannel channel;
+        channel.node = uint32_t(scene->nodes.size());
+        for (size_t second = 0; second < kWalk.size(); ++second) {
+            channel.timesSeconds.push_back(float(second));
+            channel.values.push_back(glm::vec4(kWalk[second][i], 0));
+        }
+        scene->nodes.emplace_back();
+        scene->animation.push_back(channel);
+        scene->instances.push_back({uint32_t(scene->meshes.size() - 1), int32_t(channel.node)});
+    }
+    return scene;
+}
+
+std::unique_ptr<Chain> chainAt(const std::shared_ptr<const Scene>& scene, double second,
+                               const std::string& graph) {
+    return std::make_unique<Chain>(std::make_shared<SceneState>(evaluate(scene, second, Playback::Looping)),
+                                   graph, 16, 16, 1);
+}
+
+template <typename T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+/// A graph that follows the walk, `stride` places at once, and at each of them one that was made there.
+template <typename Compare>
+void followWalk(const std::string& graph, size_t stride, const Compare& compare) {
+    const auto scene = roomWithSpheres();
+    const auto moved = chainAt(scene, 0, graph);
+    for (size_t second = stride; second < kWalk.size(); second += stride) {
+        SCOPED_TRACE("second " + std::to_string(second));
+        moved->goTo(double(second));
+        compare(*moved, *chainAt(scene, double(second), graph));
+    }
+}
+
+TEST(MovingVoxels, AreThoseThatAreMadeAnew) {
+    for (const char* method : {"exact", "dominant_axis", "three_axis"}) {
+        SCOPED_TRACE(method);
+        const std::string graph = std::string("[{pass: voxelize, resolution: 40, method: ") + method + "}]";
+        followWalk(graph, 1, [](Chain& moved, Chain& made) {
+            const Voxels a(moved), b(made);
+            EXPECT_EQ(a.count, b.count);
+            EXPECT_TRUE(sameBits(a.occupancy, b.occupancy));
+            EXPECT_TRUE(sameBits(a.rank, b.rank));
+            EXPECT_TRUE(sameBits(a.materials, b.materials));
+            // Only points near the spheres are probed again.
+            EXPECT_GT(moved.updateSamples[0].rays, 0u);
+            EXPECT_LT(moved.updateSamples[0].rays, made.buildSamples[0].rays / 4);
+        });
+    }
+}
+
+TEST(MovingVoxels, CarryTheSameLightInEachLayout) {
+    const std::string lit =
+        "[{pass: voxelize, resolution: 24}, {pass: inject_light_rays, rays_per_light: 8192, bounces: 1}, ";
+    for (const char* filter : {"layout: dense", "layout: svo", "layout: svo, each_frame: true",
+                               "layout: clipmap, clipmap_resolution: 16"}) {
+        SCOPED_TRACE(filter);
+        followWalk(lit + "{pass: filter_voxels, emission: true, " + filter + "}]", 2,
+                   [](Chain& moved, Chain& made) {
+                       const auto samples = [](Chain& chain) {
+                           const auto& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
+                           return sampleRadiance(*chain.graph().resource<RadianceVoxels>("radiance"),
+                                                 randomQueries(voxels.grid, 5000));
+                       };
+                       EXPECT_TRUE(sameBits(samples(moved), samples(made)));
+                   });
+    }
+}
+
+TEST(MovingVoxels, ArePlannedForWhereverTheyGo) {
+    // From each place the prediction holds for all others; without what moves apart it would not.
+    const auto scene = roomWithSpheres();
+    std::vector<uint32_t> planned, plannedStill, counts;
+    for (size_t second = 0; second < kWalk.size(); ++second) {
+        const auto chain = chainAt(scene, double(second), "[{pass: voxelize, resolution: 40}]");
+        const Voxels voxels(*chain);
+        counts.push_back(voxels.count);
+        planned.push_back(countSurfaceVoxels(chain->state().geometry, voxels.grid).front());
+        plannedStill.push_back(
+            countSurfaceVoxels(evaluate(scene, double(second)).geometry, voxels.grid).front());
+    }
+    EXPECT_GE(std::ranges::min(planned), std::ranges::max(counts));
+    EXPECT_LT(std::ranges::min(plannedStill), std::ranges::max(counts));
+}
+
+TEST(MovingVoxels, StayWhereNothingMoves) {
+    // Boxes without a surface, beyond the grid, overlapping; and none at all, which costs nothing.
+    const auto made = chainAt(roomWithSpheres(), 0, "[{pass: voxelize, resolution: 40}]");
+    Chain& chain = *made;
+    const Voxels before(chain);
+    const std::vector<std::vector<Box>> lists{
+        {},
+        {{{5, 5, 5}, {6, 6, 6}}},
+        {{{0.45f, 1.5f, 0.6f}, {0.5f, 1.52f, 0.65f}}},
+        {{{-2, -1, -1}, {0.3f, 2, 0.4f}}, {{-0.2f, 0.3f, 0}, {0.9f, 1.9f, 0.9f}}},
+        {{{-2, -1, -2}, {2, 3, 2}}}};
+    for (const std::vector<Box>& boxes : lists) {
+        chain.update([&](SceneState&) { return boxes; });
+        const Voxels after(chain);
+        EXPECT_TRUE(sameBits(before.occupancy, after.occupancy));
+        EXPECT_TRUE(sameBits(before.rank, after.rank));
+        EXPECT_TRUE(sameBits(before.materials, after.materials));
+        if (boxes.empty()) {
+            EXPECT_EQ(chain.updateSamples[0].rays, 0u);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace voxray::test
