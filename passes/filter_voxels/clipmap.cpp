@@ -59,7 +59,7 @@ class ClipmapStorage final : public RadianceStorage {
         header_.reset();
     }
 
-    void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
+    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
              RadianceVoxels& radiance, float emission) override {
         // Move the windows.
         const bool keep = header_ && !eachFrame_;
@@ -69,7 +69,7 @@ class ClipmapStorage final : public RadianceStorage {
         context.stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
 
         // Fill what is new in them; of light that changes, everything.
-        std::vector<Binding> bindings = surfaceRadianceBindings(voxels, irradiance);
+        std::vector<Binding> bindings = surfaceRadianceBindings(voxels, light);
         for (const Binding& binding : radiance.bindings()) bindings.push_back(binding);
         for (uint32_t level = 0; level < radiance.grid.levels; ++level) {
             const gpu::ClipmapWindow& window = header.windows[level];
