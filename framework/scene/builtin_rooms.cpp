@@ -126,10 +126,37 @@ std::shared_ptr<const Scene> make(const MirrorRoom& params) {
     return b.finish();
 }
 
+struct MirrorRow {
+    static constexpr const char* name = "mirror_row";
+    uint32_t count = 8;
+    static constexpr auto schema() {
+        return std::tuple{
+            field("count", &MirrorRow::count, "Spheres over the mirror, one every 2 m.", 1u, 64u)};
+    }
+};
+
+/// A row of equal spheres 1 m over a mirror in the plane y = 0, in the sun: number i, from 1 on, over
+/// (0, 0, -2 i). All of their reflections look alike, but for where they are seen from.
+std::shared_ptr<const Scene> make(const MirrorRow& params) {
+    SceneBuilder b(MirrorRow::name);
+    const uint32_t orange = b.lambert("sphere", {0.7f, 0.35f, 0.08f});
+    Material perfect;
+    perfect.name = "mirror";
+    perfect.roughness = 0;
+    const float length = 2.0f * float(params.count) + 2.0f;
+    b.quad("mirror", {-2, 0, 0}, {5, 0, 0}, {0, 0, -length}, b.material(perfect));
+    for (uint32_t i = 1; i <= params.count; ++i)
+        b.place(b.mesh(sphereMesh("sphere", {0, 1, -2.0f * float(i)}, 0.4f, 4, orange, false, true)));
+    b.directionalLight({-0.7f, -0.2f, -0.5f}, glm::vec3(4.0f));
+    b.camera({2.5f, 1.2f, 0}, {0, -1, -4}, 60);
+    return b.finish();
+}
+
 }  // namespace
 
 std::vector<BuiltinScene> roomScenes() {
-    return {builtinScene<Cornell>(), builtinScene<ThinWall>(), builtinScene<MirrorRoom>()};
+    return {builtinScene<Cornell>(), builtinScene<ThinWall>(), builtinScene<MirrorRoom>(),
+            builtinScene<MirrorRow>()};
 }
 
 }  // namespace voxray

@@ -16,9 +16,12 @@ struct GBuffer : Resource {
     Image geometricNormal;  ///< RGBA16F: the triangle's normal, turned to the camera's side.
     Image albedo;           ///< RGBA16F: diffuse reflectance.
     Image emission;  ///< RGBA32F: radiance towards the camera, W/(m² sr); the environment's on a miss.
+    Image specular;  ///< RGBA16F: specular reflectance at normal incidence, roughness.
+    Image fresnel;   ///< RGBA8: reflectance at grazing incidence; what diffuse light loses at normal and at
+                     ///< grazing incidence. Both are read by shaders/specular.glsl.
 
     std::vector<const Image*> checkedImages() const override {
-        return {&position, &normal, &geometricNormal, &albedo, &emission};
+        return {&position, &normal, &geometricNormal, &albedo, &emission, &specular};
     }
 };
 

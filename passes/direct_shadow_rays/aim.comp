@@ -7,6 +7,7 @@
 #include "shaders/sampling.glsl"
 #include "shaders/scene.glsl"
 #include "shaders/shared/ray_types.h"
+#include "shaders/specular.glsl"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 16) uniform sampler2D position;
@@ -15,6 +16,8 @@ layout(set = 0, binding = 18) uniform sampler2D geometricNormal;
 layout(set = 0, binding = 19) uniform sampler2D albedo;
 layout(set = 0, binding = 20, scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(set = 0, binding = 21, scalar) writeonly buffer Carried { vec4 data[]; } carried;
+layout(set = 0, binding = 22) uniform sampler2D specular;
+layout(set = 0, binding = 23) uniform sampler2D fresnel;
 layout(push_constant, scalar) uniform Push {
     uint kind;
     uint light;
@@ -25,7 +28,21 @@ layout(push_constant, scalar) uniform Push {
     uint samples;  // Texels along each side of a pixel.
     uint seed;
     uint emitterCount;
+    vec3 camera;
 } push;
+
+// What a surface reflects of light from unit `direction` towards `out_`, over irradiance: its diffuse lobe under its specular
+// one. A mirror's is none that a shadow ray could find.
+vec3 reflectance(vec3 diffuseAlbedo_, Specular s, vec3 n, vec3 out_, vec3 direction) {
+    const vec3 diffuse = diffuseAlbedo_ / PI;
+    if (!hasSpecular(s)) return diffuse;
+    const vec3 half_ = normalize(out_ + direction);
+    const float weight = schlickWeight(dot(out_, half_));
+    const vec3 below = diffuseShare(s, weight) * diffuse;
+    if (isMirror(s)) return below;
+    const vec3 across = cross(n, half_);
+    return below + specularFresnel(s, weight) * ggx(dot(n, direction), max(dot(n, out_), 1e-5), dot(across, across), specularAlpha(s));
+}
 
 void main() {
     const uint i = linearIndex();
@@ -42,7 +59,10 @@ void main() {
     vec3 radiance = vec3(0.0);
     const vec4 p = texelFetch(position, texel, 0);
     if (p.w > 0.0) {
-        const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
+        const vec3 out_ = normalize(push.camera - p.xyz);
+        const Specular surface = specularOf(texelFetch(specular, texel, 0), texelFetch(fresnel, texel, 0));
+        vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
+        if (hasSpecular(surface)) n = specularNormal(n, out_);
         const vec3 side = normalize(texelFetch(geometricNormal, texel, 0).xyz);
 
         // Irradiance on a plane facing the sample, were it not in shadow.
@@ -50,7 +70,7 @@ void main() {
                                            push.firstPixel * perPixel + i, push.seed);
         const float cosine = dot(n, s.direction);
         if (cosine > 0.0 && dot(side, s.direction) > 0.0) {
-            radiance = texelFetch(albedo, texel, 0).rgb / PI * s.irradiance * cosine;
+            radiance = reflectance(texelFetch(albedo, texel, 0).rgb, surface, n, out_, s.direction) * s.irradiance * cosine;
             const float offset = surfaceOffset(p.xyz);
             ray.origin = p.xyz + side * offset;
             ray.direction = s.direction;

@@ -22,6 +22,7 @@ struct AimPush {
     uint32_t samples;
     uint32_t seed;
     uint32_t emitterCount;
+    glm::vec3 camera;
 };
 
 struct AddPush {
@@ -82,10 +83,12 @@ void DirectShadowRays::record(PassContext& context) {
                                                     {"normal", gbuffer.normal, sampler_},
                                                     {"geometricNormal", gbuffer.geometricNormal, sampler_},
                                                     {"albedo", gbuffer.albedo, sampler_},
+                                                    {"specular", gbuffer.specular, sampler_},
+                                                    {"fresnel", gbuffer.fresnel, sampler_},
                                                     {"rays", rays_},
                                                     {"carried", carried_}}),
                             AimPush{kind, light, params_.samples, frame.width, first, rays, gbuffer.samples,
-                                    seed, context.scene.emitterCount},
+                                    seed, context.scene.emitterCount, frame.camera.position},
                             linearGroups(rays));
             context.tracer.occluded(stream, rays_, occluded_, rays);
             stream.dispatch(add_, {{"carried", carried_}, {"occluded", occluded_}, {"direct", direct}},

@@ -13,8 +13,8 @@ class DirectShadowRays final : public Pass {
         "Direct light by shadow rays from every pixel to every light. Exact for point, spot and directional "
         "lights; noisy by "
         "`samples` for emissive surfaces (picked by power, uniform over area) and for the environment (by "
-        "cosine). Lambert "
-        "surfaces only. Compare with direct_voxels.";
+        "cosine). Mirrors reflect no lamp and no environment: what they show of these is left out. Compare "
+        "with direct_voxels.";
     struct Params {
         uint32_t samples = 4;
         static constexpr auto schema() {

@@ -60,10 +60,10 @@ class ClipmapStorage final : public RadianceStorage {
         header_.reset();
     }
 
-    void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
+    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
              RadianceVoxels& radiance, float emission) override {
         // Move the windows.
-        const std::pair version{voxels.version, irradiance.version};
+        const std::pair version{voxels.version, light.version};
         const bool keep = header_ && !eachFrame_ && version == version_;
         Header header{radiance.grid, radiance.storage[0].address(), side_, windows_.firstWhole(), {}};
         for (uint32_t level = 0; level < radiance.grid.levels; ++level)
@@ -71,7 +71,7 @@ class ClipmapStorage final : public RadianceStorage {
         context.stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
 
         // Fill what is new in them; where surfaces or their light are, everything.
-        std::vector<Binding> bindings = surfaceRadianceBindings(voxels, irradiance);
+        std::vector<Binding> bindings = surfaceRadianceBindings(voxels, light);
         for (const Binding& binding : radiance.bindings()) bindings.push_back(binding);
         for (uint32_t level = 0; level < radiance.grid.levels; ++level) {
             const gpu::ClipmapWindow& window = header.windows[level];

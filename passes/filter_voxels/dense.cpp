@@ -68,9 +68,9 @@ class DenseStorage final : public RadianceStorage {
         level_ = program("passes/filter_voxels/dense_level.comp");
     }
 
-    void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
+    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
              RadianceVoxels& radiance, float emission) override {
-        std::vector<Binding> bindings = surfaceRadianceBindings(voxels, irradiance);
+        std::vector<Binding> bindings = surfaceRadianceBindings(voxels, light);
         for (const Binding& binding : radiance.bindings()) bindings.push_back(binding);
         context.stream.dispatch(surface_, bindings, SurfacePush{voxels.grid, emission},
                                 linearGroups(voxelsOf(radiance.grid.resolution)));

@@ -28,7 +28,8 @@ float radianceUnit(const SceneState& state) {
 
 }  // namespace
 
-FilterVoxels::FilterVoxels(const Params& params) : params_(params), storage_(makeStorage(params)) {}
+FilterVoxels::FilterVoxels(const Params& params)
+    : params_(params), storage_(makeStorage(params)), bounces_(kName, params.bounceCones) {}
 
 void FilterVoxels::declare(PassBuilder& builder) {
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
@@ -40,27 +41,47 @@ void FilterVoxels::plan(PassPlan& plan) {
     if (plan.get(irradiance_).eachFrame && !params_.eachFrame)
         throw Error("filter_voxels: the voxels are lit anew in each frame; set its 'each_frame: true'");
     const gpu::VoxelGrid& grid = plan.get(voxels_).grid;
+    if (params_.bounces > 0 && params_.layout == RadianceLayout::Clipmap)
+        throw Error(
+            "filter_voxels: 'bounces' needs all voxels, of which a clipmap holds those near the camera; set "
+            "'layout' to dense or svo, or the injection's own 'bounces'");
     RadianceVoxels& radiance = plan.get(radiance_);
     radiance.layout = params_.layout;
     radiance.grid = {grid.origin,     grid.voxelSize,
                      grid.resolution, radianceLevels(grid.resolution),
                      grid.directions, radianceUnit(*plan.frame.scene)};
     storage_->plan(plan, plan.get(voxels_), radiance);
+    if (params_.bounces > 0) bounces_.plan(plan, plan.get(voxels_));
 }
 
 void FilterVoxels::prepare(PassSetup& setup) {
     storage_->prepare(setup, setup.get(radiance_));
+    if (params_.bounces > 0) bounces_.prepare(setup, setup.get(radiance_));
 }
 
 void FilterVoxels::record(PassContext& context) {
-    storage_->run(context, context.get(voxels_), context.get(irradiance_), context.get(radiance_),
-                  params_.emission ? 1.0f : 0.0f);
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    const VoxelIrradiance& irradiance = context.get(irradiance_);
+    RadianceVoxels& radiance = context.get(radiance_);
+    const auto fill = [&](const LargeBuffer& indirect, bool last) {
+        storage_->run(context, voxels, {irradiance.direct, indirect, irradiance.area, irradiance.version}, radiance,
+                      last && params_.emission ? 1.0f : 0.0f);
+    };
+
+    // Each bounce carries all light of the last one on: one more of each order. What surfaces emit is not
+    // in before the end, since what it does to others is direct light.
+    fill(irradiance.indirect, params_.bounces == 0);
+    for (uint32_t bounce = 1; bounce <= params_.bounces; ++bounce) {
+        bounces_.gather(context, voxels, irradiance, radiance);
+        fill(bounces_.flux(), bounce == params_.bounces);
+    }
+    if (!params_.eachFrame) storage_->close(context.stream, radiance);
 }
 
-std::vector<Binding> surfaceRadianceBindings(const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance) {
-    return {{"voxelOccupancy", voxels.occupancy},         {"voxelRank", voxels.rank},
-            {"VoxelMaterialsAt", voxels.materials.at()},  {"DirectFluxAt", irradiance.direct.at()},
-            {"IndirectFluxAt", irradiance.indirect.at()}, {"voxelArea", irradiance.area}};
+std::vector<Binding> surfaceRadianceBindings(const SurfaceVoxels& voxels, const SurfaceLight& light) {
+    return {{"voxelOccupancy", voxels.occupancy},        {"voxelRank", voxels.rank},
+            {"VoxelMaterialsAt", voxels.materials.at()}, {"DirectFluxAt", light.direct.at()},
+            {"IndirectFluxAt", light.indirect.at()},     {"voxelArea", light.area}};
 }
 
 }  // namespace voxray

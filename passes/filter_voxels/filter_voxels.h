@@ -2,6 +2,7 @@
 
 #include "passes/common/radiance_voxels.h"
 #include "passes/common/voxels.h"
+#include "passes/filter_voxels/cone_bounces.h"
 #include "passes/filter_voxels/radiance_storage.h"
 
 namespace voxray {
@@ -21,6 +22,8 @@ class FilterVoxels final : public Pass {
         bool emission = false;
         bool eachFrame = false;
         uint32_t clipmapResolution = 64;
+        uint32_t bounces = 0;
+        uint32_t bounceCones = 6;
         static constexpr auto schema() {
             return std::tuple{
                 field("layout", &Params::layout,
@@ -34,7 +37,13 @@ class FilterVoxels final : public Pass {
                       "Whether to filter in each frame, for light that is injected in each frame; else "
                       "once."),
                 field("clipmap_resolution", &Params::clipmapResolution,
-                      "clipmap: voxels along a window's side, a power of two.", 16u, 1024u)};
+                      "clipmap: voxels along a window's side, a power of two.", 16u, 1024u),
+                field("bounces", &Params::bounces,
+                      "Bounces of light from voxel to voxel by cones, on top of the injection's. dense and "
+                      "svo.",
+                      0u, 32u),
+                field("bounce_cones", &Params::bounceCones,
+                      "Cones from each side of a voxel in a bounce: 5, 6, 16 or 36.", 5u, 36u)};
         }
     };
 
@@ -53,6 +62,7 @@ class FilterVoxels final : public Pass {
     Port<VoxelIrradiance> irradiance_;
     Port<RadianceVoxels> radiance_;
     std::unique_ptr<RadianceStorage> storage_;
+    ConeBounces bounces_;
 };
 
 }  // namespace voxray

@@ -7,6 +7,14 @@
 
 namespace voxray {
 
+/// Light that surface voxels reflect, laid out as in VoxelIrradiance.
+struct SurfaceLight {
+    const LargeBuffer& direct;
+    const LargeBuffer& indirect;
+    const Buffer& area;
+    uint64_t version;  ///< Another one whenever the light has been measured anew.
+};
+
 /// A way of storing radiance voxels: makes them of surface voxels and the light that they catch.
 class RadianceStorage {
  public:
@@ -16,8 +24,10 @@ class RadianceStorage {
     virtual void plan(PassPlan& plan, const SurfaceVoxels& voxels, RadianceVoxels& radiance) = 0;
     virtual void prepare(PassSetup& setup, RadianceVoxels& radiance) = 0;
     /// Fills all levels. `emission`: 1 to add what surfaces emit, 0 to leave it out.
-    virtual void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
+    virtual void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
                      RadianceVoxels& radiance, float emission) = 0;
+    /// What was filled stays as it is: a storage may drop what it needs for filling.
+    virtual void close(CommandStream&, RadianceVoxels&) {}
 };
 
 /// A full grid for each level.
@@ -31,6 +41,6 @@ std::unique_ptr<RadianceStorage> makeSvoStorage(bool eachFrame);
 std::unique_ptr<RadianceStorage> makeClipmapStorage(uint32_t side, bool eachFrame);
 
 /// What shaders/surface_radiance.glsl reads.
-std::vector<Binding> surfaceRadianceBindings(const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance);
+std::vector<Binding> surfaceRadianceBindings(const SurfaceVoxels& voxels, const SurfaceLight& light);
 
 }  // namespace voxray

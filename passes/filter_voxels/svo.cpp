@@ -40,7 +40,7 @@ class SvoStorage final : public RadianceStorage {
         collapse_.emplace(setup.device, setup.compiler);
     }
 
-    void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
+    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
              RadianceVoxels& radiance, float emission) override {
         CommandStream& stream = context.stream;
         // All is new where the voxels are; else what has another value.
@@ -53,7 +53,7 @@ class SvoStorage final : public RadianceStorage {
         stream.fill(changed_, anew ? ~0u : 0u);
 
         const uint32_t leaves = built_->size.nodes[0];
-        std::vector<Binding> bindings = surfaceRadianceBindings(voxels, irradiance);
+        std::vector<Binding> bindings = surfaceRadianceBindings(voxels, light);
         bindings.insert(
             bindings.end(),
             {{"radianceVoxels", radiance.header}, {"leaves", built_->leaves}, {"changed", changed_}});
@@ -61,8 +61,9 @@ class SvoStorage final : public RadianceStorage {
                         SurfacePush{voxels.grid, emission, built_->size.first()[0], leaves},
                         linearGroups(leaves));
         builder_->filter(stream, built_->size, radiance, changed_);
-        if (eachFrame_) return;
+    }
 
+    void close(CommandStream& stream, RadianceVoxels& radiance) override {
         // What is not filtered again needs no more than its values.
         collapse_->run(stream, built_->size, radiance);
         built_.reset();

@@ -1,8 +1,8 @@
 #include "passes/gather_cones/gather_cones.h"
 
+#include "passes/common/cone_sets.h"
 #include "passes/common/dispatch.h"
 #include "passes/common/frame_image.h"
-#include "passes/gather_cones/cone_sets.h"
 
 namespace voxray {
 namespace {
@@ -35,10 +35,11 @@ void GatherCones::declare(PassBuilder& builder) {
 }
 
 void GatherCones::plan(PassPlan& plan) {
-    plan.reserve("cones", coneSet(params_.cones).size() * sizeof(gpu::Cone));
+    plan.reserve("cones", coneSet(kName, params_.cones).size() * sizeof(gpu::Cone));
     plan.reserve("indirect image", imageBytes(frameImageDesc(plan.frame)));
     plan.reserve("gathered irradiance",
                  imageBytes(tracedImage(plan.frame, plan.get(gbuffer_).samples, params_.sparse)));
+    if (params_.specular > 0) SpecularCones::plan(plan, kName, plan.get(gbuffer_), params_.specular);
 }
 
 void GatherCones::prepare(PassSetup& setup) {
@@ -47,9 +48,11 @@ void GatherCones::prepare(PassSetup& setup) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
     trace_ = program("passes/gather_cones/trace.comp", radiance.defines());
-    resolve_ = program("passes/gather_cones/resolve.comp", {});
+    resolve_ = program("passes/gather_cones/resolve.comp",
+                       params_.specular > 0 ? Defines{{"SPECULAR", "1"}} : Defines{});
+    if (params_.specular > 0) specular_.prepare(setup, setup.get(gbuffer_), radiance, params_.specular);
     sampler_ = texelSampler(setup.device);
-    const std::vector<gpu::Cone> cones = coneSet(params_.cones);
+    const std::vector<gpu::Cone> cones = coneSet(kName, params_.cones);
     cones_ = Buffer(setup.device, "cones", cones.size() * sizeof(gpu::Cone));
     setup.stream.upload(cones_, cones);
     setup.get(indirect_).image = Image(setup.device, "indirect", frameImageDesc(setup.frame));
@@ -69,12 +72,16 @@ void GatherCones::record(PassContext& context) {
     const glm::uvec3 texels = irradiance_.desc().extent;
     context.stream.dispatch(trace_, bindings, TracePush{params_.cones, params_.sparse},
                             pixelGroups(texels.x, texels.y));
-    context.stream.dispatch(resolve_,
-                            {{"irradiance", irradiance_, sampler_},
-                             {"albedo", gbuffer.albedo, sampler_},
-                             {"position", gbuffer.position, sampler_},
-                             {"normal", gbuffer.normal, sampler_},
-                             {"result", context.get(indirect_).image}},
+    std::vector<Binding> seen{{"irradiance", irradiance_, sampler_},
+                              {"albedo", gbuffer.albedo, sampler_},
+                              {"position", gbuffer.position, sampler_},
+                              {"normal", gbuffer.normal, sampler_},
+                              {"result", context.get(indirect_).image}};
+    if (params_.specular > 0) {
+        specular_.record(context, gbuffer, radiance);
+        seen.emplace_back("reflected", specular_.reflected(), sampler_);
+    }
+    context.stream.dispatch(resolve_, seen,
                             ResolvePush{gbuffer.samples, params_.sparse, radiance.grid.voxelSize},
                             pixelGroups(context.frame.width, context.frame.height));
 }

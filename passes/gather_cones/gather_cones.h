@@ -2,6 +2,7 @@
 
 #include "passes/common/gbuffer.h"
 #include "passes/common/radiance_voxels.h"
+#include "passes/gather_cones/specular_cones.h"
 
 namespace voxray {
 
@@ -13,11 +14,12 @@ class GatherCones final : public Pass {
         "Indirect light: a few cones from each pixel through prefiltered voxels (filter_voxels). "
         "Biased by: voxel size; the number of cones; a mean over some 25 pixels of the same surface, which "
         "evens "
-        "out the fixed pattern of directions. No noise beside that. Lambert surfaces only. "
+        "out the fixed pattern of directions; the shape of specular lobes. No noise beside that. "
         "Source: Crassin et al. 2011; Arnebäck 2017, section 3.1.5.";
     struct Params {
         uint32_t cones = 16;
         uint32_t sparse = 1;
+        uint32_t specular = 7;
         static constexpr auto schema() {
             return std::tuple{
                 field("cones", &Params::cones,
@@ -25,7 +27,11 @@ class GatherCones final : public Pass {
                 field("sparse", &Params::sparse,
                       "Traces every n-th texel of the g-buffer; the others take what those round them "
                       "see that lie on the same surface.",
-                      1u, 64u)};
+                      1u, 64u),
+                field("specular", &Params::specular,
+                      "Cones that share out the specular lobe of each texel of the g-buffer: 1, 7 or 19; a "
+                      "mirror takes one. 0: surfaces reflect by their diffuse albedo alone.",
+                      0u, 19u)};
         }
     };
 
@@ -45,6 +51,7 @@ class GatherCones final : public Pass {
     Sampler sampler_;
     Buffer cones_;
     Image irradiance_;
+    SpecularCones specular_;
 };
 
 }  // namespace voxray

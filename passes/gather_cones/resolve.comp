@@ -2,8 +2,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 // Radiance that each pixel reflects: albedo / pi times the irradiance of the traced texels around it that see much the same,
-// averaged over its sub-pixels.
+// averaged over its sub-pixels. With SPECULAR what specular lobes reflect comes on top of what they leave to the diffuse ones.
 #include "passes/gather_cones/sparse.glsl"
+#include "shaders/sampling.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 16) uniform sampler2D irradiance;
@@ -11,6 +12,9 @@ layout(set = 0, binding = 17) uniform sampler2D albedo;
 layout(set = 0, binding = 18) uniform sampler2D position;
 layout(set = 0, binding = 19) uniform sampler2D normal;
 layout(set = 0, binding = 20, rgba32f) writeonly uniform image2D result;
+#ifdef SPECULAR
+layout(set = 0, binding = 21) uniform sampler2D reflected;
+#endif
 layout(push_constant, scalar) uniform Push {
     int samples;
     int sparse;
@@ -52,7 +56,13 @@ void main() {
     for (int y = 0; y < push.samples; ++y)
         for (int x = 0; x < push.samples; ++x) {
             const ivec2 texel = pixel * push.samples + ivec2(x, y);
-            sum += texelFetch(albedo, texel, 0).rgb * gathered(texel);
+            const vec3 diffuse = texelFetch(albedo, texel, 0).rgb * gathered(texel);
+#ifdef SPECULAR
+            const vec4 specular = texelFetch(reflected, texel, 0);
+            sum += specular.a * diffuse + PI * specular.rgb;
+#else
+            sum += diffuse;
+#endif
         }
-    imageStore(result, pixel, vec4(sum / (3.14159265358979 * float(push.samples * push.samples)), 1.0));
+    imageStore(result, pixel, vec4(sum / (PI * float(push.samples * push.samples)), 1.0));
 }

@@ -21,6 +21,8 @@ layout(location = 1) out vec4 outNormal;
 layout(location = 2) out vec4 outGeometricNormal;
 layout(location = 3) out vec4 outAlbedo;
 layout(location = 4) out vec4 outEmission;
+layout(location = 5) out vec4 outSpecular;
+layout(location = 6) out vec4 outFresnel;
 
 void main() {
     SurfacePoint s;
@@ -39,4 +41,6 @@ void main() {
     outGeometricNormal = vec4(visible.geometricNormal, 0.0);
     outAlbedo = vec4(visible.albedo, 1.0);
     outEmission = vec4(visible.emission, 0.0);
+    outSpecular = specularTexel(visible.specular);
+    outFresnel = fresnelTexel(visible.specular);
 }

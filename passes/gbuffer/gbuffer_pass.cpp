@@ -11,6 +11,9 @@ namespace {
 constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays and hits to 48 MiB.
 constexpr VkFormat kWide = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kHalf = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat kByte = VK_FORMAT_R8G8B8A8_UNORM;
+/// Position, normal, geometric normal, albedo, emission, specular, Fresnel terms.
+constexpr std::array kFormats{kWide, kHalf, kHalf, kHalf, kWide, kHalf, kByte};
 
 /// As in view.glsl.
 struct View {
@@ -66,8 +69,7 @@ void GBufferPass::plan(PassPlan& plan) {
     plan.get(gbuffer_).samples = params_.samples;
     const glm::uvec2 extent = gbufferExtent(plan.frame, params_.samples);
     uint64_t bytes = 0;
-    for (const VkFormat format : {kWide, kHalf, kHalf, kHalf, kWide})
-        bytes += imageBytes(target(extent, format));
+    for (const VkFormat format : kFormats) bytes += imageBytes(target(extent, format));
     plan.reserve("g-buffer images", bytes);
     if (params_.method == GBufferMethod::Raster)
         plan.reserve("depth", imageBytes(depthTarget(extent)));
@@ -83,6 +85,8 @@ void GBufferPass::prepare(PassSetup& setup) {
     g.geometricNormal = Image(setup.device, "gbuffer geometric normal", target(extent, kHalf));
     g.albedo = Image(setup.device, "gbuffer albedo", target(extent, kHalf));
     g.emission = Image(setup.device, "gbuffer emission", target(extent, kWide));
+    g.specular = Image(setup.device, "gbuffer specular", target(extent, kHalf));
+    g.fresnel = Image(setup.device, "gbuffer fresnel", target(extent, kByte));
 
     const auto compile = [&](const char* file) {
         return setup.compiler.compile(
@@ -100,7 +104,7 @@ void GBufferPass::prepare(PassSetup& setup) {
     background_ = makeComputeProgram(setup.device, compile("background.comp"));
     const ShaderModule stages[] = {compile("gbuffer.vert"), compile("gbuffer.frag")};
     RasterState state;
-    state.colorFormats = {kWide, kHalf, kHalf, kHalf, kWide};
+    state.colorFormats.assign(kFormats.begin(), kFormats.end());
     state.depthFormat = VK_FORMAT_D32_SFLOAT;
     surfaces_ = makeRasterProgram(setup.device, stages, state);
 }
@@ -128,7 +132,9 @@ void GBufferPass::trace(PassContext& context) {
                                                         {"normal", g.normal},
                                                         {"geometricNormal", g.geometricNormal},
                                                         {"albedo", g.albedo},
-                                                        {"emitted", g.emission}}),
+                                                        {"emitted", g.emission},
+                                                        {"specular", g.specular},
+                                                        {"fresnel", g.fresnel}}),
                                 push, linearGroups(batch));
     }
 }
@@ -147,11 +153,8 @@ void GBufferPass::rasterize(PassContext& context) {
     const Geometry& geometry = frame.scene->geometry;
     RasterTargets targets;
     const VkClearColorValue zero{};
-    targets.colors = {{&g.position, zero},
-                      {&g.normal, zero},
-                      {&g.geometricNormal, zero},
-                      {&g.albedo, zero},
-                      {&g.emission, {}}};
+    targets.colors = {{&g.position, zero}, {&g.normal, zero},   {&g.geometricNormal, zero}, {&g.albedo, zero},
+                      {&g.emission, {}},   {&g.specular, zero}, {&g.fresnel, zero}};
     targets.depth = &depth_;
     targets.extent = {extent, 1};
     const SurfacePush push{

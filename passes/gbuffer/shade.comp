@@ -12,6 +12,8 @@ layout(set = 0, binding = 18, rgba16f) writeonly uniform image2D normal;
 layout(set = 0, binding = 19, rgba16f) writeonly uniform image2D geometricNormal;
 layout(set = 0, binding = 20, rgba16f) writeonly uniform image2D albedo;
 layout(set = 0, binding = 21, rgba32f) writeonly uniform image2D emitted;
+layout(set = 0, binding = 22, rgba16f) writeonly uniform image2D specular;
+layout(set = 0, binding = 23, rgba8) writeonly uniform image2D fresnel;
 layout(push_constant, scalar) uniform Push {
     View view;
     uint firstTexel;
@@ -27,7 +29,8 @@ void main() {
 
     // Nothing met: the environment.
     vec4 point = vec4(0.0);
-    VisibleSurface visible = VisibleSurface(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    VisibleSurface visible = VisibleSurface(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0),
+                                            Specular(vec3(0.0), 0.0, 0.0, 0.0, 0.0));
     if (hit.triangle == NO_HIT) {
         visible.emission = environmentRadiance(viewDirection(push.view, uvec2(texel)));
     } else {
@@ -40,4 +43,6 @@ void main() {
     imageStore(geometricNormal, texel, vec4(visible.geometricNormal, 0.0));
     imageStore(albedo, texel, vec4(visible.albedo, point.w));
     imageStore(emitted, texel, vec4(visible.emission, 0.0));
+    imageStore(specular, texel, specularTexel(visible.specular));
+    imageStore(fresnel, texel, fresnelTexel(visible.specular));
 }

@@ -1,12 +1,14 @@
 // What a g-buffer keeps of a point that the camera sees, however the point was found.
 #include "passes/gbuffer/view.glsl"
 #include "shaders/footprint.glsl"
+#include "shaders/specular.glsl"
 
 struct VisibleSurface {
     vec3 normal;           // Shading normal, on the camera's side.
     vec3 geometricNormal;  // Likewise.
     vec3 albedo;
     vec3 emission;
+    Specular specular;
 };
 
 VisibleSurface visibleSurface(View view, SurfacePoint s, uint triangle) {
@@ -32,8 +34,11 @@ VisibleSurface visibleSurface(View view, SurfacePoint s, uint triangle) {
     if (dot(visible.normal, visible.normal) == 0.0) visible.normal = visible.geometricNormal;
     if (dot(visible.normal, visible.geometricNormal) < 0.0) visible.normal = -visible.normal;
     // Mip levels of a cut-out mix in the colour of what is cut away.
-    visible.albedo =
-        diffuseAlbedo(m, s, m.alphaMode == ALPHA_MASK ? 0.0 : footprintLevel(m.baseColorTexture, triangle, area));
+    const float colorLevel = m.alphaMode == ALPHA_MASK ? 0.0 : footprintLevel(m.baseColorTexture, triangle, area);
+    visible.albedo = diffuseAlbedo(m, s, colorLevel);
+    const vec2 rough = lookup(m.metallicRoughnessTexture, s.texCoords, footprintLevel(m.metallicRoughnessTexture, triangle, area)).gb;
+    visible.specular = makeSpecular(baseColor(m, s, colorLevel).rgb, m.metallic * rough.y, m.roughness * rough.x, m.specular,
+                                    m.specularColor, m.ior);
     visible.emission = front || m.doubleSided != 0u
                            ? emission(m, s, footprintLevel(m.emissiveTexture, triangle, area))
                            : vec3(0.0);

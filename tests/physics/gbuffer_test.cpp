@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
+#include <glm/packing.hpp>
 
 #include "image/metrics.h"
 #include "passes/common/gbuffer.h"
@@ -17,19 +18,22 @@ const GBuffer& gbuffer(const Chain& chain) {
     return *chain.graph().resource<GBuffer>("gbuffer");
 }
 
-std::vector<glm::vec3> texels(Chain& chain, const Image& image) {
-    std::vector<glm::vec3> out;
+std::vector<glm::vec4> texels(Chain& chain, const Image& image) {
+    std::vector<glm::vec4> out;
     if (image.desc().format == VK_FORMAT_R16G16B16A16_SFLOAT)
         for (const uint64_t packed : chain.readImage<uint64_t>(image))
             out.push_back(glm::unpackHalf4x16(packed));
+    else if (image.desc().format == VK_FORMAT_R8G8B8A8_UNORM)
+        for (const uint32_t packed : chain.readImage<uint32_t>(image))
+            out.push_back(glm::unpackUnorm4x8(packed));
     else
         for (const glm::vec4& texel : chain.readImage<glm::vec4>(image)) out.push_back(texel);
     return out;
 }
 
 // Whether one surface fills a pixel and its neighbours: their normals agree.
-bool isSmooth(const std::vector<glm::vec3>& normals, int x, int y, int width, int height) {
-    const glm::vec3 own = normals[size_t(y * width + x)];
+bool isSmooth(const std::vector<glm::vec4>& normals, int x, int y, int width, int height) {
+    const glm::vec4 own = normals[size_t(y * width + x)];
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)
         for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u)
             if (glm::dot(own, normals[size_t(v * width + u)]) < 0.9f) return false;
@@ -46,6 +50,8 @@ void expectSameView(const std::string& scene, const std::string& parameters, flo
     const auto positionA = texels(rays, a.position), positionB = texels(raster, b.position);
     const auto albedoA = texels(rays, a.albedo), albedoB = texels(raster, b.albedo);
     const auto emissionA = texels(rays, a.emission), emissionB = texels(raster, b.emission);
+    const auto specularA = texels(rays, a.specular), specularB = texels(raster, b.specular);
+    const auto fresnelA = texels(rays, a.fresnel), fresnelB = texels(raster, b.fresnel);
     int smooth = 0;
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
@@ -60,6 +66,8 @@ void expectSameView(const std::string& scene, const std::string& parameters, flo
             ASSERT_LT(glm::length(normalA[i] - normalB[i]), 2e-3f) << scene << " " << x << " " << y;
             ASSERT_LT(glm::length(shadingA[i] - shadingB[i]), 5e-3f) << scene << " " << x << " " << y;
             ASSERT_LT(glm::length(albedoA[i] - albedoB[i]), 2e-3f) << scene << " " << x << " " << y;
+            ASSERT_LT(glm::length(specularA[i] - specularB[i]), 2e-3f) << scene << " " << x << " " << y;
+            ASSERT_EQ(fresnelA[i], fresnelB[i]) << scene << " " << x << " " << y;
             ASSERT_LT(glm::length(emissionA[i] - emissionB[i]), 1e-3f) << scene << " " << x << " " << y;
         }
     EXPECT_GT(smooth, kWidth * kHeight / 4) << scene;
@@ -68,6 +76,26 @@ void expectSameView(const std::string& scene, const std::string& parameters, flo
 TEST(GBuffer, RaysAndRasterSeeTheSame) {
     expectSameView("cornell", "{lights: area}", 2.0f);
     expectSameView("spheres", "{}", 10.0f);
+    expectSameView("mirror_room", "{}", 4.0f);
+}
+
+TEST(GBuffer, SpecularReflectanceFollowsTheMaterial) {
+    // A tinted dielectric: F0 = colour * specular * ((n - 1) / (n + 1))², at most specular.
+    SceneBuilder builder("pane");
+    Material m;
+    m.baseColor = glm::vec4(0.5f, 0.4f, 0.3f, 1.0f);
+    m.metallic = 0;
+    m.roughness = 0.25f;
+    m.specular = 0.8f;
+    m.specularColor = glm::vec3(1, 0.5f, 0);
+    m.ior = 3.0f;
+    builder.quad("pane", {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material(m));
+    builder.camera({0, 0, 1}, {0, 0, 0}, 40);
+    Chain chain(std::make_shared<SceneState>(evaluate(builder.finish(), 0.0)), "[{pass: gbuffer}]", 4, 4, 1);
+    for (const glm::vec4& s : texels(chain, gbuffer(chain).specular))
+        EXPECT_LT(glm::length(s - glm::vec4(0.2f, 0.1f, 0, 0.25f)), 1e-3f);
+    for (const glm::vec4& f : texels(chain, gbuffer(chain).fresnel))
+        EXPECT_LT(glm::length(f - glm::vec4(0.8f, 0.2f, 0.8f, 0)), 4e-3f);
 }
 
 TEST(GBuffer, NoTexelSeesABodyFromInside) {
@@ -114,7 +142,7 @@ TEST(GBuffer, TexturesAreSeenAtTheFootprintOfAPixel) {
     const std::string graph = "[{pass: gbuffer, method: ";
     for (const std::string method : {"rays", "raster"}) {
         Chain fine(stripes(1024, {0, 0, 1}), graph + method + "}]", 32, 32, 1);
-        for (const glm::vec3& albedo : texels(fine, gbuffer(fine).albedo)) EXPECT_NEAR(albedo.x, 0.5f, 0.01f);
+        for (const glm::vec4& albedo : texels(fine, gbuffer(fine).albedo)) EXPECT_NEAR(albedo.x, 0.5f, 0.01f);
         Chain coarse(stripes(16, {0, 0, 1}), graph + method + "}]", 32, 32, 1);
         const auto albedos = texels(coarse, gbuffer(coarse).albedo);
         const auto [low, high] = std::minmax_element(

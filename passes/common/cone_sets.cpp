@@ -1,4 +1,4 @@
-#include "passes/gather_cones/cone_sets.h"
+#include "passes/common/cone_sets.h"
 
 #include <cmath>
 #include <map>
@@ -30,10 +30,9 @@ const std::map<uint32_t, std::vector<Ring>>& sets() {
 
 }  // namespace
 
-std::vector<gpu::Cone> coneSet(uint32_t count) {
+std::vector<gpu::Cone> coneSet(const char* pass, uint32_t count) {
     const auto found = sets().find(count);
-    if (found == sets().end())
-        throw Error("gather_cones: cones is {}; there are sets of 5, 6, 16 and 36", count);
+    if (found == sets().end()) throw Error("{}: cones is {}; there are sets of 5, 6, 16 and 36", pass, count);
     std::vector<gpu::Cone> cones;
     double inner = 0;
     for (const Ring& ring : found->second) {

@@ -1,6 +1,6 @@
 // A cone of a set, shared by C++ and GLSL.
-#ifndef VOXRAY_CONE_TYPES_H
-#define VOXRAY_CONE_TYPES_H
+#ifndef VOXRAY_SHARED_CONE_TYPES_H
+#define VOXRAY_SHARED_CONE_TYPES_H
 
 #include "shaders/shared/types.h"
 

@@ -1,6 +1,6 @@
 // A cone through radiance voxels, front to back.
-#ifndef VOXRAY_CONE_GLSL
-#define VOXRAY_CONE_GLSL
+#ifndef VOXRAY_RADIANCE_CONE_GLSL
+#define VOXRAY_RADIANCE_CONE_GLSL
 
 #include "shaders/radiance_voxels.glsl"
 

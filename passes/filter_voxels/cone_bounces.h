@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "passes/common/radiance_voxels.h"
+#include "passes/common/voxels.h"
+
+namespace voxray {
+
+/// Light that voxels throw at each other: irradiance of each voxel's sides by a set of cones through radiance
+/// voxels. Docs: docs/cone-tracing.md.
+class ConeBounces {
+ public:
+    /// @param cones of the set, see coneSet(). @throws Error naming `pass` for a number without a set.
+    ConeBounces(const char* pass, uint32_t cones) : pass_(pass), cones_(cones) {}
+
+    void plan(PassPlan& plan, const SurfaceVoxels& voxels) const;
+    void prepare(PassSetup& setup, const RadianceVoxels& radiance);
+    /// Flux that arrives at the voxels' sides from what `radiance` holds now, into `flux()`.
+    /// @param injected light, which tells the insides of solids.
+    void gather(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& injected,
+                const RadianceVoxels& radiance);
+    /// As VoxelIrradiance::indirect.
+    const LargeBuffer& flux() const { return flux_; }
+
+ private:
+    void list(PassContext& context, const SurfaceVoxels& voxels);
+
+    const char* pass_;
+    uint32_t cones_;
+    Program list_, gather_;
+    Buffer coneSet_, cells_;
+    LargeBuffer flux_;
+};
+
+}  // namespace voxray

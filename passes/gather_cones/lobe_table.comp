@@ -1,0 +1,69 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+// What the cells of a lobe reflect, for each cosine to the viewer and each roughness: integrals by importance sampling. A thread
+// takes a cell. Cells hold equal parts of the visible half vectors: one in the middle, 6, 12 and so on round it.
+#include "passes/gather_cones/lobe_types.h"
+#include "shaders/sampling.glsl"
+#include "shaders/specular.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 0, scalar) writeonly buffer Cells { LobeCell data[]; } cells;
+layout(push_constant) uniform Push {
+    uint cells;
+    uint points;  // For each cell.
+} push;
+
+// Half vector drawn from those visible from `out_` (+z the normal). Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with
+// Spherical Caps".
+vec3 visibleNormal(vec3 out_, float alpha, vec2 u) {
+    const vec3 stretched = normalize(vec3(out_.xy * alpha, out_.z));
+    const float phi = 2.0 * PI * u.x, z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
+    const float sine = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
+    const vec3 h = vec3(sine * cos(phi), sine * sin(phi), z) + stretched;
+    return normalize(vec3(h.xy * alpha, max(h.z, 1e-7)));
+}
+
+// The corner and the size of a cell in the unit square that half vectors are drawn by.
+vec4 cellSquare(uint cell) {
+    uint before = 0u, ring = 1u;
+    while (cell >= before + ring) {
+        before += ring;
+        ring = before == 1u ? 6u : ring + 6u;
+    }
+    return vec4(float(cell - before) / float(ring), float(before) / float(push.cells), 1.0 / float(ring),
+                float(ring) / float(push.cells));
+}
+
+void main() {
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= LOBES * push.cells) return;
+    const uint lobe = i / push.cells;
+    const vec4 square = cellSquare(i % push.cells);
+    const float root = float(lobe % LOBE_COSINES) / float(LOBE_COSINES - 1);
+    const float roughness = float(lobe / LOBE_COSINES) / float(LOBE_ROUGHNESSES - 1), alpha = roughness * roughness;
+    const float cosOut = max(root * root, 1e-4);
+    const vec3 out_ = vec3(-sqrt(1.0 - cosOut * cosOut), 0.0, cosOut);
+
+    vec3 sum = vec3(0.0);
+    vec2 albedo = vec2(0.0);
+    float weights = 0.0, grazing = 0.0;
+    for (uint k = 0u; k < push.points; ++k) {
+        const vec2 u = vec2(toUnit(bitfieldReverse(k)), (float(k) + 0.5) / float(push.points));
+        const vec3 half_ = visibleNormal(out_, alpha, square.xy + square.zw * u);
+        const float cosHalf = dot(out_, half_);
+        const vec3 in_ = 2.0 * cosHalf * half_ - out_;
+        if (in_.z > 0.0) {
+            // The lobe over the density of its sample.
+            const float rootOut = smithRoot(cosOut, alpha), rootIn = smithRoot(in_.z, alpha);
+            const float weight = in_.z * (cosOut + rootOut) / (in_.z * rootOut + cosOut * rootIn);
+            const float schlick = schlickWeight(cosHalf);
+            weights += weight;
+            albedo += weight * vec2(1.0 - schlick, schlick);
+            sum += weight * in_;
+        }
+        const vec3 diffuse = cosineDirection(u.yx, vec3(0.0, 0.0, 1.0));
+        grazing += schlickWeight(dot(out_, normalize(out_ + diffuse)));
+    }
+    cells.data[i] = LobeCell(sum / max(weights, 1e-6), albedo / float(push.points * push.cells), grazing / float(push.points));
+}

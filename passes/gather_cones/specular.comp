@@ -1,0 +1,82 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Radiance that the specular lobe of each g-buffer texel reflects, by a cone for each of its cells, and what it leaves to the
+// diffuse lobe below.
+#include "passes/gather_cones/lobe_types.h"
+#include "shaders/radiance_cone.glsl"
+#include "shaders/specular.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 16) uniform sampler2D position;
+layout(set = 0, binding = 17) uniform sampler2D normal;
+layout(set = 0, binding = 18) uniform sampler2D geometricNormal;
+layout(set = 0, binding = 19) uniform sampler2D specular;
+layout(set = 0, binding = 20) uniform sampler2D fresnel;
+layout(set = 0, binding = 21, scalar) readonly buffer Cells { LobeCell data[]; } cells;
+layout(set = 0, binding = 22, rgba32f) writeonly uniform image2D reflected;
+layout(push_constant, scalar) uniform Push {
+    vec3 camera;
+    uint cells;
+} push;
+
+LobeCell mixCells(LobeCell a, LobeCell b, float t) {
+    return LobeCell(mix(a.mean, b.mean, t), mix(a.albedo, b.albedo, t), mix(a.grazing, b.grazing, t));
+}
+
+// The table's, linear between its places.
+LobeCell cellAt(float cosOut, float roughness, uint cell) {
+    const vec2 most = vec2(LOBE_COSINES - 1, LOBE_ROUGHNESSES - 1);
+    const vec2 at = clamp(vec2(sqrt(cosOut), roughness), 0.0, 1.0) * most;
+    const uvec2 corner = uvec2(min(at, most - 1.0));
+    const vec2 part = at - vec2(corner);
+    const uint n = push.cells, first = (corner.y * LOBE_COSINES + corner.x) * n + cell, next = first + LOBE_COSINES * n;
+    return mixCells(mixCells(cells.data[first], cells.data[first + n], part.x),
+                    mixCells(cells.data[next], cells.data[next + n], part.x), part.y);
+}
+
+// The cone that has a cell's mean direction and its spread: over a circular cone of half angle a the mean of unit directions has
+// the length (1 + cos a) / 2. Twice the tangent of a.
+float coneWidth(float meanLength) {
+    const float cosine = clamp(2.0 * meanLength - 1.0, 0.1, 1.0);
+    return 2.0 * sqrt(1.0 - cosine * cosine) / cosine;
+}
+
+void main() {
+    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, imageSize(reflected)))) return;
+    const vec4 p = texelFetch(position, texel, 0);
+    const Specular s = specularOf(texelFetch(specular, texel, 0), texelFetch(fresnel, texel, 0));
+    if (p.w == 0.0 || !hasSpecular(s)) {
+        imageStore(reflected, texel, vec4(0.0, 0.0, 0.0, 1.0));
+        return;
+    }
+    const vec3 out_ = normalize(push.camera - p.xyz);
+    const vec3 side = normalize(texelFetch(geometricNormal, texel, 0).xyz);
+    const vec3 n = specularNormal(normalize(texelFetch(normal, texel, 0).xyz), out_);
+    const float cosOut = min(dot(n, out_), 1.0);
+    const ConeBase base = coneBase(p.xyz, side);
+    const float left = diffuseShare(s, cellAt(cosOut, s.roughness, 0u).grazing);
+
+    // A mirror: one thin cone. Directions that a shading normal sends below the surface are lost, as in the reference.
+    vec3 sum = vec3(0.0);
+    if (isMirror(s)) {
+        const vec3 direction = reflect(-out_, n);
+        if (dot(direction, side) > 0.0)
+            sum = specularFresnel(s, schlickWeight(cosOut)) * coneRadiance(base, direction, 0.0, 0.0);
+        imageStore(reflected, texel, vec4(sum, left));
+        return;
+    }
+
+    const vec3 away = cosOut * n - out_;
+    const vec3 along = dot(away, away) > 1e-12 ? normalize(away) : normalize(cross(n, abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
+    const vec3 across = cross(n, along);
+    for (uint i = 0u; i < push.cells; ++i) {
+        const LobeCell cell = cellAt(cosOut, s.roughness, i);
+        const float meanLength = length(cell.mean);
+        if (meanLength == 0.0) continue;
+        const vec3 direction = (cell.mean.x * along + cell.mean.y * across + cell.mean.z * n) / meanLength;
+        if (dot(direction, side) <= 0.0) continue;
+        sum += (cell.albedo.x * s.f0 + cell.albedo.y * s.f90) * coneRadiance(base, direction, coneWidth(meanLength), 0.0);
+    }
+    imageStore(reflected, texel, vec4(sum, left));
+}

@@ -1,0 +1,72 @@
+#include "passes/gather_cones/specular_cones.h"
+
+#include "base/error.h"
+#include "passes/common/dispatch.h"
+#include "passes/common/frame_image.h"
+#include "passes/gather_cones/lobe_types.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kPoints = 1024;  // Of all integrals of a lobe together: their error is below 0.002.
+
+struct TablePush {
+    uint32_t cells;
+    uint32_t points;
+};
+
+struct TracePush {
+    glm::vec3 camera;
+    uint32_t cells;
+};
+
+ImageDesc reflectedImage(const Frame& frame, const GBuffer& gbuffer) {
+    ImageDesc desc = frameImageDesc(frame);
+    desc.extent = {gbufferExtent(frame, gbuffer.samples), 1};
+    return desc;
+}
+
+}  // namespace
+
+void SpecularCones::plan(PassPlan& plan, const char* pass, const GBuffer& gbuffer, uint32_t cells) {
+    if (cells != 1 && cells != 7 && cells != 19)
+        throw Error("{}: specular is {}; lobes are shared out between 1, 7 or 19 cones, 0 leaves them out",
+                    pass, cells);
+    plan.reserve("specular lobes", uint64_t(LOBES) * cells * sizeof(gpu::LobeCell));
+    plan.reserve("specular reflection", imageBytes(reflectedImage(plan.frame, gbuffer)));
+}
+
+void SpecularCones::prepare(PassSetup& setup, const GBuffer& gbuffer, const RadianceVoxels& radiance,
+                            uint32_t cells) {
+    const auto program = [&](const char* file, const Defines& defines) {
+        return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
+    };
+    cells_ = cells;
+    trace_ = program("passes/gather_cones/specular.comp", radiance.defines());
+    sampler_ = texelSampler(setup.device);
+    reflected_ = Image(setup.device, "specular reflection", reflectedImage(setup.frame, gbuffer));
+
+    // The table depends on nothing but its size.
+    table_ = Buffer(setup.device, "specular lobes", uint64_t(LOBES) * cells * sizeof(gpu::LobeCell));
+    const Program fill = program("passes/gather_cones/lobe_table.comp", {});
+    setup.stream.dispatch(fill, {{"cells", table_}}, TablePush{cells, kPoints / cells},
+                          linearGroups(uint64_t(LOBES) * cells));
+    setup.stream.finish();
+}
+
+void SpecularCones::record(PassContext& context, const GBuffer& gbuffer,
+                           const RadianceVoxels& radiance) const {
+    std::vector<Binding> bindings = radiance.bindings();
+    bindings.insert(bindings.end(), {{"position", gbuffer.position, sampler_},
+                                     {"normal", gbuffer.normal, sampler_},
+                                     {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                                     {"specular", gbuffer.specular, sampler_},
+                                     {"fresnel", gbuffer.fresnel, sampler_},
+                                     {"cells", table_},
+                                     {"reflected", reflected_}});
+    const glm::uvec3 texels = reflected_.desc().extent;
+    context.stream.dispatch(trace_, bindings, TracePush{context.frame.camera.position, cells_},
+                            pixelGroups(texels.x, texels.y));
+}
+
+}  // namespace voxray

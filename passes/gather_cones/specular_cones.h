@@ -1,0 +1,27 @@
+#pragma once
+
+#include "passes/common/gbuffer.h"
+#include "passes/common/radiance_voxels.h"
+
+namespace voxray {
+
+/// Light that specular lobes reflect: from each texel of the g-buffer a cone for each cell of its lobe.
+/// Docs: docs/cone-tracing.md.
+class SpecularCones {
+ public:
+    /// @param cells of a lobe: 1, 7 or 19. @throws Error for any other, naming `pass` and these.
+    static void plan(PassPlan& plan, const char* pass, const GBuffer& gbuffer, uint32_t cells);
+    void prepare(PassSetup& setup, const GBuffer& gbuffer, const RadianceVoxels& radiance, uint32_t cells);
+    void record(PassContext& context, const GBuffer& gbuffer, const RadianceVoxels& radiance) const;
+    /// RGBA32F: radiance reflected, W/(m² sr); the share of light that is left to the diffuse lobe below.
+    const Image& reflected() const { return reflected_; }
+
+ private:
+    uint32_t cells_ = 0;
+    Program trace_;
+    Sampler sampler_;
+    Buffer table_;
+    Image reflected_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,93 @@
+// Bounces of light from voxel to voxel by cones.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/gpu/chain.h"
+
+namespace voxray::test {
+namespace {
+
+struct Setting {
+    std::string gbuffer = "samples: 1";
+    std::string resolution = "32";
+    std::string inject = "rays_per_light: 131072, bounces: 0";
+    std::string filter = "bounces: 3";
+    std::string gather = "cones: 16, sparse: 4";
+};
+
+std::string coneGraph(const Setting& s) {
+    return "[{pass: gbuffer, " + s.gbuffer + "}, {pass: voxelize, resolution: " + s.resolution +
+           "}, {pass: inject_light_rays, " + s.inject + "}, {pass: filter_voxels, " + s.filter +
+           "}, {pass: gather_cones, " + s.gather + "}]";
+}
+
+ImageF indirect(const std::string& scene, const std::string& parameters, const Setting& setting) {
+    Chain chain(scene, parameters, coneGraph(setting));
+    return chain.image("indirect");
+}
+
+TEST(ConeBounces, KeepTheEnergyOfAFurnace) {
+    // All surfaces emit 1 and reflect a: after n bounces voxels hold 1 + a + ... + a^(n + 1).
+    const auto part = [](const std::string& shape, const std::string& layout, int n) {
+        Setting s;
+        s.filter = "emission: true, layout: " + layout + ", bounces: " + std::to_string(n);
+        const double a = 0.7, expected = a * (1 - std::pow(a, n + 2)) / (1 - a);
+        return mean(indirect("furnace", "{shape: " + shape + ", albedo: 0.7, emission: 1}", s)) / expected;
+    };
+    EXPECT_NEAR(part("box", "dense", 4), 1.0, 0.03);
+    EXPECT_NEAR(part("box", "svo", 1), 1.0, 0.01);
+    // Curved walls lose a few per cent of the cones, and light that was lost does not bounce.
+    EXPECT_NEAR(part("sphere", "svo", 4), 1.0, 0.07);
+}
+
+TEST(ConeBounces, TakeTheInjectionsOn) {
+    // Bounces of the injection and bounces by cones add up, and are worth the same.
+    const auto run = [](const std::string& injected, const std::string& bounces) {
+        Setting s;
+        s.inject = "rays_per_light: 262144, bounces: " + injected;
+        s.filter = "bounces: " + bounces;
+        return mean(indirect("cornell", "{lights: point}", s));
+    };
+    const double expected = run("3", "0");
+    EXPECT_NEAR(run("1", "2") / expected, 1.0, 0.02);
+    EXPECT_NEAR(run("0", "3") / expected, 1.0, 0.02);
+    EXPECT_LT(run("0", "1") / expected, 0.95);
+}
+
+TEST(ConeBounces, AgreeWithTheReferenceOnCornell) {
+    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 512, bounces: 4}]");
+    const ImageF expected = reference.image("indirect");
+    Setting s;
+    s.gbuffer = "samples: 3";
+    s.gather = "cones: 16, sparse: 16";
+    s.resolution = "48";
+    s.inject = "rays_per_light: 524288, bounces: 0";
+    const ImageF image = indirect("cornell", "{lights: point}", s);
+    double squares = 0;
+    for (size_t i = 0; i < image.data.size(); ++i)
+        squares += std::pow(double(image.data[i]) - expected.data[i], 2);
+    EXPECT_NEAR(mean(image) / mean(expected), 1.0, 0.03);
+    EXPECT_LT(std::sqrt(squares / double(image.data.size())) / mean(expected), 0.35);
+}
+
+TEST(ConeBounces, AreLinearInLight) {
+    const auto run = [](const std::string& intensity) {
+        return mean(indirect("white_room", "{intensity: " + intensity + "}", {}));
+    };
+    EXPECT_NEAR(run("7") / run("1"), 7.0, 0.01);
+}
+
+TEST(ConeBounces, AClipmapIsRefused) {
+    try {
+        Setting s;
+        s.filter = "layout: clipmap, bounces: 1";
+        indirect("cornell", "{lights: point}", s);
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("set 'layout' to dense or svo"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace voxray::test
