@@ -62,12 +62,15 @@ TEST(Schema, ConfigSchemaHoldsEveryPassAndKey) {
          {"name", "scene", "image", "seed", "tracer", "graph", "reference", "sweep", "measure", "profiles"})
         EXPECT_TRUE(json["properties"].contains(key)) << key;
     const auto& passes = json["properties"]["graph"]["items"]["oneOf"];
-    ASSERT_EQ(passes.size(), 3u);
+    ASSERT_EQ(passes.size(), 4u);
     EXPECT_EQ(passes[0]["properties"]["value"]["maximum"], 100);
     EXPECT_EQ(passes[0]["properties"]["value"]["default"], 1);
     EXPECT_EQ(passes[0]["additionalProperties"], false);
     EXPECT_EQ(json["properties"]["image"]["properties"]["width"]["type"], "integer");
     EXPECT_EQ(json["properties"]["tracer"]["enum"].size(), 4u);
+    const auto& scene = json["properties"]["scene"]["properties"];
+    EXPECT_EQ(scene["moving_spheres"]["properties"]["count"]["maximum"], 4096);
+    EXPECT_TRUE(scene.contains("time_step"));
 }
 
 TEST(Results, CsvQuotesByRfc4180) {
