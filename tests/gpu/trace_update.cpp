@@ -4,6 +4,7 @@
 #include "gpu/vulkan_fixture.h"
 #include "shaders/shared/scene_types.h"
 #include "trace/gpu_scene.h"
+#include "trace/ray_query_tracer.h"
 #include "trace/ray_tracer.h"
 
 namespace voxray {
@@ -111,6 +112,21 @@ TEST_F(TraceUpdate, EveryTracerIsAsOneMadeAtThatTime) {
             EXPECT_GT(movingHits, 400u);
         }
     }
+}
+
+TEST_F(TraceUpdate, ManyChunksAreBuiltAnewInTheirPlaces) {
+    if (!device().info().rayQuery) GTEST_SKIP() << "no ray queries";
+    const auto scene = movingSoup();
+    const std::vector<Ray> rays = randomRays(2000, 9);
+    ShaderCompiler shaders = compiler();
+    SceneState state = evaluate(scene, 0.1, Playback::Looping);
+    RayQueryTracer tracer(device(), shaders, state, 100);
+    CommandStream stream(device());
+    advance(state, 0.8);
+    tracer.update(stream);
+    RayQueryTracer made(device(), shaders, state, 100);
+    EXPECT_TRUE(sameBytes(closestHits(tracer, rays), closestHits(made, rays)));
+    EXPECT_EQ(tracer.memoryBytes(), made.memoryBytes());
 }
 
 TEST_F(TraceUpdate, SceneOnTheDeviceIsAsOneMadeAtThatTime) {
