@@ -18,6 +18,7 @@ struct ListPush {
 
 struct GatherPush {
     gpu::VoxelGrid grid;
+    uint32_t voxels;
     uint32_t firstFace;
     uint32_t faces;
     uint32_t cones;
@@ -73,7 +74,8 @@ void ConeBounces::gather(PassContext& context, const SurfaceVoxels& voxels, cons
     const uint32_t faces = kFaces * voxels.voxelCount;
     for (uint32_t first = 0; first < faces; first += kBatchFaces) {
         const uint32_t batch = std::min(kBatchFaces, faces - first);
-        context.stream.dispatch(gather_, bindings, GatherPush{voxels.grid, first, batch, cones_},
+        context.stream.dispatch(gather_, bindings,
+                                GatherPush{voxels.grid, voxels.voxelCount, first, batch, cones_},
                                 linearGroups(batch));
         context.stream.finish();
     }

@@ -11,7 +11,8 @@ layout(set = 0, binding = 16, scalar) readonly buffer VoxelCells { uvec3 data[];
 layout(set = 0, binding = 17, scalar) readonly buffer FluxAt { LargeFloats flux; };
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
-    uint firstFace;
+    uint voxels;
+    uint firstFace;  // In the order of this pass: by side, then by voxel, so that threads side by side have alike work.
     uint faces;
     uint cones;
 } push;
@@ -27,15 +28,15 @@ vec3 sideNormal(vec3 mean, vec3 axis) {
 void main() {
     const uint i = linearIndex();
     if (i >= push.faces) return;
-    const uint face = push.firstFace + i, voxel = face / 6u;
+    const uint voxel = (push.firstFace + i) % push.voxels, side = (push.firstFace + i) / push.voxels, face = 6u * voxel + side;
     const float area = voxelArea.data[face] * push.grid.voxelSize * push.grid.voxelSize;
     vec3 arrives = vec3(0.0);
     const VoxelMaterial m = voxelMaterials.data[voxel];
     // What counts as the inside of a solid by the injected light, whose rays know what is hidden, stays dark.
-    const bool inside = faceFlux(face) == vec3(0.0) && isBackOfLit(m, voxel, face % 6u, 0.0);
+    const bool inside = faceFlux(face) == vec3(0.0) && isBackOfLit(m, voxel, side, 0.0);
     if (area > 0.0 && !inside) {
         const uvec3 cell = voxelCells.data[voxel];
-        const vec3 normal = sideNormal(m.normal, facingAxis(face % 6u));
+        const vec3 normal = sideNormal(m.normal, facingAxis(side));
         const vec3 middle = push.grid.origin + (vec3(cell) + 0.5) * push.grid.voxelSize;
         // Where cones stand in their cells wanders from voxel to voxel: the additive recurrence of Roberts 2018, along each axis.
         const vec3 dither = fract(vec3(0.5) + float(cell.x) * vec3(0.754877666, 0.569840296, 0.819172513) +
