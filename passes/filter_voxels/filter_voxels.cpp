@@ -64,8 +64,8 @@ void FilterVoxels::record(PassContext& context) {
     const VoxelIrradiance& irradiance = context.get(irradiance_);
     RadianceVoxels& radiance = context.get(radiance_);
     const auto fill = [&](const LargeBuffer& indirect, bool last) {
-        storage_->run(context, voxels, {irradiance.direct, indirect, irradiance.area, irradiance.version}, radiance,
-                      last && params_.emission ? 1.0f : 0.0f);
+        storage_->run(context, voxels, {irradiance.direct, indirect, irradiance.area, irradiance.version},
+                      radiance, last && params_.emission ? 1.0f : 0.0f);
     };
 
     // Each bounce carries all light of the last one on: one more of each order. What surfaces emit is not
