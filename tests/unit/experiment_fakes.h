@@ -24,7 +24,10 @@ inline Image constantImage(PassSetup& setup, const char* name) {
     return Image(setup.device, name, desc);
 }
 
-/// Writes `value` into final and half of it into indirect.
+/// What a Witness writes: nothing, but whoever reads it needs the witness.
+struct Testimony : Resource {};
+
+/// Writes `value` into final and half of it into indirect. Takes a witness where there is one.
 class Constant : public Pass {
  public:
     static constexpr const char* kName = "constant";
@@ -51,6 +54,7 @@ class Constant : public Pass {
     void declare(PassBuilder& b) override {
         final_ = b.write<FrameImage>("final", "The image.");
         indirect_ = b.write<FrameImage>("indirect", "Half of it.");
+        b.readOptional<Testimony>("testimony", "Of a witness.");
     }
     void plan(PassPlan& plan) override { plan.reserve("nothing", uint64_t(params_.megabytes) << 20); }
     void prepare(PassSetup& setup) override {
@@ -149,7 +153,7 @@ class Witness : public Pass {
 
     explicit Witness(const Params&) {}
     Phase phase() const override { return Phase::Build; }
-    void declare(PassBuilder&) override {}
+    void declare(PassBuilder& b) override { b.write<Testimony>("testimony", "That it was there."); }
     void plan(PassPlan&) override {}
     void prepare(PassSetup&) override {}
     void record(PassContext& context) override {
