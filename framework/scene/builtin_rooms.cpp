@@ -89,6 +89,13 @@ std::shared_ptr<const Scene> make(const ThinWall& params) {
     return b.finish();
 }
 
+uint32_t perfectMirror(SceneBuilder& b) {
+    Material material;
+    material.name = "mirror";
+    material.roughness = 0;
+    return b.material(material);
+}
+
 struct MirrorRoom {
     static constexpr const char* name = "mirror_room";
     uint32_t count = 5;
@@ -104,10 +111,7 @@ std::shared_ptr<const Scene> make(const MirrorRoom& params) {
     const uint32_t white = b.lambert("white", glm::vec3(0.7f));
     const uint32_t blue = b.lambert("blue", {0.1f, 0.2f, 0.6f});
     const uint32_t orange = b.lambert("orange", {0.7f, 0.35f, 0.08f});
-    Material perfect;
-    perfect.name = "mirror";
-    perfect.roughness = 0;
-    const uint32_t mirror = b.material(perfect);
+    const uint32_t mirror = perfectMirror(b);
     b.room({-2, 0, -2}, {2, 2.5f, 2}, {blue, orange, white, white, mirror, white});
 
     // The spheres share the width of the room.
@@ -140,11 +144,8 @@ struct MirrorRow {
 std::shared_ptr<const Scene> make(const MirrorRow& params) {
     SceneBuilder b(MirrorRow::name);
     const uint32_t orange = b.lambert("sphere", {0.7f, 0.35f, 0.08f});
-    Material perfect;
-    perfect.name = "mirror";
-    perfect.roughness = 0;
     const float length = 2.0f * float(params.count) + 2.0f;
-    b.quad("mirror", {-2, 0, 0}, {5, 0, 0}, {0, 0, -length}, b.material(perfect));
+    b.quad("mirror", {-2, 0, 0}, {5, 0, 0}, {0, 0, -length}, perfectMirror(b));
     for (uint32_t i = 1; i <= params.count; ++i)
         b.place(b.mesh(sphereMesh("sphere", {0, 1, -2.0f * float(i)}, 0.4f, 4, orange, false, true)));
     b.directionalLight({-0.7f, -0.2f, -0.5f}, glm::vec3(4.0f));
