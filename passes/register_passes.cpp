@@ -15,6 +15,7 @@
 #include "passes/inject_voxel_rays/inject_voxel_rays.h"
 #include "passes/path_trace/path_trace_pass.h"
 #include "passes/place_surfels/place_surfels.h"
+#include "passes/probe_irradiance/probe_irradiance.h"
 #include "passes/trace_gather_rays/trace_gather_rays.h"
 #include "passes/voxelize/voxelize_pass.h"
 
@@ -31,6 +32,7 @@ void registerPasses(Registry& registry) {
     registry.add<InjectShadowMap>();
     registry.add<FilterVoxels>();
     registry.add<GatherCones>();
+    registry.add<ProbeIrradiance>();
     registry.add<GatherIrradiance>();
     registry.add<TraceGatherRays>();
     registry.add<GatherRays>();

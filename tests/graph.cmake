@@ -8,7 +8,7 @@ voxray_tests(chain SHARDS 12
            physics/gbuffer_test.cpp physics/injection_test.cpp physics/light_paths_test.cpp
            physics/moving_scene_test.cpp physics/moving_voxels_test.cpp physics/octree_test.cpp
            physics/radiance_voxels_test.cpp physics/shadow_map_test.cpp physics/specular_cones_test.cpp
-           physics/svo_layout_test.cpp physics/thin_walls_test.cpp physics/voxel_writes_test.cpp
+           physics/stable_light_test.cpp physics/svo_layout_test.cpp physics/thin_walls_test.cpp physics/voxel_writes_test.cpp
            physics/voxelize_exact_test.cpp physics/voxelize_material_test.cpp
            physics/voxelize_methods_test.cpp physics/voxelize_test.cpp
   DEPENDS voxray_experiment voxray_passes)

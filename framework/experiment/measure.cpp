@@ -98,23 +98,36 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
         return samples;
     };
 
+    Measurement result;
+    const auto keepValues = [&](Phase phase, std::optional<uint32_t> frameIndex,
+                                const std::vector<PassSample>& samples) {
+        auto sample = samples.begin();
+        for (const Graph::PassInfo& pass : graph.passes())
+            if (pass.phase == phase)
+                for (const PassContext::Value& v : (sample++)->reported)
+                    result.values.push_back({pass.id, v.name, frameIndex, v.value});
+    };
+
     // Build: once cold and checked, then timed
     PhaseSamples build, frames;
-    run(Phase::Build, 0, true);
-    for (uint32_t i = 0; i < settings.buildRepeats; ++i) build.add(run(Phase::Build, 0, false));
+    std::vector<PassSample> last = run(Phase::Build, 0, true);
+    for (uint32_t i = 0; i < settings.buildRepeats; ++i) build.add(last = run(Phase::Build, 0, false));
+    keepValues(Phase::Build, std::nullopt, last);
 
     // Frames: the first measured one is judged
-    Measurement result;
     const auto runFrame = [&](int fromJudged, uint32_t frameIndex, bool checkFinite) {
+        const bool measured = fromJudged >= 0;
         frame.camera = target.frame.camera;
         std::vector<PassSample> samples;
         if (target.goToFrame) {
             samples.push_back(timeOnHost(target.stream, [&] { target.goToFrame(frame, fromJudged); }));
             const auto updates = run(Phase::Build, 0, checkFinite);
+            if (measured) keepValues(Phase::Build, frameIndex, updates);
             samples.insert(samples.end(), updates.begin(), updates.end());
         }
         frame.camera.position += float(fromJudged) * frame.cameraMove;
         const auto own = run(Phase::Frame, frameIndex, checkFinite);
+        if (measured) keepValues(Phase::Frame, frameIndex, own);
         samples.insert(samples.end(), own.begin(), own.end());
         return samples;
     };

@@ -30,10 +30,19 @@ struct PassCost {
     uint64_t memoryBytes = 0;
 };
 
+/// A number that a pass reported.
+struct ReportedValue {
+    std::string pass;
+    std::string name;
+    std::optional<uint32_t> frame;  ///< Measured frame, from 0; none in the build.
+    double value = 0;
+};
+
 /// What one variant cost and made.
 struct Measurement {
     std::vector<PassCost> passes;
-    double buildMs = 0;        ///< Median of the build passes' sum.
+    std::vector<ReportedValue> values;  ///< Of the last build, then of the measured frames.
+    double buildMs = 0;                 ///< Median of the build passes' sum.
     Percentiles frameMs;       ///< Of the frame passes' sum, with all that is brought up to date before them.
     uint64_t memoryBytes = 0;  ///< Held by the passes; the scene itself is not counted.
     uint64_t rays = 0;         ///< Of one build and one frame.

@@ -138,6 +138,15 @@ std::string passesCsv(const std::vector<VariantResult>& results) {
     return text;
 }
 
+std::string valuesCsv(const std::vector<VariantResult>& results) {
+    std::string text = csvLine({"variant", "pass", "name", "frame", "value"});
+    for (const VariantResult& r : results)
+        for (const ReportedValue& v : r.values)
+            text += csvLine(
+                {r.variant, v.pass, v.name, v.frame ? std::to_string(*v.frame) : "", numberText(v.value)});
+    return text;
+}
+
 std::string resultJson(const VariantResult& r, const VariantInputs& inputs) {
     Json json;
     json["variant"] = r.variant;
@@ -158,6 +167,11 @@ std::string resultJson(const VariantResult& r, const VariantInputs& inputs) {
                                   {"rays", p.rays},
                                   {"voxel_steps", p.voxelSteps},
                                   {"memory_bytes", p.memoryBytes}});
+    json["values"] = Json::array();
+    for (const ReportedValue& v : r.values) {
+        json["values"].push_back({{"pass", v.pass}, {"name", v.name}, {"value", v.value}});
+        if (v.frame) json["values"].back()["frame"] = *v.frame;
+    }
     json["inputs"] = Json::object();
     for (const auto& [name, text] : inputs) json["inputs"][name] = text;
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -183,6 +197,12 @@ std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text)
             r.passes.push_back({p.at("pass").get<std::string>(), phase, percentilesFrom(p.at("ms")),
                                 p.at("rays").get<uint64_t>(), p.at("voxel_steps").get<uint64_t>(),
                                 p.at("memory_bytes").get<uint64_t>()});
+        }
+        for (const Json& v : json.at("values")) {
+            std::optional<uint32_t> frame;
+            if (v.contains("frame")) frame = v.at("frame").get<uint32_t>();
+            r.values.push_back({v.at("pass").get<std::string>(), v.at("name").get<std::string>(), frame,
+                                v.at("value").get<double>()});
         }
         VariantInputs inputs;
         for (const auto& [name, value] : json.at("inputs").items())

@@ -26,6 +26,7 @@ struct VariantResult {
     std::optional<Scores> total;     ///< Empty without a reference.
     std::optional<Scores> indirect;  ///< Empty where the graph writes no indirect light.
     std::vector<PassCost> passes;
+    std::vector<ReportedValue> values;
 };
 
 /// What a variant's result depends on, by name: compared on --resume.
@@ -42,10 +43,12 @@ std::string numberText(double value);
 /// One field of CSV (RFC 4180): quoted where it holds a comma, a quote or a line break.
 std::string csvField(const std::string& text);
 
-/// `results.csv` and `passes.csv`.
+/// `results.csv`, `passes.csv` and, of what passes reported, `values.csv` (a row a variant, pass, name and
+/// frame; no frame in the build).
 std::string resultsCsv(const std::vector<VariantResult>& results, const std::vector<std::string>& sweepKeys,
                        const std::vector<std::string>& metrics);
 std::string passesCsv(const std::vector<VariantResult>& results);
+std::string valuesCsv(const std::vector<VariantResult>& results);
 
 /// `images/<variant>/result.json`, the mark of a finished variant; all numbers survive the round trip.
 std::string resultJson(const VariantResult& result, const VariantInputs& inputs);

@@ -290,6 +290,8 @@ void Run::writeTables() {
     folder_->writeText("manifest.json", manifestJson(manifest_));
     folder_->writeText("results.csv", resultsCsv(rows, sweepKeys(experiment_), experiment_.measure.metrics));
     folder_->writeText("passes.csv", passesCsv(rows));
+    const bool reported = std::ranges::any_of(rows, [](const VariantResult& r) { return !r.values.empty(); });
+    if (reported) folder_->writeText("values.csv", valuesCsv(rows));
 }
 
 }  // namespace

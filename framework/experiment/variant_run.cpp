@@ -49,6 +49,7 @@ RenderedVariant renderVariant(const Variant& variant, const Experiment& experime
         result.memoryBytes = m.memoryBytes;
         result.rays = m.rays;
         result.passes = std::move(m.passes);
+        result.values = std::move(m.values);
         rendered.final = std::move(m.final);
         rendered.indirect = std::move(m.indirect);
     }

@@ -1,6 +1,7 @@
 #include "graph/graph.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -39,14 +40,15 @@ std::vector<Graph::PassInfo> Graph::passes() const {
 }
 
 std::vector<std::string> Graph::keepOnly(const std::vector<std::string>& portNames) {
-    // Backwards from the last writers: a node is needed if a needed one reads what it writes.
+    // Backwards from the last writers: a node is needed if it reports, or if a needed one reads what it
+    // writes.
     std::vector<GraphNode>& nodes = impl_->nodes;
     std::set<const Resource*> wanted;
     std::set<std::string> open(portNames.begin(), portNames.end());
     std::vector<GraphNode> kept;
     std::vector<std::string> dropped;
     for (size_t n = nodes.size(); n-- > 0;) {
-        bool needed = false;
+        bool needed = nodes[n].pass->reports();
         for (size_t p = 0; p < nodes[n].ports.size(); ++p)
             if (nodes[n].ports[p].output)
                 needed |= open.erase(nodes[n].ports[p].name) > 0 || wanted.count(nodes[n].resources[p]) > 0;
@@ -145,6 +147,10 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         PassSample sample;
         sample.rays = tracer.raysTraced() - raysBefore + context.extraRays;
         sample.voxelSteps = context.voxelSteps;
+        sample.reported = std::move(context.reported);
+        for (const PassContext::Value& value : sample.reported)
+            if (!std::isfinite(value.value))
+                throw Error("pass '{}' reported {} as '{}'", node.id, value.value, value.name);
         stamps.push_back({samples.size(), begin, end});
         samples.push_back(sample);
 

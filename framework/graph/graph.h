@@ -16,6 +16,7 @@ struct PassSample {
     double milliseconds = 0;
     uint64_t rays = 0;
     uint64_t voxelSteps = 0;
+    std::vector<PassContext::Value> reported;
 };
 
 /// A checked chain of passes. Each entry of a config's `graph` list is a map with `pass`, optionally `id`
@@ -44,8 +45,8 @@ class Graph {
     /// The config's list with every default filled in, in execution order.
     Value resolved() const;
 
-    /// Drops every pass that none of the last writers of `portNames` depends on: it would take time and
-    /// memory for nothing. @return the dropped passes' ids.
+    /// Drops every pass that neither the last writers of `portNames` nor passes that report values depend on:
+    /// it would take time and memory for nothing. @return the dropped passes' ids.
     std::vector<std::string> keepOnly(const std::vector<std::string>& portNames);
 
     /// A resource that will be read from outside, by port name: the last pass that writes it.

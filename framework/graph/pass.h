@@ -162,6 +162,14 @@ class PassContext : public PortAccess {
     /// Rays traced outside of `tracer` (the reference traces on its own).
     uint64_t extraRays = 0;
     uint64_t voxelSteps = 0;
+
+    struct Value {
+        std::string name;
+        double value;
+    };
+    std::vector<Value> reported;
+    /// Leaves a finite number for values.csv and the report, under a name in words (with its unit, if any).
+    void report(std::string name, double value) { reported.push_back({std::move(name), value}); }
 };
 
 /// A stage of a graph. A pass class also has `struct Params` with a schema, a constructor from Params, and
@@ -171,6 +179,8 @@ class Pass {
  public:
     virtual ~Pass() = default;
     virtual Phase phase() const = 0;
+    /// Whether record() reports values: what a pass is kept for although no image depends on it.
+    virtual bool reports() const { return false; }
     /// Names the ports. No device work.
     virtual void declare(PassBuilder& builder) = 0;
     /// Checks parameters against scene and device, describes outputs, reserves memory. Runs in graph order.

@@ -61,6 +61,8 @@ class Results:
     variants: a row a variant, columns as in results.csv; costs and scores are floats (NaN where absent),
         everything else text as written. Ordered as the run wrote them.
     passes: a row a variant, pass and phase, as in passes.csv; may be empty.
+    values: a row a variant, pass, name and frame, as in values.csv: what passes reported; frame is NaN in the
+        build; may be empty.
     manifest: the run's manifest.json, {} where it is absent or broken.
     sweep_keys: the columns of `variants` that the sweep varied.
     warnings: what was absent or odd in the files, for the reader's eye, after the run's own warnings.
@@ -69,6 +71,7 @@ class Results:
     directory: Path
     variants: pd.DataFrame
     passes: pd.DataFrame
+    values: pd.DataFrame
     manifest: dict
     sweep_keys: list[str]
     warnings: list[str] = field(default_factory=list)
@@ -147,7 +150,7 @@ def section(parent: dict, key: str) -> dict:
 
 
 def load(directory: str | Path) -> Results:
-    """Reads results.csv, passes.csv and manifest.json of a finished or partly finished run.
+    """Reads results.csv, passes.csv, values.csv and manifest.json of a finished or partly finished run.
 
     @throws ReportError where results.csv is absent or is not a table of variants.
     """
@@ -155,6 +158,7 @@ def load(directory: str | Path) -> Results:
     warnings: list[str] = []
     variants, sweep_columns = _read_variants(directory / "results.csv", warnings)
     passes = _read_passes(directory / "passes.csv", warnings)
+    values = _read_values(directory / "values.csv", warnings)
     manifest = _read_manifest(directory / "manifest.json", warnings)
 
     # The manifest names the sweep's keys; without it they are the columns that no format names.
@@ -163,7 +167,7 @@ def load(directory: str | Path) -> Results:
     sweep_keys = [str(key) for key in declared if str(key) in variants.columns]
     own = manifest.get("warnings")
     warnings = [str(text) for text in own] + warnings if isinstance(own, list) else warnings
-    results = Results(directory, variants, passes, manifest, sweep_keys, warnings)
+    results = Results(directory, variants, passes, values, manifest, sweep_keys, warnings)
     if (count := len(results.references())) > 1:
         warnings.append(f"The variants have {count} different references, so their scores are not of one "
                         "image. Each is judged by its own one's noise, black and constant image; charts "
@@ -220,6 +224,22 @@ def _read_passes(path: Path, warnings: list[str]) -> pd.DataFrame:
             table = pd.DataFrame(columns=columns)
     _to_numbers(table, _PASS_NUMBERS)
     return table
+
+
+def _read_values(path: Path, warnings: list[str]) -> pd.DataFrame:
+    """What passes reported; most runs have none and no such file."""
+    columns = ["variant", "pass", "name", "frame", "value"]
+    table = pd.DataFrame(columns=columns)
+    if path.is_file():
+        try:
+            table = _read_table(path)
+            if not set(columns) <= set(table.columns):
+                raise ReportError(f"values.csv lacks a column of {', '.join(columns)}")
+        except ReportError as error:
+            warnings.append(f"{error}: what passes reported is not shown.")
+            table = pd.DataFrame(columns=columns)
+    _to_numbers(table, ("frame", "value"))
+    return table[table["value"].notna()]
 
 
 def _read_manifest(path: Path, warnings: list[str]) -> dict:

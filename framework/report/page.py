@@ -10,7 +10,7 @@ from pathlib import Path
 import jinja2
 import pandas as pd
 
-from report import charts, images, judge, style, table, text
+from report import charts, images, judge, style, table, text, values
 from report.load import IMAGES, METRICS, ReportError, Results, section
 
 _HERE = Path(__file__).parent
@@ -80,6 +80,8 @@ def render(results: Results) -> str:
         rows=table.variant_rows(results, columns, numbers, anchors),
         baselines=table.baseline_rows(results, columns), noises=table.noise_rows(results, columns),
         charts=chart_groups, not_drawn=not_drawn, legends=legends, markers=style.MARKERS, pass_colors=colors,
+        values=values.value_table(results, numbers),
+        value_charts=values.value_charts(results, styles, numbers),
         bars=_bars(results, colors, numbers, anchors), reference=_reference(results, lights, warnings),
         variants=[_variant(results, row, lights, colors, numbers, anchors, warnings)
                   for _, row in results.variants.iterrows()],

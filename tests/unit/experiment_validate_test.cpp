@@ -115,6 +115,7 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     r.total->psnrDb = HUGE_VAL;
     r.total->nrmse = 0.1;
     r.passes.push_back({"p", Phase::Build, {1, 2, 3}, 4, 5, 6});
+    r.values = {{"p", "voxels, missed", std::nullopt, 7}, {"p", "change", 3, 0.1}};
     const VariantInputs inputs{{"seed", "3"}, {"graph", "{a: \"b\"}"}};
     const auto [back, backInputs] = parseResultJson(resultJson(r, inputs));
     EXPECT_EQ(back.variant, r.variant);
@@ -126,6 +127,9 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     EXPECT_EQ(back.total->nrmse, 0.1);
     EXPECT_FALSE(back.indirect);
     EXPECT_EQ(back.passes.at(0).voxelSteps, 5u);
+    EXPECT_EQ(valuesCsv({back}), valuesCsv({r}));
+    EXPECT_NE(valuesCsv({back}).find(",p,\"voxels, missed\",,7\n"), std::string::npos);
+    EXPECT_NE(valuesCsv({back}).find(",p,change,3,0.1\n"), std::string::npos);
     EXPECT_EQ(backInputs, inputs);
     EXPECT_THROW(parseResultJson("{\"variant\": 3}"), Error);
     EXPECT_THROW(parseResultJson(""), Error);

@@ -47,6 +47,13 @@ struct LightVoxels : Idle {
     }
 };
 
+struct WeighLight : LightVoxels {
+    static constexpr const char* kName = "weigh_light";
+    explicit WeighLight(const Params& p) : LightVoxels(p) {}
+    bool reports() const override { return true; }
+    void declare(PassBuilder& builder) override { builder.read<Light>("light", "light to weigh"); }
+};
+
 struct WrongType : LightVoxels {
     static constexpr const char* kName = "wrong_type";
     explicit WrongType(const Params& p) : LightVoxels(p) {}
@@ -57,6 +64,7 @@ Registry registry() {
     Registry r;
     r.add<MakeVoxels>();
     r.add<LightVoxels>();
+    r.add<WeighLight>();
     r.add<WrongType>();
     return r;
 }
@@ -109,6 +117,14 @@ TEST(GraphWiring, KeepsOnlyWhatIsAskedFor) {
     EXPECT_EQ(passes[1].id, "a");
     EXPECT_EQ(passes[2].id, "b");
     EXPECT_EQ(g.keepOnly({"light"}), std::vector<std::string>{});
+}
+
+TEST(GraphWiring, KeepsWhatReports) {
+    Graph g = graph(
+        "[{pass: make_voxels}, {pass: light_voxels, id: weighed}, {pass: weigh_light}, {pass: light_voxels, "
+        "id: unread}]");
+    EXPECT_EQ(g.keepOnly({"final"}), (std::vector<std::string>{"unread"}));
+    EXPECT_EQ(g.passes().size(), 3u);
 }
 
 TEST(GraphWiring, NamesPlaceAndNearestWord) {

@@ -197,6 +197,22 @@ class PartOfARun(ReportTest):
         for message in ("is not a whole PNG file", "passes.csv lacks a column", "manifest.json cannot be"):
             self.assertIn(message, shown.text)
 
+    def test_reported_values_have_a_table_and_a_chart_over_frames(self):
+        rows = [made_up.variant(name, 10, 0.3) for name in ("a", "b")]
+        self.assertNotIn("What passes report", self.make(rows, made_up.manifest([])).text)
+        (self.directory / "values.csv").write_text(
+            "variant,pass,name,frame,value\na,compare,missed,,12\na,probe,change,0,0.25\na,probe,change,1,0.75\n"
+            "b,compare,missed,,40\n")
+        self.assertEqual(self.run_program()[0], 0)
+        shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
+        for words in ("What passes report", "compare: missed", "0.500 (most 0.750)", "a: 0.500 on average"):
+            self.assertIn(words, shown.text)
+        self.assertEqual(shown.attributes("aria-label").count("probe: change"), 1)
+        (self.directory / "values.csv").write_text("what,is\nthis,here\n")
+        self.assertEqual(self.run_program()[0], 0)
+        self.assertIn("values.csv lacks a column", Page((self.directory / "report.html").read_text(
+            encoding="utf-8")).text)
+
     def test_each_variant_is_shown_beside_its_own_reference(self):
         run = made_up.manifest([])
         run["references"] = [{**run["reference"], "folder": "reference", "variants": ["a"]},

@@ -1,0 +1,26 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Irradiance by cones at every so many-th surfel, in a place that its number picks: the order of surfels is any.
+#include "shaders/cone_set.glsl"
+#include "shaders/linear_index.glsl"
+#include "shaders/shared/surfel_types.h"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(set = 0, binding = 17, scalar) writeonly buffer Irradiance { vec4 data[]; } irradiance;  // W/m²; 1 where a point is.
+layout(push_constant) uniform Push {
+    uint surfels;
+    uint stride;
+    uint cones;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.surfels) return;
+    const Surfel s = surfels.data[i];
+    if (s.id % push.stride != 0u) return;
+    const uint point = s.id / push.stride;
+    // Three numbers in [0, 1) that complement those of other points: the additive recurrence of Roberts 2018.
+    const vec3 dither = fract(vec3(0.5) + float(point & 0xffffu) * vec3(0.819172513, 0.671043607, 0.549700478));
+    irradiance.data[point] = vec4(coneIrradiance(coneBase(s.position, s.normal), s.normal, push.cones, dither), 1.0);
+}

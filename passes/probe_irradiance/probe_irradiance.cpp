@@ -1,0 +1,88 @@
+#include "passes/probe_irradiance/probe_irradiance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "passes/common/cone_sets.h"
+#include "passes/common/dispatch.h"
+
+namespace voxray {
+namespace {
+
+struct GatherPush {
+    uint32_t surfels;
+    uint32_t stride;
+    uint32_t cones;
+};
+
+/// Rec. 709, as the metrics have it.
+double luminance(const glm::vec4& c) {
+    return glm::dot(glm::dvec3(c), glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+}  // namespace
+
+void ProbeIrradiance::declare(PassBuilder& builder) {
+    surfels_ = builder.read<Surfels>("surfels", "points on surfaces, some of which are probed");
+    radiance_ = builder.read<RadianceVoxels>("radiance", "light that leaves surfaces, at all scales");
+}
+
+uint32_t ProbeIrradiance::stride(const Surfels& surfels) const {
+    return uint32_t((surfels.most + params_.points - 1) / params_.points) | 1u;
+}
+
+void ProbeIrradiance::plan(PassPlan& plan) {
+    plan.reserve("cones", coneSet(kName, params_.cones).size() * sizeof(gpu::Cone));
+    const Surfels& surfels = plan.get(surfels_);
+    plan.reserve("irradiance of points", (surfels.most / stride(surfels) + 1) * sizeof(glm::vec4));
+}
+
+void ProbeIrradiance::prepare(PassSetup& setup) {
+    const std::vector<gpu::Cone> cones = coneSet(kName, params_.cones);
+    cones_ = Buffer(setup.device, "cones", cones.size() * sizeof(gpu::Cone));
+    setup.stream.upload(cones_, cones);
+    const Surfels& surfels = setup.get(surfels_);
+    irradiance_ = Buffer(setup.device, "irradiance of points",
+                         (surfels.most / stride(surfels) + 1) * sizeof(glm::vec4));
+    gather_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/probe_irradiance/gather.comp",
+                                                                      setup.get(radiance_).defines()));
+    last_.clear();
+}
+
+void ProbeIrradiance::record(PassContext& context) {
+    // Gather at the points.
+    const Surfels& surfels = context.get(surfels_);
+    context.stream.fill(irradiance_, 0);
+    for (const Surfels::Chunk& chunk : surfels.chunks) {
+        std::vector<Binding> bindings = context.get(radiance_).bindings();
+        bindings.insert(bindings.end(),
+                        {{"cones", cones_}, {"surfels", chunk.surfels}, {"irradiance", irradiance_}});
+        context.stream.dispatch(gather_, bindings, GatherPush{chunk.count, stride(surfels), params_.cones},
+                                linearGroups(chunk.count));
+    }
+    const std::vector<glm::vec4> now =
+        context.stream.readAs<glm::vec4>(irradiance_, irradiance_.bytes() / sizeof(glm::vec4));
+
+    // Compare with the last frame.
+    double sum = 0, change = 0, largest = 0;
+    uint64_t points = 0;
+    for (size_t i = 0; i < now.size(); ++i) {
+        if (now[i].w == 0) continue;
+        ++points;
+        sum += luminance(now[i]);
+        if (last_.empty() || last_[i].w == 0) continue;
+        const double difference = std::abs(luminance(now[i]) - luminance(last_[i]));
+        change += difference;
+        largest = std::max(largest, difference);
+    }
+    const double mean = points > 0 ? sum / double(points) : 0;
+    context.report("mean irradiance", mean);
+    if (!last_.empty() && mean > 0) {
+        context.report("mean change", change / double(points) / mean);
+        context.report("largest change", largest / mean);
+    }
+    last_ = now;
+}
+
+}  // namespace voxray

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "passes/common/radiance_voxels.h"
+#include "passes/common/surfels.h"
+
+namespace voxray {
+
+/// Irradiance by cones at points that stay where they are on the surfaces, whatever the camera does, and how
+/// it changes from frame to frame. In a scene at rest a change is the method's own: a clipmap's levels that
+/// follow the camera, a window that scrolls. Random numbers are each point's own, the same in every frame.
+class ProbeIrradiance final : public Pass {
+ public:
+    static constexpr const char* kName = "probe_irradiance";
+    static constexpr const char* kHelp =
+        "Measures irradiance by cones at points that stand still on the surfaces and reports, for each "
+        "frame, its mean (W/m²) and its change since the last one over that mean: on average over the points "
+        "and where it is largest. Tests stability: with a moving camera and all else at rest the change is "
+        "the method's own. Moving surfaces take points with them.";
+    struct Params {
+        uint32_t points = 4096;
+        uint32_t cones = 16;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("points", &Params::points, "Points, at most, out of those of place_surfels.", 1u,
+                      1u << 20),
+                field("cones", &Params::cones, "Cones from each point: 5, 6, 16 or 36.", 5u, 36u)};
+        }
+    };
+
+    explicit ProbeIrradiance(const Params& params) : params_(params) {}
+    Phase phase() const override { return Phase::Frame; }
+    bool reports() const override { return true; }
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    /// Every so many-th surfel is a point. Odd, so that both sides of surfaces have their turn.
+    uint32_t stride(const Surfels& surfels) const;
+
+    Params params_;
+    Port<Surfels> surfels_;
+    Port<RadianceVoxels> radiance_;
+    Program gather_;
+    Buffer cones_, irradiance_;
+    std::vector<glm::vec4> last_;  ///< As `irradiance_` was in the last frame.
+};
+
+}  // namespace voxray

@@ -1,0 +1,56 @@
+// Light at points that stand still, while the camera moves.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numbers>
+
+#include "tests/gpu/chain.h"
+
+namespace voxray::test {
+namespace {
+
+using Values = std::map<std::string, double>;
+
+/// What probe_irradiance reported in the last frame.
+Values reported(const Chain& chain) {
+    Values values;
+    for (const PassSample& sample : chain.frameSamples)
+        for (const PassContext::Value& v : sample.reported) values[v.name] = v.value;
+    return values;
+}
+
+std::string probeGraph(uint32_t resolution, const std::string& filter) {
+    return fmt::format(
+        "[{{pass: voxelize, resolution: {}}}, {{pass: inject_light_rays, rays_per_light: 65536, bounces: "
+        "3}}, "
+        "{{pass: place_surfels, points: 1}}, {{pass: filter_voxels, {}}}, "
+        "{{pass: probe_irradiance, points: 2000}}]",
+        resolution, filter);
+}
+
+TEST(StableLight, ProbesMeasureTheIrradianceOfAFurnace) {
+    Chain chain("furnace", "{shape: box, albedo: 0.5, emission: 1}",
+                probeGraph(32, "layout: dense, emission: true"));
+    // Emission and three reflections of it, from all sides.
+    EXPECT_NEAR(reported(chain).at("mean irradiance") / (std::numbers::pi * 1.875), 1.0, 0.03);
+    EXPECT_FALSE(reported(chain).contains("mean change")) << "there is no frame before the first";
+}
+
+TEST(StableLight, AnOctreeDoesNotChangeWithTheCamera) {
+    Chain chain("cornell", "{lights: point}", probeGraph(32, "layout: svo"));
+    chain.runFrameFrom({0.3f, 0.9f, 0.2f});
+    EXPECT_GT(reported(chain).at("mean irradiance"), 0);
+    EXPECT_EQ(reported(chain).at("largest change"), 0);
+}
+
+TEST(StableLight, AClipmapChangesOnlyWithTheCamera) {
+    Chain chain("cornell", "{lights: point}", probeGraph(64, "layout: clipmap, clipmap_resolution: 16"));
+    const glm::vec3 camera = chain.state().cameras.at(0).position;
+    chain.runFrameFrom(camera);
+    EXPECT_EQ(reported(chain).at("largest change"), 0);
+    chain.runFrameFrom({0, 1, 0});
+    EXPECT_GT(reported(chain).at("mean change"), 0.001);
+}
+
+}  // namespace
+}  // namespace voxray::test
