@@ -8,9 +8,10 @@
 
 layout(set = 0, binding = 14, scalar) readonly buffer Cones { Cone data[]; } cones;
 
-// W/m² at `base` on a surface with unit shading normal `normal`. `dither`, three numbers in [0, 1): where in their cells the first
-// `count` cones stand (azimuth, then angle from the normal), and how their levels are shifted.
-vec3 coneIrradiance(ConeBase base, vec3 normal, uint count, vec3 dither) {
+// W/m² at `position` on a surface with unit normal `side` and unit shading normal `normal`. `dither`, three numbers in [0, 1): where
+// in their cells the first `count` cones stand (azimuth, then angle from the normal), and how their levels are shifted, the first one included.
+vec3 coneIrradiance(vec3 position, vec3 side, vec3 normal, uint count, vec3 dither) {
+    const ConeBase base = coneBase(position, side, dither.z);
     vec3 tangent, bitangent;
     frame(normal, tangent, bitangent);
     vec3 sum = vec3(0.0);

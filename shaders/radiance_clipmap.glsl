@@ -38,15 +38,21 @@ void storeRadiance(uint slot, uint side, vec4 value) {
     radianceVoxels.values.data[slot * radianceVoxels.grid.directions + side] = packRadiance(value);
 }
 
-// The finest level that has a say at a position. Between two levels the part after the point is the coarser one's share: it grows
-// to 1 before the window ends, by the distance to the camera itself. So nothing jumps when the window follows in whole voxels.
-float minimumLevel(vec3 position) {
+// How far a position is from where a level's reach ends, along the nearest axis, in widths of the zone where the next level takes
+// over: 1 and more, the level alone counts; 0 and less, it doesn't.
+float windowShare(uint level, vec3 position) {
     const RadianceGrid g = radianceVoxels.grid;
     // Outside of the grid there is nothing: its border decides.
     const vec3 inGrid = clamp(position, g.origin, g.origin + g.voxelSize * vec3(g.resolution));
+    const vec3 left = radianceVoxels.window[level].reach - abs(inGrid - radianceVoxels.window[level].middle);
+    return min(left.x, min(left.y, left.z)) * radianceVoxels.window[level].fall;
+}
+
+// The finest level that has a say at a position. Between two levels the part after the point is the coarser one's share: it grows
+// to 1 before the window ends, by the distance to the camera itself. So nothing jumps when the window follows in whole voxels.
+float minimumLevel(vec3 position) {
     for (uint level = 0u; level < radianceVoxels.firstWhole; ++level) {
-        const vec3 left = radianceVoxels.window[level].reach - abs(inGrid - radianceVoxels.window[level].middle);
-        const float share = min(left.x, min(left.y, left.z)) * radianceVoxels.window[level].fall;
+        const float share = windowShare(level, position);
         if (share > 0.0) return float(level) + max(1.0 - share, 0.0);
     }
     return float(radianceVoxels.firstWhole);
@@ -83,7 +89,14 @@ vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
 // that tells.
 float emptyDistance(vec3 position, float footprint, vec3 direction) { return 0.0; }
 
-// Side of the finest voxel that describes the surroundings of `position` (m); between two levels it changes smoothly.
-float finestFootprint(vec3 position) { return radianceVoxels.grid.voxelSize * exp2(minimumLevel(position)); }
+// The next level has a say from where a window's share is 1 on. A cone has to be clear of its voxels there; before that, over as
+// wide a zone, more and more cones are, so that light doesn't jump where the level changes.
+uint startLevel(vec3 position, float dither) {
+    for (uint level = 0u; level < radianceVoxels.firstWhole; ++level) {
+        const float share = windowShare(level, position);
+        if (share > 0.0) return share - 1.0 < dither ? level + 1u : level;
+    }
+    return radianceVoxels.firstWhole;
+}
 
 #endif

@@ -39,12 +39,12 @@ vec4 wallBeside(ConeBase base, uint face) {
     return sampleLevel(base.level, inWall + voxel * up, ahead);
 }
 
-ConeBase coneBase(vec3 position, vec3 side) {
+// `dither`, 0 to 1: where surroundings are described more and more coarsely, whether cones keep clear of the coarser voxels.
+ConeBase coneBase(vec3 position, vec3 side, float dither) {
     ConeBase base;
     base.position = position + side * (radianceVoxels.grid.voxelSize / 256.0);
     base.side = side;
-    // Up to the rounding of log2 the next level up.
-    base.level = uint(ceil(max(log2(finestFootprint(position) / radianceVoxels.grid.voxelSize) - 1.0 / 256.0, 0.0)));
+    base.level = startLevel(position, dither);
 
     // A sample reaches half a voxel along its axis and one and a half across it.
     const vec3 size = abs(side);

@@ -53,7 +53,6 @@ vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
 // nothing that tells.
 float emptyDistance(vec3 position, float footprint, vec3 direction) { return 0.0; }
 
-// Side of the finest voxel that describes the surroundings of `position` (m).
-float finestFootprint(vec3 position) { return radianceVoxels.grid.voxelSize; }
+uint startLevel(vec3 position, float dither) { return 0u; }
 
 #endif

@@ -47,14 +47,14 @@ float emptyDistance(vec3 position, float footprint, vec3 direction) {
     return max(reach, 0.0);
 }
 
-// Side of the finest voxel that describes the surroundings of `position` (m): that of a uniform node where one stands for all.
-float finestFootprint(vec3 position) {
+// That of a uniform node where one stands for all.
+uint startLevel(vec3 position, float dither) {
     const RadianceGrid g = radianceVoxels.grid;
     const ivec3 voxel = ivec3(floor((position - g.origin) / g.voxelSize));
     uint level = inOctreeBorder(voxel, 0u) ? g.levels - 1u : 0u;
     for (; level > 0u; --level)
         if (isUniform(octreeWord(voxel >> level, level))) break;
-    return g.voxelSize * float(1u << level);
+    return level;
 }
 
 #endif

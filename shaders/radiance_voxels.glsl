@@ -16,7 +16,8 @@
 // metres:
 //  - vec4 sampleLevel(uint level, vec3 position, vec3 direction): sampleRadiance() at one level, interpolated linearly in space;
 //  - float emptyDistance(vec3 position, float footprint, vec3 direction);
-//  - float finestFootprint(vec3 position).
+//  - uint startLevel(vec3 position, float dither): the level whose voxels a cone that starts there has to be clear of; between
+//    levels it is drawn by `dither`, 0 to 1.
 #if defined(RADIANCE_DENSE)
 #include "shaders/radiance_dense.glsl"
 #elif defined(RADIANCE_SVO)

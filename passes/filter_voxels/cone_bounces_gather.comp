@@ -42,7 +42,7 @@ void main() {
         const vec3 dither = fract(vec3(0.5) + float(cell.x) * vec3(0.754877666, 0.569840296, 0.819172513) +
                                   float(cell.y) * vec3(0.569840296, 0.754877666, 0.671043607) +
                                   float(cell.z) * vec3(0.671043607, 0.819172513, 0.549700478));
-        arrives = area * coneIrradiance(coneBase(middle, normal), normal, push.cones, dither);
+        arrives = area * coneIrradiance(middle, normal, normal, push.cones, dither);
     }
     for (uint channel = 0u; channel < 3u; ++channel) flux.data[3u * face + channel] = arrives[channel];
 }

@@ -23,7 +23,7 @@ void main() {
     if (p.w > 0.0) {
         const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
         const vec3 side = normalize(texelFetch(geometricNormal, texel, 0).xyz);
-        irradiance_ = coneIrradiance(coneBase(p.xyz, side), n, push.cones, texelDither(texel));
+        irradiance_ = coneIrradiance(p.xyz, side, n, push.cones, texelDither(texel));
     }
     imageStore(irradiance, place, vec4(irradiance_, p.w));
 }

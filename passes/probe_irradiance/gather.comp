@@ -12,6 +12,7 @@ layout(push_constant) uniform Push {
     uint surfels;
     uint stride;
     uint cones;
+    uint samples;
 } push;
 
 void main() {
@@ -20,7 +21,12 @@ void main() {
     const Surfel s = surfels.data[i];
     if (s.id % push.stride != 0u) return;
     const uint point = s.id / push.stride;
-    // Three numbers in [0, 1) that complement those of other points: the additive recurrence of Roberts 2018.
-    const vec3 dither = fract(vec3(0.5) + float(point & 0xffffu) * vec3(0.819172513, 0.671043607, 0.549700478));
-    irradiance.data[point] = vec4(coneIrradiance(coneBase(s.position, s.normal), s.normal, push.cones, dither), 1.0);
+    // Of three numbers in [0, 1) those of one set complement those of the others: the additive recurrence of Roberts 2018.
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < push.samples; ++k) {
+        const uint sample_ = (point * push.samples + k) & 0xffffu;
+        const vec3 dither = fract(vec3(0.5) + float(sample_) * vec3(0.819172513, 0.671043607, 0.549700478));
+        sum += coneIrradiance(s.position, s.normal, s.normal, push.cones, dither);
+    }
+    irradiance.data[point] = vec4(sum / float(push.samples), 1.0);
 }

@@ -14,6 +14,7 @@ struct GatherPush {
     uint32_t surfels;
     uint32_t stride;
     uint32_t cones;
+    uint32_t samples;
 };
 
 /// Rec. 709, as the metrics have it.
@@ -58,7 +59,8 @@ void ProbeIrradiance::record(PassContext& context) {
         std::vector<Binding> bindings = context.get(radiance_).bindings();
         bindings.insert(bindings.end(),
                         {{"cones", cones_}, {"surfels", chunk.surfels}, {"irradiance", irradiance_}});
-        context.stream.dispatch(gather_, bindings, GatherPush{chunk.count, stride(surfels), params_.cones},
+        context.stream.dispatch(gather_, bindings,
+                                GatherPush{chunk.count, stride(surfels), params_.cones, params_.samples},
                                 linearGroups(chunk.count));
     }
     const std::vector<glm::vec4> now =

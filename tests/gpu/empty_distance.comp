@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How far radiance voxels are empty, and their finest voxels, at a list of places.
+// How far radiance voxels are empty, and where cones would start, at a list of places.
 #include "shaders/linear_index.glsl"
 #include "shaders/radiance_voxels.glsl"
 layout(local_size_x = 64) in;
@@ -19,5 +19,5 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const Query q = queries.data[i];
-    answers.data[i] = vec2(emptyDistance(q.position, q.footprint, q.direction), finestFootprint(q.position));
+    answers.data[i] = vec2(emptyDistance(q.position, q.footprint, q.direction), float(startLevel(q.position, 0.5)));
 }

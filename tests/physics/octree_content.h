@@ -232,7 +232,7 @@ class TestOctree {
         return sampleRadiance(radiance, queries);
     }
 
-    /// emptyDistance() and finestFootprint() on the device.
+    /// emptyDistance() and startLevel() on the device.
     std::vector<glm::vec2> empty(const std::vector<RadianceQuery>& queries) {
         const Program program = makeComputeProgram(
             device(), compiler().compile("tests/gpu/empty_distance.comp", radiance.defines()));
