@@ -40,15 +40,15 @@ std::vector<Graph::PassInfo> Graph::passes() const {
 }
 
 std::vector<std::string> Graph::keepOnly(const std::vector<std::string>& portNames) {
-    // Backwards from the last writers: a node is needed if it reports, or if a needed one reads what it
-    // writes.
+    // Backwards from the last writers: a node is needed if it writes nothing, or if a needed one reads what
+    // it writes.
     std::vector<GraphNode>& nodes = impl_->nodes;
     std::set<const Resource*> wanted;
     std::set<std::string> open(portNames.begin(), portNames.end());
     std::vector<GraphNode> kept;
     std::vector<std::string> dropped;
     for (size_t n = nodes.size(); n-- > 0;) {
-        bool needed = nodes[n].pass->reports();
+        bool needed = std::ranges::none_of(nodes[n].ports, &PortInfo::output);
         for (size_t p = 0; p < nodes[n].ports.size(); ++p)
             if (nodes[n].ports[p].output)
                 needed |= open.erase(nodes[n].ports[p].name) > 0 || wanted.count(nodes[n].resources[p]) > 0;

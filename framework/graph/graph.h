@@ -45,8 +45,9 @@ class Graph {
     /// The config's list with every default filled in, in execution order.
     Value resolved() const;
 
-    /// Drops every pass that neither the last writers of `portNames` nor passes that report values depend on:
-    /// it would take time and memory for nothing. @return the dropped passes' ids.
+    /// Drops every pass that none of the last writers of `portNames` depends on: it would take time and
+    /// memory for nothing. A pass that writes nothing is there for what it reports, and stays. @return the
+    /// dropped passes' ids.
     std::vector<std::string> keepOnly(const std::vector<std::string>& portNames);
 
     /// A resource that will be read from outside, by port name: the last pass that writes it.

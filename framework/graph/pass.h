@@ -179,8 +179,6 @@ class Pass {
  public:
     virtual ~Pass() = default;
     virtual Phase phase() const = 0;
-    /// Whether record() reports values: what a pass is kept for although no image depends on it.
-    virtual bool reports() const { return false; }
     /// Names the ports. No device work.
     virtual void declare(PassBuilder& builder) = 0;
     /// Checks parameters against scene and device, describes outputs, reserves memory. Runs in graph order.

@@ -34,7 +34,6 @@ class ProbeIrradiance final : public Pass {
 
     explicit ProbeIrradiance(const Params& params) : params_(params) {}
     Phase phase() const override { return Phase::Frame; }
-    bool reports() const override { return true; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;

@@ -50,7 +50,6 @@ struct LightVoxels : Idle {
 struct WeighLight : LightVoxels {
     static constexpr const char* kName = "weigh_light";
     explicit WeighLight(const Params& p) : LightVoxels(p) {}
-    bool reports() const override { return true; }
     void declare(PassBuilder& builder) override { builder.read<Light>("light", "light to weigh"); }
 };
 
