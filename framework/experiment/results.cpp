@@ -104,7 +104,8 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
                        const std::vector<std::string>& metrics) {
     std::vector<std::string> header{"variant", "status", "error", "device", "tracer"};
     append(header, sweepKeys);
-    append(header, {"build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "rays"});
+    append(header, {"build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes",
+                    "peak_bytes", "rays"});
     append(header, scoreColumns());
     for (const std::string& name : scoreColumns()) header.push_back("indirect_" + name);
 
@@ -113,11 +114,11 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
         std::vector<std::string> fields{r.variant, r.ok ? "ok" : "failed", r.error, r.device, r.tracer};
         append(fields, r.sweepValues);
         if (r.ok)
-            append(fields,
-                   {numberText(r.buildMs), numberText(r.frameMs.median), numberText(r.frameMs.p05),
-                    numberText(r.frameMs.p95), std::to_string(r.memoryBytes), std::to_string(r.rays)});
+            append(fields, {numberText(r.buildMs), numberText(r.frameMs.median), numberText(r.frameMs.p05),
+                            numberText(r.frameMs.p95), std::to_string(r.memoryBytes),
+                            std::to_string(r.peakBytes), std::to_string(r.rays)});
         else
-            append(fields, std::vector<std::string>(6));
+            append(fields, std::vector<std::string>(7));
         for (const auto& scores : {r.total, r.indirect})
             append(fields, r.ok && scores ? scoreTexts(*scores, metrics)
                                           : std::vector<std::string>(scoreColumns().size()));
@@ -127,14 +128,14 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
 }
 
 std::string passesCsv(const std::vector<VariantResult>& results) {
-    std::string text = csvLine(
-        {"variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes"});
+    std::string text = csvLine({"variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays",
+                                "voxel_steps", "memory_bytes", "scratch_bytes"});
     for (const VariantResult& r : results)
         for (const PassCost& p : r.passes)
             text += csvLine({r.variant, p.id, phaseName(p.phase), numberText(p.milliseconds.median),
                              numberText(p.milliseconds.p05), numberText(p.milliseconds.p95),
                              std::to_string(p.rays), std::to_string(p.voxelSteps),
-                             std::to_string(p.memoryBytes)});
+                             std::to_string(p.memoryBytes), std::to_string(p.scratchBytes)});
     return text;
 }
 
@@ -156,8 +157,10 @@ std::string resultJson(const VariantResult& r, const VariantInputs& inputs) {
                                   {"phase", phaseName(p.phase)},
                                   {"ms", percentilesJson(p.milliseconds)},
                                   {"rays", p.rays},
+    json["peak_bytes"] = r.peakBytes;
                                   {"voxel_steps", p.voxelSteps},
-                                  {"memory_bytes", p.memoryBytes}});
+                                  {"memory_bytes", p.memoryBytes},
+                                  {"scratch_bytes", p.scratchBytes}});
     json["inputs"] = Json::object();
     for (const auto& [name, text] : inputs) json["inputs"][name] = text;
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -182,13 +185,14 @@ std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text)
             const Phase phase = p.at("phase").get<std::string>() == "build" ? Phase::Build : Phase::Frame;
             r.passes.push_back({p.at("pass").get<std::string>(), phase, percentilesFrom(p.at("ms")),
                                 p.at("rays").get<uint64_t>(), p.at("voxel_steps").get<uint64_t>(),
-                                p.at("memory_bytes").get<uint64_t>()});
+                                p.at("memory_bytes").get<uint64_t>(), p.at("scratch_bytes").get<uint64_t>()});
         }
         VariantInputs inputs;
         for (const auto& [name, value] : json.at("inputs").items())
             inputs.emplace_back(name, value.get<std::string>());
         return {r, inputs};
     } catch (const nlohmann::json::exception& error) {
+        r.peakBytes = json.at("peak_bytes").get<uint64_t>();
         throw Error("broken result: {}", error.what());
     }
 }

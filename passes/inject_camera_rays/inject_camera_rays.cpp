@@ -36,8 +36,7 @@ void InjectCameraRays::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
     plan.get(irradiance_).eachFrame = true;
     const SurfaceVoxels& voxels = plan.get(voxels_);
-    VoxelWrites::plan(plan, kName, params_, voxels);
-    VoxelWrites::plan(plan, kName, params_, voxels);
+    plan.reserve("voxel samples (estimated)", 2 * VoxelWrites::plan(plan, kName, params_, voxels));
     plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
     plan.reserve("paths", SurfelPaths::bytes(settings()));
     plan.reserve("camera rays", uint64_t(settings().batch) * (sizeof(Ray) + sizeof(Hit)));

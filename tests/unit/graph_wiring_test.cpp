@@ -13,7 +13,7 @@ struct Light : Resource {};
 // A pass that does nothing but have ports.
 struct Idle : Pass {
     Phase phase() const override { return Phase::Build; }
-    void plan(PassPlan& plan) override { plan.reserve("scratch", 1u << 20); }
+    void plan(PassPlan& plan) override { plan.reserve("results", 1u << 20); }
     void prepare(PassSetup&) override {}
     void record(PassContext&) override {}
 };
@@ -53,11 +53,31 @@ struct WrongType : LightVoxels {
     void declare(PassBuilder& builder) override { builder.read<Light>("voxels", "not voxels at all"); }
 };
 
+// Keeps 1 MiB, and needs more for a while.
+struct SumUp : Idle {
+    static constexpr const char* kName = "sum_up";
+    static constexpr const char* kHelp = "Writes light.";
+    struct Params {
+        uint32_t mib = 1;
+        static constexpr auto schema() {
+            return std::tuple{field("mib", &Params::mib, "MiB of scratch.", 0u, 64u)};
+        }
+    };
+    explicit SumUp(const Params& p) : params(p) {}
+    void declare(PassBuilder& builder) override { builder.write<Light>("light", "the light"); }
+    void plan(PassPlan& plan) override {
+        plan.reserve("light", 1u << 20);
+        plan.reserveScratch("sums", uint64_t(params.mib) << 20);
+    }
+    Params params;
+};
+
 Registry registry() {
     Registry r;
     r.add<MakeVoxels>();
     r.add<LightVoxels>();
     r.add<WrongType>();
+    r.add<SumUp>();
     return r;
 }
 
@@ -148,13 +168,37 @@ TEST(GraphPlan, RefusesMoreMemoryThanThereIs) {
     const SceneState state;
     Frame frame;
     frame.scene = &state;
-    EXPECT_EQ(g.plan(frame, {}, 2u << 20), (std::vector<uint64_t>{1u << 20, 1u << 20}));
+    const std::vector<PassMemory> memory = g.plan(frame, {}, 2u << 20);
+    ASSERT_EQ(memory.size(), 2u);
+    for (const PassMemory& pass : memory) EXPECT_EQ(pass.bytes, 1u << 20);
     try {
         g.plan(frame, {}, (2u << 20) - 1);
         FAIL() << "accepted";
     } catch (const Error& error) {
         EXPECT_HAS(std::string(error.what()), "needs about 2.0 MiB, the limit is 2.0 MiB");
-        EXPECT_HAS(std::string(error.what()), "make_voxels's scratch");
+        EXPECT_HAS(std::string(error.what()), "make_voxels's results");
+    }
+}
+
+TEST(GraphPlan, ScratchOfOnePassIsFreeForTheNext) {
+    EXPECT_EQ(peakBytes({}), 0u);
+    EXPECT_EQ(peakBytes({{5, 0}, {7, 0}}), 12u);
+    EXPECT_EQ(peakBytes({{5, 30}, {7, 40}, {1, 20}}), 13u + 40u);
+
+    // Two passes that keep 1 MiB each, and need 2 and 3 MiB for a while.
+    Graph g = graph("[{pass: sum_up, mib: 2}, {pass: sum_up, id: more, mib: 3}]");
+    const SceneState state;
+    Frame frame;
+    frame.scene = &state;
+    const std::vector<PassMemory> memory = g.plan(frame, {}, 5u << 20);
+    EXPECT_EQ(memory.at(0).scratchBytes, 2u << 20);
+    EXPECT_EQ(memory.at(1).scratchBytes, 3u << 20);
+    try {
+        g.plan(frame, {}, (5u << 20) - 1);
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_HAS(std::string(error.what()), "needs about 5.0 MiB");
+        EXPECT_HAS(std::string(error.what()), "more's sums with 3.0 MiB");
     }
 }
 
