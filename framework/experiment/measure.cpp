@@ -31,6 +31,7 @@ class PhaseSamples {
         cost.milliseconds = percentiles(byPass_[pass]);
         cost.rays = first_[pass].rays;
         cost.voxelSteps = first_[pass].voxelSteps;
+        cost.reported = first_[pass].reported;
         return cost;
     }
 
@@ -153,8 +154,8 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
                 memory[i]);
         if (isBuild && target.goToFrame) addCost(frames.cost(nextUpdate++), passes[i].id, Phase::Frame, {});
     }
-    result.buildMs = build.sum().median;
     result.peakBytes = peakBytes(memory);
+    result.buildMs = build.sum().median;
     result.frameMs = frames.sum();
     return result;
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiment/settings.h"
@@ -25,10 +26,11 @@ struct PassCost {
     std::string id;
     Phase phase = Phase::Frame;
     Percentiles milliseconds;
-    uint64_t rays = 0;          ///< In one run.
-    uint64_t voxelSteps = 0;    ///< In one run.
-    uint64_t memoryBytes = 0;   ///< That it keeps.
-    uint64_t scratchBytes = 0;  ///< That it takes besides while it runs.
+    uint64_t rays = 0;                                     ///< In one run.
+    uint64_t voxelSteps = 0;                               ///< In one run.
+    uint64_t memoryBytes = 0;                              ///< That it keeps.
+    uint64_t scratchBytes = 0;                             ///< That it takes besides while it runs.
+    std::vector<std::pair<std::string, double>> reported;  ///< Numbers that it found out in the first run.
 };
 
 /// What one variant cost and made.

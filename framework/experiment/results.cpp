@@ -139,6 +139,15 @@ std::string passesCsv(const std::vector<VariantResult>& results) {
     return text;
 }
 
+std::string countersCsv(const std::vector<VariantResult>& results) {
+    std::string text;
+    for (const VariantResult& r : results)
+        for (const PassCost& p : r.passes)
+            for (const auto& [name, value] : p.reported)
+                text += csvLine({r.variant, p.id, phaseName(p.phase), name, numberText(value)});
+    return text.empty() ? text : csvLine({"variant", "pass", "phase", "counter", "value"}) + text;
+}
+
 std::string resultJson(const VariantResult& r, const VariantInputs& inputs) {
     Json json;
     json["variant"] = r.variant;
@@ -148,19 +157,23 @@ std::string resultJson(const VariantResult& r, const VariantInputs& inputs) {
     json["build_ms"] = r.buildMs;
     json["frame_ms"] = percentilesJson(r.frameMs);
     json["memory_bytes"] = r.memoryBytes;
+    json["peak_bytes"] = r.peakBytes;
     json["rays"] = r.rays;
     json["total"] = scoresJson(r.total);
     json["indirect"] = scoresJson(r.indirect);
     json["passes"] = Json::array();
-    for (const PassCost& p : r.passes)
+    for (const PassCost& p : r.passes) {
+        Json reported = Json::array();
+        for (const auto& [name, value] : p.reported) reported.push_back({name, numberJson(value)});
         json["passes"].push_back({{"pass", p.id},
                                   {"phase", phaseName(p.phase)},
                                   {"ms", percentilesJson(p.milliseconds)},
                                   {"rays", p.rays},
-    json["peak_bytes"] = r.peakBytes;
                                   {"voxel_steps", p.voxelSteps},
                                   {"memory_bytes", p.memoryBytes},
-                                  {"scratch_bytes", p.scratchBytes}});
+                                  {"scratch_bytes", p.scratchBytes},
+                                  {"reported", std::move(reported)}});
+    }
     json["inputs"] = Json::object();
     for (const auto& [name, text] : inputs) json["inputs"][name] = text;
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -178,21 +191,29 @@ std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text)
         r.buildMs = json.at("build_ms").get<double>();
         r.frameMs = percentilesFrom(json.at("frame_ms"));
         r.memoryBytes = json.at("memory_bytes").get<uint64_t>();
+        r.peakBytes = json.at("peak_bytes").get<uint64_t>();
         r.rays = json.at("rays").get<uint64_t>();
         r.total = scoresFrom(json.at("total"));
         r.indirect = scoresFrom(json.at("indirect"));
         for (const Json& p : json.at("passes")) {
             const Phase phase = p.at("phase").get<std::string>() == "build" ? Phase::Build : Phase::Frame;
-            r.passes.push_back({p.at("pass").get<std::string>(), phase, percentilesFrom(p.at("ms")),
-                                p.at("rays").get<uint64_t>(), p.at("voxel_steps").get<uint64_t>(),
-                                p.at("memory_bytes").get<uint64_t>(), p.at("scratch_bytes").get<uint64_t>()});
+            r.passes.push_back({p.at("pass").get<std::string>(),
+                                phase,
+                                percentilesFrom(p.at("ms")),
+                                p.at("rays").get<uint64_t>(),
+                                p.at("voxel_steps").get<uint64_t>(),
+                                p.at("memory_bytes").get<uint64_t>(),
+                                p.at("scratch_bytes").get<uint64_t>(),
+                                {}});
+            for (const Json& entry : p.at("reported"))
+                r.passes.back().reported.emplace_back(entry.at(0).get<std::string>(),
+                                                      numberFrom(entry.at(1)));
         }
         VariantInputs inputs;
         for (const auto& [name, value] : json.at("inputs").items())
             inputs.emplace_back(name, value.get<std::string>());
         return {r, inputs};
     } catch (const nlohmann::json::exception& error) {
-        r.peakBytes = json.at("peak_bytes").get<uint64_t>();
         throw Error("broken result: {}", error.what());
     }
 }

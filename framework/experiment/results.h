@@ -47,6 +47,8 @@ std::string csvField(const std::string& text);
 std::string resultsCsv(const std::vector<VariantResult>& results, const std::vector<std::string>& sweepKeys,
                        const std::vector<std::string>& metrics);
 std::string passesCsv(const std::vector<VariantResult>& results);
+/// `counters.csv`: a row a number that a pass reported; empty where none did.
+std::string countersCsv(const std::vector<VariantResult>& results);
 
 /// `images/<variant>/result.json`, the mark of a finished variant; all numbers survive the round trip.
 std::string resultJson(const VariantResult& result, const VariantInputs& inputs);

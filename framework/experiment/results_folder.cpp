@@ -71,7 +71,8 @@ void ResultsFolder::checkOwner(const std::string& experiment) const {
 }
 
 void ResultsFolder::removeOldRun() const {
-    for (const char* file : {"results.csv", "passes.csv", "report.html"}) fs::remove(path_ / file);
+    for (const char* file : {"results.csv", "passes.csv", "counters.csv", "report.html"})
+        fs::remove(path_ / file);
     for (const auto& entry : fs::directory_iterator(path_ / "images"))
         if (fs::exists(entry.path() / "result.json") ||
             startsWith(entry.path().filename().string(), "reference"))

@@ -296,6 +296,8 @@ void Run::writeTables() {
     folder_->writeText("manifest.json", manifestJson(manifest_));
     folder_->writeText("results.csv", resultsCsv(rows, sweepKeys(experiment_), experiment_.measure.metrics));
     folder_->writeText("passes.csv", passesCsv(rows));
+    if (const std::string counters = countersCsv(rows); !counters.empty())
+        folder_->writeText("counters.csv", counters);
 }
 
 }  // namespace

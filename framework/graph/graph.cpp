@@ -48,14 +48,15 @@ std::vector<Graph::PassInfo> Graph::passes() const {
 }
 
 std::vector<std::string> Graph::keepOnly(const std::vector<std::string>& portNames) {
-    // Backwards from the last writers: a node is needed if a needed one reads what it writes.
+    // Backwards from the last writers: a node is needed if a needed one reads what it writes, or if it only
+    // reports.
     std::vector<GraphNode>& nodes = impl_->nodes;
     std::set<const Resource*> wanted;
     std::set<std::string> open(portNames.begin(), portNames.end());
     std::vector<GraphNode> kept;
     std::vector<std::string> dropped;
     for (size_t n = nodes.size(); n-- > 0;) {
-        bool needed = false;
+        bool needed = std::ranges::none_of(nodes[n].ports, &PortInfo::output);
         for (size_t p = 0; p < nodes[n].ports.size(); ++p)
             if (nodes[n].ports[p].output)
                 needed |= open.erase(nodes[n].ports[p].name) > 0 || wanted.count(nodes[n].resources[p]) > 0;
@@ -138,8 +139,8 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         GraphNode& node = impl_->nodes[n];
         if (node.pass->phase() != phase) continue;
         const uint64_t memoryBefore = device.memoryUsedBytes();
-        const uint64_t raysBefore = tracer.raysTraced();
         device.resetMemoryPeak();
+        const uint64_t raysBefore = tracer.raysTraced();
 
         // Time the pass on the device; the Embree backend's host work falls between the stamps.
         PassContext context(node.resources, frame, device, stream, tracer, scene, frameIndex);
@@ -152,6 +153,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         PassSample sample;
         sample.rays = tracer.raysTraced() - raysBefore + context.extraRays;
         sample.voxelSteps = context.voxelSteps;
+        sample.reported = std::move(context.reported);
         stamps.push_back({samples.size(), begin, end});
         samples.push_back(sample);
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/value.h"
@@ -16,10 +17,9 @@ struct PassSample {
     double milliseconds = 0;
     uint64_t rays = 0;
     uint64_t voxelSteps = 0;
+    std::vector<std::pair<std::string, double>> reported;  ///< By PassContext::report().
 };
 
-/// A checked chain of passes. Each entry of a config's `graph` list is a map with `pass`, optionally `id`
-/// (default: the pass's name) and `inputs` (port: "id.port" or "id"), and the pass's own parameters.
 /// Device memory of one pass.
 struct PassMemory {
     uint64_t bytes = 0;         ///< That it keeps, its outputs among it.
@@ -31,6 +31,8 @@ struct PassMemory {
 /// as repeated builds, moving scenes and frames do.
 uint64_t peakBytes(const std::vector<PassMemory>& passes);
 
+/// A checked chain of passes. Each entry of a config's `graph` list is a map with `pass`, optionally `id`
+/// (default: the pass's name) and `inputs` (port: "id.port" or "id"), and the pass's own parameters.
 /// An input without an entry in `inputs` takes the nearest earlier pass that writes a port of its name.
 class Graph {
  public:
@@ -56,7 +58,8 @@ class Graph {
     Value resolved() const;
 
     /// Drops every pass that none of the last writers of `portNames` depends on: it would take time and
-    /// memory for nothing. @return the dropped passes' ids.
+    /// memory for nothing. A pass that writes nothing is there for what it reports, and stays. @return the
+    /// dropped passes' ids.
     std::vector<std::string> keepOnly(const std::vector<std::string>& portNames);
 
     /// A resource that will be read from outside, by port name: the last pass that writes it.

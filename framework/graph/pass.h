@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <typeindex>
+#include <utility>
 #include <vector>
 
 #include "base/schema.h"
@@ -138,8 +139,8 @@ class PassPlan : public PortAccess {
     struct Reservation {
         std::string name;
         uint64_t bytes;
-    };
         bool scratch;
+    };
     std::vector<Reservation> reservations;
 };
 
@@ -170,6 +171,10 @@ class PassContext : public PortAccess {
     /// Rays traced outside of `tracer` (the reference traces on its own).
     uint64_t extraRays = 0;
     uint64_t voxelSteps = 0;
+
+    /// A number that the pass found out: it goes into counters.csv and the report under this name.
+    void report(std::string name, double value) { reported.emplace_back(std::move(name), value); }
+    std::vector<std::pair<std::string, double>> reported;
 };
 
 /// A stage of a graph. A pass class also has `struct Params` with a schema, a constructor from Params, and

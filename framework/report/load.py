@@ -62,6 +62,7 @@ class Results:
     variants: a row a variant, columns as in results.csv; costs and scores are floats (NaN where absent),
         everything else text as written. Ordered as the run wrote them.
     passes: a row a variant, pass and phase, as in passes.csv; may be empty.
+    counters: a row a number that a pass reported, as in counters.csv; empty where none did.
     manifest: the run's manifest.json, {} where it is absent or broken.
     sweep_keys: the columns of `variants` that the sweep varied.
     warnings: what was absent or odd in the files, for the reader's eye, after the run's own warnings.
@@ -70,6 +71,7 @@ class Results:
     directory: Path
     variants: pd.DataFrame
     passes: pd.DataFrame
+    counters: pd.DataFrame
     manifest: dict
     sweep_keys: list[str]
     warnings: list[str] = field(default_factory=list)
@@ -156,6 +158,7 @@ def load(directory: str | Path) -> Results:
     warnings: list[str] = []
     variants, sweep_columns = _read_variants(directory / "results.csv", warnings)
     passes = _read_passes(directory / "passes.csv", warnings)
+    counters = _read_counters(directory / "counters.csv", warnings)
     manifest = _read_manifest(directory / "manifest.json", warnings)
 
     # The manifest names the sweep's keys; without it they are the columns that no format names.
@@ -164,7 +167,7 @@ def load(directory: str | Path) -> Results:
     sweep_keys = [str(key) for key in declared if str(key) in variants.columns]
     own = manifest.get("warnings")
     warnings = [str(text) for text in own] + warnings if isinstance(own, list) else warnings
-    results = Results(directory, variants, passes, manifest, sweep_keys, warnings)
+    results = Results(directory, variants, passes, counters, manifest, sweep_keys, warnings)
     if (count := len(results.references())) > 1:
         warnings.append(f"The variants have {count} different references, so their scores are not of one "
                         "image. Each is judged by its own one's noise, black and constant image; charts "
@@ -220,6 +223,21 @@ def _read_passes(path: Path, warnings: list[str]) -> pd.DataFrame:
             warnings.append(f"{error}: the time of each pass is not shown.")
             table = pd.DataFrame(columns=columns)
     _to_numbers(table, _PASS_NUMBERS)
+    return table
+
+
+def _read_counters(path: Path, warnings: list[str]) -> pd.DataFrame:
+    columns = ["variant", "pass", "phase", "counter", "value"]
+    table = pd.DataFrame(columns=columns)
+    if path.is_file():
+        try:
+            table = _read_table(path)
+            if not set(columns) <= set(table.columns):
+                raise ReportError(f"counters.csv lacks one of the columns {', '.join(columns)}")
+        except ReportError as error:
+            warnings.append(f"{error}: what passes counted is not shown.")
+            table = pd.DataFrame(columns=columns)
+    _to_numbers(table, ("value",))
     return table
 
 

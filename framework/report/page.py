@@ -80,7 +80,8 @@ def render(results: Results) -> str:
         rows=table.variant_rows(results, columns, numbers, anchors),
         baselines=table.baseline_rows(results, columns), noises=table.noise_rows(results, columns),
         charts=chart_groups, not_drawn=not_drawn, legends=legends, markers=style.MARKERS, pass_colors=colors,
-        bars=_bars(results, colors, numbers, anchors), reference=_reference(results, lights, warnings),
+        bars=_bars(results, colors, numbers, anchors), counters=table.counter_table(results),
+        numbers=numbers, anchors=anchors, reference=_reference(results, lights, warnings),
         variants=[_variant(results, row, lights, colors, numbers, anchors, warnings)
                   for _, row in results.variants.iterrows()],
         error_gradient=images.error_gradient(), provenance=_provenance(results),

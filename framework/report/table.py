@@ -115,6 +115,22 @@ def _cell(results: Results, row: pd.Series, column: Column, mark: str) -> Cell:
     return Cell(value, value, is_text=column.align_text)
 
 
+def counter_table(results: Results) -> tuple[list[str], dict[str, list[str]]]:
+    """What passes counted: a column a pass and counter, as "pass: counter", and the cells of each variant that has any.
+
+    A build pass of a scene that moves has two rows: the build's stands for it.
+    """
+    rows = results.counters.drop_duplicates(["variant", "pass", "counter"])
+    names = rows["pass"] + ": " + rows["counter"]
+    headings = list(dict.fromkeys(names))
+    cells = {}
+    for variant in results.ok["variant"]:
+        values = dict(zip(names[rows["variant"] == variant], rows.loc[rows["variant"] == variant, "value"]))
+        if values:
+            cells[variant] = [text.exact(values[key]) if key in values else "" for key in headings]
+    return headings, cells
+
+
 def baseline_rows(results: Results, columns: list[Column]) -> list[Row]:
     """What a black and a constant image score, as far as the run measured it."""
     return [row for reference in results.references() for name in BASELINES

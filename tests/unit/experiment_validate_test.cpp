@@ -102,6 +102,16 @@ TEST(Results, MetricsThatWereNotAskedForStayEmpty) {
     EXPECT_EQ(scoreTexts(scores, {"nrmse"}), (std::vector<std::string>{"", "", "", "0.5", "", "", ""}));
 }
 
+TEST(Results, CountersHaveARowEach) {
+    VariantResult r;
+    r.variant = "v";
+    r.passes.push_back({"p", Phase::Build, {}, 0, 0, 0, 0, {}});
+    EXPECT_EQ(countersCsv({r}), "");
+    r.passes.push_back({"q", Phase::Frame, {}, 0, 0, 0, 0, {{"missed", 12}, {"a, b", 0.5}}});
+    EXPECT_EQ(countersCsv({r}),
+              "variant,pass,phase,counter,value\nv,q,frame,missed,12\nv,q,frame,\"a, b\",0.5\n");
+}
+
 TEST(Results, JsonSurvivesTheRoundTrip) {
     VariantResult r;
     r.ok = true;
@@ -110,21 +120,23 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     r.buildMs = 1.0 / 3;
     r.frameMs = {0.1, 0.2, 0.3};
     r.memoryBytes = uint64_t(1) << 40;
+    r.peakBytes = uint64_t(1) << 41;
     r.rays = 77;
     r.total.emplace();
     r.total->psnrDb = HUGE_VAL;
     r.total->nrmse = 0.1;
-    r.passes.push_back({"p", Phase::Build, {1, 2, 3}, 4, 5, 6, 7});
+    r.passes.push_back(
+        {"p", Phase::Build, {1, 2, 3}, 4, 5, 6, 7, {{"missed", 0.1}, {"odd, name", HUGE_VAL}}});
     const VariantInputs inputs{{"seed", "3"}, {"graph", "{a: \"b\"}"}};
     const auto [back, backInputs] = parseResultJson(resultJson(r, inputs));
     EXPECT_EQ(back.variant, r.variant);
     EXPECT_EQ(back.sweepValues, r.sweepValues);
     EXPECT_EQ(back.buildMs, r.buildMs);
-    r.peakBytes = uint64_t(1) << 41;
     EXPECT_EQ(back.frameMs.p95, 0.3);
     EXPECT_EQ(back.memoryBytes, r.memoryBytes);
     EXPECT_EQ(back.peakBytes, r.peakBytes);
     EXPECT_EQ(back.passes.at(0).scratchBytes, 7u);
+    EXPECT_EQ(back.passes.at(0).reported, r.passes.at(0).reported);
     EXPECT_EQ(back.total->psnrDb, HUGE_VAL);
     EXPECT_EQ(back.total->nrmse, 0.1);
     EXPECT_FALSE(back.indirect);

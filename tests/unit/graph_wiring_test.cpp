@@ -72,12 +72,24 @@ struct SumUp : Idle {
     Params params;
 };
 
+// Only reports.
+struct CountVoxels : Idle {
+    static constexpr const char* kName = "count_voxels";
+    static constexpr const char* kHelp = "Counts voxels.";
+    struct Params {
+        static constexpr auto schema() { return std::tuple{}; }
+    };
+    explicit CountVoxels(const Params&) {}
+    void declare(PassBuilder& builder) override { builder.read<Voxels>("voxels", "voxels to count"); }
+};
+
 Registry registry() {
     Registry r;
     r.add<MakeVoxels>();
     r.add<LightVoxels>();
     r.add<WrongType>();
     r.add<SumUp>();
+    r.add<CountVoxels>();
     return r;
 }
 
@@ -129,6 +141,14 @@ TEST(GraphWiring, KeepsOnlyWhatIsAskedFor) {
     EXPECT_EQ(passes[1].id, "a");
     EXPECT_EQ(passes[2].id, "b");
     EXPECT_EQ(g.keepOnly({"light"}), std::vector<std::string>{});
+}
+
+TEST(GraphWiring, KeepsWhatOnlyReports) {
+    Graph g = graph(
+        "[{pass: make_voxels}, {pass: light_voxels}, {pass: make_voxels, id: counted}, {pass: count_voxels}, "
+        "{pass: make_voxels, id: unread}]");
+    EXPECT_EQ(g.keepOnly({"light"}), std::vector<std::string>{"unread"});
+    EXPECT_EQ(g.passes().back().id, "count_voxels");
 }
 
 TEST(GraphWiring, NamesPlaceAndNearestWord) {

@@ -197,6 +197,22 @@ class PartOfARun(ReportTest):
         for message in ("is not a whole PNG file", "passes.csv lacks a column", "manifest.json cannot be"):
             self.assertIn(message, shown.text)
 
+    def test_shows_what_passes_counted(self):
+        rows = [made_up.variant(name, 10, 0.3) for name in ("a", "b", "c")]
+        self.assertNotIn("What passes counted", self.make(rows, made_up.manifest([])).text)
+        (self.directory / "counters.csv").write_text(
+            "variant,pass,phase,counter,value\na,compare,build,missed,1234567\na,compare,frame,missed,1\n"
+            "a,compare,build,area ratio,0.99351\nb,other,frame,odd <name>,0\n")
+        self.assertEqual(self.run_program(), (0, ""))
+        shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
+        section = shown.text[shown.text.index("What passes counted"):]
+        for words in ("compare: missed", "compare: area ratio", "other: odd <name>", "1\u202f234\u202f567", "0.9935"):
+            self.assertIn(words, section)
+        (self.directory / "counters.csv").write_text("what,is\nthis,here\n")
+        self.assertEqual(self.run_program()[0], 0)
+        shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
+        self.assertIn("counters.csv lacks one of the columns", shown.text)
+
     def test_each_variant_is_shown_beside_its_own_reference(self):
         run = made_up.manifest([])
         run["references"] = [{**run["reference"], "folder": "reference", "variants": ["a"]},
