@@ -70,6 +70,12 @@ class Chain {
         buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
     }
 
+    /// The build phase once more with surfaces as they are: light is injected anew.
+    void relight() {
+        frame_.changed.emplace();
+        buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
+    }
+
     /// Another time of a scene that was evaluated as looping.
     void goTo(double timeSeconds) {
         update([&](SceneState& state) { return advance(state, timeSeconds); });
