@@ -1,5 +1,6 @@
 #include "passes/register_passes.h"
 
+#include "passes/compare_voxels/compare_voxels.h"
 #include "passes/composite/composite.h"
 #include "passes/direct_shadow_rays/direct_shadow_rays.h"
 #include "passes/direct_voxels/direct_voxels.h"
@@ -24,6 +25,7 @@ namespace voxray {
 void registerPasses(Registry& registry) {
     registry.add<GBufferPass>();
     registry.add<VoxelizePass>();
+    registry.add<CompareVoxels>();
     registry.add<InjectLightRays>();
     registry.add<PlaceSurfels>();
     registry.add<InjectVoxelRays>();

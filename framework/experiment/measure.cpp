@@ -143,19 +143,20 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
             result.indirect = downloadImage(target.device, target.stream, *indirect);
     }
 
-    // Cost of each pass, in the graph's order; what it holds stands in its first row
-    const auto addCost = [&](PassCost cost, const std::string& id, Phase phase, uint64_t memoryBytes) {
+    // Cost of each pass, in the graph's order; its memory stands in its first row
+    const auto addCost = [&](PassCost cost, const std::string& id, Phase phase, const PassMemory& memory) {
         cost.id = id;
         cost.phase = phase;
-        cost.memoryBytes = memoryBytes;
-        result.memoryBytes += memoryBytes;
+        cost.memoryBytes = memory.bytes;
+        cost.scratchBytes = memory.scratchBytes;
+        result.memoryBytes += memory.bytes;
         result.rays += cost.rays;
         result.passes.push_back(cost);
     };
-    const std::vector<uint64_t> memory = graph.memoryBytes();
+    const std::vector<PassMemory> memory = graph.memory();
     const std::vector<Graph::PassInfo> passes = graph.passes();
     size_t nextBuild = 0, nextUpdate = 0;
-    if (target.goToFrame) addCost(frames.cost(nextUpdate++), kSceneUpdate, Phase::Frame, 0);
+    if (target.goToFrame) addCost(frames.cost(nextUpdate++), kSceneUpdate, Phase::Frame, {});
     size_t nextFrame = nextUpdate;
     if (target.goToFrame)
         for (const Graph::PassInfo& pass : passes) nextFrame += pass.phase == Phase::Build;
@@ -163,8 +164,9 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
         const bool isBuild = passes[i].phase == Phase::Build;
         addCost(isBuild ? build.cost(nextBuild++) : frames.cost(nextFrame++), passes[i].id, passes[i].phase,
                 memory[i]);
-        if (isBuild && target.goToFrame) addCost(frames.cost(nextUpdate++), passes[i].id, Phase::Frame, 0);
+        if (isBuild && target.goToFrame) addCost(frames.cost(nextUpdate++), passes[i].id, Phase::Frame, {});
     }
+    result.peakBytes = peakBytes(memory);
     result.buildMs = build.sum().median;
     result.frameMs = frames.sum();
     return result;

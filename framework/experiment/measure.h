@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiment/settings.h"
@@ -25,9 +26,10 @@ struct PassCost {
     std::string id;
     Phase phase = Phase::Frame;
     Percentiles milliseconds;
-    uint64_t rays = 0;        ///< In one run.
-    uint64_t voxelSteps = 0;  ///< In one run.
-    uint64_t memoryBytes = 0;
+    uint64_t rays = 0;          ///< In one run.
+    uint64_t voxelSteps = 0;    ///< In one run.
+    uint64_t memoryBytes = 0;   ///< That it keeps.
+    uint64_t scratchBytes = 0;  ///< That it takes besides while it runs.
 };
 
 /// A number that a pass reported.
@@ -44,7 +46,8 @@ struct Measurement {
     std::vector<ReportedValue> values;  ///< Of the last build, then of the measured frames.
     double buildMs = 0;                 ///< Median of the build passes' sum.
     Percentiles frameMs;       ///< Of the frame passes' sum, with all that is brought up to date before them.
-    uint64_t memoryBytes = 0;  ///< Held by the passes; the scene itself is not counted.
+    uint64_t memoryBytes = 0;  ///< Kept by the passes; the scene itself is not counted.
+    uint64_t peakBytes = 0;    ///< The same with the scratch of the pass that takes most.
     uint64_t rays = 0;         ///< Of one build and one frame.
     ImageF final;              ///< 3 channels, of the first measured frame.
     std::optional<ImageF> indirect;

@@ -104,7 +104,8 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
                        const std::vector<std::string>& metrics) {
     std::vector<std::string> header{"variant", "status", "error", "device", "tracer"};
     append(header, sweepKeys);
-    append(header, {"build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "rays"});
+    append(header, {"build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes",
+                    "peak_bytes", "rays"});
     append(header, scoreColumns());
     for (const std::string& name : scoreColumns()) header.push_back("indirect_" + name);
 
@@ -113,11 +114,11 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
         std::vector<std::string> fields{r.variant, r.ok ? "ok" : "failed", r.error, r.device, r.tracer};
         append(fields, r.sweepValues);
         if (r.ok)
-            append(fields,
-                   {numberText(r.buildMs), numberText(r.frameMs.median), numberText(r.frameMs.p05),
-                    numberText(r.frameMs.p95), std::to_string(r.memoryBytes), std::to_string(r.rays)});
+            append(fields, {numberText(r.buildMs), numberText(r.frameMs.median), numberText(r.frameMs.p05),
+                            numberText(r.frameMs.p95), std::to_string(r.memoryBytes),
+                            std::to_string(r.peakBytes), std::to_string(r.rays)});
         else
-            append(fields, std::vector<std::string>(6));
+            append(fields, std::vector<std::string>(7));
         for (const auto& scores : {r.total, r.indirect})
             append(fields, r.ok && scores ? scoreTexts(*scores, metrics)
                                           : std::vector<std::string>(scoreColumns().size()));
@@ -127,14 +128,14 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
 }
 
 std::string passesCsv(const std::vector<VariantResult>& results) {
-    std::string text = csvLine(
-        {"variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes"});
+    std::string text = csvLine({"variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays",
+                                "voxel_steps", "memory_bytes", "scratch_bytes"});
     for (const VariantResult& r : results)
         for (const PassCost& p : r.passes)
             text += csvLine({r.variant, p.id, phaseName(p.phase), numberText(p.milliseconds.median),
                              numberText(p.milliseconds.p05), numberText(p.milliseconds.p95),
                              std::to_string(p.rays), std::to_string(p.voxelSteps),
-                             std::to_string(p.memoryBytes)});
+                             std::to_string(p.memoryBytes), std::to_string(p.scratchBytes)});
     return text;
 }
 
@@ -156,6 +157,7 @@ std::string resultJson(const VariantResult& r, const VariantInputs& inputs) {
     json["build_ms"] = r.buildMs;
     json["frame_ms"] = percentilesJson(r.frameMs);
     json["memory_bytes"] = r.memoryBytes;
+    json["peak_bytes"] = r.peakBytes;
     json["rays"] = r.rays;
     json["total"] = scoresJson(r.total);
     json["indirect"] = scoresJson(r.indirect);
@@ -166,7 +168,8 @@ std::string resultJson(const VariantResult& r, const VariantInputs& inputs) {
                                   {"ms", percentilesJson(p.milliseconds)},
                                   {"rays", p.rays},
                                   {"voxel_steps", p.voxelSteps},
-                                  {"memory_bytes", p.memoryBytes}});
+                                  {"memory_bytes", p.memoryBytes},
+                                  {"scratch_bytes", p.scratchBytes}});
     json["values"] = Json::array();
     for (const ReportedValue& v : r.values) {
         json["values"].push_back({{"pass", v.pass}, {"name", v.name}, {"value", v.value}});
@@ -189,6 +192,7 @@ std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text)
         r.buildMs = json.at("build_ms").get<double>();
         r.frameMs = percentilesFrom(json.at("frame_ms"));
         r.memoryBytes = json.at("memory_bytes").get<uint64_t>();
+        r.peakBytes = json.at("peak_bytes").get<uint64_t>();
         r.rays = json.at("rays").get<uint64_t>();
         r.total = scoresFrom(json.at("total"));
         r.indirect = scoresFrom(json.at("indirect"));
@@ -196,7 +200,7 @@ std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text)
             const Phase phase = p.at("phase").get<std::string>() == "build" ? Phase::Build : Phase::Frame;
             r.passes.push_back({p.at("pass").get<std::string>(), phase, percentilesFrom(p.at("ms")),
                                 p.at("rays").get<uint64_t>(), p.at("voxel_steps").get<uint64_t>(),
-                                p.at("memory_bytes").get<uint64_t>()});
+                                p.at("memory_bytes").get<uint64_t>(), p.at("scratch_bytes").get<uint64_t>()});
         }
         for (const Json& v : json.at("values")) {
             std::optional<uint32_t> frame;

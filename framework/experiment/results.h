@@ -21,7 +21,8 @@ struct VariantResult {
     std::vector<std::string> sweepValues;
     double buildMs = 0;
     Percentiles frameMs;
-    uint64_t memoryBytes = 0;
+    uint64_t memoryBytes = 0;  ///< As in Measurement, likewise peakBytes.
+    uint64_t peakBytes = 0;
     uint64_t rays = 0;
     std::optional<Scores> total;     ///< Empty without a reference.
     std::optional<Scores> indirect;  ///< Empty where the graph writes no indirect light.

@@ -149,17 +149,23 @@ void Run::printPlan() {
         fmt::print("{} (tracer {}, {} x {})\n", variant.name, session_->tracerName(variant.setup),
                    variant.setup.image.width, variant.setup.image.height);
         try {
-            const std::vector<uint64_t> bytes =
+            const std::vector<PassMemory> memory =
                 session_->plan(graph, frame, experiment_.measure.memoryLimitMb);
             const std::vector<Graph::PassInfo> passes = graph.passes();
-            uint64_t sum = 0;
+            uint64_t kept = 0;
             for (size_t i = 0; i < passes.size(); ++i) {
-                fmt::print("  {:24} {:6} {:10.1f} MiB\n", passes[i].id,
-                           passes[i].phase == Phase::Build ? "build" : "frame", double(bytes[i]) / kMiB);
-                sum += bytes[i];
+                fmt::print("  {:24} {:6} {:10.1f} MiB", passes[i].id,
+                           passes[i].phase == Phase::Build ? "build" : "frame",
+                           double(memory[i].bytes) / kMiB);
+                if (memory[i].scratchBytes > 0)
+                    fmt::print(" and {:.1f} MiB of scratch", double(memory[i].scratchBytes) / kMiB);
+                fmt::print("\n");
+                kept += memory[i].bytes;
             }
-            fmt::print("  {:24} {:6} {:10.1f} MiB, the scene {:.1f} MiB\n", "sum", "", double(sum) / kMiB,
-                       double(gpuSceneBytes(prepared.state)) / kMiB);
+            fmt::print(
+                "  {:24} {:6} {:10.1f} MiB, {:.1f} MiB with the largest scratch; the scene {:.1f} MiB\n",
+                "sum", "", double(kept) / kMiB, double(peakBytes(memory)) / kMiB,
+                double(gpuSceneBytes(prepared.state)) / kMiB);
             ++summary_.ok;
         } catch (const Error& error) {
             fmt::print("  would fail: {}\n", error.what());

@@ -56,7 +56,7 @@ void Session::goToFrame(const Setup& setup, Frame& frame, int fromJudged) {
     stream_.finish();
 }
 
-std::vector<uint64_t> Session::plan(Graph& graph, const Frame& frame, uint64_t limitMb) {
+std::vector<PassMemory> Session::plan(Graph& graph, const Frame& frame, uint64_t limitMb) {
     const uint64_t total = device_.memoryLimitBytes(), used = device_.memoryUsedBytes();
     uint64_t limit = total > used ? total - used : 0;
     if (limitMb > 0) limit = std::min(limit, limitMb << 20);

@@ -42,7 +42,7 @@ class Session {
 
     /// Plans a graph: checks it against scene and device and predicts its memory, bytes by pass.
     /// @param limitMb the config's limit for the graph in MiB, 0: none.
-    std::vector<uint64_t> plan(Graph& graph, const Frame& frame, uint64_t limitMb);
+    std::vector<PassMemory> plan(Graph& graph, const Frame& frame, uint64_t limitMb);
 
     /// The reference that judges a variant: from memory, from the cache on disk, or rendered now.
     /// A reference that failed fails again at once. @throws Error, Interrupted.

@@ -47,6 +47,7 @@ RenderedVariant renderVariant(const Variant& variant, const Experiment& experime
         result.buildMs = m.buildMs;
         result.frameMs = m.frameMs;
         result.memoryBytes = m.memoryBytes;
+        result.peakBytes = m.peakBytes;
         result.rays = m.rays;
         result.passes = std::move(m.passes);
         result.values = std::move(m.values);

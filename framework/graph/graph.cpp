@@ -13,11 +13,20 @@ namespace voxray {
 
 struct Graph::Impl {
     std::vector<GraphNode> nodes;
-    std::vector<uint64_t> memoryBytes;
+    std::vector<PassMemory> memory;
     std::optional<FiniteCheck> finiteCheck;
 
     void checkOutputs(const GraphNode& node, CommandStream& stream);
 };
+
+uint64_t peakBytes(const std::vector<PassMemory>& passes) {
+    uint64_t kept = 0, scratch = 0;
+    for (const PassMemory& pass : passes) {
+        kept += pass.bytes;
+        scratch = std::max(scratch, pass.scratchBytes);
+    }
+    return kept + scratch;
+}
 
 const std::vector<std::string>& Graph::reservedKeys() {
     static const std::vector<std::string> keys{"pass", "id", "inputs"};
@@ -26,7 +35,7 @@ const std::vector<std::string>& Graph::reservedKeys() {
 
 Graph::Graph(const Registry& registry, const Value& passList) : impl_(std::make_unique<Impl>()) {
     impl_->nodes = wireGraph(registry, passList, reservedKeys());
-    impl_->memoryBytes.assign(impl_->nodes.size(), 0);
+    impl_->memory.assign(impl_->nodes.size(), {});
 }
 
 Graph::~Graph() = default;
@@ -60,7 +69,7 @@ std::vector<std::string> Graph::keepOnly(const std::vector<std::string>& portNam
         kept.push_back(std::move(nodes[n]));
     }
     nodes.assign(std::make_move_iterator(kept.rbegin()), std::make_move_iterator(kept.rend()));
-    impl_->memoryBytes.assign(nodes.size(), 0);
+    impl_->memory.assign(nodes.size(), {});
     std::reverse(dropped.begin(), dropped.end());
     return dropped;
 }
@@ -78,32 +87,29 @@ bool Graph::writes(const std::string& portName) const {
     return false;
 }
 
-std::vector<uint64_t> Graph::plan(const Frame& frame, const DeviceInfo& device, uint64_t memoryLimitBytes) {
-    std::vector<uint64_t> bytesByPass;
-    uint64_t total = 0;
+std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device, uint64_t memoryLimitBytes) {
+    std::vector<PassMemory> memory;
     std::string largest;
     uint64_t largestBytes = 0;
     for (GraphNode& node : impl_->nodes) {
         PassPlan plan(node.resources, frame, device);
         node.pass->plan(plan);
-        uint64_t bytes = 0;
+        PassMemory& own = memory.emplace_back();
         for (const PassPlan::Reservation& r : plan.reservations) {
-            bytes += r.bytes;
+            (r.scratch ? own.scratchBytes : own.bytes) += r.bytes;
             if (r.bytes > largestBytes) {
                 largestBytes = r.bytes;
                 largest = node.id + "'s " + r.name;
             }
         }
-        bytesByPass.push_back(bytes);
-        total += bytes;
     }
     constexpr double kMiB = 1024.0 * 1024.0;
-    if (total > memoryLimitBytes)
+    if (const uint64_t peak = peakBytes(memory); peak > memoryLimitBytes)
         throw Error(
             "the graph needs about {:.1f} MiB, the limit is {:.1f} MiB; the largest part is {} with {:.1f} "
             "MiB",
-            double(total) / kMiB, double(memoryLimitBytes) / kMiB, largest, double(largestBytes) / kMiB);
-    return bytesByPass;
+            double(peak) / kMiB, double(memoryLimitBytes) / kMiB, largest, double(largestBytes) / kMiB);
+    return memory;
 }
 
 void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler,
@@ -115,7 +121,7 @@ void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& co
         PassSetup setup(node.resources, frame, device, compiler, stream);
         node.pass->prepare(setup);
         stream.finish();
-        impl_->memoryBytes[n] = device.memoryUsedBytes() - before;
+        impl_->memory[n].bytes = device.memoryUsedBytes() - before;
     }
 }
 
@@ -134,6 +140,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         GraphNode& node = impl_->nodes[n];
         if (node.pass->phase() != phase) continue;
         const uint64_t memoryBefore = device.memoryUsedBytes();
+        device.resetMemoryPeak();
         const uint64_t raysBefore = tracer.raysTraced();
 
         // Time the pass on the device; the Embree backend's host work falls between the stamps.
@@ -155,7 +162,10 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         samples.push_back(sample);
 
         // A build pass may size its outputs by what it counted: what it holds now is what it costs.
-        impl_->memoryBytes[n] += device.memoryUsedBytes() - memoryBefore;
+        PassMemory& memory = impl_->memory[n];
+        const uint64_t memoryAfter = device.memoryUsedBytes();
+        memory.bytes += memoryAfter - memoryBefore;
+        memory.scratchBytes = std::max(memory.scratchBytes, device.memoryPeakBytes() - memoryAfter);
         if (checkFinite) impl_->checkOutputs(node, stream);
     }
     stream.finish();
@@ -184,8 +194,8 @@ void Graph::Impl::checkOutputs(const GraphNode& node, CommandStream& stream) {
     }
 }
 
-std::vector<uint64_t> Graph::memoryBytes() const {
-    return impl_->memoryBytes;
+std::vector<PassMemory> Graph::memory() const {
+    return impl_->memory;
 }
 
 const Resource* Graph::find(const std::string& portName, std::type_index type) const {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/value.h"
@@ -18,6 +19,17 @@ struct PassSample {
     uint64_t voxelSteps = 0;
     std::vector<PassContext::Value> reported;
 };
+
+/// Device memory of one pass.
+struct PassMemory {
+    uint64_t bytes = 0;         ///< That it keeps, its outputs among it.
+    uint64_t scratchBytes = 0;  ///< That it takes besides while it records, at most.
+};
+
+/// The most that passes hold at once: all that they keep, and the scratch of the one that takes most, for
+/// they run one after another. Exact where all passes run again with the outputs of the last run still there,
+/// as repeated builds, moving scenes and frames do.
+uint64_t peakBytes(const std::vector<PassMemory>& passes);
 
 /// A checked chain of passes. Each entry of a config's `graph` list is a map with `pass`, optionally `id`
 /// (default: the pass's name) and `inputs` (port: "id.port" or "id"), and the pass's own parameters.
@@ -54,10 +66,10 @@ class Graph {
     bool writes(const std::string& portName) const;
 
     /// Checks sizes against the scene and the device and predicts memory, before any allocation.
-    /// @return bytes by pass, in the order of passes().
-    /// @throws Error where a pass can't do what is asked, or the sum is over `memoryLimitBytes` (names the
-    /// largest).
-    std::vector<uint64_t> plan(const Frame& frame, const DeviceInfo& device, uint64_t memoryLimitBytes);
+    /// @return what each pass takes, in the order of passes().
+    /// @throws Error where a pass can't do what is asked, or peakBytes() is over `memoryLimitBytes` (names
+    /// the largest part).
+    std::vector<PassMemory> plan(const Frame& frame, const DeviceInfo& device, uint64_t memoryLimitBytes);
 
     /// Makes programs and resources. After plan(), with the same frame.
     void prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler, CommandStream& stream);
@@ -69,8 +81,8 @@ class Graph {
                                 RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex,
                                 bool checkFinite);
 
-    /// Device bytes held by each pass, in the order of passes().
-    std::vector<uint64_t> memoryBytes() const;
+    /// What each pass has taken of the device's memory so far, in the order of passes().
+    std::vector<PassMemory> memory() const;
 
     /// What the last pass with an output port of this name and type wrote, or nullptr.
     template <typename T>

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <typeindex>
+#include <utility>
 #include <vector>
 
 #include "base/schema.h"
@@ -125,12 +126,20 @@ class PassPlan : public PortAccess {
         : PortAccess(resources), frame(f), device(d) {}
     const Frame& frame;
     const DeviceInfo& device;
-    /// Bytes that this pass will allocate under `name`.
-    void reserve(std::string name, uint64_t bytes) { reservations.push_back({std::move(name), bytes}); }
+    /// Bytes that this pass will allocate under `name` and keep.
+    void reserve(std::string name, uint64_t bytes) {
+        reservations.push_back({std::move(name), bytes, false});
+    }
+    /// Bytes that it takes only while it records: free again before the next pass. A pass with stages
+    /// reserves what the largest of them takes.
+    void reserveScratch(std::string name, uint64_t bytes) {
+        reservations.push_back({std::move(name), bytes, true});
+    }
 
     struct Reservation {
         std::string name;
         uint64_t bytes;
+        bool scratch;
     };
     std::vector<Reservation> reservations;
 };

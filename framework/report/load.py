@@ -49,9 +49,10 @@ IMAGES = {"total": ("final.png", "flip.png"), "indirect": ("indirect.png", "indi
 BASELINES = ("black", "constant")
 
 _TEXT = ("variant", "status", "error", "device", "tracer")
-_COST = ("build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "rays")
+_COST = ("build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes",
+         "peak_bytes", "rays")
 _SCORES = tuple(prefix + metric.key for prefix in LIGHTS.values() for metric in METRICS)
-_PASS_NUMBERS = ("ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes")
+_PASS_NUMBERS = ("ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes", "scratch_bytes")
 
 
 @dataclass

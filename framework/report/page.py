@@ -206,7 +206,8 @@ def _variant(results: Results, row: pd.Series, lights, colors, numbers, anchors,
         warnings.append(f"Variant {name} has no image in its results.")
     facts = [("frame", f"{text.figures(row['frame_ms_median'])} ms (p05 {text.figures(row['frame_ms_p05'])}, "
               f"p95 {text.figures(row['frame_ms_p95'])})"), ("build", f"{text.figures(row['build_ms'])} ms"),
-             ("memory", text.size(row["memory_bytes"])), ("rays", text.count(row["rays"]))]
+             ("memory", f"{text.size(row['memory_bytes'])}, at the most {text.size(row['peak_bytes'])}"),
+             ("rays", text.count(row["rays"]))]
     graph = section(results.manifest, "variants").get(name)
     return Variant(numbers[name], name, anchors[name], facts, "", views, _pass_rows(results, name, colors),
                    results.reference_folder(name) or "", text.yaml_like(graph) if graph else "")
@@ -219,7 +220,7 @@ def _pass_rows(results: Results, name: str, colors) -> list[dict]:
              "percent": 100 * row["ms_median"] / longest if row["ms_median"] > 0 else 0.0,
              "cells": [*(text.figures(row[key]) for key in ("ms_median", "ms_p05", "ms_p95")),
                        text.count(row["rays"]), text.count(row["voxel_steps"]),
-                       text.size(row["memory_bytes"])]}
+                       text.size(row["memory_bytes"]), text.size(row["scratch_bytes"])]}
             for _, row in rows.iterrows()]
 
 

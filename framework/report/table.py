@@ -22,7 +22,7 @@ class _Cost:
 _COSTS = {
     "build_ms": _Cost("build, ms", "once a scene or light; lower is better", text.figures),
     "frame_ms_median": _Cost("frame, ms", "median of the measured frames; lower is better", text.figures),
-    "memory_bytes": _Cost("memory", "device memory; lower is better", text.size),
+    "memory_bytes": _Cost("memory", "device memory that the passes keep; lower is better", text.size),
     "rays": _Cost("rays", "rays traced", text.count),
 }
 
@@ -109,7 +109,8 @@ def _cell(results: Results, row: pd.Series, column: Column, mark: str) -> Cell:
         return Cell(text.figures(value), _sort(value), column.light, "worse" if worse else mark, title)
     if column.key in _COSTS:
         spread = f"p05 {text.figures(row['frame_ms_p05'])}, p95 {text.figures(row['frame_ms_p95'])} ms"
-        title = spread if column.key == "frame_ms_median" else ""
+        peak = f"{text.size(row['peak_bytes'])} at the most, with scratch memory"
+        title = {"frame_ms_median": spread, "memory_bytes": peak}.get(column.key, "")
         return Cell(_COSTS[column.key].write(value), _sort(value), mark=mark, title=title)
     return Cell(value, value, is_text=column.align_text)
 

@@ -25,6 +25,12 @@ def figures(value: float, digits: int = 3) -> str:
     return f"{value:,.{max(digits - 1 - exponent, 0)}f}".replace(",", "\u202f")
 
 
+def exact(value: float) -> str:
+    """A whole number with all of its digits, any other to four."""
+    whole = math.isfinite(value) and value == int(value)
+    return f"{int(value):,}".replace(",", "\u202f") if whole else figures(value, 4)
+
+
 def count(value: float) -> str:
     """A whole number with its unit prefix: 1.05 M."""
     for step, unit in ((1e9, "G"), (1e6, "M"), (1e3, "k")):

@@ -55,7 +55,7 @@ def _cell(values: pd.Series | None) -> str:
     if values is None:
         return ""
     if len(values) == 1:
-        return text.figures(values.iloc[0])
+        return text.exact(values.iloc[0])
     return f"{text.figures(values.mean())} (most {text.figures(values.max())})"
 
 

@@ -74,6 +74,7 @@ struct Device::Impl {
     mutable std::mutex memoryMutex;
     uint64_t memoryLimit = 0;
     uint64_t memoryUsed = 0;
+    uint64_t memoryPeak = 0;
     std::map<std::string, uint64_t> memoryByResource;
 };
 
@@ -238,6 +239,16 @@ uint64_t Device::memoryUsedBytes() const {
     return impl_->memoryUsed;
 }
 
+uint64_t Device::memoryPeakBytes() const {
+    const std::lock_guard lock(impl_->memoryMutex);
+    return impl_->memoryPeak;
+}
+
+void Device::resetMemoryPeak() {
+    const std::lock_guard lock(impl_->memoryMutex);
+    impl_->memoryPeak = impl_->memoryUsed;
+}
+
 void Device::setMemoryLimitBytes(uint64_t bytes) {
     const std::lock_guard lock(impl_->memoryMutex);
     impl_->memoryLimit = bytes;
@@ -252,6 +263,7 @@ void Device::reserveMemory(uint64_t bytes, const std::string& name) {
             "resolutions or raise the memory limit",
             name, double(bytes) / kMiB, double(used) / kMiB, double(limit) / kMiB);
     impl_->memoryUsed += bytes;
+    impl_->memoryPeak = std::max(impl_->memoryPeak, impl_->memoryUsed);
     impl_->memoryByResource[name] += bytes;
 }
 

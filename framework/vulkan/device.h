@@ -81,6 +81,8 @@ class Device {
     /// Bytes of device memory that Voxray may use: the heap's size or the caller's limit, whichever is less.
     uint64_t memoryLimitBytes() const;
     uint64_t memoryUsedBytes() const;
+    uint64_t memoryPeakBytes() const;  ///< The most in use since resetMemoryPeak().
+    void resetMemoryPeak();
     void setMemoryLimitBytes(uint64_t bytes);
     /// Bookkeeping of allocations, called by Buffer and Image.
     /// @throws Error naming the resource, its size, what is in use and the limit where it would be exceeded.

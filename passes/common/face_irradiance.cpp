@@ -18,8 +18,10 @@ FaceIrradiance::FaceIrradiance(Device& device, const ShaderCompiler& compiler)
 
 void FaceIrradiance::update(CommandStream& stream, const SurfaceVoxels& voxels,
                             const VoxelIrradiance& irradiance, Light light) {
-    if (!faces_ || faces_.bytes() != bytes(voxels.voxelCount))
+    if (!faces_ || faces_.bytes() != bytes(voxels.voxelCount)) {
+        faces_ = {};
         faces_ = Buffer(stream.device(), "face irradiance", bytes(voxels.voxelCount));
+    }
     const uint32_t faces = voxels.voxelCount * kAreaFloats;
     stream.dispatch(
         program_,

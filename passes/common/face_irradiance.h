@@ -20,6 +20,8 @@ class FaceIrradiance {
     /// Divides flux by area; allocates on the first call and where the number of voxels has changed.
     void update(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
                 Light light = Light::Total);
+    /// Frees the irradiance, once the stream has finished.
+    void end() { faces_ = {}; }
     const Buffer& buffer() const { return faces_; }
 
  private:

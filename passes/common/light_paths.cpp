@@ -61,11 +61,12 @@ void LightPaths::plan(PassPlan& plan, const std::string& pass, const LightPathPa
         if (!plan.device.shaderInt64Atomics)
             throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", pass,
                         plan.device.name);
-        plan.reserve("flux sums (estimated)",
-                     (indirect ? 2 : 1) * uint64_t(voxels.voxelCount) * FluxSums::kBytesPerVoxel);
+        plan.reserveScratch("flux sums (estimated)",
+                            (indirect ? 2 : 1) * uint64_t(voxels.voxelCount) * FluxSums::kBytesPerVoxel);
     } else {
         checkBeams(pass, params, sources);
-        for (int i = 0; i < (indirect ? 2 : 1); ++i) VoxelWrites::plan(plan, pass, params, voxels);
+        plan.reserveScratch("voxel samples (estimated)",
+                            (indirect ? 2 : 1) * VoxelWrites::plan(plan, pass, params, voxels));
     }
     plan.reserve("light rays", uint64_t(batch) * (2 * sizeof(Ray) + sizeof(Hit) + sizeof(gpu::LightPath) +
                                                   sizeof(uint32_t)));

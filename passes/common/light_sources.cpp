@@ -62,10 +62,16 @@ std::vector<LightSource> requireLightSources(const SceneState& state, const std:
     return all;
 }
 
-float meanIrradiance(const std::vector<LightSource>& sources, const Geometry& geometry) {
-    double power = 0, area = 0;
-    for (const LightSource& source : sources) power += source.power;
+double surfaceArea(const Geometry& geometry) {
+    double area = 0;
     for (const glm::uvec3 t : geometry.triangles) area += triangleArea(geometry, t);
+    return area;
+}
+
+float meanIrradiance(const std::vector<LightSource>& sources, const Geometry& geometry) {
+    double power = 0;
+    for (const LightSource& source : sources) power += source.power;
+    const double area = surfaceArea(geometry);
     return area > 0 ? float(power / area) : 0.0f;
 }
 

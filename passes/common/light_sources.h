@@ -22,6 +22,9 @@ std::vector<LightSource> lightSources(const SceneState& state);
 /// The same. @throws Error naming the pass where there is none.
 std::vector<LightSource> requireLightSources(const SceneState& state, const std::string& pass);
 
+/// Area of one side of all surfaces, m².
+double surfaceArea(const Geometry& geometry);
+
 /// Irradiance of the scene's surfaces, W/m², if each caught its share by area of all power: a scale for sums.
 float meanIrradiance(const std::vector<LightSource>& sources, const Geometry& geometry);
 

@@ -1,7 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Makes a surfel of each hit, on the side that the ray came from. Russian roulette by albedo ends rays early; survivors'
-// reflectance makes up for those. Surfels are appended in any order; nothing that follows depends on it.
+// reflectance and area make up for those. Surfels are appended in any order; nothing that follows depends on it.
+//
+// Camera rays are spread evenly over the image, so the surface that one stands for is the solid angle of its share of the image,
+// times distance², over the cosine to the surface. Points that are spread evenly over surfaces send cosine-distributed rays that
+// arrive evenly over what they reach (the kernel cos cos / distance² is the same from both ends): a ray hands its area on.
 #include "shaders/linear_index.glsl"
 #include "shaders/sampling.glsl"
 #include "shaders/scene.glsl"
@@ -18,10 +22,20 @@ layout(set = 0, binding = 20) buffer Count { uint value; } count;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint rayCount;
-    uint firstId;    // Of rays from a camera.
+    uint firstId;      // Of rays from a camera.
     uint fromSurfels;  // 1: ray i is that of parent i. 0: of the camera; no roulette.
     uint seed;
+    vec3 forward;     // Of the camera, unit length.
+    float imageArea;  // Of the image 1 m before the camera, over the area of all surfaces.
+    float mostArea;   // That a plane has in a voxel, in units of Surfel::area.
 } push;
+
+// Area of surface that a ray from the camera stands for.
+float cameraRayArea(Ray ray, float t, vec3 normal) {
+    const float cosImage = dot(ray.direction, push.forward), cosSurface = abs(dot(ray.direction, normal));
+    const float solidAngle = push.imageArea * cosImage * cosImage * cosImage;
+    return min(solidAngle * t * t / max(cosSurface, 1e-6), push.mostArea);
+}
 
 void main() {
     const uint i = linearIndex();
@@ -37,9 +51,13 @@ void main() {
     s.parent = i;
     s.reflectance = clamp(diffuseAlbedo(sceneMaterials.data[p.material], p, 0.0), 0.0, 1.0);
     if (push.fromSurfels != 0u) {
+        s.area = parents.data[i].area;
         const float survive = max(s.reflectance.r, max(s.reflectance.g, s.reflectance.b));
         if (sobol2(s.id, push.seed).x >= survive) return;
         s.reflectance /= survive;
+        s.area /= survive;
+    } else {
+        s.area = cameraRayArea(ray, hit.t, p.geometricNormal);
     }
     s.position = p.position;
     s.normal = dot(p.geometricNormal, ray.direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;

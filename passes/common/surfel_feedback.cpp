@@ -42,10 +42,11 @@ SurfelFeedback::SurfelFeedback(PassSetup& setup, const FeedbackParams& params)
 
 void SurfelFeedback::plan(PassPlan& plan, const std::string& pass, const FeedbackParams& params,
                           const SurfaceVoxels& voxels) {
-    VoxelWrites::plan(plan, pass, params, voxels);
-    VoxelWrites::plan(plan, pass, params, voxels);
+    // Samples of direct light are free again before those of the bounces begin.
+    plan.reserveScratch("voxel samples (estimated)", VoxelWrites::plan(plan, pass, params, voxels));
+    if (params.bounces > 0)
+        plan.reserveScratch("face irradiance (estimated)", FaceIrradiance::bytes(voxels.voxelCount));
     plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
-    plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(voxels.voxelCount));
     plan.reserve("gather rays of a chunk of surfels", Surfels::kChunk * (sizeof(Ray) + sizeof(Hit)));
 }
 
@@ -71,6 +72,7 @@ void SurfelFeedback::finish(PassContext& context, const SurfaceVoxels& voxels, c
     CommandStream& stream = context.stream;
     direct_.resolve(stream, voxels, irradiance.direct, irradiance.area);
     requireLight(stream, voxels, irradiance);
+    direct_.end();
 
     // One more bounce an iteration, from the light that the last one left.
     for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {
@@ -98,6 +100,8 @@ void SurfelFeedback::finish(PassContext& context, const SurfaceVoxels& voxels, c
         indirect_.resolve(stream, voxels, irradiance.indirect, irradiance.area);
         stream.finish();
     }
+    indirect_.end();
+    faces_.end();
 }
 
 }  // namespace voxray

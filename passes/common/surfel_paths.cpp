@@ -20,6 +20,7 @@ struct ArrivePush {
     uint32_t firstId;
     uint32_t fromSurfels;
     uint32_t seed;
+    SurfelPaths::CameraFootprint camera;
 };
 
 struct WritePush {
@@ -61,7 +62,8 @@ uint64_t SurfelPaths::bytes(const Settings& settings) {
 
 uint32_t SurfelPaths::makeSurfels(PassContext& context, const SurfaceVoxels& voxels, const Buffer& rays,
                                   const Buffer& hits, const Buffer& parents, const Buffer& surfels,
-                                  uint32_t count, uint32_t firstId, bool fromSurfels, uint32_t seed) {
+                                  uint32_t count, uint32_t firstId, bool fromSurfels, uint32_t seed,
+                                  const CameraFootprint& camera) {
     context.stream.fill(count_, 0);
     context.stream.dispatch(arrive_,
                             context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
@@ -71,15 +73,16 @@ uint32_t SurfelPaths::makeSurfels(PassContext& context, const SurfaceVoxels& vox
                                                     {"parents", parents},
                                                     {"surfels", surfels},
                                                     {"count", count_}}),
-                            ArrivePush{voxels.grid, count, firstId, fromSurfels, seed}, linearGroups(count));
+                            ArrivePush{voxels.grid, count, firstId, fromSurfels, seed, camera},
+                            linearGroups(count));
     return context.stream.readAs<uint32_t>(count_, 1)[0];
 }
 
-uint32_t SurfelPaths::arrive(PassContext& context, const SurfaceVoxels& voxels, const Buffer& rays,
-                             const Buffer& hits, uint32_t count, uint32_t firstId) {
+uint32_t SurfelPaths::arrive(PassContext& context, const SurfaceVoxels& voxels, const CameraFootprint& camera,
+                             const Buffer& rays, const Buffer& hits, uint32_t count, uint32_t firstId) {
     // No parents: any buffer stands for them.
     return makeSurfels(context, voxels, rays, hits, levels_.back().surfels, levels_[0].surfels, count,
-                       firstId, false, 0);
+                       firstId, false, 0, camera);
 }
 
 void SurfelPaths::run(PassContext& context, const std::vector<LightSource>& sources, uint32_t count,
@@ -101,7 +104,7 @@ void SurfelPaths::run(PassContext& context, const std::vector<LightSource>& sour
         context.tracer.closestHit(stream, rays_, hits_, level.count);
         Level& next = levels_[depth + 1];
         next.count = makeSurfels(context, targets.voxels, rays_, hits_, level.surfels, next.surfels,
-                                 level.count, 0, true, levelSeed + 0xa3u);
+                                 level.count, 0, true, levelSeed + 0xa3u, {});
         if (next.count == 0) break;
     }
 

@@ -33,9 +33,16 @@ class SurfelPaths {
     void run(PassContext& context, const std::vector<LightSource>& sources, uint32_t count, uint32_t seed,
              const Targets& targets);
 
+    /// What the area that a camera ray stands for follows from; rays are spread evenly over the image.
+    struct CameraFootprint {
+        glm::vec3 forward{0.0f};  ///< Unit length.
+        float imageArea = 0;      ///< Of the image 1 m before the camera, over the area of all surfaces.
+        float mostArea =
+            0;  ///< Bound, times the rays, over the area of all surfaces: what a plane has in a voxel.
+    };
     /// Makes surfels of the hits of `rays`, for rays that start at a camera. @return their number.
-    uint32_t arrive(PassContext& context, const SurfaceVoxels& voxels, const Buffer& rays, const Buffer& hits,
-                    uint32_t count, uint32_t firstId);
+    uint32_t arrive(PassContext& context, const SurfaceVoxels& voxels, const CameraFootprint& camera,
+                    const Buffer& rays, const Buffer& hits, uint32_t count, uint32_t firstId);
 
  private:
     struct Level {
@@ -44,7 +51,7 @@ class SurfelPaths {
     };
     uint32_t makeSurfels(PassContext& context, const SurfaceVoxels& voxels, const Buffer& rays,
                          const Buffer& hits, const Buffer& parents, const Buffer& surfels, uint32_t count,
-                         uint32_t firstId, bool fromSurfels, uint32_t seed);
+                         uint32_t firstId, bool fromSurfels, uint32_t seed, const CameraFootprint& camera);
 
     Settings settings_;
     Program gather_, arrive_, return_, write_;

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Leaves the irradiance of surfels in their voxels.
+// Leaves the irradiance of surfels in their voxels, each by the area that it stands for where the way of merging knows weights.
 #include "shaders/linear_index.glsl"
 #include "shaders/shared/surfel_types.h"
 #include "shaders/voxel_writes.glsl"
@@ -16,5 +16,10 @@ layout(push_constant) uniform Push {
 void main() {
     const uint i = linearIndex();
     if (i >= push.count || surfels.data[i].voxel == 0xffffffffu) return;
-    writeIrradiance(surfels.data[i].voxel, surfels.data[i].normal, irradiance.data[i].rgb, 1.0, push.scale);
+#if WRITE == WRITE_AVERAGE || WRITE == WRITE_NONE
+    const float weight = surfels.data[i].area;
+#else
+    const float weight = 1.0;
+#endif
+    writeIrradiance(surfels.data[i].voxel, surfels.data[i].normal, irradiance.data[i].rgb, weight, push.scale);
 }

@@ -36,15 +36,15 @@ VoxelWrites::VoxelWrites(Device& device, const ShaderCompiler& compiler, const W
       resolve_(makeComputeProgram(
           device, compiler.compile("passes/common/voxel_writes_resolve.comp", defines(params.write)))) {}
 
-void VoxelWrites::plan(PassPlan& plan, const std::string& pass, const WriteParams& params,
-                       const SurfaceVoxels& voxels) {
+uint64_t VoxelWrites::plan(const PassPlan& plan, const std::string& pass, const WriteParams& params,
+                           const SurfaceVoxels& voxels) {
     if (params.write == Write::Average && !plan.device.shaderInt64Atomics)
         throw Error(
             "{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics), which 'write: "
             "average' needs; choose another 'write'",
             pass, plan.device.name);
     const BytesPerVoxel bytes = bytesPerVoxel(params.write);
-    plan.reserve("voxel samples", voxels.voxelCount * (bytes.sums + bytes.weights));
+    return voxels.voxelCount * (bytes.sums + bytes.weights);
 }
 
 Defines VoxelWrites::defines(Write write) {
@@ -64,7 +64,10 @@ void VoxelWrites::begin(Device& device, CommandStream& stream, const SurfaceVoxe
                         float typicalIrradiance) {
     const BytesPerVoxel bytes = bytesPerVoxel(params_.write);
     const auto clear = [&](Buffer& buffer, const char* name, uint64_t size) {
-        if (!buffer || buffer.bytes() != size) buffer = Buffer(device, name, size);
+        if (!buffer || buffer.bytes() != size) {
+            buffer = {};
+            buffer = Buffer(device, name, size);
+        }
         stream.fill(buffer, 0);
     };
     clear(sums_, "voxel irradiance sums", voxels.voxelCount * bytes.sums);

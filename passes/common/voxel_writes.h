@@ -54,10 +54,10 @@ class VoxelWrites {
     VoxelWrites() = default;
     VoxelWrites(Device& device, const ShaderCompiler& compiler, const WriteParams& params);
 
-    /// Reserves what begin() allocates. @throws Error where the device lacks 64-bit atomics that `average`
-    /// needs.
-    static void plan(PassPlan& plan, const std::string& pass, const WriteParams& params,
-                     const SurfaceVoxels& voxels);
+    /// Bytes that begin() allocates, for the pass to reserve. @throws Error where the device lacks 64-bit
+    /// atomics that `average` needs.
+    static uint64_t plan(const PassPlan& plan, const std::string& pass, const WriteParams& params,
+                         const SurfaceVoxels& voxels);
     /// Selects the write for a shader that includes shaders/voxel_writes.glsl.
     static Defines defines(Write write);
 

@@ -11,6 +11,7 @@ void VoxelIrradiance::allocate(Device& device, uint32_t voxelCount) {
     ++version;
     const uint64_t fluxBytes = uint64_t(voxelCount) * kFluxFloats * sizeof(float);
     if (direct && direct.bytes() == fluxBytes) return;
+    direct = {}, indirect = {}, area = {};  // The former ones go first.
     direct = LargeBuffer(device, "voxel direct flux", fluxBytes);
     indirect = LargeBuffer(device, "voxel indirect flux", fluxBytes);
     area = Buffer(device, "voxel area", uint64_t(voxelCount) * kAreaFloats * sizeof(float));

@@ -34,9 +34,13 @@ uint64_t fluxBytes(const SurfaceVoxels& voxels) {
 
 }  // namespace
 
-void ConeBounces::plan(PassPlan& plan, const SurfaceVoxels& voxels) const {
+void ConeBounces::plan(PassPlan& plan, const SurfaceVoxels& voxels, bool eachFrame) const {
     plan.reserve("cones", coneSet(pass_, cones_).size() * sizeof(gpu::Cone));
-    plan.reserve("bounced light (estimated)", cellBytes(voxels) + fluxBytes(voxels));
+    const uint64_t light = cellBytes(voxels) + fluxBytes(voxels);
+    if (eachFrame)
+        plan.reserve("bounced light (estimated)", light);
+    else
+        plan.reserveScratch("bounced light (estimated)", light);
 }
 
 void ConeBounces::prepare(PassSetup& setup, const RadianceVoxels& radiance) {
@@ -79,6 +83,12 @@ void ConeBounces::gather(PassContext& context, const SurfaceVoxels& voxels, cons
                                 linearGroups(batch));
         context.stream.finish();
     }
+}
+
+void ConeBounces::release(CommandStream& stream) {
+    stream.finish();
+    cells_ = {};
+    flux_ = {};
 }
 
 }  // namespace voxray

@@ -14,7 +14,8 @@ class ConeBounces {
     /// @param cones of the set, see coneSet(). @throws Error naming `pass` for a number without a set.
     ConeBounces(const char* pass, uint32_t cones) : pass_(pass), cones_(cones) {}
 
-    void plan(PassPlan& plan, const SurfaceVoxels& voxels) const;
+    /// @param eachFrame whether memory is kept from frame to frame; else it is scratch.
+    void plan(PassPlan& plan, const SurfaceVoxels& voxels, bool eachFrame) const;
     void prepare(PassSetup& setup, const RadianceVoxels& radiance);
     /// Flux that arrives at the voxels' sides from what `radiance` holds now, into `flux()`.
     /// @param injected light, which tells the insides of solids.
@@ -22,6 +23,8 @@ class ConeBounces {
                 const RadianceVoxels& radiance);
     /// As VoxelIrradiance::indirect.
     const LargeBuffer& flux() const { return flux_; }
+    /// Frees what gather() took. Waits for the device.
+    void release(CommandStream& stream);
 
  private:
     void list(PassContext& context, const SurfaceVoxels& voxels);

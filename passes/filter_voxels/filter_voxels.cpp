@@ -51,7 +51,7 @@ void FilterVoxels::plan(PassPlan& plan) {
                      grid.resolution, radianceLevels(grid.resolution),
                      grid.directions, radianceUnit(*plan.frame.scene)};
     storage_->plan(plan, plan.get(voxels_), radiance);
-    if (params_.bounces > 0) bounces_.plan(plan, plan.get(voxels_));
+    if (params_.bounces > 0) bounces_.plan(plan, plan.get(voxels_), params_.eachFrame);
 }
 
 void FilterVoxels::prepare(PassSetup& setup) {
@@ -75,7 +75,9 @@ void FilterVoxels::record(PassContext& context) {
         bounces_.gather(context, voxels, irradiance, radiance);
         fill(bounces_.flux(), bounce == params_.bounces);
     }
-    if (!params_.eachFrame) storage_->close(context.stream, radiance);
+    if (params_.eachFrame) return;
+    if (params_.bounces > 0) bounces_.release(context.stream);
+    storage_->close(context.stream, radiance);
 }
 
 std::vector<Binding> surfaceRadianceBindings(const SurfaceVoxels& voxels, const SurfaceLight& light) {

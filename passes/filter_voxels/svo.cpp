@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "base/error.h"
 #include "passes/common/dispatch.h"
 #include "passes/common/voxel_count.h"
@@ -26,11 +28,17 @@ class SvoStorage final : public RadianceStorage {
         const OctreeSize size{radiance.grid.resolution, radiance.grid.directions,
                               countSurfaceVoxels(plan.frame.scene->geometry, voxels.grid)};
         plan.reserve("octree (estimated)", size.bytes());
-        plan.reserve("leaves (estimated)", uint64_t(size.nodes[0]) * sizeof(uint32_t));
-        plan.reserve("changes (estimated)", OctreeBuilder::changedBytes(size));
-        plan.reserve("building (estimated)", OctreeBuilder::scratchBytes(size));
-        if (!eachFrame_)
-            plan.reserve("collapsing (at most)", size.bytes() + OctreeCollapse::scratchBytes(size));
+        const uint64_t lists = uint64_t(size.nodes[0]) * sizeof(uint32_t) + OctreeBuilder::changedBytes(size);
+        const uint64_t building = OctreeBuilder::scratchBytes(size);
+        if (eachFrame_) {
+            plan.reserve("leaves and changes (estimated)", lists);
+            plan.reserveScratch("building (estimated)", building);
+        } else {
+            // A collapsed octree beside the first one.
+            const uint64_t collapsing = size.bytes() + OctreeCollapse::scratchBytes(size);
+            plan.reserveScratch("leaves and changes (estimated)", lists);
+            plan.reserveScratch("building, then collapsing (at most)", std::max(building, collapsing));
+        }
     }
 
     void prepare(PassSetup& setup, RadianceVoxels&) override {
@@ -46,6 +54,8 @@ class SvoStorage final : public RadianceStorage {
         // All is new where the voxels are; else what has another value.
         const bool anew = !built_ || version_ != voxels.version;
         if (anew) {
+            built_.reset();
+            changed_ = {};
             built_ = builder_->build(stream, voxels, radiance);
             version_ = voxels.version;
             changed_ = Buffer(context.device, "octree changes", OctreeBuilder::changedBytes(built_->size));

@@ -37,7 +37,7 @@ void main() {
     const vec4 from = all(lessThan(texel, g.texels)) ? texelFetch(position, ivec2(texel), 0) : vec4(0.0);
 
     // A surfel without a normal receives no light.
-    Surfel at = Surfel(vec3(0.0), NO_VOXEL, vec3(0.0), push.firstBlock * g.raysPerBlock + i, vec3(0.0), 0u);
+    Surfel at = Surfel(vec3(0.0), NO_VOXEL, vec3(0.0), push.firstBlock * g.raysPerBlock + i, vec3(0.0), 0u, 1.0);
     vec4 received = vec4(vec3(0.0), from.w > 0.0 ? MISSED : -1.0);
     const Hit hit = hits.data[i];
     if (hit.triangle != NO_HIT) {

@@ -1,6 +1,8 @@
 #include "passes/inject_camera_rays/inject_camera_rays.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
+#include <numbers>
 
 #include "passes/common/camera_matrix.h"
 #include "passes/common/dispatch.h"
@@ -36,8 +38,7 @@ void InjectCameraRays::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
     plan.get(irradiance_).eachFrame = true;
     const SurfaceVoxels& voxels = plan.get(voxels_);
-    VoxelWrites::plan(plan, kName, params_, voxels);
-    VoxelWrites::plan(plan, kName, params_, voxels);
+    plan.reserve("voxel samples (estimated)", 2 * VoxelWrites::plan(plan, kName, params_, voxels));
     plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
     plan.reserve("paths", SurfelPaths::bytes(settings()));
     plan.reserve("camera rays", uint64_t(settings().batch) * (sizeof(Ray) + sizeof(Hit)));
@@ -63,6 +64,11 @@ void InjectCameraRays::record(PassContext& context) {
     indirect_.begin(context.device, stream, voxels, typical);
 
     const CameraRays camera = cameraRays(context.frame.camera, context.frame.width, context.frame.height);
+    const double surfaces = surfaceArea(context.frame.scene->geometry);
+    const double face = double(voxels.grid.voxelSize) * voxels.grid.voxelSize;
+    const SurfelPaths::CameraFootprint footprint{
+        camera.forward, float(4 * glm::length(camera.right) * glm::length(camera.up) / surfaces),
+        float(std::numbers::sqrt2 * face * params_.rays / surfaces)};
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
     for (uint32_t first = 0; first < params_.rays; first += kBatchRays) {
         const uint32_t batch = std::min(kBatchRays, params_.rays - first);
@@ -70,7 +76,7 @@ void InjectCameraRays::record(PassContext& context) {
                         EmitPush{camera.origin, first, camera.forward, batch, camera.right, seed, camera.up},
                         linearGroups(batch));
         context.tracer.closestHit(stream, rays_, hits_, batch);
-        const uint32_t count = paths_.arrive(context, voxels, rays_, hits_, batch, first);
+        const uint32_t count = paths_.arrive(context, voxels, footprint, rays_, hits_, batch, first);
         if (count > 0) paths_.run(context, sources_, count, seed, {voxels, direct_, indirect_});
     }
 

@@ -13,7 +13,8 @@ class InjectCameraRays final : public Pass {
     static constexpr const char* kHelp =
         "Traces rays from the camera; shadow rays measure the irradiance at their hits and at those of one "
         "diffuse ray from "
-        "each. Leaves unlit: what neither the view nor its secondary rays reach. Biased by: voxel size; "
+        "each, and each counts by the area that it stands for. Leaves unlit: what neither the view nor its "
+        "secondary rays reach. Biased by: voxel size; "
         "voxels "
         "seen in part count the part that is seen. Noisy by: rays. Source: Magalhães 2020, section 3.3.2.";
     struct Params : WriteParams {

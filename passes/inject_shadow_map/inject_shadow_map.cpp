@@ -38,7 +38,8 @@ void InjectShadowMap::plan(PassPlan& plan) {
     sources_ = requireViewpoints(*plan.frame.scene, kName);
     SurfelFeedback::plan(plan, kName, params_, plan.get(voxels_));
     plan.reserve("shadow map", imageBytes(mapDesc(params_.resolution)));
-    plan.reserve("surfels' direct irradiance (estimated)", plan.get(surfels_).most * 4 * sizeof(float));
+    plan.reserveScratch("surfels' direct irradiance (estimated)",
+                        plan.get(surfels_).most * 4 * sizeof(float));
 }
 
 void InjectShadowMap::prepare(PassSetup& setup) {

@@ -31,8 +31,7 @@ void InjectVoxelRays::plan(PassPlan& plan) {
     plan.get(irradiance_).eachFrame = params_.demand;
     const SurfaceVoxels& voxels = plan.get(voxels_);
     if (params_.demand) {
-        VoxelWrites::plan(plan, kName, params_, voxels);
-        VoxelWrites::plan(plan, kName, params_, voxels);
+        plan.reserve("voxel samples (estimated)", 2 * VoxelWrites::plan(plan, kName, params_, voxels));
         plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
         plan.reserve("paths", SurfelPaths::bytes(paths()));
         plan.reserve("faces asked for (estimated)", uint64_t(voxels.voxelCount) * sizeof(uint32_t));

@@ -28,6 +28,7 @@ void PathTracePass::declare(PassBuilder& builder) {
 
 void PathTracePass::plan(PassPlan& plan) {
     plan.reserve("images", 4 * imageBytes(frameImageDesc(plan.frame)));
+    plan.reserveScratch("staging of an image", 2 * imageBytes(frameImageDesc(plan.frame)));
 }
 
 void PathTracePass::prepare(PassSetup& setup) {

@@ -34,6 +34,7 @@ void main() {
         s.id = 2u * (push.firstPoint + i) + side;
         s.reflectance = vec3(0.0);
         s.parent = 0u;
+        s.area = 1.0;
         candidates.data[2u * i + side] = s;
         Ray ray;
         ray.origin = s.position + s.normal * offset;

@@ -52,7 +52,7 @@ class Exact final : public VoxelizeMethod {
         const VoxelRegion everywhere(voxels.grid);
         for (uint32_t t = 0; t < geometry.triangles.size(); ++t)
             forEachTile(geometry, voxels.grid, everywhere, t, [&](uint32_t, uint32_t) { ++tiles; });
-        plan.reserve("tiles of triangles", tiles * sizeof(glm::uvec2));
+        plan.reserveScratch("tiles of triangles", tiles * sizeof(glm::uvec2));
     }
 
     void prepare(PassSetup& setup) override {
@@ -74,6 +74,8 @@ class Exact final : public VoxelizeMethod {
                         std::max<size_t>(tiles.size(), 1) * sizeof(tiles[0]));
         if (!tiles.empty()) context.stream.upload(tiles_, tiles);
     }
+
+    void release() override { tiles_ = {}; }
 
     void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelizeStep& step) override {
         context.stream.dispatch(step.mark ? mark_ : add_,

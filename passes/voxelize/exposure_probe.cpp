@@ -10,6 +10,7 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kBatchPoints = 1u << 18;
+constexpr uint64_t kCounts = 9;  // Of a voxel, as in resolve.comp.
 
 struct EmitPush {
     gpu::VoxelGrid grid;
@@ -45,7 +46,7 @@ Buffer ExposureProbe::run(PassContext& context, const SurfaceVoxels& voxels,
                           const std::vector<uint32_t>& triangles, uint32_t pointsPerFace) const {
     CommandStream& stream = context.stream;
     Buffer counts(context.device, "exposure counts",
-                  std::max<uint64_t>(voxels.voxelCount, 1) * 9 * sizeof(uint32_t));
+                  std::max<uint64_t>(voxels.voxelCount, 1) * kCounts * sizeof(uint32_t));
     stream.fill(counts, 0);
     if (pointsPerFace == 0 || voxels.voxelCount == 0) return counts;
 
@@ -89,8 +90,12 @@ Buffer ExposureProbe::run(PassContext& context, const SurfaceVoxels& voxels,
     return counts;
 }
 
-uint64_t ExposureProbe::scratchBytes() {
-    return kBatchPoints * (sizeof(glm::uvec2) + 2 * (sizeof(Ray) + sizeof(uint32_t))) + sizeof(uint32_t);
+uint64_t ExposureProbe::bytes(uint32_t voxelCount, uint32_t pointsPerFace) {
+    const uint64_t counts = uint64_t(voxelCount) * kCounts * sizeof(uint32_t);
+    if (pointsPerFace == 0) return counts;
+    return counts + sizeof(uint32_t) +
+           kBatchPoints *
+               (2 * sizeof(glm::uvec2) /* with their staging */ + 2 * (sizeof(Ray) + sizeof(uint32_t)));
 }
 
 }  // namespace voxray

@@ -23,8 +23,8 @@ class ExposureProbe {
     /// @return 9 uints a voxel, as resolve.comp reads them.
     Buffer run(PassContext& context, const SurfaceVoxels& voxels, const std::vector<uint32_t>& triangles,
                uint32_t pointsPerFace) const;
-    /// Bytes that run() takes for a while, besides what it returns.
-    static uint64_t scratchBytes();
+    /// Bytes that run() takes for a while, with what it returns.
+    static uint64_t bytes(uint32_t voxelCount, uint32_t pointsPerFace);
 
  private:
     Program emit_, count_;

@@ -18,7 +18,7 @@ std::vector<Binding> stepBindings(const PassContext& context, const SurfaceVoxel
 }
 
 void RasterMethod::plan(PassPlan& plan, const SurfaceVoxels&) {
-    plan.reserve("triangles to draw", plan.frame.scene->geometry.triangles.size() * sizeof(uint32_t));
+    plan.reserveScratch("triangles to draw", plan.frame.scene->geometry.triangles.size() * sizeof(uint32_t));
 }
 
 void RasterMethod::select(PassContext& context, const gpu::VoxelGrid&, const VoxelRegion&,

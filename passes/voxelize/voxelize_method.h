@@ -28,6 +28,8 @@ class VoxelizeMethod {
     virtual void select(PassContext& context, const gpu::VoxelGrid& grid, const VoxelRegion& region,
                         const std::vector<uint32_t>& triangles) = 0;
     virtual void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelizeStep& step) = 0;
+    /// Frees what select() took, once the stream has finished.
+    virtual void release() = 0;
 };
 
 /// A method that draws triangles: vertex shaders number the corners of `drawnTriangles`.
@@ -36,6 +38,7 @@ class RasterMethod : public VoxelizeMethod {
     void plan(PassPlan& plan, const SurfaceVoxels& voxels) override;
     void select(PassContext& context, const gpu::VoxelGrid& grid, const VoxelRegion& region,
                 const std::vector<uint32_t>& triangles) override;
+    void release() override { drawn_ = {}; }
 
  protected:
     std::vector<Binding> bindings(const PassContext& context, const SurfaceVoxels& voxels,

@@ -44,10 +44,13 @@ void VoxelizePass::plan(PassPlan& plan) {
     v.grid.directions = params_.directions;
     plan.reserve("occupancy and ranks", v.words() * 2 * sizeof(uint32_t));
     v.voxelCount = countSurfaceVoxels(geometry, v.grid).front();
-    plan.reserve("surface voxels (estimated)", v.voxelCount * sizeof(gpu::VoxelMaterial));
-    plan.reserve("sums (estimated)", uint64_t(v.voxelCount) * SUMS_PER_VOXEL * sizeof(uint32_t));
-    // While an update is joined the materials are there twice, which is less than with their sums.
-    if (!movingRuns(geometry).empty()) plan.reserve("update of a region", RegionJoin::scratchBytes(v));
+    const uint64_t materials = v.voxelCount * sizeof(gpu::VoxelMaterial);
+    plan.reserve("surface voxels (estimated)", materials);
+    plan.reserveScratch("sums (estimated)", uint64_t(v.voxelCount) * SUMS_PER_VOXEL * sizeof(uint32_t));
+    plan.reserveScratch("exposure (estimated)", ExposureProbe::bytes(v.voxelCount, params_.exposureRays));
+    // The voxels of a region stand beside the former ones, at worst all of them.
+    if (!movingRuns(geometry).empty())
+        plan.reserveScratch("update of a region (at most)", RegionJoin::scratchBytes(v) + materials);
     method_->plan(plan, v);
 
     for (const Material& material : plan.frame.scene->scene->materials)
@@ -116,6 +119,7 @@ void VoxelizePass::voxelize(PassContext& context, const VoxelRegion& region, Sur
                     {{"SumsAt", sums.at()}, {"VoxelMaterialsAt", target.materials.at()}, {"probes", probes}},
                     ResolvePush{target.voxelCount, largestEmission_}, linearGroups(target.voxelCount));
     stream.finish();
+    method_->release();
 }
 
 }  // namespace voxray

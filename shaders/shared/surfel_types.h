@@ -14,6 +14,7 @@ struct Surfel {
     uint id;           // Picks its random numbers; unique among surfels that are handled together.
     vec3 reflectance;  // Light that goes back along the ray that found it, over irradiance / pi.
     uint parent;       // Index of the surfel whose ray found it.
+    float area;        // Of surface that it stands for, 1 where surfels are spread evenly over all surfaces.
 };
 
 VOXRAY_SHARED_END

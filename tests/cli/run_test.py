@@ -10,9 +10,10 @@ from support import TINY, CommandTest
 
 METRICS = ["flip", "ssim", "psnr_db", "nrmse", "relmse", "mean_ratio", "flip_ldr"]
 RESULT_COLUMNS = (["variant", "status", "error", "device", "tracer", "voxelize.resolution", "build_ms",
-                   "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "rays"] + METRICS +
+                   "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays"] + METRICS +
                   ["indirect_" + metric for metric in METRICS])
-PASS_COLUMNS = ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes"]
+PASS_COLUMNS = ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes",
+                "scratch_bytes"]
 VARIANTS = ["resolution-8", "resolution-16"]
 
 # As TINY, but each variant takes long enough to be interrupted.

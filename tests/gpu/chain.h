@@ -43,7 +43,7 @@ class Chain {
         Registry registry;
         registerPasses(registry);
         graph_ = std::make_unique<Graph>(registry, parseYaml(graphYaml, "graph"));
-        predictedBytes = graph_->plan(frame_, device().info(), device().memoryLimitBytes());
+        predicted = graph_->plan(frame_, device().info(), device().memoryLimitBytes());
         graph_->prepare(frame_, device(), compiler_, stream_);
         buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
         frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, 0, true);
@@ -70,6 +70,12 @@ class Chain {
         buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
     }
 
+    /// The build phase once more with surfaces as they are: light is injected anew.
+    void relight() {
+        frame_.changed.emplace();
+        buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
+    }
+
     /// Another time of a scene that was evaluated as looping.
     void goTo(double timeSeconds) {
         update([&](SceneState& state) { return advance(state, timeSeconds); });
@@ -92,7 +98,7 @@ class Chain {
         return stream_.readAs<T>(buffer, texels);
     }
 
-    std::vector<uint64_t> predictedBytes;
+    std::vector<PassMemory> predicted;
     std::vector<PassSample> buildSamples, updateSamples, frameSamples;
 
  private:

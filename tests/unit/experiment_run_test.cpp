@@ -53,7 +53,8 @@ TEST_F(RunTest, ColumnsAreTheDocumentedOnes) {
         text.substr(0, text.find('\n')),
         "variant,status,error,device,tracer,constant.value,build_ms,frame_ms_median,frame_ms_p05,frame_ms_"
         "p95,"
-        "memory_bytes,rays,flip,ssim,psnr_db,nrmse,relmse,mean_ratio,flip_ldr,indirect_flip,indirect_ssim,"
+        "memory_bytes,peak_bytes,rays,flip,ssim,psnr_db,nrmse,relmse,mean_ratio,flip_ldr,indirect_flip,"
+        "indirect_ssim,"
         "indirect_psnr_db,indirect_nrmse,indirect_relmse,indirect_mean_ratio,indirect_flip_ldr");
 }
 

@@ -85,7 +85,7 @@ TEST(Results, CsvQuotesByRfc4180) {
     failed.error = "x, \"y\"";
     failed.sweepValues = {"[1, 2]"};
     const std::string text = resultsCsv({failed}, {"a.b"}, metricNames());
-    EXPECT_NE(text.find("v,failed,\"x, \"\"y\"\"\",,,\"[1, 2]\",,,,,,"), std::string::npos) << text;
+    EXPECT_NE(text.find("v,failed,\"x, \"\"y\"\"\",,,\"[1, 2]\",,,,,,,"), std::string::npos) << text;
 }
 
 TEST(Results, NumbersKeepNineDigits) {
@@ -110,11 +110,12 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     r.buildMs = 1.0 / 3;
     r.frameMs = {0.1, 0.2, 0.3};
     r.memoryBytes = uint64_t(1) << 40;
+    r.peakBytes = uint64_t(1) << 41;
     r.rays = 77;
     r.total.emplace();
     r.total->psnrDb = HUGE_VAL;
     r.total->nrmse = 0.1;
-    r.passes.push_back({"p", Phase::Build, {1, 2, 3}, 4, 5, 6});
+    r.passes.push_back({"p", Phase::Build, {1, 2, 3}, 4, 5, 6, 7});
     r.values = {{"p", "voxels, missed", std::nullopt, 7}, {"p", "change", 3, 0.1}};
     const VariantInputs inputs{{"seed", "3"}, {"graph", "{a: \"b\"}"}};
     const auto [back, backInputs] = parseResultJson(resultJson(r, inputs));
@@ -123,6 +124,8 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     EXPECT_EQ(back.buildMs, r.buildMs);
     EXPECT_EQ(back.frameMs.p95, 0.3);
     EXPECT_EQ(back.memoryBytes, r.memoryBytes);
+    EXPECT_EQ(back.peakBytes, r.peakBytes);
+    EXPECT_EQ(back.passes.at(0).scratchBytes, 7u);
     EXPECT_EQ(back.total->psnrDb, HUGE_VAL);
     EXPECT_EQ(back.total->nrmse, 0.1);
     EXPECT_FALSE(back.indirect);

@@ -13,7 +13,7 @@ struct Light : Resource {};
 // A pass that does nothing but have ports.
 struct Idle : Pass {
     Phase phase() const override { return Phase::Build; }
-    void plan(PassPlan& plan) override { plan.reserve("scratch", 1u << 20); }
+    void plan(PassPlan& plan) override { plan.reserve("results", 1u << 20); }
     void prepare(PassSetup&) override {}
     void record(PassContext&) override {}
 };
@@ -47,24 +47,49 @@ struct LightVoxels : Idle {
     }
 };
 
-struct WeighLight : LightVoxels {
-    static constexpr const char* kName = "weigh_light";
-    explicit WeighLight(const Params& p) : LightVoxels(p) {}
-    void declare(PassBuilder& builder) override { builder.read<Light>("light", "light to weigh"); }
-};
-
 struct WrongType : LightVoxels {
     static constexpr const char* kName = "wrong_type";
     explicit WrongType(const Params& p) : LightVoxels(p) {}
     void declare(PassBuilder& builder) override { builder.read<Light>("voxels", "not voxels at all"); }
 };
 
+// Keeps 1 MiB, and needs more for a while.
+struct SumUp : Idle {
+    static constexpr const char* kName = "sum_up";
+    static constexpr const char* kHelp = "Writes light.";
+    struct Params {
+        uint32_t mib = 1;
+        static constexpr auto schema() {
+            return std::tuple{field("mib", &Params::mib, "MiB of scratch.", 0u, 64u)};
+        }
+    };
+    explicit SumUp(const Params& p) : params(p) {}
+    void declare(PassBuilder& builder) override { builder.write<Light>("light", "the light"); }
+    void plan(PassPlan& plan) override {
+        plan.reserve("light", 1u << 20);
+        plan.reserveScratch("sums", uint64_t(params.mib) << 20);
+    }
+    Params params;
+};
+
+// Only reports.
+struct CountVoxels : Idle {
+    static constexpr const char* kName = "count_voxels";
+    static constexpr const char* kHelp = "Counts voxels.";
+    struct Params {
+        static constexpr auto schema() { return std::tuple{}; }
+    };
+    explicit CountVoxels(const Params&) {}
+    void declare(PassBuilder& builder) override { builder.read<Voxels>("voxels", "voxels to count"); }
+};
+
 Registry registry() {
     Registry r;
     r.add<MakeVoxels>();
     r.add<LightVoxels>();
-    r.add<WeighLight>();
     r.add<WrongType>();
+    r.add<SumUp>();
+    r.add<CountVoxels>();
     return r;
 }
 
@@ -118,12 +143,12 @@ TEST(GraphWiring, KeepsOnlyWhatIsAskedFor) {
     EXPECT_EQ(g.keepOnly({"light"}), std::vector<std::string>{});
 }
 
-TEST(GraphWiring, KeepsWhatReports) {
+TEST(GraphWiring, KeepsWhatOnlyReports) {
     Graph g = graph(
-        "[{pass: make_voxels}, {pass: light_voxels, id: weighed}, {pass: weigh_light}, {pass: light_voxels, "
-        "id: unread}]");
-    EXPECT_EQ(g.keepOnly({"final"}), (std::vector<std::string>{"unread"}));
-    EXPECT_EQ(g.passes().size(), 3u);
+        "[{pass: make_voxels}, {pass: light_voxels}, {pass: make_voxels, id: counted}, {pass: count_voxels}, "
+        "{pass: make_voxels, id: unread}]");
+    EXPECT_EQ(g.keepOnly({"light"}), std::vector<std::string>{"unread"});
+    EXPECT_EQ(g.passes().back().id, "count_voxels");
 }
 
 TEST(GraphWiring, NamesPlaceAndNearestWord) {
@@ -163,13 +188,37 @@ TEST(GraphPlan, RefusesMoreMemoryThanThereIs) {
     const SceneState state;
     Frame frame;
     frame.scene = &state;
-    EXPECT_EQ(g.plan(frame, {}, 2u << 20), (std::vector<uint64_t>{1u << 20, 1u << 20}));
+    const std::vector<PassMemory> memory = g.plan(frame, {}, 2u << 20);
+    ASSERT_EQ(memory.size(), 2u);
+    for (const PassMemory& pass : memory) EXPECT_EQ(pass.bytes, 1u << 20);
     try {
         g.plan(frame, {}, (2u << 20) - 1);
         FAIL() << "accepted";
     } catch (const Error& error) {
         EXPECT_HAS(std::string(error.what()), "needs about 2.0 MiB, the limit is 2.0 MiB");
-        EXPECT_HAS(std::string(error.what()), "make_voxels's scratch");
+        EXPECT_HAS(std::string(error.what()), "make_voxels's results");
+    }
+}
+
+TEST(GraphPlan, ScratchOfOnePassIsFreeForTheNext) {
+    EXPECT_EQ(peakBytes({}), 0u);
+    EXPECT_EQ(peakBytes({{5, 0}, {7, 0}}), 12u);
+    EXPECT_EQ(peakBytes({{5, 30}, {7, 40}, {1, 20}}), 13u + 40u);
+
+    // Two passes that keep 1 MiB each, and need 2 and 3 MiB for a while.
+    Graph g = graph("[{pass: sum_up, mib: 2}, {pass: sum_up, id: more, mib: 3}]");
+    const SceneState state;
+    Frame frame;
+    frame.scene = &state;
+    const std::vector<PassMemory> memory = g.plan(frame, {}, 5u << 20);
+    EXPECT_EQ(memory.at(0).scratchBytes, 2u << 20);
+    EXPECT_EQ(memory.at(1).scratchBytes, 3u << 20);
+    try {
+        g.plan(frame, {}, (5u << 20) - 1);
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_HAS(std::string(error.what()), "needs about 5.0 MiB");
+        EXPECT_HAS(std::string(error.what()), "more's sums with 3.0 MiB");
     }
 }
 

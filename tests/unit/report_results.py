@@ -11,7 +11,7 @@ import numpy as np
 from PIL import Image
 
 SCORES = ("flip", "ssim", "psnr_db", "nrmse", "relmse", "mean_ratio", "flip_ldr")
-COSTS = ("build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "rays")
+COSTS = ("build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays")
 SIZE = (64, 36)
 
 
@@ -25,7 +25,8 @@ def variant(name: str, frame_ms: float, error: float, indirect: float | None = N
     """A row of results.csv of a finished variant; `indirect` is its error in the indirect light."""
     row = {"variant": name, "status": "ok", "error": "", "device": "llvmpipe", "tracer": "embree", **sweep,
            "build_ms": 2 * frame_ms, "frame_ms_median": frame_ms, "frame_ms_p05": 0.95 * frame_ms,
-           "frame_ms_p95": 1.05 * frame_ms, "memory_bytes": 2**24 * frame_ms, "rays": 262144, **scores(error)}
+           "frame_ms_p95": 1.05 * frame_ms, "memory_bytes": 2**24 * frame_ms,
+           "peak_bytes": 2**25 * frame_ms, "rays": 262144, **scores(error)}
     if indirect is not None:
         row.update({f"indirect_{key}": value for key, value in scores(indirect).items()})
     return row
@@ -65,7 +66,7 @@ def passes(rows: list[dict]) -> list[dict]:
             ms = share * row["build_ms" if phase == "build" else "frame_ms_median"]
             table.append({"variant": row["variant"], "pass": name, "phase": phase, "ms_median": ms,
                           "ms_p05": 0.9 * ms, "ms_p95": 1.1 * ms, "rays": 1000, "voxel_steps": 0,
-                          "memory_bytes": 2**20})
+                          "memory_bytes": 2**20, "scratch_bytes": 2**19})
     return table
 
 
@@ -90,7 +91,7 @@ def write_results(directory: Path, rows: list[dict], run: dict | None, *, refere
     directory.mkdir(parents=True, exist_ok=True)
     _write_csv(directory / "results.csv", columns, rows)
     _write_csv(directory / "passes.csv", ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays",
-                                          "voxel_steps", "memory_bytes"], passes(rows))
+                                          "voxel_steps", "memory_bytes", "scratch_bytes"], passes(rows))
     if run is not None:
         (directory / "manifest.json").write_text(json.dumps(run), encoding="utf-8")
 

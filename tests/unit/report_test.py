@@ -201,11 +201,11 @@ class PartOfARun(ReportTest):
         rows = [made_up.variant(name, 10, 0.3) for name in ("a", "b")]
         self.assertNotIn("What passes report", self.make(rows, made_up.manifest([])).text)
         (self.directory / "values.csv").write_text(
-            "variant,pass,name,frame,value\na,compare,missed,,12\na,probe,change,0,0.25\na,probe,change,1,0.75\n"
+            "variant,pass,name,frame,value\na,compare,missed,,1234567\na,probe,change,0,0.25\na,probe,change,1,0.75\n"
             "b,compare,missed,,40\n")
         self.assertEqual(self.run_program()[0], 0)
         shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
-        for words in ("What passes report", "compare: missed", "0.500 (most 0.750)", "a: 0.500 on average"):
+        for words in ("What passes report", "compare: missed", "1\u202f234\u202f567", "0.500 (most 0.750)", "a: 0.500 on average"):
             self.assertIn(words, shown.text)
         self.assertEqual(shown.attributes("aria-label").count("probe: change"), 1)
         (self.directory / "values.csv").write_text("what,is\nthis,here\n")

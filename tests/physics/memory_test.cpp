@@ -1,0 +1,75 @@
+// Device memory that passes predict against what they are seen to take.
+#include <gtest/gtest.h>
+
+#include "passes/common/voxels.h"
+#include "tests/gpu/chain.h"
+
+namespace voxray::test {
+namespace {
+
+struct Case {
+    const char* name;
+    const char* graph;
+};
+
+// Every reservation of the passes that size memory by the voxels.
+const Case kCases[] = {
+    {"light_rays",
+     "[{pass: gbuffer}, {pass: voxelize, resolution: 48}, {pass: inject_light_rays, rays_per_light: 4096,"
+     " bounces: 2}, {pass: filter_voxels, layout: svo}, {pass: gather_cones}]"},
+    {"one_direction",
+     "[{pass: gbuffer}, {pass: voxelize, resolution: 48, directions: 1, exposure_rays: 0, method: "
+     "three_axis},"
+     " {pass: inject_light_rays, rays_per_light: 4096, bounces: 0}, {pass: filter_voxels, layout: svo, "
+     "bounces:"
+     " 1}, {pass: gather_cones}]"},
+    {"each_frame",
+     "[{pass: gbuffer}, {pass: voxelize, resolution: 48}, {pass: inject_camera_rays, rays: 1024, bounces: 1},"
+     " {pass: filter_voxels, layout: svo, each_frame: true, bounces: 1}, {pass: gather_cones}]"},
+    {"surfels",
+     "[{pass: voxelize, resolution: 48, exposure_rays: 0}, {pass: place_surfels, points: 1}, {pass:"
+     " inject_voxel_rays, rays: 1, bounces: 1}, {pass: filter_voxels}]"},
+    {"path_trace", "[{pass: path_trace, spp: 1, bounces: 0}]"},
+};
+
+TEST(Memory, IsPredicted) {
+    // The host counts voxels a little over (passes/common/voxel_count.h); buffers are padded.
+    constexpr double kPadding = 1 << 16;
+    for (const Case& c : kCases) {
+        Chain chain("cornell", "{}", c.graph, 32, 32);
+        chain.rebuild();
+        const std::vector<PassMemory> taken = chain.graph().memory();
+        ASSERT_EQ(taken.size(), chain.predicted.size());
+        for (size_t i = 0; i < taken.size(); ++i) {
+            const PassMemory& own = chain.predicted[i];
+            const std::string pass = std::string(c.name) + ": " + chain.graph().passes()[i].id;
+            EXPECT_LE(double(taken[i].bytes), double(own.bytes) + kPadding) << pass;
+            EXPECT_LE(double(taken[i].scratchBytes), double(own.scratchBytes) + kPadding) << pass;
+            std::printf("%s: keeps %.3f MiB of %.3f, scratch %.3f of %.3f\n", pass.c_str(),
+                        double(taken[i].bytes) / (1 << 20), double(own.bytes) / (1 << 20),
+                        double(taken[i].scratchBytes) / (1 << 20), double(own.scratchBytes) / (1 << 20));
+        }
+        EXPECT_LE(double(peakBytes(chain.predicted)), 1.1 * double(peakBytes(taken))) << c.name;
+    }
+}
+
+TEST(Memory, OfVoxelizationIsFreeForInjection) {
+    // Sums of voxels are gone once they are resolved, those of light as well: what is in use is what is kept.
+    const uint64_t before = device().memoryUsedBytes();
+    const Chain chain("cornell", "{}",
+                      "[{pass: voxelize, resolution: 64}, {pass: inject_light_rays, rays_per_light: 1024}]");
+    const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
+    const VoxelIrradiance& light = *chain.graph().resource<VoxelIrradiance>("irradiance");
+    const std::map<std::string, uint64_t> held = device().memoryByResource();
+    for (const char* scratch : {"voxelization sums", "exposure counts", "exposure rays", "flux sums"})
+        EXPECT_EQ(held.count(scratch), scratch == std::string("exposure rays") ? 1u : 0u) << scratch;
+    EXPECT_GT(device().memoryUsedBytes() - before,
+              voxels.materials.bytes() + VoxelIrradiance::bytes(voxels.voxelCount));
+    EXPECT_EQ(light.direct.bytes() + light.indirect.bytes() + light.area.bytes(),
+              VoxelIrradiance::bytes(voxels.voxelCount));
+    // Two sums of 64 bits a colour and direction.
+    EXPECT_NEAR(double(chain.graph().memory()[1].scratchBytes), 2.0 * 144 * voxels.voxelCount, 4096);
+}
+
+}  // namespace
+}  // namespace voxray::test
