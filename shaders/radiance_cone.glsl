@@ -62,8 +62,9 @@ ConeBase coneBase(vec3 position, vec3 side, float dither) {
 struct ConeAxis {
     float start;  // In voxels of level 0, in the direction of travel.
     float speed;  // Voxels a metre.
-    int next;     // Where the next layer begins.
-    int end;      // Where the grid does.
+    int first;    // Where the first layer begins.
+    int next;     // Where the next one does.
+    int end;      // Where the grid ends.
     uint level;   // Of the next layer.
     int samples;  // Places in it.
     int sample_;  // The next of them.
@@ -112,6 +113,13 @@ void advance(inout ConeAxis axis, ConeShape shape, float clearance) {
 
 // What has been collected of a cone. Surfaces that it meets within a voxel's diagonal of each other are taken for pieces of one:
 // their covers add up. After a gap the next surface is hidden as if independent of the last one.
+//
+// Covers of slanted pieces add up to 1 on average alone: a cone steps through the surface's stairs, and may slip between two of
+// them. Along one column of voxels they add up to 1 exactly. So a layer also covers the cone as far as the columns do that the cone
+// crosses in it, from COLUMN_LAYERS - 1 layers before it on: what they show towards the cone less what faces away, which is what
+// lies behind the surface there. Of columns of 2, 3, 4 layers a plane with any normal hides 0.97, 0.99, 1.00 of the rays.
+#define COLUMN_LAYERS 3
+
 struct ConeLight {
     vec3 radiance;
     float transmittance;  // Of the surfaces passed.
@@ -119,7 +127,16 @@ struct ConeLight {
     float behind;         // What that one shows of sides that face the way that the cone goes, less of those that face the cone.
     float blocked;        // The part of its cover that is black.
     float last;           // Metres to where the cone met it last.
+    vec3 column;          // By axis: the cover of the columns that the cone has crossed in its layer, as a part of the layer's.
 };
+
+// The cone is covered up to `cover`, by what sends `met`.
+void coverUpTo(inout ConeLight light, float cover, vec4 met) {
+    const float added = min(cover, 1.0) - light.cover;
+    if (added <= 0.0 || met.a <= 0.0) return;
+    light.radiance += light.transmittance * added / met.a * met.rgb;
+    light.cover += added;
+}
 
 // `met`: sides that face the cone. `back`: cover of those that face the way that it goes. A surface that shows more of these is met
 // from behind: it lets nothing through, and its other side is black. Up to half a cover may belong to a slanted surface that the
@@ -129,16 +146,14 @@ void meet(inout ConeLight light, vec4 met, float back, float t, float voxel) {
     if (t - light.last > 1.75 * voxel) {
         light.transmittance *= 1.0 - light.cover;
         light.cover = light.behind = light.blocked = 0.0;
+        light.column = vec3(0.0);
     }
     light.last = t;
     light.behind += back - met.a;
     const float blocked = max(clamp(2.0 * light.behind - 1.0, 0.0, 1.0) - light.blocked, 0.0);
     light.blocked += blocked;
     light.cover = min(light.cover + blocked, 1.0);
-    if (met.a <= 0.0) return;
-    const float added = min(met.a, 1.0 - light.cover);
-    light.radiance += light.transmittance * added / met.a * met.rgb;
-    light.cover += added;
+    coverUpTo(light, light.cover + met.a, met);
 }
 
 // Radiance that arrives at `base` through a cone along `direction` (unit, above the surface), `width` wide at unit distance, whose
@@ -154,7 +169,7 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
     // Axes are turned so that the cone travels upwards along each.
     const int turned = 1 << (g.levels - 1u);
     ConeAxis axis[3];
-    ConeLight light = ConeLight(vec3(0.0), 1.0, 0.0, 0.0, 0.0, 0.0);
+    ConeLight light = ConeLight(vec3(0.0), 1.0, 0.0, 0.0, 0.0, 0.0, vec3(0.0));
     for (uint k = 0u; k < 3u; ++k) {
         const bool up = direction[k] >= 0.0;
         const float inGrid = (base.position[k] - g.origin[k]) / g.voxelSize;
@@ -163,6 +178,7 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
         axis[k].speed = still ? 1.0 : abs(direction[k]) / g.voxelSize;
         axis[k].level = base.level;
         axis[k].next = ((int(floor(axis[k].start)) >> base.level) + 1) << base.level;
+        axis[k].first = axis[k].next;
         axis[k].end = still ? axis[k].next : up ? int(g.resolution[k]) : turned;
         if (!still) shape.exit_ = min(shape.exit_, (float(axis[k].end) - axis[k].start) / axis[k].speed);
         const vec4 beside = abs(direction[k]) * base.beside[2u * k + (up ? 0u : 1u)];
@@ -190,9 +206,25 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
             place[k] = g.origin[k] + (up ? middle : float(turned) - middle) * g.voxelSize;
             const vec3 ahead = facingAxis(2u * k + (up ? 0u : 1u));
             const float share = 1.0 / float(axis[k].samples);
-            const float back = clear && sides ? sampleLevel(axis[k].level, place, -ahead).a : 0.0;
-            meet(light, share * sampleLevel(axis[k].level, place, ahead), share * back, t, voxel);
+            const bool solid = clear && sides;
+            const int layers = solid ? min((axis[k].next - axis[k].first) >> axis[k].level, COLUMN_LAYERS - 1) : 0;
+            vec4 column = vec4(0.0);
+            float backs = 0.0;
+            for (int i = 0; i <= layers; ++i) {
+                const vec3 inColumn = place - float(i) * voxel * ahead;
+                const vec4 front = sampleLevel(axis[k].level, inColumn, ahead);
+                const float back = solid ? sampleLevel(axis[k].level, inColumn, -ahead).a : 0.0;
+                if (i == 0) meet(light, share * front, share * back, t, voxel);
+                column += front;
+                backs += back;
+                if (column.a + light.column[k] == 0.0) break;
+            }
+            if (solid) {
+                light.column[k] += share * clamp(column.a - backs, 0.0, 1.0);
+                coverUpTo(light, light.column[k], column);
+            }
         }
+        if (axis[k].sample_ + 1 == axis[k].samples) light.column[k] = 0.0;
         advance(axis[k], shape, clearance[k]);
     }
     return light.radiance;
