@@ -11,6 +11,13 @@ float measurePiece(GridTriangle t, ivec3 voxel, uint own, out vec2 middle);
 #endif
 
 void visit(VoxelGrid g, GridTriangle t, ivec3 voxel, float emissionScale) {
+    // Where a window or a region ends, triangles go on.
+#ifdef MARK
+    if (!insideGrid(g, unturned(voxel, t.axis))) return;
+#else
+    const uint number = voxelNumber(g, unturned(voxel, t.axis));
+    if (number == NO_VOXEL) return;
+#endif
     const GpuMaterial m = sceneMaterials.data[sceneTriangleMaterials.data[t.index]];
     const bool masked = m.alphaMode == ALPHA_MASK;
 
@@ -34,7 +41,7 @@ void visit(VoxelGrid g, GridTriangle t, ivec3 voxel, float emissionScale) {
         covered[t.axis] = left & own;
     }
     const SurfacePoint s = surfacePoint(t.index, barycentricsAt(t, middle));
-    addSurface(g, unturned(voxel, t.axis), area, s, t.texCoordWidth, covered, emissionScale);
+    addSurface(number, area, s, t.texCoordWidth, covered, emissionScale);
 #endif
 }
 
