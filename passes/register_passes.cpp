@@ -16,6 +16,8 @@
 #include "passes/path_trace/path_trace_pass.h"
 #include "passes/place_surfels/place_surfels.h"
 #include "passes/trace_gather_rays/trace_gather_rays.h"
+#include "passes/voxelize/light_clipmap.h"
+#include "passes/voxelize/voxelize_clipmap.h"
 #include "passes/voxelize/voxelize_pass.h"
 
 namespace voxray {
@@ -30,6 +32,8 @@ void registerPasses(Registry& registry) {
     registry.add<InjectRsm>();
     registry.add<InjectShadowMap>();
     registry.add<FilterVoxels>();
+    registry.add<VoxelizeClipmap>();
+    registry.add<LightClipmap>();
     registry.add<GatherCones>();
     registry.add<GatherIrradiance>();
     registry.add<TraceGatherRays>();

@@ -55,6 +55,7 @@ void RegionJoin::materials(CommandStream& stream, const PopulationPrefixSum& pre
     former.voxelCount = prefixSum.run(stream, joined_, rank, words);
     LargeBuffer materials(device, "voxel materials",
                           std::max<uint64_t>(former.voxelCount, 1) * sizeof(gpu::VoxelMaterial));
+    if (former.voxelCount == 0) stream.fill(materials, 0);
     stream.dispatch(materials_,
                     {{"fresh", fresh.occupancy},
                      {"freshRank", fresh.rank},

@@ -1,6 +1,7 @@
 #include "passes/voxelize/triangle_tiles.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -54,8 +55,10 @@ TriangleTiles::TriangleTiles(CommandStream& stream, const Geometry& geometry, co
     if (!tiles.empty()) stream.upload(buffer_, tiles);
 }
 
-uint64_t TriangleTiles::bytes(const Geometry& geometry, const gpu::VoxelGrid& grid) {
+uint64_t TriangleTiles::bytes(const Geometry& geometry, gpu::VoxelGrid grid) {
     uint64_t tiles = 0;
+    grid.side = std::bit_ceil(std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z}));
+    grid.first = {};
     const VoxelRegion region(grid);
     for (uint32_t t = 0; t < geometry.triangles.size(); ++t)
         forEachTile(geometry, grid, region, t, [&](uint32_t) { ++tiles; });

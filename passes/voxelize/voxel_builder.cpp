@@ -15,9 +15,12 @@ struct ResolvePush {
 
 }  // namespace
 
-void VoxelBuilder::plan(PassPlan& plan, const SurfaceVoxels& voxels, bool updates) {
+void VoxelBuilder::planVoxels(PassPlan& plan, const SurfaceVoxels& voxels) {
     plan.reserve("occupancy and ranks", voxels.words() * 2 * sizeof(uint32_t));
     plan.reserve("surface voxels (estimated)", voxels.voxelCount * sizeof(gpu::VoxelMaterial));
+}
+
+void VoxelBuilder::planWork(PassPlan& plan, const SurfaceVoxels& voxels, bool updates) {
     plan.reserve("sums (estimated)", uint64_t(voxels.voxelCount) * SUMS_PER_VOXEL * sizeof(uint32_t));
     // While an update is joined the materials are there twice, which is less than with their sums.
     if (updates) plan.reserve("update of a region", RegionJoin::scratchBytes(voxels));
@@ -66,6 +69,7 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
     target.voxelCount = prefixSum_->run(stream, target.occupancy, target.rank, uint32_t(target.words()));
     const uint64_t count = std::max(target.voxelCount, 1u);
     target.materials = LargeBuffer(context.device, "voxel materials", count * sizeof(gpu::VoxelMaterial));
+    if (target.voxelCount == 0) stream.fill(target.materials, 0);
 
     // Sum up what surfaces carry, in fixed point, and turn sums into averages.
     const LargeBuffer sums(context.device, "voxelization sums", count * SUMS_PER_VOXEL * sizeof(uint32_t));

@@ -20,9 +20,11 @@ class VoxelBuilder {
     VoxelBuilder(std::unique_ptr<VoxelizeMethod> method, uint32_t exposureRays)
         : method_(std::move(method)), exposureRays_(exposureRays) {}
 
-    /// Reserves what is taken to make `voxels`, whose grid and number are known.
+    /// Reserves what `voxels` take, whose grid and number are known.
+    static void planVoxels(PassPlan& plan, const SurfaceVoxels& voxels);
+    /// Reserves what making them takes for a while.
     /// @param updates whether update() will be called.
-    void plan(PassPlan& plan, const SurfaceVoxels& voxels, bool updates);
+    void planWork(PassPlan& plan, const SurfaceVoxels& voxels, bool updates);
     void prepare(PassSetup& setup);
 
     /// All that the grid holds.

@@ -35,7 +35,8 @@ void VoxelizePass::plan(PassPlan& plan) {
     v.grid = makeVoxelGrid(geometry.boundsMin, geometry.boundsMax, params_.resolution);
     v.grid.directions = params_.directions;
     v.voxelCount = countSurfaceVoxels(geometry, v.grid).front();
-    builder_.plan(plan, v, !movingRuns(geometry).empty());
+    VoxelBuilder::planVoxels(plan, v);
+    builder_.planWork(plan, v, !movingRuns(geometry).empty());
 }
 
 void VoxelizePass::prepare(PassSetup& setup) {
