@@ -29,6 +29,9 @@ uint voxelWord(VoxelGrid g, ivec3 voxel) {
     return (slot.z * heldVoxels(g).y + slot.y) * g.wordsPerRow + (slot.x >> 5);
 }
 
+// The voxel that is held in a slot.
+uvec3 voxelInSlot(VoxelGrid g, uvec3 slot) { return uvec3(g.first) + ((slot - uvec3(g.first)) & (g.side - 1u)); }
+
 uint voxelBit(VoxelGrid g, ivec3 voxel) { return 1u << (uint(voxel.x) & (g.side - 1u) & 31u); }
 
 bool isOccupied(VoxelGrid g, ivec3 voxel) {

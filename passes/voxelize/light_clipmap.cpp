@@ -46,11 +46,16 @@ void LightClipmap::plan(PassPlan& plan) {
     storage_.plan(plan, kName, radiance);
     ShadowMaps::plan(plan, sources_, params_.shadowResolution);
 
-    // One level at a time
-    uint32_t most = 0;
-    for (const ClipmapVoxels::Level& level : clipmap.levels) most = std::max(most, level.voxels.voxelCount);
-    plan.reserve("light of a level (estimated)",
-                 most * (FluxSums::kBytesPerVoxel + kLitAreaBytes) + VoxelIrradiance::bytes(most));
+    // One level at a time; with bounces all of them
+    uint64_t most = 0, sum = 0;
+    for (const ClipmapVoxels::Level& level : clipmap.levels) {
+        most = std::max<uint64_t>(most, level.voxels.voxelCount);
+        sum += level.voxels.voxelCount;
+    }
+    plan.reserve("light of a level (estimated)", most * (FluxSums::kBytesPerVoxel + kLitAreaBytes));
+    plan.reserve("irradiance (estimated)",
+                 VoxelIrradiance::bytes(uint32_t(params_.bounces > 0 ? sum : most)));
+    if (params_.bounces > 0) bounces_.plan(plan, sum);
     plan.reserve("tiles of triangles",
                  TriangleTiles::bytes(plan.frame.scene->geometry, clipmap.levels[0].voxels.grid));
 }
@@ -67,6 +72,7 @@ void LightClipmap::prepare(PassSetup& setup) {
     window_ = program("passes/voxelize/fill_window.comp", radiance.defines());
     level_ = program("passes/voxelize/fill_level.comp", radiance.defines());
     flux_ = FluxSums(setup.device, setup.compiler);
+    if (params_.bounces > 0) bounces_.prepare(setup, radiance);
     sceneVersion_.reset();
 }
 
@@ -75,32 +81,51 @@ void LightClipmap::record(PassContext& context) {
     RadianceVoxels& radiance = context.get(radiance_);
     storage_.follow(context, radiance);
 
-    // Where a light or a surface moved, a shadow may have moved anywhere.
-    const bool everywhere = sceneVersion_ != context.frame.sceneVersion;
-    if (everywhere) shadowMaps_.draw(context, sources_);
+    // Where a light or a surface moved, a shadow may have moved anywhere. What bounces comes from anywhere,
+    // too.
+    const bool moved = sceneVersion_ != context.frame.sceneVersion;
+    if (moved) shadowMaps_.draw(context, sources_);
     sceneVersion_ = context.frame.sceneVersion;
+    const bool renewed = std::ranges::any_of(
+        clipmap.levels, [](const ClipmapVoxels::Level& level) { return !level.boxes.empty(); });
+    if (!moved && !renewed) return;
+    const bool everywhere = moved || params_.bounces > 0;
+
+    // Direct light
+    std::vector<VoxelIrradiance> lights(clipmap.levels.size());
     for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
         const ClipmapVoxels::Level& level = clipmap.levels[l];
-        if (everywhere || !level.renewed.materials)
-            fill(context, l, level.voxels,
-                 everywhere ? std::vector{heldVoxels(level.voxels.grid)} : level.boxes);
-        else
-            fill(context, l, level.renewed, level.boxes);
+        const SurfaceVoxels& voxels = everywhere || !level.renewed.materials ? level.voxels : level.renewed;
+        const std::vector<VoxelBox> boxes = everywhere ? std::vector{heldVoxels(voxels.grid)} : level.boxes;
+        if (boxes.empty()) continue;
+        VoxelIrradiance direct = light(context, voxels, boxes);
+        reflect(context, l, voxels, boxes, direct, direct.indirect, params_.bounces == 0);
+        if (params_.bounces > 0) lights[l] = std::move(direct);
     }
+    if (everywhere || !clipmap.levels.back().boxes.empty()) filter(context);
 
-    // Beyond the first level that is held whole each is made of the one below.
-    if (!everywhere && clipmap.levels.back().boxes.empty()) return;
-    for (uint32_t l = uint32_t(clipmap.levels.size()); l < radiance.grid.levels; ++l) {
-        const glm::uvec3 size = radianceResolution(radiance.grid.resolution, l);
-        const uint64_t voxels = uint64_t(size.x) * size.y * size.z;
-        context.stream.dispatch(level_, radiance.bindings(), l, linearGroups(voxels));
-        context.voxelSteps += voxels;
+    // Each bounce carries all light of the last one on: one more of each order. Of all levels before any is
+    // filled.
+    for (uint32_t bounce = 1; bounce <= params_.bounces; ++bounce) {
+        std::vector<LargeBuffer> flux(clipmap.levels.size());
+        for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
+            const SurfaceVoxels& voxels = clipmap.levels[l].voxels;
+            if (voxels.voxelCount == 0) continue;
+            bounces_.gather(context, voxels, lights[l], radiance);
+            flux[l] = bounces_.takeFlux();
+        }
+        for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
+            const SurfaceVoxels& voxels = clipmap.levels[l].voxels;
+            if (voxels.voxelCount == 0) continue;
+            reflect(context, l, voxels, {heldVoxels(voxels.grid)}, lights[l], flux[l],
+                    bounce == params_.bounces);
+        }
+        filter(context);
     }
 }
 
-void LightClipmap::fill(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
-                        const std::vector<VoxelBox>& boxes) {
-    if (boxes.empty()) return;
+VoxelIrradiance LightClipmap::light(PassContext& context, const SurfaceVoxels& voxels,
+                                    const std::vector<VoxelBox>& boxes) {
     CommandStream& stream = context.stream;
     const Geometry& geometry = context.frame.scene->geometry;
     const uint32_t count = std::max(voxels.voxelCount, 1u);
@@ -127,20 +152,36 @@ void LightClipmap::fill(PassContext& context, uint32_t level, const SurfaceVoxel
         area_, {{"litArea", litArea}, {"VoxelMaterialsAt", voxels.materials.at()}, {"area", irradiance.area}},
         voxels.voxelCount, linearGroups(voxels.voxelCount));
 
-    // What is reflected
-    std::vector<Binding> surfaces{
-        {"voxelOccupancy", voxels.occupancy},         {"voxelRank", voxels.rank},
-        {"VoxelMaterialsAt", voxels.materials.at()},  {"DirectFluxAt", irradiance.direct.at()},
-        {"IndirectFluxAt", irradiance.indirect.at()}, {"voxelArea", irradiance.area}};
-    for (const Binding& binding : context.get(radiance_).bindings()) surfaces.push_back(binding);
-    for (const VoxelBox& box : boxes) {
-        stream.dispatch(window_, surfaces,
-                        WindowPush{voxels.grid, params_.emission ? 1.0f : 0.0f, box, level},
-                        linearGroups(box.count()));
-        context.voxelSteps += box.count();
-    }
     stream.finish();
     flux_.end();
+    return irradiance;
+}
+
+void LightClipmap::reflect(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
+                           const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light,
+                           const LargeBuffer& indirect, bool emission) {
+    std::vector<Binding> surfaces{
+        {"voxelOccupancy", voxels.occupancy},        {"voxelRank", voxels.rank},
+        {"VoxelMaterialsAt", voxels.materials.at()}, {"DirectFluxAt", light.direct.at()},
+        {"IndirectFluxAt", indirect.at()},           {"voxelArea", light.area}};
+    for (const Binding& binding : context.get(radiance_).bindings()) surfaces.push_back(binding);
+    const float emitted = params_.emission && emission ? 1.0f : 0.0f;
+    for (const VoxelBox& box : boxes) {
+        context.stream.dispatch(window_, surfaces, WindowPush{voxels.grid, emitted, box, level},
+                                linearGroups(box.count()));
+        context.voxelSteps += box.count();
+    }
+    context.stream.finish();
+}
+
+void LightClipmap::filter(PassContext& context) {
+    const RadianceVoxels& radiance = context.get(radiance_);
+    for (uint32_t l = storage_.windows().firstWhole() + 1; l < radiance.grid.levels; ++l) {
+        const glm::uvec3 size = radianceResolution(radiance.grid.resolution, l);
+        const uint64_t voxels = uint64_t(size.x) * size.y * size.z;
+        context.stream.dispatch(level_, radiance.bindings(), l, linearGroups(voxels));
+        context.voxelSteps += voxels;
+    }
 }
 
 }  // namespace voxray

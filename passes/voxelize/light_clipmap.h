@@ -1,6 +1,7 @@
 #pragma once
 
 #include "passes/common/clipmap_voxels.h"
+#include "passes/common/cone_bounces.h"
 #include "passes/common/flux_sums.h"
 #include "passes/common/radiance_clipmap.h"
 #include "passes/common/shadow_map.h"
@@ -14,25 +15,34 @@ class LightClipmap final : public Pass {
     static constexpr const char* kName = "light_clipmap";
     static constexpr const char* kHelp =
         "Lights the voxels of voxelize_clipmap: each triangle's piece in a voxel is tested against a shadow "
-        "map of every light, and what voxels reflect is made radiance voxels for gather_cones. Direct light "
-        "alone is in them: cones bring one bounce. What scrolled in is lit in each frame; all of the "
+        "map of every light, and what voxels reflect is made radiance voxels for gather_cones, which bring "
+        "one "
+        "bounce more than 'bounces'. What scrolled in is lit in each frame; all of the "
         "windows where a light or a surface has moved. No emissive surfaces as lights and no environment: "
         "they have no single viewpoint. Biased by: voxel size, so distance from the camera; "
         "shadow_resolution. Source: Arnebäck 2017, section 4.1.2, after Panteleev 2014.";
     struct Params {
         uint32_t shadowResolution = 1024;
         bool emission = false;
+        uint32_t bounces = 0;
+        uint32_t bounceCones = 6;
         static constexpr auto schema() {
             return std::tuple{
                 field("shadow_resolution", &Params::shadowResolution,
                       "Texels along a side of each shadow map; a point light has six.", 2u, 4096u),
                 field("emission", &Params::emission,
                       "Whether what surfaces emit is in. Off, cones bring indirect light "
-                      "alone: a direct_* pass adds the rest.")};
+                      "alone: a direct_* pass adds the rest."),
+                field("bounces", &Params::bounces,
+                      "Bounces of light from voxel to voxel by cones, on top of the direct light. Then all "
+                      "of the windows is lit anew also where anything scrolled in.",
+                      0u, 32u),
+                field("bounce_cones", &Params::bounceCones,
+                      "Cones from each side of a voxel in a bounce: 5, 6, 16 or 36.", 5u, 36u)};
         }
     };
 
-    explicit LightClipmap(const Params& params) : params_(params) {}
+    explicit LightClipmap(const Params& params) : params_(params), bounces_(kName, params.bounceCones) {}
     Phase phase() const override { return Phase::Frame; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
@@ -40,9 +50,15 @@ class LightClipmap final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Light and radiance of the voxels in boxes of a level.
-    void fill(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
-              const std::vector<VoxelBox>& boxes);
+    /// Direct light of the voxels in boxes of a level. @param voxels those, or more.
+    VoxelIrradiance light(PassContext& context, const SurfaceVoxels& voxels,
+                          const std::vector<VoxelBox>& boxes);
+    /// Fills boxes of a level with what the voxels in them reflect.
+    void reflect(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
+                 const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light,
+                 const LargeBuffer& indirect, bool emission);
+    /// Fills the levels beyond the first that is held whole, each from the one below.
+    void filter(PassContext& context);
 
     Params params_;
     Port<ClipmapVoxels> clipmap_;
@@ -52,6 +68,7 @@ class LightClipmap final : public Pass {
     ShadowMaps shadowMaps_;
     Program light_, area_, window_, level_;
     FluxSums flux_;
+    ConeBounces bounces_;
     std::optional<uint64_t> sceneVersion_;  ///< Of the last frame.
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "passes/common/radiance_voxels.h"
@@ -14,7 +15,8 @@ class ConeBounces {
     /// @param cones of the set, see coneSet(). @throws Error naming `pass` for a number without a set.
     ConeBounces(const char* pass, uint32_t cones) : pass_(pass), cones_(cones) {}
 
-    void plan(PassPlan& plan, const SurfaceVoxels& voxels) const;
+    /// @param voxels in all lists that light is gathered for.
+    void plan(PassPlan& plan, uint64_t voxels) const;
     void prepare(PassSetup& setup, const RadianceVoxels& radiance);
     /// Flux that arrives at the voxels' sides from what `radiance` holds now, into `flux()`.
     /// @param injected light, which tells the insides of solids.
@@ -22,6 +24,8 @@ class ConeBounces {
                 const RadianceVoxels& radiance);
     /// As VoxelIrradiance::indirect.
     const LargeBuffer& flux() const { return flux_; }
+    /// The same, to keep: the next gather() begins anew.
+    LargeBuffer takeFlux() { return std::move(flux_); }
 
  private:
     void list(PassContext& context, const SurfaceVoxels& voxels);
