@@ -213,7 +213,7 @@ TEST(ClipmapVoxels, HoldWhatAGridOfTheSceneHolds) {
 
 TEST(ClipmapVoxels, ConesBringTheFirstBounce) {
     const double expected = mean(
-        Chain("cornell", "{lights: point}", "[{pass: path_trace, spp: 256, bounces: 1}]").image("indirect"));
+        Chain("cornell", "{lights: point}", "[{pass: path_trace, spp: 128, bounces: 1}]").image("indirect"));
     for (const uint32_t side : {64u, 16u}) {
         Chain chain(
             "cornell", "{lights: point}",
@@ -228,18 +228,18 @@ TEST(ClipmapVoxels, ConesBringTheFirstBounce) {
 }
 
 TEST(ClipmapVoxels, BouncesAreThoseOfTheSceneAndFollowTheCamera) {
-    // Two more bounces: against the path tracer, and scrolled against made there.
+    // One more bounce: against the path tracer, and scrolled against made there.
     const double expected = mean(
-        Chain("cornell", "{lights: point}", "[{pass: path_trace, spp: 256, bounces: 3}]").image("indirect"));
+        Chain("cornell", "{lights: point}", "[{pass: path_trace, spp: 128, bounces: 2}]").image("indirect"));
     Chain chain("cornell", "{lights: point}",
-                "[{pass: gbuffer}, {pass: voxelize_clipmap, resolution: 64, clipmap_resolution: 16}, "
-                "{pass: light_clipmap, bounces: 2}, {pass: gather_cones}]");
+                "[{pass: gbuffer}, {pass: voxelize_clipmap, resolution: 48, clipmap_resolution: 16}, "
+                "{pass: light_clipmap, bounces: 1}, {pass: gather_cones}]");
     const double ratio = mean(chain.image("indirect")) / expected;
     std::printf("%.3f of the path tracer's\n", ratio);
     EXPECT_NEAR(ratio, 1.0, 0.1);
 
     const std::string graph =
-        "[{pass: voxelize_clipmap, resolution: 40, clipmap_resolution: 16}, {pass: light_clipmap, bounces: "
+        "[{pass: voxelize_clipmap, resolution: 24, clipmap_resolution: 16}, {pass: light_clipmap, bounces: "
         "2}]";
     Chain scrolled(cornellFrom({-0.3f, 0.3f, 0.2f}), graph, 8, 8, 1);
     const glm::vec3 camera(0.25f, 1.3f, -0.4f);
