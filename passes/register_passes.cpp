@@ -18,6 +18,8 @@
 #include "passes/place_surfels/place_surfels.h"
 #include "passes/probe_irradiance/probe_irradiance.h"
 #include "passes/trace_gather_rays/trace_gather_rays.h"
+#include "passes/voxelize/light_clipmap.h"
+#include "passes/voxelize/voxelize_clipmap.h"
 #include "passes/voxelize/voxelize_pass.h"
 
 namespace voxray {
@@ -33,6 +35,8 @@ void registerPasses(Registry& registry) {
     registry.add<InjectRsm>();
     registry.add<InjectShadowMap>();
     registry.add<FilterVoxels>();
+    registry.add<VoxelizeClipmap>();
+    registry.add<LightClipmap>();
     registry.add<GatherCones>();
     registry.add<ProbeIrradiance>();
     registry.add<GatherIrradiance>();

@@ -16,16 +16,26 @@ layout(set = 0, binding = 9, scalar) readonly buffer VoxelRank { uint before[]; 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelMaterials { VoxelMaterial data[]; };
 layout(set = 0, binding = 10, scalar) readonly buffer VoxelMaterialsAt { VoxelMaterials voxelMaterials; };
 
-uint voxelWord(VoxelGrid g, ivec3 voxel) {
-    return (uint(voxel.z) * g.resolution.y + uint(voxel.y)) * g.wordsPerRow + (uint(voxel.x) >> 5);
-}
+// Voxels that are held along each axis.
+uvec3 heldVoxels(VoxelGrid g) { return min(g.resolution, uvec3(g.side)); }
 
 bool insideGrid(VoxelGrid g, ivec3 voxel) {
-    return all(greaterThanEqual(voxel, ivec3(0))) && all(lessThan(voxel, ivec3(g.resolution)));
+    return all(greaterThanEqual(voxel, g.first)) && all(lessThan(voxel, g.first + ivec3(heldVoxels(g))));
 }
 
+// The word and the bit in it of a voxel that is held.
+uint voxelWord(VoxelGrid g, ivec3 voxel) {
+    const uvec3 slot = uvec3(voxel) & (g.side - 1u);
+    return (slot.z * heldVoxels(g).y + slot.y) * g.wordsPerRow + (slot.x >> 5);
+}
+
+// The voxel that is held in a slot.
+uvec3 voxelInSlot(VoxelGrid g, uvec3 slot) { return uvec3(g.first) + ((slot - uvec3(g.first)) & (g.side - 1u)); }
+
+uint voxelBit(VoxelGrid g, ivec3 voxel) { return 1u << (uint(voxel.x) & (g.side - 1u) & 31u); }
+
 bool isOccupied(VoxelGrid g, ivec3 voxel) {
-    return insideGrid(g, voxel) && (voxelOccupancy.words[voxelWord(g, voxel)] >> (uint(voxel.x) & 31u) & 1u) != 0u;
+    return insideGrid(g, voxel) && (voxelOccupancy.words[voxelWord(g, voxel)] & voxelBit(g, voxel)) != 0u;
 }
 
 // Number of an occupied voxel, or NO_VOXEL.
@@ -33,7 +43,7 @@ uint voxelNumber(VoxelGrid g, ivec3 voxel) {
     if (!insideGrid(g, voxel)) return NO_VOXEL;
     const uint word = voxelWord(g, voxel);
     const uint bits = voxelOccupancy.words[word];
-    const uint bit = 1u << (uint(voxel.x) & 31u);
+    const uint bit = voxelBit(g, voxel);
     if ((bits & bit) == 0u) return NO_VOXEL;
     return voxelRank.before[word] + uint(bitCount(bits & (bit - 1u)));
 }

@@ -4,9 +4,10 @@ voxray_tests(graph
   DEPENDS voxray_experiment)
 voxray_tests(chain SHARDS 12
   SOURCES gpu/shared_structs_test.cpp physics/awkward_views_test.cpp physics/camera_rays_test.cpp
-           physics/clipmap_test.cpp physics/compare_voxels_test.cpp physics/cone_bounces_test.cpp
-           physics/cone_tracing_test.cpp physics/final_gather_test.cpp physics/gbuffer_test.cpp
-           physics/injection_test.cpp physics/light_paths_test.cpp physics/memory_test.cpp
+           physics/clipmap_test.cpp physics/clipmap_voxels_test.cpp physics/compare_voxels_test.cpp
+           physics/cone_bounces_test.cpp physics/cone_tracing_test.cpp physics/final_gather_test.cpp
+           physics/gbuffer_test.cpp physics/injection_test.cpp physics/light_paths_test.cpp
+           physics/memory_test.cpp
            physics/moving_scene_test.cpp physics/moving_voxels_test.cpp physics/octree_test.cpp
            physics/radiance_voxels_test.cpp physics/shadow_map_test.cpp physics/specular_cones_test.cpp
            physics/stable_light_test.cpp physics/svo_layout_test.cpp physics/thin_walls_test.cpp physics/voxel_writes_test.cpp

@@ -50,6 +50,7 @@ void Session::goToFrame(const Setup& setup, Frame& frame, int fromJudged) {
     PreparedScene& prepared = scene_->prepared;
     sceneMoved_ = true;
     frame.changed = SceneLoader::goToFrame(prepared, setup.scene, fromJudged);
+    ++frame.sceneVersion;
     frame.camera = prepared.camera;
     updateGpuScene(stream_, prepared.state, scene_->gpu);
     scene_->tracer->update(stream_);

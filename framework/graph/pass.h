@@ -97,6 +97,8 @@ struct Frame {
     /// Where surfaces came, went or moved since the build phase ran last (old and new bounds of what moves,
     /// each instance apart); nullopt: everything is new.
     std::optional<std::vector<Box>> changed;
+    /// Another one whenever surfaces or lights have changed: one more each time that `changed` is told.
+    uint64_t sceneVersion = 0;
     /// Called by passes that take long with the part that is done, 0 to 1; false asks them to stop with an
     /// Error.
     std::function<bool(double)> progress;

@@ -1,5 +1,6 @@
 #include "passes/common/flux_sums.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "passes/common/dispatch.h"
@@ -18,7 +19,7 @@ FluxSums::FluxSums(Device& device, const ShaderCompiler& compiler)
     : resolve_(makeComputeProgram(device, compiler.compile("passes/common/flux_sums_resolve.comp"))) {}
 
 void FluxSums::begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels, double power) {
-    sums_ = LargeBuffer(device, "flux sums", voxels.voxelCount * kBytesPerVoxel);
+    sums_ = LargeBuffer(device, "flux sums", std::max(voxels.voxelCount, 1u) * kBytesPerVoxel);
     stream.fill(sums_, 0);
     unitsPerWatt_ = float(std::ldexp(1.0, 56) / power);
 }

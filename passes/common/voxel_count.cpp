@@ -80,9 +80,35 @@ void markTriangle(Bits& bits, const std::array<glm::dvec3, 3>& corners) {
         }
 }
 
-/// Voxels of each level that the triangles chosen by `selected` pass through.
+/// The most voxels that a window of `side` voxels holds.
+uint32_t fullestWindow(const Bits& bits, uint32_t side) {
+    // Voxels by block
+    const int block = int(side) / 4;
+    const glm::ivec3 blocks = (glm::ivec3(bits.size()) + block - 1) / block;
+    std::vector<uint32_t> sums(size_t(blocks.x) * size_t(blocks.y) * size_t(blocks.z), 0);
+    const auto at = [&](glm::ivec3 b) {
+        return (size_t(b.z) * size_t(blocks.y) + size_t(b.y)) * size_t(blocks.x) + size_t(b.x);
+    };
+    bits.forEach([&](glm::ivec3 v) { ++sums[at(v / block)]; });
+
+    // Sums over the blocks that a window meets, along one axis after the other: all up to four, else five
+    for (int axis = 0; axis < 3; ++axis) {
+        const int reach = blocks[axis] <= 4 ? blocks[axis] : 5;
+        for (glm::ivec3 b(0); b.z < blocks.z; ++b.z)
+            for (b.y = 0; b.y < blocks.y; ++b.y)
+                for (b.x = 0; b.x < blocks.x; ++b.x) {
+                    glm::ivec3 next = b;
+                    for (++next[axis]; next[axis] < std::min(b[axis] + reach, blocks[axis]); ++next[axis])
+                        sums[at(b)] += sums[at(next)];
+                }
+    }
+    return *std::ranges::max_element(sums);
+}
+
+/// What `measure` finds at each level of the voxels that the triangles chosen by `selected` pass through.
+template <typename Measure>
 std::vector<uint32_t> count(const Geometry& geometry, const gpu::VoxelGrid& grid,
-                            const std::vector<bool>& selected) {
+                            const std::vector<bool>& selected, const Measure& measure) {
     Bits bits(grid.resolution);
     const glm::dvec3 origin(grid.origin);
     for (size_t t = 0; t < geometry.triangles.size(); ++t) {
@@ -94,30 +120,41 @@ std::vector<uint32_t> count(const Geometry& geometry, const gpu::VoxelGrid& grid
         markTriangle(bits, corners);
     }
 
-    std::vector<uint32_t> counts{bits.count()};
+    std::vector<uint32_t> counts{measure(bits)};
     while (bits.size() != glm::uvec3(1)) {
         Bits coarser((bits.size() + 1u) / 2u);
         bits.forEach([&](glm::ivec3 v) { coarser.mark(v / 2); });
         bits = std::move(coarser);
-        counts.push_back(bits.count());
+        counts.push_back(measure(bits));
     }
+    return counts;
+}
+
+/// Of what stays, and twice of what moves.
+template <typename Measure>
+std::vector<uint32_t> countStillAndMoving(const Geometry& geometry, const gpu::VoxelGrid& grid,
+                                          const Measure& measure) {
+    std::vector<bool> still(geometry.triangles.size(), true);
+    const std::vector<InstanceRange> runs = movingRuns(geometry);
+    for (const InstanceRange& run : runs)
+        std::fill_n(still.begin() + run.firstTriangle, run.triangleCount, false);
+    std::vector<uint32_t> counts = count(geometry, grid, still, measure);
+    if (runs.empty()) return counts;
+
+    still.flip();
+    const std::vector<uint32_t> moving = count(geometry, grid, still, measure);
+    for (size_t level = 0; level < counts.size(); ++level) counts[level] += 2 * moving[level];
     return counts;
 }
 
 }  // namespace
 
 std::vector<uint32_t> countSurfaceVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
-    std::vector<bool> still(geometry.triangles.size(), true);
-    const std::vector<InstanceRange> runs = movingRuns(geometry);
-    for (const InstanceRange& run : runs)
-        std::fill_n(still.begin() + run.firstTriangle, run.triangleCount, false);
-    std::vector<uint32_t> counts = count(geometry, grid, still);
-    if (runs.empty()) return counts;
+    return countStillAndMoving(geometry, grid, [](const Bits& bits) { return bits.count(); });
+}
 
-    still.flip();
-    const std::vector<uint32_t> moving = count(geometry, grid, still);
-    for (size_t level = 0; level < counts.size(); ++level) counts[level] += 2 * moving[level];
-    return counts;
+std::vector<uint32_t> countWindowVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid, uint32_t side) {
+    return countStillAndMoving(geometry, grid, [&](const Bits& bits) { return fullestWindow(bits, side); });
 }
 
 }  // namespace voxray

@@ -17,4 +17,9 @@ namespace voxray {
 /// grid.
 std::vector<uint32_t> countSurfaceVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid);
 
+/// The same for windows of at most `side` voxels along each axis, a power of two from 4 on: the most that a
+/// window holds, wherever it is. An upper bound: windows are counted in blocks a quarter as wide, of which
+/// one meets up to five along an axis.
+std::vector<uint32_t> countWindowVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid, uint32_t side);
+
 }  // namespace voxray

@@ -1,6 +1,7 @@
 #include "passes/common/voxels.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/error.h"
@@ -40,6 +41,7 @@ gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t 
     // The scene in the middle of the grid.
     grid.origin = 0.5f * (boundsMin + boundsMax) - 0.5f * grid.voxelSize * glm::vec3(grid.resolution);
     grid.wordsPerRow = (grid.resolution.x + 31) / 32;
+    grid.side = std::bit_ceil(resolution);
     grid.directions = 6;
     return grid;
 }

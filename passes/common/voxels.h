@@ -1,13 +1,20 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
 #include "graph/pass.h"
 #include "passes/common/large_buffer.h"
+#include "passes/common/voxel_box.h"
 #include "shaders/shared/voxel_types.h"
 
 namespace voxray {
+
+/// The voxels of a grid that are held: all of it, or a window.
+inline VoxelBox heldVoxels(const gpu::VoxelGrid& grid) {
+    return {grid.first, glm::min(grid.resolution, glm::uvec3(grid.side))};
+}
 
 /// The voxels that surfaces pass through: an occupancy bit for each voxel of the grid, ranks that number the
 /// occupied ones, and their materials. Empty space costs two bits a voxel. GLSL access: shaders/voxels.glsl.
@@ -21,7 +28,10 @@ struct SurfaceVoxels : Resource {
     Buffer rank;              ///< 1 uint a word of `occupancy`: occupied voxels before it.
     LargeBuffer materials;    ///< VoxelMaterial a surface voxel.
 
-    uint64_t words() const { return uint64_t(grid.wordsPerRow) * grid.resolution.y * grid.resolution.z; }
+    uint64_t words() const {
+        const glm::uvec3 held = heldVoxels(grid).size;
+        return uint64_t(grid.wordsPerRow) * held.y * held.z;
+    }
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }
 };
 

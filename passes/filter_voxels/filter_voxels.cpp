@@ -43,15 +43,16 @@ void FilterVoxels::plan(PassPlan& plan) {
     const gpu::VoxelGrid& grid = plan.get(voxels_).grid;
     if (params_.bounces > 0 && params_.layout == RadianceLayout::Clipmap)
         throw Error(
-            "filter_voxels: 'bounces' needs all voxels, of which a clipmap holds those near the camera; set "
-            "'layout' to dense or svo, or the injection's own 'bounces'");
+            "filter_voxels: 'bounces' needs all voxels, of which this clipmap holds those near the camera; "
+            "set 'layout' to dense or svo, or the injection's own 'bounces', or take voxelize_clipmap and "
+            "light_clipmap");
     RadianceVoxels& radiance = plan.get(radiance_);
     radiance.layout = params_.layout;
     radiance.grid = {grid.origin,     grid.voxelSize,
                      grid.resolution, radianceLevels(grid.resolution),
                      grid.directions, radianceUnit(*plan.frame.scene)};
     storage_->plan(plan, plan.get(voxels_), radiance);
-    if (params_.bounces > 0) bounces_.plan(plan, plan.get(voxels_), params_.eachFrame);
+    if (params_.bounces > 0) bounces_.plan(plan, plan.get(voxels_).voxelCount, params_.eachFrame);
 }
 
 void FilterVoxels::prepare(PassSetup& setup) {

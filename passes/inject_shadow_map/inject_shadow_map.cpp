@@ -1,13 +1,11 @@
 #include "passes/inject_shadow_map/inject_shadow_map.h"
 
 #include "passes/common/dispatch.h"
-#include "passes/common/frame_image.h"
 #include "passes/common/random_seed.h"
 
 namespace voxray {
 namespace {
 
-constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr uint32_t kCubeSides = 6;
 
 struct LightPush {
@@ -17,14 +15,6 @@ struct LightPush {
     uint32_t side;
     uint32_t count;
 };
-
-ImageDesc mapDesc(uint32_t resolution) {
-    ImageDesc desc;
-    desc.format = kDepthFormat;
-    desc.extent = {resolution, resolution, 1};
-    desc.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    return desc;
-}
 
 }  // namespace
 
@@ -37,19 +27,13 @@ void InjectShadowMap::declare(PassBuilder& builder) {
 void InjectShadowMap::plan(PassPlan& plan) {
     sources_ = requireViewpoints(*plan.frame.scene, kName);
     SurfelFeedback::plan(plan, kName, params_, plan.get(voxels_));
-    plan.reserve("shadow map", imageBytes(mapDesc(params_.resolution)));
+    plan.reserve("shadow map", ShadowMap::bytes(params_.resolution));
     plan.reserveScratch("surfels' direct irradiance (estimated)",
                         plan.get(surfels_).most * 4 * sizeof(float));
 }
 
 void InjectShadowMap::prepare(PassSetup& setup) {
-    shadowMap_ = Image(setup.device, "shadow map", mapDesc(params_.resolution));
-    sampler_ = texelSampler(setup.device);
-    const ShaderModule stages[] = {setup.compiler.compile("passes/common/light_view.vert"),
-                                   setup.compiler.compile("passes/inject_shadow_map/shadow_map.frag")};
-    RasterState state;
-    state.depthFormat = kDepthFormat;
-    rasterize_ = makeRasterProgram(setup.device, stages, state);
+    shadowMap_ = ShadowMap(setup, params_.resolution);
     lightSurfels_ = makeComputeProgram(setup.device,
                                        setup.compiler.compile("passes/inject_shadow_map/light_surfels.comp"));
     feedback_ = SurfelFeedback(setup, params_);
@@ -70,20 +54,16 @@ void InjectShadowMap::record(PassContext& context) {
     for (const LightSource& source : sources_) {
         const std::vector<gpu::LightView> views = lightViews(state.lights[source.light], state.geometry);
         for (uint32_t v = 0; v < views.size(); ++v) {
-            RasterTargets targets;
-            targets.depth = &shadowMap_;
-            targets.extent = {params_.resolution, params_.resolution, 1};
-            stream.draw(rasterize_, context.scene.bindings({}), views[v], targets,
-                        context.scene.triangleCount * 3);
+            shadowMap_.draw(context, views[v]);
             const uint32_t side = views.size() == kCubeSides ? v : kCubeSides;
             for (size_t c = 0; c < surfels.chunks.size(); ++c) {
                 const Surfels::Chunk& chunk = surfels.chunks[c];
-                stream.dispatch(lightSurfels_,
-                                context.scene.bindings({{"surfels", chunk.surfels},
-                                                        {"direct", direct[c]},
-                                                        {"shadowMap", shadowMap_, sampler_}}),
-                                LightPush{views[v], source.light, params_.resolution, side, chunk.count},
-                                linearGroups(chunk.count));
+                stream.dispatch(
+                    lightSurfels_,
+                    context.scene.bindings(
+                        {{"surfels", chunk.surfels}, {"direct", direct[c]}, shadowMap_.binding()}),
+                    LightPush{views[v], source.light, params_.resolution, side, chunk.count},
+                    linearGroups(chunk.count));
             }
         }
     }

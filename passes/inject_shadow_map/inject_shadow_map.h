@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/common/light_views.h"
+#include "passes/common/shadow_map.h"
 #include "passes/common/surfel_feedback.h"
 
 namespace voxray {
@@ -41,9 +41,8 @@ class InjectShadowMap final : public Pass {
     Port<Surfels> surfels_;
     Port<VoxelIrradiance> irradiance_;
     std::vector<LightSource> sources_;
-    Program rasterize_, lightSurfels_;
-    Image shadowMap_;
-    Sampler sampler_;
+    Program lightSurfels_;
+    ShadowMap shadowMap_;
     SurfelFeedback feedback_;
 };
 

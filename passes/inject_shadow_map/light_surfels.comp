@@ -1,8 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Adds the light of one view of a light to the surfels in it, by the share of the four nearest texels, weighted bilinearly,
-// that see the surfel. A texel sees it if nothing lies before the surfel's tangent plane on the texel's own ray: flat surfaces
-// do not shade themselves at any slope. Half a texel's width is to spare for what is curved, and for rounding.
+// that see the surfel.
 #include "shaders/light_view.glsl"
 #include "shaders/lights.glsl"
 #include "shaders/linear_index.glsl"
@@ -20,20 +19,8 @@ layout(push_constant, scalar) uniform Push {
     uint count;
 } push;
 
-uint cubeSide(vec3 v) {
-    const vec3 a = abs(v);
-    const uint axis = a.x >= a.y && a.x >= a.z ? 0u : a.y >= a.z ? 1u : 2u;
-    return 2u * axis + (v[axis] < 0.0 ? 1u : 0u);
-}
-
 bool seen(ivec2 texel, Surfel s) {
-    const LightView view = push.view;
-    const TexelRay ray = texelRay(view, texelOnView(view, push.resolution, texel));
-    const float towards = dot(ray.along, s.normal);
-    const float plane = towards < 0.0 ? min(dot(s.position - ray.start, s.normal) / towards, view.farthest) : view.farthest;
-    const float nearest = texelFetch(shadowMap, texel, 0).r * view.farthest;
-    const float width = texelWidth(view, push.resolution) * (view.parallel != 0u ? 1.0 : nearest);
-    return nearest + 0.5 * width >= plane;
+    return texelSees(push.view, push.resolution, texel, texelFetch(shadowMap, texel, 0).r, s.position, s.normal);
 }
 
 void main() {
@@ -48,9 +35,7 @@ void main() {
     if (all(equal(irradiance, vec3(0.0)))) return;
 
     // In texels from the middle of the first; within half a texel of the border there is none further out.
-    vec2 onView = vec2(dot(away, view.right), dot(away, view.up));
-    if (view.parallel == 0u) onView /= dot(away, view.forward);
-    const vec2 at = (onView + view.halfExtent) / texelWidth(view, push.resolution) - 0.5;
+    const vec2 at = inTexels(view, push.resolution, s.position) - 0.5;
     const ivec2 first = clamp(ivec2(floor(at)), ivec2(0), ivec2(push.resolution) - 2);
     const vec2 share = clamp(at - vec2(first), 0.0, 1.0);
     float visible = 0.0;

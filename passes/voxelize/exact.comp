@@ -11,7 +11,7 @@ layout(set = 0, binding = 17, scalar) readonly buffer Tiles { uvec2 data[]; } ti
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint tileCount;
-    float emissionScale;
+    float scale;  // Of what visit() adds up.
 } push;
 
 #ifndef MARK
@@ -48,6 +48,6 @@ void main() {
             found = voxel.z <= lastDepth && overlapsVoxel(t, voxel, kMargin);
         }
         if (!found) return;
-        visit(push.grid, t, voxel, push.emissionScale);
+        visit(push.grid, t, voxel, push.scale);
     }
 }

@@ -5,6 +5,14 @@
 #include "passes/common/dispatch.h"
 
 namespace voxray {
+namespace {
+
+struct BitsPush {
+    uint32_t rows;
+    uint32_t wordsPerRow;
+};
+
+}  // namespace
 
 RegionJoin::RegionJoin(Device& device, const ShaderCompiler& compiler)
     : bits_(makeComputeProgram(device, compiler.compile("passes/voxelize/region_bits.comp"))),
@@ -16,7 +24,7 @@ void RegionJoin::occupancy(CommandStream& stream, const VoxelRegion& region, con
     Device& device = stream.device();
     const Buffer bits(device, "voxel region", former.occupancy.bytes());
     stream.fill(bits, 0);
-    const std::vector<VoxelBox>& list = region.boxes();
+    const std::vector<VoxelBox> list = region.slots();
     Buffer boxes;
     if (!list.empty()) {
         boxes = Buffer(device, "boxes of voxels", list.size() * sizeof(VoxelBox));
@@ -25,7 +33,8 @@ void RegionJoin::occupancy(CommandStream& stream, const VoxelRegion& region, con
         for (const VoxelBox& box : list)
             words = std::max(words, (uint64_t(box.size.x) / 32 + 2) * box.size.y * box.size.z);
         const glm::uvec3 groups = linearGroups(words);
-        stream.dispatch(bits_, {{"boxes", boxes}, {"region", bits}}, former.grid,
+        stream.dispatch(bits_, {{"boxes", boxes}, {"region", bits}},
+                        BitsPush{heldVoxels(former.grid).size.y, former.grid.wordsPerRow},
                         {groups.x, groups.y, uint32_t(list.size())});
     }
 
@@ -46,6 +55,7 @@ void RegionJoin::materials(CommandStream& stream, const PopulationPrefixSum& pre
     former.voxelCount = prefixSum.run(stream, joined_, rank, words);
     LargeBuffer materials(device, "voxel materials",
                           std::max<uint64_t>(former.voxelCount, 1) * sizeof(gpu::VoxelMaterial));
+    if (former.voxelCount == 0) stream.fill(materials, 0);
     stream.dispatch(materials_,
                     {{"fresh", fresh.occupancy},
                      {"freshRank", fresh.rank},

@@ -43,12 +43,14 @@ void main() {
 #ifdef MARK
     markVoxel(push.grid, voxel);
 #else
+    const uint number = voxelNumber(push.grid, voxel);
+    if (number == NO_VOXEL) return;
     const float area = abs(s.geometricNormal[a]) / float(push.samples * push.samples);
     uvec3 covered = uvec3(0u);
     covered[a] = subSamples();
     const uvec3 v = triangleVertices(triangle);
     const vec3 p0 = gridVertex(push.grid, v.x);
     const vec3 cross_ = cross(gridVertex(push.grid, v.y) - p0, gridVertex(push.grid, v.z) - p0);
-    addSurface(push.grid, voxel, area, s, texCoordWidth(v, 0.5 * length(cross_)), covered, push.emissionScale);
+    addSurface(number, area, s, texCoordWidth(v, 0.5 * length(cross_)), covered, push.emissionScale);
 #endif
 }

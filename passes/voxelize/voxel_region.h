@@ -8,17 +8,21 @@
 
 namespace voxray {
 
-/// The voxels to make anew: all of a grid, or boxes of it, which may overlap.
+/// The voxels to make anew: all that a grid holds, or boxes of it, which may overlap.
 class VoxelRegion {
  public:
-    /// All of the grid.
+    /// All that the grid holds.
     explicit VoxelRegion(const gpu::VoxelGrid& grid);
-    /// What changes where surfaces do: the voxels that meet a changed box, m, and those within a voxel of it,
-    /// as far as exposure probes reach.
-    VoxelRegion(const gpu::VoxelGrid& grid, const std::vector<Box>& changed);
+    /// Boxes of what the grid holds.
+    VoxelRegion(const gpu::VoxelGrid& grid, std::vector<VoxelBox> boxes);
 
-    bool everywhere() const { return everywhere_; }
+    bool empty() const { return boxes_.empty(); }
     const std::vector<VoxelBox>& boxes() const { return boxes_; }
+    /// The same as boxes of slots: those that lie across a window's seam in parts.
+    std::vector<VoxelBox> slots() const;
+    /// A box round all boxes, in grid coordinates.
+    const glm::vec3& low() const { return low_; }
+    const glm::vec3& high() const { return high_; }
 
     /// Whether a box in grid coordinates, closed, meets the region.
     bool meets(const glm::vec3& low, const glm::vec3& high) const;
@@ -27,10 +31,14 @@ class VoxelRegion {
 
  private:
     gpu::VoxelGrid grid_;
-    bool everywhere_;
     std::vector<VoxelBox> boxes_;
-    glm::vec3 low_{0}, high_{0};  ///< Round all boxes, in grid coordinates.
+    bool wholeGrid_;
+    glm::vec3 low_{0}, high_{0};
 };
+
+/// What changes where surfaces do, of the voxels that a grid holds: those that meet a changed box, m, and
+/// those within a voxel of it, as far as exposure probes reach.
+std::vector<VoxelBox> changedVoxels(const gpu::VoxelGrid& grid, const std::vector<Box>& changed);
 
 /// A triangle's bounds in grid coordinates, larger by more than the margin of grid_triangle.glsl.
 struct GridBounds {

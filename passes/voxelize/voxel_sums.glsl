@@ -12,7 +12,7 @@ layout(set = 0, binding = 16) buffer Occupancy { uint words[]; } occupancy;
 
 void markVoxel(VoxelGrid g, ivec3 voxel) {
     const uint word = voxelWord(g, voxel);
-    const uint bit = 1u << (uint(voxel.x) & 31u);
+    const uint bit = voxelBit(g, voxel);
     if ((occupancy.words[word] & bit) == 0u) atomicOr(occupancy.words[word], bit);
 }
 
@@ -40,9 +40,7 @@ float footprintLevel(GpuTextureRef ref, vec2 texCoordWidth_) {
 
 // Adds `area` voxel faces of a surface to a voxel, with the material of one of its points. They count as at least one unit, so
 // that every occupied voxel has a material. `width`: of a voxel, as texCoordWidth gives it. `covered`: sub-samples of the voxel's faces across x, y and z.
-void addSurface(VoxelGrid g, ivec3 voxel, float area, SurfacePoint s, vec2 width, uvec3 covered, float emissionScale) {
-    const uint number = voxelNumber(g, voxel);
-    if (number == NO_VOXEL) return;
+void addSurface(uint number, float area, SurfacePoint s, vec2 width, uvec3 covered, float emissionScale) {
     const GpuMaterial m = sceneMaterials.data[s.material];
     const float colorLevel = footprintLevel(m.baseColorTexture, width);
     const vec2 metallicRoughness =

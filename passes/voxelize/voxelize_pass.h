@@ -1,12 +1,6 @@
 #pragma once
 
-#include <optional>
-
-#include "passes/common/prefix_sum.h"
-#include "passes/common/voxels.h"
-#include "passes/voxelize/exposure_probe.h"
-#include "passes/voxelize/region_join.h"
-#include "passes/voxelize/voxelize_method.h"
+#include "passes/voxelize/voxel_builder.h"
 
 namespace voxray {
 
@@ -18,11 +12,7 @@ struct EnumNames<VoxelizeMethodName> {
                                       std::pair{VoxelizeMethodName::ThreeAxis, "three_axis"}};
 };
 
-/// Turns triangles into surface voxels. A method finds the voxels, twice: first to mark them, then, once they
-/// are numbered, to sum up what their surfaces carry, weighted by area. Sums are integers: the result does
-/// not depend on the order of additions. All is done within a region: everywhere the first time, later where
-/// surfaces have changed; what was made before is then joined with what is new, bit for bit as if all had
-/// been made anew.
+/// Turns triangles into surface voxels: everywhere the first time, later where surfaces have changed.
 class VoxelizePass final : public Pass {
  public:
     static constexpr const char* kName = "voxelize";
@@ -70,20 +60,9 @@ class VoxelizePass final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// The voxels of a region, into `target`, whose occupancy and ranks are allocated. `former`: those of the
-    /// whole grid as they were, where the region is a part of it.
-    void voxelize(PassContext& context, const VoxelRegion& region, SurfaceVoxels& target,
-                  const SurfaceVoxels* former = nullptr);
-    void update(PassContext& context, const VoxelRegion& region, SurfaceVoxels& voxels);
-
     Params params_;
     Port<SurfaceVoxels> voxels_;
-    std::unique_ptr<VoxelizeMethod> method_;
-    Program resolve_;
-    std::optional<PopulationPrefixSum> prefixSum_;
-    ExposureProbe exposureProbe_;
-    RegionJoin join_;
-    float largestEmission_ = 0;
+    VoxelBuilder builder_;
 };
 
 }  // namespace voxray

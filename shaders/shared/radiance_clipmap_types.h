@@ -1,4 +1,4 @@
-// Levels of a radiance clipmap, shared by C++ (passes/filter_voxels/clipmap.cpp) and GLSL (shaders/radiance_clipmap.glsl).
+// Levels of a radiance clipmap, shared by C++ (passes/common/radiance_clipmap.h) and GLSL (shaders/radiance_clipmap.glsl).
 #ifndef VOXRAY_SHARED_RADIANCE_CLIPMAP_TYPES_H
 #define VOXRAY_SHARED_RADIANCE_CLIPMAP_TYPES_H
 

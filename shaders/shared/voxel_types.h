@@ -7,13 +7,16 @@
 VOXRAY_SHARED_BEGIN
 
 // A box of cubic voxels. Voxel (x, y, z) spans origin + voxelSize * [x, x+1] and so on. Rows along x are padded to
-// whole 32-bit words, so that one word holds the occupancy of 32 neighbours.
+// whole 32-bit words, so that one word holds the occupancy of 32 neighbours. Of each axis at most `side` voxels are held, from
+// `first` on; each has its slot at its coordinates modulo `side`, so that what stays held stays in place when `first` moves.
 struct VoxelGrid {
     vec3 origin;      // m
     float voxelSize;  // m
     uvec3 resolution;
-    uint wordsPerRow;  // ceil(resolution.x / 32)
+    uint wordsPerRow;  // ceil(min(resolution.x, side) / 32)
     uint directions;   // 6: a voxel's light is read by the side that a surface faces; 1: all sides share one value.
+    uint side;         // A power of two; no less than the resolution where all is held, as everywhere but in windows.
+    ivec3 first;       // 0 along axes that are held whole.
 };
 
 // What a surface voxel holds of the surfaces in it. Averages are weighted by area.

@@ -58,6 +58,7 @@ class Chain {
     /// Changes the scene in place, takes over what the change says that it changed, and renders a frame.
     void update(const std::function<std::vector<Box>(SceneState&)>& change) {
         frame_.changed = change(*state_);
+        ++frame_.sceneVersion;
         updateGpuScene(stream_, *state_, scene_);
         tracer_->update(stream_);
         updateSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);

@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-#include "passes/filter_voxels/clipmap_windows.h"
+#include "passes/common/clipmap_windows.h"
 #include "tests/gpu/radiance_samples.h"
 
 namespace voxray::test {

@@ -41,6 +41,7 @@ class Content {
         grid.resolution = resolution;
         grid.wordsPerRow = (resolution.x + 31) / 32;
         grid.directions = directions;
+        grid.side = 1024;
         levels.push_back(makeLevel(0, value));
         for (uint32_t level = 1; level < radianceLevels(resolution); ++level)
             levels.push_back(makeLevel(level, [&](glm::ivec3 cell) { return filtered(level - 1, cell); }));

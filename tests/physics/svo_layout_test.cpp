@@ -28,9 +28,14 @@ TEST(SvoLayout, AgreesWithTheDenseLayout) {
         const auto dense = chain("dense"), svo = chain("svo");
         const RadianceVoxels& denseVoxels = *dense->graph().resource<RadianceVoxels>("radiance");
         const RadianceVoxels& octree = *svo->graph().resource<RadianceVoxels>("radiance");
-        const std::vector<RadianceQuery> queries = randomQueries(
-            {octree.grid.origin, octree.grid.voxelSize, octree.grid.resolution, 0, octree.grid.directions},
-            directions == "1" ? 200000 : 1000000);
+        const std::vector<RadianceQuery> queries = randomQueries({octree.grid.origin,
+                                                                  octree.grid.voxelSize,
+                                                                  octree.grid.resolution,
+                                                                  0,
+                                                                  octree.grid.directions,
+                                                                  1024,
+                                                                  {}},
+                                                                 directions == "1" ? 200000 : 1000000);
         const std::vector<glm::vec4> a = sampleRadiance(denseVoxels, queries),
                                      b = sampleRadiance(octree, queries);
         double worst = 0, worstCover = 0, brightest = 0;

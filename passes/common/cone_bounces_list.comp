@@ -14,9 +14,9 @@ layout(push_constant, scalar) uniform Push {
 void main() {
     const uint word = linearIndex();
     if (word >= push.words) return;
-    const uint row = word / push.grid.wordsPerRow;
-    const uvec3 first = uvec3(32u * (word % push.grid.wordsPerRow), row % push.grid.resolution.y, row / push.grid.resolution.y);
+    const uint row = word / push.grid.wordsPerRow, rows = heldVoxels(push.grid).y;
+    const uvec3 slot = uvec3(32u * (word % push.grid.wordsPerRow), row % rows, row / rows);
     uint voxel = voxelRank.before[word];
     for (uint bits = voxelOccupancy.words[word]; bits != 0u; bits &= bits - 1u)
-        voxelCells.data[voxel++] = first + uvec3(findLSB(bits), 0u, 0u);
+        voxelCells.data[voxel++] = voxelInSlot(push.grid, slot + uvec3(findLSB(bits), 0u, 0u));
 }

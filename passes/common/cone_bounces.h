@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "passes/common/radiance_voxels.h"
@@ -14,8 +15,9 @@ class ConeBounces {
     /// @param cones of the set, see coneSet(). @throws Error naming `pass` for a number without a set.
     ConeBounces(const char* pass, uint32_t cones) : pass_(pass), cones_(cones) {}
 
-    /// @param eachFrame whether memory is kept from frame to frame; else it is scratch.
-    void plan(PassPlan& plan, const SurfaceVoxels& voxels, bool eachFrame) const;
+    /// @param voxels in all lists that light is gathered for.
+    /// @param keeps whether memory is kept from frame to frame; else it is scratch, for release() to free.
+    void plan(PassPlan& plan, uint64_t voxels, bool keeps) const;
     void prepare(PassSetup& setup, const RadianceVoxels& radiance);
     /// Flux that arrives at the voxels' sides from what `radiance` holds now, into `flux()`.
     /// @param injected light, which tells the insides of solids.
@@ -23,6 +25,8 @@ class ConeBounces {
                 const RadianceVoxels& radiance);
     /// As VoxelIrradiance::indirect.
     const LargeBuffer& flux() const { return flux_; }
+    /// The same, to keep: the next gather() begins anew.
+    LargeBuffer takeFlux() { return std::move(flux_); }
     /// Frees what gather() took. Waits for the device.
     void release(CommandStream& stream);
 

@@ -1,4 +1,4 @@
-#include "passes/filter_voxels/cone_bounces.h"
+#include "passes/common/cone_bounces.h"
 
 #include <algorithm>
 
@@ -24,20 +24,20 @@ struct GatherPush {
     uint32_t cones;
 };
 
-uint64_t cellBytes(const SurfaceVoxels& voxels) {
-    return uint64_t(voxels.voxelCount) * sizeof(glm::uvec3);
+uint64_t cellBytes(uint64_t voxels) {
+    return voxels * sizeof(glm::uvec3);
 }
 
-uint64_t fluxBytes(const SurfaceVoxels& voxels) {
-    return uint64_t(voxels.voxelCount) * kFluxFloats * sizeof(float);
+uint64_t fluxBytes(uint64_t voxels) {
+    return voxels * kFluxFloats * sizeof(float);
 }
 
 }  // namespace
 
-void ConeBounces::plan(PassPlan& plan, const SurfaceVoxels& voxels, bool eachFrame) const {
+void ConeBounces::plan(PassPlan& plan, uint64_t voxels, bool keeps) const {
     plan.reserve("cones", coneSet(pass_, cones_).size() * sizeof(gpu::Cone));
     const uint64_t light = cellBytes(voxels) + fluxBytes(voxels);
-    if (eachFrame)
+    if (keeps)
         plan.reserve("bounced light (estimated)", light);
     else
         plan.reserveScratch("bounced light (estimated)", light);
@@ -47,18 +47,19 @@ void ConeBounces::prepare(PassSetup& setup, const RadianceVoxels& radiance) {
     const auto program = [&](const char* file, const Defines& defines) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
-    list_ = program("passes/filter_voxels/cone_bounces_list.comp", {});
-    gather_ = program("passes/filter_voxels/cone_bounces_gather.comp", radiance.defines());
+    list_ = program("passes/common/cone_bounces_list.comp", {});
+    gather_ = program("passes/common/cone_bounces_gather.comp", radiance.defines());
     const std::vector<gpu::Cone> cones = coneSet(pass_, cones_);
     coneSet_ = Buffer(setup.device, "cones", cones.size() * sizeof(gpu::Cone));
     setup.stream.upload(coneSet_, cones);
 }
 
 void ConeBounces::list(PassContext& context, const SurfaceVoxels& voxels) {
-    if (!cells_ || cells_.bytes() != cellBytes(voxels)) {
-        cells_ = Buffer(context.device, "cells of surface voxels", cellBytes(voxels));
-        flux_ = LargeBuffer(context.device, "bounced flux", fluxBytes(voxels));
-    }
+    const uint64_t count = voxels.voxelCount;
+    if (!cells_ || cells_.bytes() != cellBytes(count))
+        cells_ = Buffer(context.device, "cells of surface voxels", cellBytes(count));
+    if (!flux_ || flux_.bytes() != fluxBytes(count))
+        flux_ = LargeBuffer(context.device, "bounced flux", fluxBytes(count));
     context.stream.dispatch(
         list_, {{"voxelOccupancy", voxels.occupancy}, {"voxelRank", voxels.rank}, {"voxelCells", cells_}},
         ListPush{voxels.grid, uint32_t(voxels.words())}, linearGroups(voxels.words()));

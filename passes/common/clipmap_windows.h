@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <string>
 #include <vector>
 
 #include "passes/common/voxel_box.h"
@@ -8,6 +8,9 @@
 #include "shaders/shared/radiance_types.h"
 
 namespace voxray {
+
+/// @throws Error naming `pass` where a window's side isn't a power of two.
+void requirePowerOfTwo(const std::string& pass, uint32_t side);
 
 /// What a clipmap over `grid` holds: of each level at most `side` voxels along an axis, round the camera.
 /// Levels that are no larger than that are held whole. `side`: a power of two, 16 or more.
@@ -18,7 +21,9 @@ class ClipmapWindows {
 
     /// Voxels of all windows together.
     uint64_t voxels() const { return voxels_; }
+    /// The first level that is held whole, as are all after it.
     uint32_t firstWhole() const { return firstWhole_; }
+    uint32_t side() const { return side_; }
     /// The window of a level for a camera at `camera` (m).
     gpu::ClipmapWindow window(uint32_t level, const glm::vec3& camera) const;
 

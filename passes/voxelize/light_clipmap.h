@@ -1,0 +1,75 @@
+#pragma once
+
+#include "passes/common/clipmap_voxels.h"
+#include "passes/common/cone_bounces.h"
+#include "passes/common/flux_sums.h"
+#include "passes/common/radiance_clipmap.h"
+#include "passes/common/shadow_map.h"
+
+namespace voxray {
+
+/// Lights the surface voxels of a clipmap by shadow maps, while it visits the triangles in them, and fills
+/// radiance voxels with what they reflect. Docs: docs/clipmap.md.
+class LightClipmap final : public Pass {
+ public:
+    static constexpr const char* kName = "light_clipmap";
+    static constexpr const char* kHelp =
+        "Lights the voxels of voxelize_clipmap: each triangle's piece in a voxel is tested against a shadow "
+        "map of every light, and what voxels reflect is made radiance voxels for gather_cones, which bring "
+        "one "
+        "bounce more than 'bounces'. What scrolled in is lit in each frame; all of the "
+        "windows where a light or a surface has moved. No emissive surfaces as lights and no environment: "
+        "they have no single viewpoint. Biased by: voxel size, so distance from the camera; "
+        "shadow_resolution. Source: Arnebäck 2017, section 4.1.2, after Panteleev 2014.";
+    struct Params {
+        uint32_t shadowResolution = 1024;
+        bool emission = false;
+        uint32_t bounces = 0;
+        uint32_t bounceCones = 6;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("shadow_resolution", &Params::shadowResolution,
+                      "Texels along a side of each shadow map; a point light has six.", 2u, 4096u),
+                field("emission", &Params::emission,
+                      "Whether what surfaces emit is in. Off, cones bring indirect light "
+                      "alone: a direct_* pass adds the rest."),
+                field("bounces", &Params::bounces,
+                      "Bounces of light from voxel to voxel by cones, on top of the direct light. Then all "
+                      "of the windows is lit anew also where anything scrolled in.",
+                      0u, 32u),
+                field("bounce_cones", &Params::bounceCones,
+                      "Cones from each side of a voxel in a bounce: 5, 6, 16 or 36.", 5u, 36u)};
+        }
+    };
+
+    explicit LightClipmap(const Params& params) : params_(params), bounces_(kName, params.bounceCones) {}
+    Phase phase() const override { return Phase::Frame; }
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    /// Direct light of the voxels in boxes of a level. @param voxels those, or more.
+    VoxelIrradiance light(PassContext& context, const SurfaceVoxels& voxels,
+                          const std::vector<VoxelBox>& boxes);
+    /// Fills boxes of a level with what the voxels in them reflect.
+    void reflect(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
+                 const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light,
+                 const LargeBuffer& indirect, bool emission);
+    /// Fills the levels beyond the first that is held whole, each from the one below.
+    void filter(PassContext& context);
+
+    Params params_;
+    Port<ClipmapVoxels> clipmap_;
+    Port<RadianceVoxels> radiance_;
+    std::vector<LightSource> sources_;
+    RadianceClipmap storage_;
+    ShadowMaps shadowMaps_;
+    Program light_, area_, window_, level_;
+    FluxSums flux_;
+    ConeBounces bounces_;
+    std::optional<uint64_t> sceneVersion_;  ///< Of the last frame.
+};
+
+}  // namespace voxray

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "passes/common/prefix_sum.h"
+#include "passes/common/voxels.h"
+#include "passes/voxelize/exposure_probe.h"
+#include "passes/voxelize/region_join.h"
+#include "passes/voxelize/voxelize_method.h"
+
+namespace voxray {
+
+/// Makes surface voxels of triangles. A method finds the voxels, twice: first to mark them, then, once they
+/// are numbered, to sum up what their surfaces carry, weighted by area. Sums are integers: the result does
+/// not depend on the order of additions.
+class VoxelBuilder {
+ public:
+    /// @param exposureRays points for as much area as a voxel's face has that probe for open space.
+    VoxelBuilder(std::unique_ptr<VoxelizeMethod> method, uint32_t exposureRays)
+        : method_(std::move(method)), exposureRays_(exposureRays) {}
+
+    /// Reserves what `voxels` take, whose grid and number are known.
+    static void planVoxels(PassPlan& plan, const SurfaceVoxels& voxels);
+    /// Reserves what making them takes for a while.
+    /// @param updates whether update() will be called.
+    void planWork(PassPlan& plan, const SurfaceVoxels& voxels, bool updates);
+    void prepare(PassSetup& setup);
+
+    /// All that the grid holds.
+    void build(PassContext& context, SurfaceVoxels& voxels);
+    /// Makes a region of them anew and joins it with what was made before, bit for bit as if all had been
+    /// made anew. @return the region's voxels alone, numbered by themselves.
+    SurfaceVoxels update(PassContext& context, const VoxelRegion& region, SurfaceVoxels& voxels);
+
+ private:
+    /// The voxels of a region, into `target`, whose grid is set. `former`: all that the grid held before,
+    /// where the region is a part of it.
+    void voxelize(PassContext& context, const VoxelRegion& region, SurfaceVoxels& target,
+                  const SurfaceVoxels* former);
+
+    std::unique_ptr<VoxelizeMethod> method_;
+    uint32_t exposureRays_;
+    Program resolve_;
+    std::optional<PopulationPrefixSum> prefixSum_;
+    ExposureProbe exposureProbe_;
+    RegionJoin join_;
+    float largestEmission_ = 0;
+};
+
+}  // namespace voxray

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "passes/common/clipmap_voxels.h"
+#include "passes/voxelize/voxel_builder.h"
+
+namespace voxray {
+
+/// Turns triangles into the surface voxels of a clipmap. Windows follow the camera: what scrolls in is
+/// voxelized, and where surfaces moved what they touched, before and after. Docs: docs/clipmap.md.
+class VoxelizeClipmap final : public Pass {
+ public:
+    static constexpr const char* kName = "voxelize_clipmap";
+    static constexpr const char* kHelp =
+        "Turns the scene into surface voxels round the camera: large ones for all of it, on each finer level "
+        "those of a window. Takes memory by the windows, not by the scene. In each frame voxelizes what "
+        "scrolled in, and what moved. For light_clipmap. Finds voxels as voxelize's method exact. Biased by: "
+        "distance from the camera; a gap narrower than a voxel of its level is closed. "
+        "Source: Arnebäck 2017, section 4.1.1, after Panteleev 2014.";
+    struct Params {
+        uint32_t resolution = 128;
+        uint32_t clipmapResolution = 64;
+        uint32_t directions = 6;
+        uint32_t exposureRays = 8;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("resolution", &Params::resolution,
+                      "Voxels of the finest level along the scene's longest side, if it were held whole.", 1u,
+                      1024u),
+                field("clipmap_resolution", &Params::clipmapResolution,
+                      "Voxels along a window's side, a power of two.", 16u, 1024u),
+                field("directions", &Params::directions,
+                      "6: a voxel keeps light apart by the side that surfaces face. 1: all of a voxel shares "
+                      "one value, so that both sides of a thin wall mix.",
+                      1u, 6u),
+                field("exposure_rays", &Params::exposureRays,
+                      "Points on a surface as large as a voxel's face that probe both sides for open space; "
+                      "0 takes all sides for exposed, which darkens thin closed walls.",
+                      0u, 256u)};
+        }
+    };
+
+    explicit VoxelizeClipmap(const Params& params);
+    Phase phase() const override { return Phase::Frame; }
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    Params params_;
+    Port<ClipmapVoxels> clipmap_;
+    VoxelBuilder builder_;
+    std::vector<gpu::ClipmapWindow> windows_;  ///< By level, as they were in the last frame.
+    uint64_t sceneVersion_ = 0;                ///< Likewise.
+};
+
+}  // namespace voxray

@@ -1,0 +1,290 @@
+// A clipmap that voxelizes its windows from triangles and lights them by shadow maps: its content does not
+// depend on the way that led to it, and is that of a grid of the whole scene.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "passes/common/clipmap_voxels.h"
+#include "passes/common/radiance_voxels.h"
+#include "passes/common/voxel_count.h"
+#include "scene/shapes.h"
+#include "tests/gpu/chain.h"
+
+namespace voxray::test {
+namespace {
+
+const std::string kGraph =
+    "[{pass: voxelize_clipmap, resolution: 80, clipmap_resolution: 16}, {pass: light_clipmap, "
+    "shadow_resolution: 128, emission: true}]";
+
+std::shared_ptr<SceneState> stateOf(const std::string& scene, const std::string& parameters) {
+    return std::make_shared<SceneState>(evaluate(makeBuiltinScene(scene, parseYaml(parameters, "scene")), 0));
+}
+
+/// The Cornell box, 2 m wide, seen from `camera`.
+std::shared_ptr<SceneState> cornellFrom(const glm::vec3& camera) {
+    auto state = stateOf("cornell", "{lights: point}");
+    state->cameras.at(0).position = camera;
+    return state;
+}
+
+const ClipmapVoxels& clipmap(const Chain& chain) {
+    return *chain.graph().resource<ClipmapVoxels>("clipmap");
+}
+
+const RadianceVoxels& radiance(const Chain& chain) {
+    return *chain.graph().resource<RadianceVoxels>("radiance");
+}
+
+/// All that a clipmap holds: radiance; of each level occupancy, ranks and materials.
+std::vector<std::vector<uint32_t>> content(Chain& chain) {
+    std::vector<std::vector<uint32_t>> all{chain.read<uint32_t>(radiance(chain).storage[0])};
+    for (const ClipmapVoxels::Level& level : clipmap(chain).levels)
+        for (const Buffer* buffer : {&level.voxels.occupancy, &level.voxels.rank,
+                                     static_cast<const Buffer*>(&level.voxels.materials)})
+            all.push_back(chain.read<uint32_t>(*buffer));
+    return all;
+}
+
+/// Voxels that were voxelized, and that were filled with radiance.
+std::pair<uint64_t, uint64_t> renewed(const Chain& chain) {
+    return {chain.frameSamples.at(0).voxelSteps, chain.frameSamples.at(1).voxelSteps};
+}
+
+TEST(ClipmapVoxels, ScrolledAreAsMadeFromScratch) {
+    const glm::vec3 start(-0.31f, 0.9f, 0.2f);
+    Chain scrolled(cornellFrom(start), kGraph, 8, 8, 1);
+    const auto first = content(scrolled);
+    // Shorter than a voxel, of many along all axes, farther than windows are wide, and out of the scene.
+    const std::vector<glm::vec3> walk{{-0.3f, 0.91f, 0.2f},
+                                      {-0.1f, 1.12f, 0.25f},
+                                      {0.8f, 1.8f, -0.77f},
+                                      {0.8f, 1.5f, 5},
+                                      {-0.63f, 0.3f, -0.2f}};
+    for (const glm::vec3& camera : walk) {
+        scrolled.runFrameFrom(camera);
+        Chain fresh(cornellFrom(camera), kGraph, 8, 8, 1);
+        EXPECT_TRUE(content(scrolled) == content(fresh)) << camera.x;
+        EXPECT_LE(renewed(scrolled).first, renewed(fresh).first);
+    }
+    EXPECT_FALSE(content(scrolled) == first);
+
+    // And back.
+    for (size_t i = walk.size(); i-- > 0;) scrolled.runFrameFrom(walk[i]);
+    scrolled.runFrameFrom(start);
+    EXPECT_TRUE(content(scrolled) == first);
+}
+
+TEST(ClipmapVoxels, VoxelizeWhatScrollsInAlone) {
+    const glm::vec3 start(0, 1, 0);
+    Chain chain(cornellFrom(start), kGraph, 8, 8, 1);
+    const uint64_t allRays = chain.frameSamples.at(0).rays;
+    EXPECT_GT(allRays, 0u);
+    chain.runFrameFrom(start);
+    EXPECT_EQ(renewed(chain), std::pair(uint64_t(0), uint64_t(0)));
+    EXPECT_EQ(chain.frameSamples.at(0).rays, 0u);
+
+    // One voxel of level 0 along x: a slab there, and none or one on the coarser levels.
+    chain.runFrameFrom(start + clipmap(chain).grid.voxelSize * glm::vec3(1, 0, 0));
+    EXPECT_GE(renewed(chain).first, 16u * 16);
+    EXPECT_LE(renewed(chain).first, 3u * 16 * 16);
+    EXPECT_EQ(renewed(chain).first, renewed(chain).second);
+    EXPECT_LT(chain.frameSamples.at(0).rays, allRays / 8);
+}
+
+/// Cornell with a sphere that moves through it, a place a second.
+std::shared_ptr<const Scene> roomWithSphere() {
+    auto scene = std::make_shared<Scene>(*makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")));
+    scene->meshes.push_back(sphereMesh("sphere", glm::vec3(0), 0.13f, 2, 0, false, true));
+    AnimationChannel channel;
+    channel.node = uint32_t(scene->nodes.size());
+    for (const glm::vec3& place : {glm::vec3(0.3f, 1.4f, 0.3f), glm::vec3(0.32f, 1.41f, 0.3f),
+                                   glm::vec3(-0.86f, 0.7f, 0.3f), glm::vec3(0.87f, 0.13f, -0.8f)}) {
+        channel.timesSeconds.push_back(float(channel.timesSeconds.size()));
+        channel.values.push_back(glm::vec4(place, 0));
+    }
+    scene->nodes.emplace_back();
+    scene->animation.push_back(channel);
+    scene->instances.push_back({uint32_t(scene->meshes.size() - 1), int32_t(channel.node)});
+    return scene;
+}
+
+TEST(ClipmapVoxels, FollowWhatMoves) {
+    // A sphere, the light, and the camera at the same time.
+    const auto scene = roomWithSphere();
+    const auto stateAt = [&](double second) {
+        auto state = std::make_shared<SceneState>(evaluate(scene, second, Playback::Looping));
+        state->cameras.at(0).position = glm::vec3(0.1f, 1, 0.2f);
+        if (second >= 2) state->lights.at(0).position += glm::vec3(0.2f, -0.1f, 0.1f);
+        return state;
+    };
+    Chain moved(stateAt(0), kGraph, 8, 8, 1);
+    auto last = content(moved);
+    const uint64_t whole = renewed(moved).first;
+    for (int second = 1; second <= 3; ++second) {
+        moved.update([&](SceneState& state) {
+            std::vector<Box> changed = advance(state, second);
+            state.lights = stateAt(second)->lights;
+            return changed;
+        });
+        EXPECT_LT(renewed(moved).first, whole / 2);
+        Chain made(stateAt(second), kGraph, 8, 8, 1);
+        EXPECT_TRUE(content(moved) == content(made)) << second;
+        EXPECT_FALSE(content(moved) == last) << second;
+        last = content(moved);
+    }
+
+    // A light alone: nothing is voxelized, all is lit.
+    moved.update([&](SceneState& state) {
+        state.lights.at(0).position.x -= 0.3f;
+        return std::vector<Box>();
+    });
+    EXPECT_EQ(renewed(moved).first, 0u);
+    EXPECT_FALSE(content(moved) == last);
+    auto lit = stateAt(3);
+    lit->lights.at(0).position.x -= 0.3f;
+    EXPECT_TRUE(content(moved) == content(*std::make_unique<Chain>(lit, kGraph, 8, 8, 1)));
+}
+
+/// A texel of shaders/radiance_texel.glsl: three mantissas of 14 bits, an exponent of 8 and opacity of 14.
+glm::dvec4 unpack(glm::uvec2 t) {
+    const uint64_t bits = uint64_t(t.x) | uint64_t(t.y) << 32;
+    const double scale = std::ldexp(1.0, int(bits >> 42 & 255) - 126 - 1);
+    return {scale * double(bits & 16383), scale * double(bits >> 14 & 16383),
+            scale * double(bits >> 28 & 16383), double(bits >> 50) / 16383};
+}
+
+/// Radiance times cover summed over the finest level's values, and each of them.
+std::vector<glm::dvec4> finestLevel(Chain& chain) {
+    const gpu::RadianceGrid& grid = radiance(chain).grid;
+    const ClipmapWindows windows(grid, 64);
+    const uint64_t values = windows.window(0, {}).size.x * uint64_t(windows.window(0, {}).size.y) *
+                            windows.window(0, {}).size.z * grid.directions;
+    std::vector<glm::dvec4> all;
+    for (const glm::uvec2& texel : chain.read<glm::uvec2>(radiance(chain).storage[0])) {
+        if (all.size() == values) break;
+        all.push_back(unpack(texel));
+    }
+    return all;
+}
+
+TEST(ClipmapVoxels, ClosedRoomCatchesAllLight) {
+    // 8 pi W of a point light in a closed room of albedo 0.5. Each side of a voxel in a wall holds albedo /
+    // pi E times its area, but along the room's edges, where covers add up to more than the area.
+    Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
+                "[{pass: voxelize_clipmap, resolution: 60, clipmap_resolution: 64}, {pass: light_clipmap}]",
+                8, 8);
+    double sum = 0;
+    for (const glm::dvec4& value : finestLevel(chain)) sum += value.g;
+    const double face = std::pow(radiance(chain).grid.voxelSize, 2);
+    EXPECT_NEAR(sum * face * std::numbers::pi / 0.5 / (8 * std::numbers::pi), 1.0, 0.03);
+}
+
+TEST(ClipmapVoxels, HoldWhatAGridOfTheSceneHolds) {
+    // Materials are the same to the bit, and so is cover but where one route finds a sliver lit and the other
+    // dark, at the back of what is lit. Light differs by how finely the edges of shadows are sampled.
+    const std::string scene = "{lights: point}";
+    Chain own("cornell", scene,
+              "[{pass: voxelize_clipmap, resolution: 48, clipmap_resolution: 64}, {pass: light_clipmap}]", 8,
+              8);
+    Chain whole(
+        "cornell", scene,
+        "[{pass: voxelize, resolution: 48}, {pass: place_surfels, points: 64}, {pass: inject_shadow_map, "
+        "bounces: 0}, {pass: filter_voxels, layout: clipmap, clipmap_resolution: 64}]",
+        8, 8);
+    const std::vector<glm::dvec4> a = finestLevel(own), b = finestLevel(whole);
+    ASSERT_EQ(a.size(), b.size());
+    double difference = 0, sum = 0, ownSum = 0;
+    size_t otherCover = 0;
+    for (size_t i = 0; i < a.size(); ++i) {
+        otherCover += a[i].a != b[i].a;
+        difference += std::abs(a[i].g - b[i].g);
+        sum += b[i].g;
+        ownSum += a[i].g;
+    }
+    std::printf("mean difference %.3f, ratio %.4f, other cover %zu of %zu\n", difference / sum, ownSum / sum,
+                otherCover, a.size());
+    EXPECT_LT(double(otherCover) / double(a.size()), 0.001);
+    EXPECT_LT(difference / sum, 0.01);
+    EXPECT_NEAR(ownSum / sum, 1.0, 0.01);
+}
+
+TEST(ClipmapVoxels, ConesBringTheFirstBounce) {
+    const double expected = mean(
+        Chain("cornell", "{lights: point}", "[{pass: path_trace, spp: 128, bounces: 1}]").image("indirect"));
+    for (const uint32_t side : {64u, 16u}) {
+        Chain chain(
+            "cornell", "{lights: point}",
+            fmt::format(
+                "[{{pass: gbuffer}}, {{pass: voxelize_clipmap, resolution: 64, clipmap_resolution: {}}}, "
+                "{{pass: light_clipmap}}, {{pass: gather_cones}}]",
+                side));
+        const double ratio = mean(chain.image("indirect")) / expected;
+        std::printf("windows of %u: %.3f of the path tracer's\n", side, ratio);
+        EXPECT_NEAR(ratio, 1.0, 0.1);
+    }
+}
+
+TEST(ClipmapVoxels, BouncesAreThoseOfTheSceneAndFollowTheCamera) {
+    // One more bounce: against the path tracer, and scrolled against made there.
+    const double expected = mean(
+        Chain("cornell", "{lights: point}", "[{pass: path_trace, spp: 128, bounces: 2}]").image("indirect"));
+    Chain chain("cornell", "{lights: point}",
+                "[{pass: gbuffer}, {pass: voxelize_clipmap, resolution: 48, clipmap_resolution: 16}, "
+                "{pass: light_clipmap, bounces: 1}, {pass: gather_cones}]");
+    const double ratio = mean(chain.image("indirect")) / expected;
+    std::printf("%.3f of the path tracer's\n", ratio);
+    EXPECT_NEAR(ratio, 1.0, 0.1);
+
+    const std::string graph =
+        "[{pass: voxelize_clipmap, resolution: 24, clipmap_resolution: 16}, {pass: light_clipmap, bounces: "
+        "2}]";
+    Chain scrolled(cornellFrom({-0.3f, 0.3f, 0.2f}), graph, 8, 8, 1);
+    const glm::vec3 camera(0.25f, 1.3f, -0.4f);
+    scrolled.runFrameFrom(camera);
+    Chain fresh(cornellFrom(camera), graph, 8, 8, 1);
+    EXPECT_TRUE(content(scrolled) == content(fresh));
+}
+
+TEST(ClipmapVoxels, TakeMemoryByTheWindows) {
+    Chain chain(cornellFrom({0, 1, 0}), kGraph, 8, 8, 1);
+    const gpu::VoxelGrid finest =
+        makeVoxelGrid(chain.state().geometry.boundsMin, chain.state().geometry.boundsMax, 80);
+    const std::vector<uint32_t> most = countWindowVoxels(chain.state().geometry, finest, 16);
+    for (const glm::vec3 camera :
+         {glm::vec3(0, 1, 0), glm::vec3(0.9f, 0.1f, -0.9f), glm::vec3(-0.4f, 0.6f, -0.3f)}) {
+        chain.runFrameFrom(camera);
+        for (size_t level = 0; level < clipmap(chain).levels.size(); ++level)
+            EXPECT_LE(clipmap(chain).levels[level].voxels.voxelCount, most[level]) << level;
+    }
+    // 80, 40 and 20 voxels a side in windows, 10 whole.
+    EXPECT_EQ(clipmap(chain).levels.size(), 4u);
+    EXPECT_LT(most[0], countSurfaceVoxels(chain.state().geometry, finest).front() / 8);
+}
+
+TEST(ClipmapVoxels, BadInputIsNamed) {
+    const auto expectError = [](const std::shared_ptr<SceneState>& state, const std::string& voxelize,
+                                const std::string& rest, const std::string& text) {
+        try {
+            Chain(state,
+                  "[{pass: gbuffer}, {pass: voxelize_clipmap, resolution: 16" + voxelize + "}, " + rest + "]",
+                  8, 8, 1);
+            FAIL() << "no error";
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+        }
+    };
+    const std::string light = "{pass: light_clipmap}";
+    expectError(stateOf("cornell", "{lights: area}"), "", light,
+                "light_clipmap: emissive surfaces have no single viewpoint");
+    expectError(cornellFrom({0, 0, 0}), ", clipmap_resolution: 48", light,
+                "voxelize_clipmap: clipmap_resolution is 48; it has to be a power of two, such as 32");
+    expectError(cornellFrom({0, 0, 0}), ", directions: 3", light, "directions is 3");
+    // Methods that need one grid of the whole scene can't be wired to it.
+    expectError(cornellFrom({0, 0, 0}), "", "{pass: inject_light_rays}", "voxels");
+}
+
+}  // namespace
+}  // namespace voxray::test
