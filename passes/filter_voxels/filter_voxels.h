@@ -1,8 +1,8 @@
 #pragma once
 
+#include "passes/common/cone_bounces.h"
 #include "passes/common/radiance_voxels.h"
 #include "passes/common/voxels.h"
-#include "passes/common/cone_bounces.h"
 #include "passes/filter_voxels/radiance_storage.h"
 
 namespace voxray {
