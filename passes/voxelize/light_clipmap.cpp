@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "passes/common/dispatch.h"
 #include "passes/voxelize/triangle_tiles.h"
 
@@ -37,6 +38,9 @@ void LightClipmap::declare(PassBuilder& builder) {
 }
 
 void LightClipmap::plan(PassPlan& plan) {
+    if (!plan.device.shaderInt64Atomics)
+        throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", kName,
+                    plan.device.name);
     sources_ = requireViewpoints(*plan.frame.scene, kName);
     const ClipmapVoxels& clipmap = plan.get(clipmap_);
     RadianceVoxels& radiance = plan.get(radiance_);

@@ -22,7 +22,7 @@ class LightClipmap final : public Pass {
         "they have no single viewpoint. Biased by: voxel size, so distance from the camera; "
         "shadow_resolution. Source: Arnebäck 2017, section 4.1.2, after Panteleev 2014.";
     struct Params {
-        uint32_t shadowResolution = 1024;
+        uint32_t shadowResolution = 512;
         bool emission = false;
         uint32_t bounces = 0;
         uint32_t bounceCones = 6;

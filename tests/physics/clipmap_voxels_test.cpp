@@ -187,12 +187,13 @@ TEST(ClipmapVoxels, HoldWhatAGridOfTheSceneHolds) {
     // dark, at the back of what is lit. Light differs by how finely the edges of shadows are sampled.
     const std::string scene = "{lights: point}";
     Chain own("cornell", scene,
-              "[{pass: voxelize_clipmap, resolution: 48, clipmap_resolution: 64}, {pass: light_clipmap}]", 8,
-              8);
+              "[{pass: voxelize_clipmap, resolution: 48, clipmap_resolution: 64}, {pass: light_clipmap, "
+              "shadow_resolution: 1024}]",
+              8, 8);
     Chain whole(
         "cornell", scene,
         "[{pass: voxelize, resolution: 48}, {pass: place_surfels, points: 64}, {pass: inject_shadow_map, "
-        "bounces: 0}, {pass: filter_voxels, layout: clipmap, clipmap_resolution: 64}]",
+        "bounces: 0, resolution: 1024}, {pass: filter_voxels, layout: clipmap, clipmap_resolution: 64}]",
         8, 8);
     const std::vector<glm::dvec4> a = finestLevel(own), b = finestLevel(whole);
     ASSERT_EQ(a.size(), b.size());
