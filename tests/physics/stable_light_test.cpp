@@ -24,7 +24,7 @@ std::string probeGraph(uint32_t resolution, const std::string& filter) {
         "[{{pass: voxelize, resolution: {}}}, {{pass: inject_light_rays, rays_per_light: 65536, bounces: "
         "3}}, "
         "{{pass: place_surfels, points: 1}}, {{pass: filter_voxels, {}}}, "
-        "{{pass: probe_irradiance, points: 2000}}]",
+        "{{pass: probe_irradiance, points: 1000, samples: 4}}]",
         resolution, filter);
 }
 
