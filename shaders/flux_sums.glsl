@@ -10,6 +10,9 @@
 #include "shaders/facing.glsl"
 #include "shaders/large_buffer.glsl"
 
+// All lights' power is 2 to this in units of the sums.
+#define FLUX_POWER_BITS 56.0
+
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer FluxSums { uint64_t data[]; };
 layout(set = 0, binding = 13, scalar) readonly buffer FluxSumsAt { FluxSums fluxSums; };  // 3 a face
 

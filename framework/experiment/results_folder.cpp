@@ -115,6 +115,10 @@ void ResultsFolder::writeImages(const std::string& name,
     }
 }
 
+void ResultsFolder::remove(const std::string& name) const {
+    fs::remove(path_ / name);
+}
+
 void ResultsFolder::writeText(const std::string& name, const std::string& content) const {
     writeFileAtomically(path_ / name, content);
 }

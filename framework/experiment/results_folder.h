@@ -30,6 +30,8 @@ class ResultsFolder {
 
     /// Replaces a file of the folder.
     void writeText(const std::string& name, const std::string& content) const;
+    /// Removes a file if it is there.
+    void remove(const std::string& name) const;
 
  private:
     void checkOwner(const std::string& experiment) const;

@@ -297,7 +297,10 @@ void Run::writeTables() {
     folder_->writeText("results.csv", resultsCsv(rows, sweepKeys(experiment_), experiment_.measure.metrics));
     folder_->writeText("passes.csv", passesCsv(rows));
     const bool reported = std::ranges::any_of(rows, [](const VariantResult& r) { return !r.values.empty(); });
-    if (reported) folder_->writeText("values.csv", valuesCsv(rows));
+    if (reported)
+        folder_->writeText("values.csv", valuesCsv(rows));
+    else
+        folder_->remove("values.csv");  // Of a run that this one goes on with.
 }
 
 }  // namespace

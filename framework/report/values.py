@@ -27,7 +27,7 @@ def value_table(results: Results, numbers: dict[str, str]) -> ValueTable | None:
     if results.values.empty:
         return None
     keys = _keys(results.values)
-    groups = dict(list(results.values.groupby(["variant", "pass", "name"])["value"]))
+    groups = dict(list(results.values.groupby(["variant", "pass", "name"])))
     rows = []
     for name in results.ok["variant"]:
         cells = [_cell(groups.get((name, *key))) for key in keys]
@@ -51,9 +51,13 @@ def _keys(values: pd.DataFrame) -> list[tuple[str, str]]:
     return list(values[["pass", "name"]].drop_duplicates().itertuples(index=False, name=None))
 
 
-def _cell(values: pd.Series | None) -> str:
+def _cell(values: pd.DataFrame | None) -> str:
     if values is None:
         return ""
+    # Of what a build pass reports and reports again where surfaces move, the frames count.
+    if values["frame"].notna().any():
+        values = values[values["frame"].notna()]
+    values = values["value"]
     if len(values) == 1:
         return text.exact(values.iloc[0])
     return f"{text.figures(values.mean())} (most {text.figures(values.max())})"

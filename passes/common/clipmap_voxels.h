@@ -13,7 +13,7 @@ namespace voxray {
 /// below.
 struct ClipmapVoxels : Resource {
     struct Level {
-        SurfaceVoxels voxels;  ///< All that the window holds; an upper bound of their number is planned.
+        SurfaceVoxels voxels;         ///< All that the window holds; about their number is planned.
         std::vector<VoxelBox> boxes;  ///< What was made anew in this frame.
         SurfaceVoxels renewed;  ///< The voxels of `boxes` alone; without content where these are the window.
     };

@@ -98,8 +98,7 @@ LightPaths::LightPaths(PassSetup& setup, const LightPathParams& params, uint32_t
 
 void LightPaths::begin(PassContext& context, const SurfaceVoxels& voxels,
                        const std::vector<LightSource>& sources) {
-    double power = 0;
-    for (const LightSource& source : sources) power += source.power;
+    const double power = totalPower(sources);
     const float typical = meanIrradiance(sources, context.frame.scene->geometry);
     for (size_t i = 0; i < (params_.lastBounce() > 0 ? 2 : 1); ++i) {
         if (sumsFlux_)

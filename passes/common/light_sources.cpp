@@ -68,11 +68,15 @@ double surfaceArea(const Geometry& geometry) {
     return area;
 }
 
+double totalPower(const std::vector<LightSource>& sources) {
+    double watts = 0;
+    for (const LightSource& source : sources) watts += source.power;
+    return watts;
+}
+
 float meanIrradiance(const std::vector<LightSource>& sources, const Geometry& geometry) {
-    double power = 0;
-    for (const LightSource& source : sources) power += source.power;
     const double area = surfaceArea(geometry);
-    return area > 0 ? float(power / area) : 0.0f;
+    return area > 0 ? float(totalPower(sources) / area) : 0.0f;
 }
 
 BoundingSphere boundingSphere(const Geometry& geometry) {

@@ -25,6 +25,9 @@ std::vector<LightSource> requireLightSources(const SceneState& state, const std:
 /// Area of one side of all surfaces, m².
 double surfaceArea(const Geometry& geometry);
 
+/// W, an upper bound over the colour channels.
+double totalPower(const std::vector<LightSource>& sources);
+
 /// Irradiance of the scene's surfaces, W/m², if each caught its share by area of all power: a scale for sums.
 float meanIrradiance(const std::vector<LightSource>& sources, const Geometry& geometry);
 

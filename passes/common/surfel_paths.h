@@ -37,8 +37,8 @@ class SurfelPaths {
     struct CameraFootprint {
         glm::vec3 forward{0.0f};  ///< Unit length.
         float imageArea = 0;      ///< Of the image 1 m before the camera, over the area of all surfaces.
-        float mostArea =
-            0;  ///< Bound, times the rays, over the area of all surfaces: what a plane has in a voxel.
+        /// Most that a ray may stand for, what a plane has in a voxel: times the rays, over all area.
+        float mostArea = 0;
     };
     /// Makes surfels of the hits of `rays`, for rays that start at a camera. @return their number.
     uint32_t arrive(PassContext& context, const SurfaceVoxels& voxels, const CameraFootprint& camera,

@@ -40,7 +40,7 @@ class FilterVoxels final : public Pass {
                       "clipmap: voxels along a window's side, a power of two.", 16u, 1024u),
                 field("bounces", &Params::bounces,
                       "Bounces of light from voxel to voxel by cones, on top of the injection's. dense and "
-                      "svo.",
+                      "svo; over a clipmap's windows light_clipmap has its own.",
                       0u, 32u),
                 field("bounce_cones", &Params::bounceCones,
                       "Cones from each side of a voxel in a bounce: 5, 6, 16 or 36.", 5u, 36u)};

@@ -53,7 +53,8 @@ void PlaceSurfels::record(PassContext& context) {
     Surfels& surfels = context.get(surfels_);
     CommandStream& stream = context.stream;
     surfels.chunks.clear();
-    const uint64_t points = std::min(uint64_t(voxels.voxelCount) * params_.points, kMostPoints);
+    // No more than planned: the number of voxels was estimated.
+    const uint64_t points = std::min(uint64_t(voxels.voxelCount) * params_.points, surfels.most / 2);
     const std::vector<uint32_t> triangles = spreadPoints(context.frame.scene->geometry, points);
     for (uint64_t first = 0; first < points; first += kBatchPoints) {
         const uint32_t batch = uint32_t(std::min<uint64_t>(kBatchPoints, points - first));

@@ -21,6 +21,7 @@ void main() {
     const Surfel s = surfels.data[i];
     if (s.id % push.stride != 0u) return;
     const uint point = s.id / push.stride;
+    if (point >= uint(irradiance.data.length())) return;
     // Of three numbers in [0, 1) those of one set complement those of the others: the additive recurrence of Roberts 2018.
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < push.samples; ++k) {

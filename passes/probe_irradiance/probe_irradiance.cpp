@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/error.h"
 #include "passes/common/cone_sets.h"
 #include "passes/common/dispatch.h"
 
@@ -34,6 +35,12 @@ uint32_t ProbeIrradiance::stride(const Surfels& surfels) const {
 }
 
 void ProbeIrradiance::plan(PassPlan& plan) {
+    if (!movingRuns(plan.frame.scene->geometry).empty())
+        throw Error(
+            "{}: surfaces move, and with them the points that it would compare; set scene.time_step to 0 and "
+            "take "
+            "out scene.moving_spheres",
+            kName);
     plan.reserve("cones", coneSet(kName, params_.cones).size() * sizeof(gpu::Cone));
     const Surfels& surfels = plan.get(surfels_);
     plan.reserve("irradiance of points", (surfels.most / stride(surfels) + 1) * sizeof(glm::vec4));

@@ -15,7 +15,7 @@ class ProbeIrradiance final : public Pass {
         "Measures irradiance by cones at points that stand still on the surfaces and reports, for each "
         "frame, its mean (W/m²) and its change since the last one over that mean: on average over the points "
         "and where it is largest. Tests stability: with a moving camera and all else at rest the change is "
-        "the method's own. Moving surfaces take points with them.";
+        "the method's own. Surfaces may not move: points could not be told apart.";
     struct Params {
         uint32_t points = 1024;
         uint32_t cones = 6;

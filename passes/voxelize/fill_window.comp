@@ -8,7 +8,6 @@ layout(local_size_x = 64) in;
 
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
-    float emission;
     ivec3 boxFirst;
     uvec3 boxSize;
     uint level;
@@ -24,8 +23,8 @@ void main() {
     for (uint side = 0u; side < directions; ++side) {
         vec4 value = vec4(0.0);
         if (number != NO_VOXEL)
-            value = directions == 6u ? faceRadiance(push.grid, number, side, push.emission)
-                                     : meanRadiance(push.grid, number, push.emission);
+            value = directions == 6u ? faceRadiance(push.grid, number, side, 0.0)
+                                     : meanRadiance(push.grid, number, 0.0);
         storeRadiance(slot, side, value);
     }
 }

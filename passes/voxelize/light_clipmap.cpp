@@ -19,16 +19,9 @@ struct LightPush {
 
 struct WindowPush {
     gpu::VoxelGrid grid;
-    float emission;
     VoxelBox box;
     uint32_t level;
 };
-
-double power(const std::vector<LightSource>& sources) {
-    double watts = 0;
-    for (const LightSource& source : sources) watts += source.power;
-    return watts;
-}
 
 }  // namespace
 
@@ -59,7 +52,7 @@ void LightClipmap::plan(PassPlan& plan) {
     plan.reserveScratch("light of a level (estimated)", most * (FluxSums::kBytesPerVoxel + kLitAreaBytes));
     plan.reserveScratch("irradiance (estimated)",
                         VoxelIrradiance::bytes(uint32_t(params_.bounces > 0 ? sum : most)));
-    if (params_.bounces > 0) bounces_.plan(plan, sum, true);
+    if (params_.bounces > 0) bounces_.plan(plan, sum, false);
     plan.reserveScratch("tiles of triangles",
                         TriangleTiles::bytes(plan.frame.scene->geometry, clipmap.levels[0].voxels.grid));
 }
@@ -103,7 +96,7 @@ void LightClipmap::record(PassContext& context) {
         const std::vector<VoxelBox> boxes = everywhere ? std::vector{heldVoxels(voxels.grid)} : level.boxes;
         if (boxes.empty()) continue;
         VoxelIrradiance direct = light(context, voxels, boxes);
-        reflect(context, l, voxels, boxes, direct, direct.indirect, params_.bounces == 0);
+        reflect(context, l, voxels, boxes, direct, direct.indirect);
         if (params_.bounces > 0) lights[l] = std::move(direct);
     }
     if (everywhere || !clipmap.levels.back().boxes.empty()) filter(context);
@@ -121,11 +114,11 @@ void LightClipmap::record(PassContext& context) {
         for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
             const SurfaceVoxels& voxels = clipmap.levels[l].voxels;
             if (voxels.voxelCount == 0) continue;
-            reflect(context, l, voxels, {heldVoxels(voxels.grid)}, lights[l], flux[l],
-                    bounce == params_.bounces);
+            reflect(context, l, voxels, {heldVoxels(voxels.grid)}, lights[l], flux[l]);
         }
         filter(context);
     }
+    if (params_.bounces > 0) bounces_.release(context.stream);
 }
 
 VoxelIrradiance LightClipmap::light(PassContext& context, const SurfaceVoxels& voxels,
@@ -139,7 +132,7 @@ VoxelIrradiance LightClipmap::light(PassContext& context, const SurfaceVoxels& v
     const TriangleTiles tiles(stream, geometry, voxels.grid, region, region.triangles(geometry));
     const Buffer litArea(context.device, "lit area", count * kLitAreaBytes);
     stream.fill(litArea, 0);
-    flux_.begin(context.device, stream, voxels, power(sources_));
+    flux_.begin(context.device, stream, voxels, totalPower(sources_));
     std::vector<Binding> bindings = context.scene.bindings({{"tiles", tiles.buffer()},
                                                             {"voxelOccupancy", voxels.occupancy},
                                                             {"voxelRank", voxels.rank},
@@ -163,15 +156,14 @@ VoxelIrradiance LightClipmap::light(PassContext& context, const SurfaceVoxels& v
 
 void LightClipmap::reflect(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
                            const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light,
-                           const LargeBuffer& indirect, bool emission) {
+                           const LargeBuffer& indirect) {
     std::vector<Binding> surfaces{
         {"voxelOccupancy", voxels.occupancy},        {"voxelRank", voxels.rank},
         {"VoxelMaterialsAt", voxels.materials.at()}, {"DirectFluxAt", light.direct.at()},
         {"IndirectFluxAt", indirect.at()},           {"voxelArea", light.area}};
     for (const Binding& binding : context.get(radiance_).bindings()) surfaces.push_back(binding);
-    const float emitted = params_.emission && emission ? 1.0f : 0.0f;
     for (const VoxelBox& box : boxes) {
-        context.stream.dispatch(window_, surfaces, WindowPush{voxels.grid, emitted, box, level},
+        context.stream.dispatch(window_, surfaces, WindowPush{voxels.grid, box, level},
                                 linearGroups(box.count()));
         context.voxelSteps += box.count();
     }

@@ -23,16 +23,12 @@ class LightClipmap final : public Pass {
         "shadow_resolution. Source: Arnebäck 2017, section 4.1.2, after Panteleev 2014.";
     struct Params {
         uint32_t shadowResolution = 512;
-        bool emission = false;
         uint32_t bounces = 0;
         uint32_t bounceCones = 6;
         static constexpr auto schema() {
             return std::tuple{
                 field("shadow_resolution", &Params::shadowResolution,
                       "Texels along a side of each shadow map; a point light has six.", 2u, 4096u),
-                field("emission", &Params::emission,
-                      "Whether what surfaces emit is in. Off, cones bring indirect light "
-                      "alone: a direct_* pass adds the rest."),
                 field("bounces", &Params::bounces,
                       "Bounces of light from voxel to voxel by cones, on top of the direct light. Then all "
                       "of the windows is lit anew also where anything scrolled in.",
@@ -56,7 +52,7 @@ class LightClipmap final : public Pass {
     /// Fills boxes of a level with what the voxels in them reflect.
     void reflect(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
                  const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light,
-                 const LargeBuffer& indirect, bool emission);
+                 const LargeBuffer& indirect);
     /// Fills the levels beyond the first that is held whole, each from the one below.
     void filter(PassContext& context);
 

@@ -18,7 +18,7 @@ void addLight(VoxelGrid g, uint number, GridTriangle t, ivec3 voxel, float area,
     const vec3 p0 = vertexPosition(v.x), e1 = vertexPosition(v.y) - p0, e2 = vertexPosition(v.z) - p0;
     const vec3 front = normalize(cross(e1, e2));
     const int count = max(bitCount(points), 1);
-    vec2 lit = vec2(0.0);  // Share of the front side that some light falls on, and of the back.
+    uvec2 lit = uvec2(0u);  // Points of the front side that some light falls on, and of the back.
     for (uint k = 0u; k < shadowLights.count; ++k) {
         // A plane shows a light one side.
         const ShadowLight shadowed = shadowLights.data[k];
@@ -27,7 +27,6 @@ void addLight(VoxelGrid g, uint number, GridTriangle t, ivec3 voxel, float area,
         const vec3 normal = side == 1 ? -front : front;
 
         vec3 irradiance = vec3(0.0);
-        int seen = 0;
         uint rest = points;
         for (int i = 0; i < count; ++i) {
             const vec2 b = barycentricsAt(t, points == 0u ? middle : subSamplePoint(voxel, findLSB(rest)));
@@ -37,16 +36,18 @@ void addLight(VoxelGrid g, uint number, GridTriangle t, ivec3 voxel, float area,
             const vec3 arrives = s.irradiance * max(dot(normal, s.direction), 0.0);
             if (arrives == vec3(0.0) || !lightSees(shadowed, position, normal)) continue;
             irradiance += arrives;
-            ++seen;
+            lit[side] |= 1u << i;
         }
-        addFlux(number, normal, irradiance / float(count) * (area * g.voxelSize * g.voxelSize), unitsPerWatt);
-        lit[side] = max(lit[side], float(seen) / float(count));
+        // A point far nearer to a light than the piece is wide stands badly for it: no piece takes more than all lights' power.
+        const vec3 watts = irradiance / float(count) * (area * g.voxelSize * g.voxelSize);
+        addFlux(number, normal, min(watts, vec3(exp2(FLUX_POWER_BITS) / unitsPerWatt)), unitsPerWatt);
     }
 
     for (int side = 0; side < 2; ++side)
         for (uint axis = 0u; axis < 3u; ++axis) {
             const vec3 normal = side == 1 ? -front : front;
-            const uint units = uint(round(lit[side] * area * normal[axis] * normal[axis] * UNITS_PER_FACE));
+            const float share = float(bitCount(lit[side])) / float(count);
+            const uint units = uint(round(share * area * normal[axis] * normal[axis] * UNITS_PER_FACE));
             if (units != 0u) atomicAdd(litArea.data[6u * number + facing(normal, axis)], units);
         }
 }

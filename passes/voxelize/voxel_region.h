@@ -16,7 +16,6 @@ class VoxelRegion {
     /// Boxes of what the grid holds.
     VoxelRegion(const gpu::VoxelGrid& grid, std::vector<VoxelBox> boxes);
 
-    bool empty() const { return boxes_.empty(); }
     const std::vector<VoxelBox>& boxes() const { return boxes_; }
     /// The same as boxes of slots: those that lie across a window's seam in parts.
     std::vector<VoxelBox> slots() const;

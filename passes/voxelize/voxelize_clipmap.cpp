@@ -59,6 +59,11 @@ void VoxelizeClipmap::plan(PassPlan& plan) {
 void VoxelizeClipmap::prepare(PassSetup& setup) {
     builder_.prepare(setup);
     windows_.clear();
+    for (ClipmapVoxels::Level& level : setup.get(clipmap_).levels) {
+        level.voxels.occupancy = {};
+        level.voxels.rank = {};
+        level.voxels.materials = {};
+    }
 }
 
 void VoxelizeClipmap::record(PassContext& context) {

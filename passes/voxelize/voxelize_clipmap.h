@@ -12,7 +12,8 @@ class VoxelizeClipmap final : public Pass {
     static constexpr const char* kName = "voxelize_clipmap";
     static constexpr const char* kHelp =
         "Turns the scene into surface voxels round the camera: large ones for all of it, on each finer level "
-        "those of a window. Takes memory by the windows, not by the scene. In each frame voxelizes what "
+        "those of a window. Takes memory by the windows, not by the scene, but for 8 bytes a triangle or "
+        "more. In each frame voxelizes what "
         "scrolled in, and what moved. For light_clipmap. Finds voxels as voxelize's method exact. Biased by: "
         "distance from the camera; a gap narrower than a voxel of its level is closed. "
         "Source: Arnebäck 2017, section 4.1.1, after Panteleev 2014.";

@@ -40,7 +40,10 @@ void VoxelizePass::plan(PassPlan& plan) {
 }
 
 void VoxelizePass::prepare(PassSetup& setup) {
-    setup.get(voxels_).materials = {};
+    SurfaceVoxels& v = setup.get(voxels_);
+    v.occupancy = {};
+    v.rank = {};
+    v.materials = {};
     builder_.prepare(setup);
 }
 

@@ -74,6 +74,7 @@ class Chain {
     /// The build phase once more with surfaces as they are: light is injected anew.
     void relight() {
         frame_.changed.emplace();
+        ++frame_.sceneVersion;
         buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
     }
 

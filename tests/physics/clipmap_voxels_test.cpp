@@ -17,7 +17,7 @@ namespace {
 
 const std::string kGraph =
     "[{pass: voxelize_clipmap, resolution: 80, clipmap_resolution: 16}, {pass: light_clipmap, "
-    "shadow_resolution: 128, emission: true}]";
+    "shadow_resolution: 128}]";
 
 std::shared_ptr<SceneState> stateOf(const std::string& scene, const std::string& parameters) {
     return std::make_shared<SceneState>(evaluate(makeBuiltinScene(scene, parseYaml(parameters, "scene")), 0));
