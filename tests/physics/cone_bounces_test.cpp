@@ -73,7 +73,9 @@ TEST(ConeBounces, AgreeWithTheReferenceOnCornell) {
 
 TEST(ConeBounces, AreLinearInLight) {
     const auto run = [](const std::string& intensity) {
-        return mean(indirect("white_room", "{intensity: " + intensity + "}", {}));
+        Setting s;
+        s.resolution = "16";
+        return mean(indirect("white_room", "{intensity: " + intensity + "}", s));
     };
     EXPECT_NEAR(run("7") / run("1"), 7.0, 0.01);
 }
