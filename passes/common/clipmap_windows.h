@@ -1,13 +1,24 @@
 #pragma once
 
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "base/schema.h"
 #include "passes/common/voxel_box.h"
 #include "shaders/shared/radiance_clipmap_types.h"
 #include "shaders/shared/radiance_types.h"
 
 namespace voxray {
+
+/// The parameter of a pass that makes a clipmap; it adds schema() to its own with std::tuple_cat.
+struct ClipmapParams {
+    uint32_t clipmapResolution = 64;
+    static constexpr auto schema() {
+        return std::tuple{field("clipmap_resolution", &ClipmapParams::clipmapResolution,
+                                "Voxels along the side of a clipmap's window, a power of two.", 16u, 1024u)};
+    }
+};
 
 /// @throws Error naming `pass` where a window's side isn't a power of two.
 void requirePowerOfTwo(const std::string& pass, uint32_t side);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -7,6 +8,20 @@
 #include "passes/common/voxels.h"
 
 namespace voxray {
+
+/// The parameters of a pass that lets light bounce by cones; it adds schema() to its own with std::tuple_cat.
+struct ConeBounceParams {
+    uint32_t bounces = 0;
+    uint32_t bounceCones = 6;
+    static constexpr auto schema() {
+        return std::tuple{
+            field("bounces", &ConeBounceParams::bounces,
+                  "Bounces of light from voxel to voxel by cones, on top of those that the light has made.",
+                  0u, 32u),
+            field("bounce_cones", &ConeBounceParams::bounceCones,
+                  "Cones from each side of a voxel in a bounce: 5, 6, 16 or 36.", 5u, 36u)};
+    }
+};
 
 /// Light that voxels throw at each other: irradiance of each voxel's sides by a set of cones through radiance
 /// voxels. Docs: docs/cone-tracing.md.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "passes/common/clipmap_windows.h"
 #include "passes/common/cone_bounces.h"
 #include "passes/common/radiance_voxels.h"
 #include "passes/common/voxels.h"
@@ -15,35 +16,27 @@ class FilterVoxels final : public Pass {
         "Prefilters the light that leaves surface voxels: radiance and the part of a beam that surfaces "
         "cover, at all scales, for gather_cones. "
         "Biased by: voxel size; what shares a larger voxel and faces the same way is averaged; in a clipmap "
-        "distance from the camera. "
+        "distance from the camera. Bounces by cones are for dense and svo; over a clipmap's windows "
+        "light_clipmap has its own. "
         "Source: Crassin et al. 2011, section 4 (anisotropic voxels); Arnebäck 2017, section 3.1.4.";
-    struct Params {
+    struct Params : ClipmapParams, ConeBounceParams {
         RadianceLayout layout = RadianceLayout::Dense;
         bool emission = false;
         bool eachFrame = false;
-        uint32_t clipmapResolution = 64;
-        uint32_t bounces = 0;
-        uint32_t bounceCones = 6;
         static constexpr auto schema() {
-            return std::tuple{
-                field("layout", &Params::layout,
-                      "How voxels are stored: dense, a full grid for each level; svo, a sparse octree: only "
-                      "what surfaces pass through; clipmap, of each level a window round the camera, which "
-                      "follows it in each frame."),
-                field("emission", &Params::emission,
-                      "Whether what surfaces emit is in. Off, cones bring indirect light alone: a direct_* "
-                      "pass adds the rest."),
-                field("each_frame", &Params::eachFrame,
-                      "Whether to filter in each frame, for light that is injected in each frame; else "
-                      "once."),
-                field("clipmap_resolution", &Params::clipmapResolution,
-                      "clipmap: voxels along a window's side, a power of two.", 16u, 1024u),
-                field("bounces", &Params::bounces,
-                      "Bounces of light from voxel to voxel by cones, on top of the injection's. dense and "
-                      "svo; over a clipmap's windows light_clipmap has its own.",
-                      0u, 32u),
-                field("bounce_cones", &Params::bounceCones,
-                      "Cones from each side of a voxel in a bounce: 5, 6, 16 or 36.", 5u, 36u)};
+            return std::tuple_cat(
+                std::tuple{
+                    field("layout", &Params::layout,
+                          "How voxels are stored: dense, a full grid for each level; svo, a sparse octree: "
+                          "only what surfaces pass through; clipmap, of each level a window round the "
+                          "camera, which follows it in each frame."),
+                    field("emission", &Params::emission,
+                          "Whether what surfaces emit is in. Off, cones bring indirect light alone: a "
+                          "direct_* pass adds the rest."),
+                    field("each_frame", &Params::eachFrame,
+                          "Whether to filter in each frame, for light that is injected in each frame; else "
+                          "once.")},
+                ClipmapParams::schema(), ConeBounceParams::schema());
         }
     };
 

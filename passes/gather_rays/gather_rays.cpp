@@ -76,6 +76,7 @@ void GatherRays::prepare(PassSetup& setup) {
     resolve_ = program("passes/gather_rays/resolve.comp");
     filter_ = IrradianceFilter(setup, hits);
     faces_ = FaceIrradiance(setup.device, setup.compiler);
+    facesVersion_.reset();
     sampler_ = texelSampler(setup.device);
     light_ = Buffer(setup.device, "light of gather rays", batchRays(hits) * kLightBytes);
     if (shadowRays()) {
@@ -87,8 +88,13 @@ void GatherRays::prepare(PassSetup& setup) {
 
 void GatherRays::record(PassContext& context) {
     const GBuffer& gbuffer = context.get(gbuffer_);
-    faces_.update(context.stream, context.get(voxels_), context.get(irradiance_),
-                  shadowRays() ? FaceIrradiance::Light::Indirect : FaceIrradiance::Light::Total);
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    const VoxelIrradiance& light = context.get(irradiance_);
+    if (const std::pair version{voxels.version, light.version}; facesVersion_ != version) {
+        faces_.update(context.stream, voxels, light,
+                      shadowRays() ? FaceIrradiance::Light::Indirect : FaceIrradiance::Light::Total);
+        facesVersion_ = version;
+    }
     for (uint32_t b = 0; b < context.get(hits_).batches.size(); ++b) gather(context, b);
     const Buffer& irradiance =
         filter_.run(context, gbuffer, context.get(hits_), params_.filter, params_.strictness);

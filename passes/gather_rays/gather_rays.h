@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "passes/common/face_irradiance.h"
 #include "passes/common/gather_hits.h"
@@ -73,6 +74,7 @@ class GatherRays final : public Pass {
     Port<GatherHits> hits_;
     Port<FrameImage> indirect_;
     FaceIrradiance faces_;
+    std::optional<std::pair<uint64_t, uint64_t>> facesVersion_;  ///< Of the voxels and the light in them.
     Program shade_, collect_, moments_, resolve_;
     IrradianceFilter filter_;
     Sampler sampler_;

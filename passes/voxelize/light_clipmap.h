@@ -18,23 +18,18 @@ class LightClipmap final : public Pass {
         "map of every light, and what voxels reflect is made radiance voxels for gather_cones, which bring "
         "one "
         "bounce more than 'bounces'. What scrolled in is lit in each frame; all of the "
-        "windows where a light or a surface has moved. No emissive surfaces as lights and no environment: "
+        "windows where a light or a surface has moved, and with bounces wherever anything scrolled in. No "
+        "emissive surfaces as lights and no environment: "
         "they have no single viewpoint. Biased by: voxel size, so distance from the camera; "
         "shadow_resolution. Source: Arnebäck 2017, section 4.1.2, after Panteleev 2014.";
-    struct Params {
+    struct Params : ConeBounceParams {
         uint32_t shadowResolution = 512;
-        uint32_t bounces = 0;
-        uint32_t bounceCones = 6;
         static constexpr auto schema() {
-            return std::tuple{
-                field("shadow_resolution", &Params::shadowResolution,
-                      "Texels along a side of each shadow map; a point light has six.", 2u, 4096u),
-                field("bounces", &Params::bounces,
-                      "Bounces of light from voxel to voxel by cones, on top of the direct light. Then all "
-                      "of the windows is lit anew also where anything scrolled in.",
-                      0u, 32u),
-                field("bounce_cones", &Params::bounceCones,
-                      "Cones from each side of a voxel in a bounce: 5, 6, 16 or 36.", 5u, 36u)};
+            return std::tuple_cat(
+                std::tuple{field("shadow_resolution", &Params::shadowResolution,
+                                 "Texels along a side of each shadow map; a point light has six.", 2u,
+                                 4096u)},
+                ConeBounceParams::schema());
         }
     };
 

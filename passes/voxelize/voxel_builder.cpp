@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "passes/common/dispatch.h"
 #include "passes/voxelize/sums_layout.h"
 
@@ -14,6 +15,11 @@ struct ResolvePush {
 };
 
 }  // namespace
+
+void VoxelBuildParams::check(const std::string& pass) const {
+    if (directions != 1 && directions != 6)
+        throw Error("{}: directions is {}; it can be 1 or 6", pass, directions);
+}
 
 void VoxelBuilder::planVoxels(PassPlan& plan, const SurfaceVoxels& voxels) {
     plan.reserve("occupancy and ranks", voxels.words() * 2 * sizeof(uint32_t));

@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <tuple>
 
 #include "passes/common/prefix_sum.h"
 #include "passes/common/voxels.h"
@@ -10,6 +12,25 @@
 #include "passes/voxelize/voxelize_method.h"
 
 namespace voxray {
+
+/// The parameters of a pass that voxelizes; it adds schema() to its own with std::tuple_cat.
+struct VoxelBuildParams {
+    uint32_t directions = 6;
+    uint32_t exposureRays = 8;
+    static constexpr auto schema() {
+        return std::tuple{
+            field("directions", &VoxelBuildParams::directions,
+                  "6: a voxel keeps light apart by the side that surfaces face. 1: all of a voxel shares one "
+                  "value, so that both sides of a thin wall mix.",
+                  1u, 6u),
+            field("exposure_rays", &VoxelBuildParams::exposureRays,
+                  "Points on a surface as large as a voxel's face that probe both sides for open space; 0 "
+                  "takes all sides for exposed, which darkens thin closed walls.",
+                  0u, 256u)};
+    }
+    /// @throws Error naming `pass` where directions is neither 1 nor 6.
+    void check(const std::string& pass) const;
+};
 
 /// Makes surface voxels of triangles. A method finds the voxels, twice: first to mark them, then, once they
 /// are numbered, to sum up what their surfaces carry, weighted by area. Sums are integers: the result does

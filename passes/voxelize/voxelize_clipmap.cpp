@@ -28,8 +28,7 @@ void VoxelizeClipmap::declare(PassBuilder& builder) {
 }
 
 void VoxelizeClipmap::plan(PassPlan& plan) {
-    if (params_.directions != 1 && params_.directions != 6)
-        throw Error("{}: directions is {}; it can be 1 or 6", kName, params_.directions);
+    params_.check(kName);
     requirePowerOfTwo(kName, params_.clipmapResolution);
     const Geometry& geometry = plan.frame.scene->geometry;
     gpu::VoxelGrid finest = makeVoxelGrid(geometry.boundsMin, geometry.boundsMax, params_.resolution);

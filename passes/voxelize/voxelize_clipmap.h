@@ -17,26 +17,15 @@ class VoxelizeClipmap final : public Pass {
         "scrolled in, and what moved. For light_clipmap. Finds voxels as voxelize's method exact. Biased by: "
         "distance from the camera; a gap narrower than a voxel of its level is closed. "
         "Source: Arnebäck 2017, section 4.1.1, after Panteleev 2014.";
-    struct Params {
+    struct Params : ClipmapParams, VoxelBuildParams {
         uint32_t resolution = 128;
-        uint32_t clipmapResolution = 64;
-        uint32_t directions = 6;
-        uint32_t exposureRays = 8;
         static constexpr auto schema() {
-            return std::tuple{
-                field("resolution", &Params::resolution,
-                      "Voxels of the finest level along the scene's longest side, if it were held whole.", 1u,
-                      1024u),
-                field("clipmap_resolution", &Params::clipmapResolution,
-                      "Voxels along a window's side, a power of two.", 16u, 1024u),
-                field("directions", &Params::directions,
-                      "6: a voxel keeps light apart by the side that surfaces face. 1: all of a voxel shares "
-                      "one value, so that both sides of a thin wall mix.",
-                      1u, 6u),
-                field("exposure_rays", &Params::exposureRays,
-                      "Points on a surface as large as a voxel's face that probe both sides for open space; "
-                      "0 takes all sides for exposed, which darkens thin closed walls.",
-                      0u, 256u)};
+            return std::tuple_cat(
+                std::tuple{field("resolution", &Params::resolution,
+                                 "Voxels of the finest level along the scene's longest side, if it were held "
+                                 "whole.",
+                                 1u, 1024u)},
+                ClipmapParams::schema(), VoxelBuildParams::schema());
         }
     };
 

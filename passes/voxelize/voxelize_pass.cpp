@@ -27,8 +27,7 @@ void VoxelizePass::declare(PassBuilder& builder) {
 }
 
 void VoxelizePass::plan(PassPlan& plan) {
-    if (params_.directions != 1 && params_.directions != 6)
-        throw Error("voxelize: directions is {}; it can be 1 or 6", params_.directions);
+    params_.check(kName);
     const Geometry& geometry = plan.frame.scene->geometry;
     SurfaceVoxels& v = plan.get(voxels_);
     v.exposedOnly = params_.exposureRays > 0;

@@ -24,31 +24,23 @@ class VoxelizePass final : public Pass {
         "misses "
         "surfaces between its sample points: those thinner than a voxel / samples in two directions. "
         "Source: Magalhães 2020, section 3.2; Schwarz and Seidel 2010 (exact).";
-    struct Params {
+    struct Params : VoxelBuildParams {
         VoxelizeMethodName method = VoxelizeMethodName::Exact;
         uint32_t resolution = 128;
-        uint32_t directions = 6;
         uint32_t samples = 2;
-        uint32_t exposureRays = 8;
         static constexpr auto schema() {
-            return std::tuple{
-                field("method", &Params::method,
-                      "How the voxels that triangles meet are found: exact (compute shader, overlap of "
-                      "triangles and boxes), "
-                      "dominant_axis (one conservative raster pass), three_axis (three raster passes)."),
-                field("resolution", &Params::resolution, "Voxels along the scene's longest side.", 1u, 1024u),
-                field("directions", &Params::directions,
-                      "6: a voxel keeps light apart by the side that surfaces face. 1: all of a voxel shares "
-                      "one value, so that both sides of a thin wall mix.",
-                      1u, 6u),
-                field("samples", &Params::samples,
-                      "three_axis: sample points along a voxel's edge, in each of the three projections.", 1u,
-                      16u),
-                field(
-                    "exposure_rays", &Params::exposureRays,
-                    "Points on a surface as large as a voxel's face that probe both sides for open space; 0 "
-                    "takes all sides for exposed, which darkens thin closed walls.",
-                    0u, 256u)};
+            return std::tuple_cat(
+                std::tuple{
+                    field("method", &Params::method,
+                          "How the voxels that triangles meet are found: exact (compute shader, overlap of "
+                          "triangles and boxes), "
+                          "dominant_axis (one conservative raster pass), three_axis (three raster passes)."),
+                    field("resolution", &Params::resolution, "Voxels along the scene's longest side.", 1u,
+                          1024u),
+                    field("samples", &Params::samples,
+                          "three_axis: sample points along a voxel's edge, in each of the three projections.",
+                          1u, 16u)},
+                VoxelBuildParams::schema());
         }
     };
 
