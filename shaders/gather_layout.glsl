@@ -28,24 +28,24 @@ uint gatherBits(uint x) {
 uint morton(uvec2 p) { return spreadBits(p.x) | (spreadBits(p.y) << 1); }
 uvec2 mortonInverse(uint code) { return uvec2(gatherBits(code), gatherBits(code >> 1)); }
 
-// Shift of a block's rays against its texels, in 1/65536 of a texel's share: where a block has fewer rays than texels,
-// other blocks pick other texels.
-uint blockShift(GatherLayout g, uvec2 block) {
-    return hashCombine(g.seed, morton(block) ^ 0x5bd1e995u) >> 16;
-}
-
-// Texel in the block, in Morton order, that ray j starts from.
-uint rayTexel(GatherLayout g, uint shift, uint j) {
+// Texel in the block, in Morton order, that ray j starts from. Where a block has fewer rays than texels, a ray stands for a share of
+// them and starts from any: neighbours' choices must not go alike, or the filter, whose steps are powers of two, shows them as stripes.
+uint rayTexel(GatherLayout g, uvec2 block, uint j) {
     const uint count = g.blockSize * g.blockSize;
-    const uint shiftInTexels = g.raysPerBlock < count ? (shift * count / g.raysPerBlock) >> 16 : 0u;
-    return (j * count / g.raysPerBlock + shiftInTexels) % count;
+    const uint first = j * count / g.raysPerBlock;
+    if (g.raysPerBlock >= count) return first;
+    const uint share = (j + 1u) * count / g.raysPerBlock - first;
+    return first + hashCombine(g.seed ^ 0x5bd1e995u, morton(block) * g.raysPerBlock + j) % share;
 }
 
-// First ray of a block at or after which rays start from texel t (without shift): ceil(t * rays / count).
+// First ray of a block at or after which rays start from texel t, where rays are no fewer than texels: ceil(t * rays / count).
 uint firstRay(GatherLayout g, uint t) {
     const uint count = g.blockSize * g.blockSize;
     return (t * g.raysPerBlock + count - 1u) / count;
 }
+
+// The ray in whose share texel t lies, where rays are fewer than texels.
+uint rayNear(GatherLayout g, uint t) { return ((t + 1u) * g.raysPerBlock - 1u) / (g.blockSize * g.blockSize); }
 
 uvec2 texelOf(GatherLayout g, uvec2 block, uint t) { return block * g.blockSize + mortonInverse(t); }
 

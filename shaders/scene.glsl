@@ -35,6 +35,7 @@ struct SurfacePoint {
     vec4 tangent;
     vec4 texCoords;        // uv0, uv1
     vec4 color;
+    vec2 uvDensity;        // Area of the triangle in uv0 and in uv1 over its own, 1/m²; 0 for a degenerate one.
     uint material;
 };
 
@@ -55,6 +56,8 @@ SurfacePoint surfacePoint(uint triangle, vec2 barycentrics) {
     s.tangent = vec4(w.x * a0.tangent.xyz + w.y * a1.tangent.xyz + w.z * a2.tangent.xyz, a0.tangent.w);
     s.texCoords = w.x * a0.texCoords + w.y * a1.texCoords + w.z * a2.texCoords;
     s.color = w.x * a0.color + w.y * a1.color + w.z * a2.color;
+    const vec4 e1 = a1.texCoords - a0.texCoords, e2 = a2.texCoords - a0.texCoords;
+    s.uvDensity = length_ > 0.0 ? abs(e1.xz * e2.yw - e1.yw * e2.xz) / length_ : vec2(0.0);
     s.material = sceneTriangleMaterials.data[triangle];
     return s;
 }

@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstring>
@@ -19,6 +20,8 @@ namespace {
 /// Embree's own bound on coordinates (its FLT_LARGE): Debian's build aborts on rays beyond it.
 constexpr float kLargest = 1.8e18f;
 constexpr size_t kStreamGrain = 4096;
+/// Rays of a packet: as wide as AVX2. 16 are 6 % faster where there is AVX-512.
+constexpr uint32_t kPacket = 8;
 
 /// Triangles that share how they are intersected. Embree's primitive i is the scene's triangle ids[i].
 struct TriangleGroup {
@@ -62,6 +65,29 @@ RTCRay toEmbree(const Ray& ray) {
     out.flags = 0;
     return out;
 }
+
+/// Neighbours of a coherent stream, traced together.
+struct Packet {
+    alignas(32) int active[kPacket];  ///< -1: yes, as Embree wants it.
+    RTCRayHit8 query{};
+
+    explicit Packet(std::span<const Ray> rays) {
+        RTCRay8& out = query.ray;
+        for (uint32_t k = 0; k < kPacket; ++k) {
+            const Ray ray = k < rays.size() ? rays[k] : Ray{{}, 0.0f, {0.0f, 0.0f, 1.0f}, -1.0f};
+            active[k] = ray.tMax >= ray.tMin ? -1 : 0;
+            out.org_x[k] = ray.origin.x;
+            out.org_y[k] = ray.origin.y;
+            out.org_z[k] = ray.origin.z;
+            out.dir_x[k] = ray.direction.x;
+            out.dir_y[k] = ray.direction.y;
+            out.dir_z[k] = ray.direction.z;
+            out.tnear[k] = ray.tMin;
+            out.tfar[k] = ray.tMax;
+            out.mask[k] = 0xffffffffu;
+        }
+    }
+};
 
 /// Embree's callback for hits on alpha-masked triangles: drops those that are cut away.
 void dropCutAway(const RTCFilterFunctionNArguments* args) {
@@ -208,17 +234,57 @@ struct EmbreeScene::Impl {
         return query.tfar < 0.0f;
     }
 
-    /// Calls trace(i) for every ray of a stream, in parallel, after its check.
+    void intersect(std::span<const Ray> rays, std::span<Hit> hits, RTCIntersectContext& context) const {
+        Packet packet(rays);
+        RTCRayHit8& query = packet.query;
+        for (size_t k = 0; k < rays.size(); ++k) hits[k] = {rays[k].tMax, Hit::kMiss, 0.0f, 0.0f};
+        for (const Part* part : {&still, &moving}) {
+            if (!part->scene) break;
+            std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+            rtcIntersect8(packet.active, part->scene, &context, &query);
+            for (size_t k = 0; k < rays.size(); ++k) {
+                if (query.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
+                RTCHit hit{};
+                hit.primID = query.hit.primID[k];
+                hit.geomID = query.hit.geomID[k];
+                hits[k] = {query.ray.tfar[k], part->triangleOf(hit), query.hit.u[k], query.hit.v[k]};
+            }
+        }
+    }
+
+    void areOccluded(std::span<const Ray> rays, std::span<uint32_t> results,
+                     RTCIntersectContext& context) const {
+        Packet packet(rays);
+        RTCRay8& query = packet.query.ray;
+        rtcOccluded8(packet.active, still.scene, &context, &query);
+        if (moving.scene) {
+            for (uint32_t k = 0; k < kPacket; ++k)
+                if (query.tfar[k] < 0.0f) packet.active[k] = 0;
+            rtcOccluded8(packet.active, moving.scene, &context, &query);
+        }
+        for (size_t k = 0; k < rays.size(); ++k)
+            results[k] = rays[k].tMax >= rays[k].tMin && query.tfar[k] < 0.0f ? 1u : 0u;
+    }
+
+    /// Calls trace(first, count, context) for every packet of a stream, in parallel, after its rays' check.
+    /// Packets don't depend on how the work is divided.
     template <typename Trace>
-    void forEachRay(std::span<const Ray> rays, const Trace& trace) const {
+    void forEachPacket(std::span<const Ray> rays, Coherence coherence, const Trace& trace) const {
         std::atomic<size_t> firstBad{rays.size()};
-        parallelRanges(rays.size(), kStreamGrain, [&](size_t begin, size_t end) {
+        const size_t packets = (rays.size() + kPacket - 1) / kPacket;
+        parallelRanges(packets, kStreamGrain / kPacket, [&](size_t begin, size_t end) {
             RTCIntersectContext context;
             rtcInitIntersectContext(&context);
-            for (size_t i = begin; i < end; ++i) {
-                if (isTraceable(rays[i])) [[likely]] {
-                    trace(i, context);
+            if (coherence == Coherence::Coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+            for (size_t first = begin * kPacket; first < std::min(end * kPacket, rays.size());
+                 first += kPacket) {
+                const auto packet = rays.subspan(first, std::min<size_t>(kPacket, rays.size() - first));
+                const auto bad = std::find_if_not(packet.begin(), packet.end(),
+                                                  [](const Ray& ray) { return isTraceable(ray); });
+                if (bad == packet.end()) [[likely]] {
+                    trace(first, packet.size(), context);
                 } else {
+                    const size_t i = first + size_t(bad - packet.begin());
                     size_t known = firstBad.load();
                     while (i < known && !firstBad.compare_exchange_weak(known, i)) {
                     }
@@ -275,17 +341,24 @@ bool EmbreeScene::occluded(const Ray& ray) const {
     return impl_->isOccluded(ray, context);
 }
 
-void EmbreeScene::closestHit(std::span<const Ray> rays, std::span<Hit> hits) const {
+void EmbreeScene::closestHit(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence) const {
     if (hits.size() < rays.size()) throw Error("{} rays but room for {} hits", rays.size(), hits.size());
-    impl_->forEachRay(
-        rays, [&](size_t i, RTCIntersectContext& context) { hits[i] = impl_->intersect(rays[i], context); });
+    impl_->forEachPacket(rays, coherence, [&](size_t first, size_t count, RTCIntersectContext& context) {
+        if (coherence == Coherence::Coherent)
+            return impl_->intersect(rays.subspan(first, count), hits.subspan(first, count), context);
+        for (size_t i = first; i < first + count; ++i) hits[i] = impl_->intersect(rays[i], context);
+    });
 }
 
-void EmbreeScene::occluded(std::span<const Ray> rays, std::span<uint32_t> results) const {
+void EmbreeScene::occluded(std::span<const Ray> rays, std::span<uint32_t> results,
+                           Coherence coherence) const {
     if (results.size() < rays.size())
         throw Error("{} rays but room for {} results", rays.size(), results.size());
-    impl_->forEachRay(rays, [&](size_t i, RTCIntersectContext& context) {
-        results[i] = impl_->isOccluded(rays[i], context) ? 1u : 0u;
+    impl_->forEachPacket(rays, coherence, [&](size_t first, size_t count, RTCIntersectContext& context) {
+        if (coherence == Coherence::Coherent)
+            return impl_->areOccluded(rays.subspan(first, count), results.subspan(first, count), context);
+        for (size_t i = first; i < first + count; ++i)
+            results[i] = impl_->isOccluded(rays[i], context) ? 1u : 0u;
     });
 }
 

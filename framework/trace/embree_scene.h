@@ -30,8 +30,10 @@ class EmbreeScene {
     /// Whole streams, on all cores; `result` is 1 where something lies between tMin and tMax.
     /// @throws Error naming the index of the first ray that is NaN, infinite (a tMax of +inf is allowed),
     /// beyond 1.8e18 m or has a negative tMin; inactive rays too.
-    void closestHit(std::span<const Ray> rays, std::span<Hit> hits) const;
-    void occluded(std::span<const Ray> rays, std::span<uint32_t> results) const;
+    void closestHit(std::span<const Ray> rays, std::span<Hit> hits,
+                    Coherence coherence = Coherence::Incoherent) const;
+    void occluded(std::span<const Ray> rays, std::span<uint32_t> results,
+                  Coherence coherence = Coherence::Incoherent) const;
 
     /// Bytes that Embree holds: its BVH and its copy of the triangles.
     size_t memoryBytes() const;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "trace/gpu_tracer.h"
-
 namespace voxray {
 namespace {
 
@@ -14,32 +12,29 @@ constexpr uint32_t kRaysPerCopy = 1u << 20;
 
 template <typename Result>
 void EmbreeTracer::trace(CommandStream& stream, const Buffer& rays, const Buffer& results, uint32_t count,
-                         void (EmbreeScene::*function)(std::span<const Ray>, std::span<Result>) const) {
-    checkStream(rays, results, sizeof(Result), count);
-    raysTraced_ += count;
+                         const std::function<void(std::span<const Ray>, std::span<Result>)>& traceRays) {
     stream.finish();
-    if (rays.mapped() && results.mapped()) {
-        (scene_.*function)(rays.mappedAs<const Ray>().first(count), results.mappedAs<Result>().first(count));
-        return;
-    }
+    if (rays.mapped() && results.mapped())
+        return traceRays(rays.mappedAs<const Ray>().first(count), results.mappedAs<Result>().first(count));
 
     // Device memory that the host doesn't see: read, trace and upload part by part.
     for (uint32_t first = 0; first < count; first += std::min(kRaysPerCopy, count - first)) {
         const uint32_t part = std::min(kRaysPerCopy, count - first);
         const std::vector<std::byte> bytes = stream.read(rays, part * sizeof(Ray), first * sizeof(Ray));
         std::vector<Result> traced(part);
-        (scene_.*function)({reinterpret_cast<const Ray*>(bytes.data()), part}, traced);
+        traceRays({reinterpret_cast<const Ray*>(bytes.data()), part}, traced);
         stream.upload(results, std::as_bytes(std::span(traced)), first * sizeof(Result));
     }
 }
 
-void EmbreeTracer::closestHit(CommandStream& stream, const Buffer& rays, const Buffer& hits, uint32_t count) {
-    trace<Hit>(stream, rays, hits, count, &EmbreeScene::closestHit);
-}
-
-void EmbreeTracer::occluded(CommandStream& stream, const Buffer& rays, const Buffer& results,
-                            uint32_t count) {
-    trace<uint32_t>(stream, rays, results, count, &EmbreeScene::occluded);
+void EmbreeTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
+                         uint32_t count, Coherence coherence) {
+    if (query == Query::ClosestHit)
+        trace<Hit>(stream, rays, results, count,
+                   [&](auto from, auto to) { scene_.closestHit(from, to, coherence); });
+    else
+        trace<uint32_t>(stream, rays, results, count,
+                        [&](auto from, auto to) { scene_.occluded(from, to, coherence); });
 }
 
 void EmbreeTracer::update(CommandStream& stream) {

@@ -13,16 +13,16 @@ class EmbreeTracer final : public RayTracer {
     explicit EmbreeTracer(const SceneState& state) : scene_(state) {}
     std::string_view name() const override { return "embree"; }
 
-    /// @throws Error naming the first ray that is not finite.
-    void closestHit(CommandStream& stream, const Buffer& rays, const Buffer& hits, uint32_t count) override;
-    void occluded(CommandStream& stream, const Buffer& rays, const Buffer& results, uint32_t count) override;
     void update(CommandStream& stream) override;
     size_t memoryBytes() const override { return scene_.memoryBytes(); }
 
  private:
+    /// @throws Error naming the first ray that is not finite.
+    void trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
+               Coherence coherence) override;
     template <typename Result>
     void trace(CommandStream& stream, const Buffer& rays, const Buffer& results, uint32_t count,
-               void (EmbreeScene::*function)(std::span<const Ray>, std::span<Result>) const);
+               const std::function<void(std::span<const Ray>, std::span<Result>)>& traceRays);
 
     EmbreeScene scene_;
 };

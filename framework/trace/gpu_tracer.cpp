@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "base/error.h"
-
 namespace voxray {
 namespace {
 
@@ -11,15 +9,6 @@ namespace {
 constexpr uint32_t kRaysPerLaunch = 65535u * 64u;
 
 }  // namespace
-
-void checkStream(const Buffer& rays, const Buffer& results, uint64_t resultBytes, uint32_t count) {
-    if (rays.bytes() < count * sizeof(Ray))
-        throw Error("buffer '{}' holds {} rays, {} are to be traced", rays.name(), rays.bytes() / sizeof(Ray),
-                    count);
-    if (results.bytes() < count * resultBytes)
-        throw Error("buffer '{}' has room for {} results of {} rays", results.name(),
-                    results.bytes() / resultBytes, count);
-}
 
 GpuTracer::GpuTracer(Device& device, const SceneState& state, uint32_t trianglesPerChunk)
     : device_(device), state_(state), order_(tracingOrder(state, trianglesPerChunk)) {
@@ -39,18 +28,8 @@ void GpuTracer::update(CommandStream& stream) {
     stream.finish();
 }
 
-void GpuTracer::closestHit(CommandStream& stream, const Buffer& rays, const Buffer& hits, uint32_t count) {
-    checkStream(rays, hits, sizeof(Hit), count);
-    trace(stream, false, rays, hits, count);
-}
-
-void GpuTracer::occluded(CommandStream& stream, const Buffer& rays, const Buffer& results, uint32_t count) {
-    checkStream(rays, results, sizeof(uint32_t), count);
-    trace(stream, true, rays, results, count);
-}
-
-void GpuTracer::trace(CommandStream& stream, bool occluded, const Buffer& rays, const Buffer& results,
-                      uint32_t count) {
+void GpuTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
+                      uint32_t count, Coherence) {
     gpu::TraceCall call{};
     call.rays = rays.address();
     call.results = results.address();
@@ -65,9 +44,8 @@ void GpuTracer::trace(CommandStream& stream, bool occluded, const Buffer& rays, 
     for (uint32_t first = 0; first < count; first = call.endRay) {
         call.firstRay = first;
         call.endRay = first + std::min(kRaysPerLaunch, count - first);
-        launch(stream, occluded, call);
+        launch(stream, query == Query::Occluded, call);
     }
-    raysTraced_ += count;
 }
 
 }  // namespace voxray

@@ -11,8 +11,6 @@ namespace voxray {
 /// can take in one.
 class GpuTracer : public RayTracer {
  public:
-    void closestHit(CommandStream& stream, const Buffer& rays, const Buffer& hits, uint32_t count) final;
-    void occluded(CommandStream& stream, const Buffer& rays, const Buffer& results, uint32_t count) final;
     void update(CommandStream& stream) final;
     size_t memoryBytes() const final { return structure_.bytes(); }
 
@@ -25,8 +23,8 @@ class GpuTracer : public RayTracer {
     VkAccelerationStructureKHR structure() const { return structure_.top.handle(); }
 
  private:
-    void trace(CommandStream& stream, bool occluded, const Buffer& rays, const Buffer& results,
-               uint32_t count);
+    void trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
+               Coherence coherence) final;
 
     Device& device_;
     const SceneState& state_;
@@ -34,8 +32,5 @@ class GpuTracer : public RayTracer {
     SceneStructure structure_;
     GpuAlphaMask mask_;
 };
-
-/// @throws Error where a stream's buffers are too small for `count` rays and results of `resultBytes` each.
-void checkStream(const Buffer& rays, const Buffer& results, uint64_t resultBytes, uint32_t count);
 
 }  // namespace voxray

@@ -25,4 +25,8 @@ struct Hit {
 };
 static_assert(sizeof(Hit) == 16);
 
+/// Whether a stream's neighbours start near each other and go alike, as camera rays do. It matters to speed
+/// alone, and to which of several triangles at the same distance is hit.
+enum class Coherence { Incoherent, Coherent };
+
 }  // namespace voxray

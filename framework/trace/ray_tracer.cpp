@@ -14,7 +14,31 @@ void require(bool feature, const Device& device, const char* tracer, const char*
                     extension, device.info().name);
 }
 
+/// @throws Error where a stream's buffers are too small for `count` rays and results of `resultBytes` each.
+void checkStream(const Buffer& rays, const Buffer& results, uint64_t resultBytes, uint32_t count) {
+    if (rays.bytes() < count * sizeof(Ray))
+        throw Error("buffer '{}' holds {} rays, {} are to be traced", rays.name(), rays.bytes() / sizeof(Ray),
+                    count);
+    if (results.bytes() < count * resultBytes)
+        throw Error("buffer '{}' has room for {} results of {} rays", results.name(),
+                    results.bytes() / resultBytes, count);
+}
+
 }  // namespace
+
+void RayTracer::closestHit(CommandStream& stream, const Buffer& rays, const Buffer& hits, uint32_t count,
+                           Coherence coherence) {
+    checkStream(rays, hits, sizeof(Hit), count);
+    raysTraced_ += count;
+    trace(stream, Query::ClosestHit, rays, hits, count, coherence);
+}
+
+void RayTracer::occluded(CommandStream& stream, const Buffer& rays, const Buffer& results, uint32_t count,
+                         Coherence coherence) {
+    checkStream(rays, results, sizeof(uint32_t), count);
+    raysTraced_ += count;
+    trace(stream, Query::Occluded, rays, results, count, coherence);
+}
 
 TracerKind resolveTracer(TracerKind wanted, const Device& device) {
     if (wanted != TracerKind::Auto) return wanted;

@@ -24,10 +24,11 @@ class RayTracer {
 
     /// "ray_query", "ray_pipeline" or "embree".
     virtual std::string_view name() const = 0;
-    virtual void closestHit(CommandStream& stream, const Buffer& rays, const Buffer& hits,
-                            uint32_t count) = 0;
-    virtual void occluded(CommandStream& stream, const Buffer& rays, const Buffer& results,
-                          uint32_t count) = 0;
+    /// @throws Error where a buffer is too small.
+    void closestHit(CommandStream& stream, const Buffer& rays, const Buffer& hits, uint32_t count,
+                    Coherence coherence = Coherence::Incoherent);
+    void occluded(CommandStream& stream, const Buffer& rays, const Buffer& results, uint32_t count,
+                  Coherence coherence = Coherence::Incoherent);
     /// Takes over where the moving instances of the scene's state are now (`advance`); what stays is not
     /// built again.
     virtual void update(CommandStream& stream) = 0;
@@ -38,6 +39,12 @@ class RayTracer {
     uint64_t raysTraced() const { return raysTraced_; }
 
  protected:
+    enum class Query { ClosestHit, Occluded };
+    /// The buffers are large enough.
+    virtual void trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
+                       uint32_t count, Coherence coherence) = 0;
+
+ private:
     uint64_t raysTraced_ = 0;
 };
 

@@ -90,7 +90,8 @@ void DirectShadowRays::record(PassContext& context) {
                             AimPush{kind, light, params_.samples, frame.width, first, rays, gbuffer.samples,
                                     seed, context.scene.emitterCount, frame.camera.position},
                             linearGroups(rays));
-            context.tracer.occluded(stream, rays_, occluded_, rays);
+            context.tracer.occluded(stream, rays_, occluded_, rays,
+                                    kind == kPunctual ? Coherence::Coherent : Coherence::Incoherent);
             stream.dispatch(add_, {{"carried", carried_}, {"occluded", occluded_}, {"direct", direct}},
                             AddPush{frame.width, first, count, perPixel}, linearGroups(count));
         }

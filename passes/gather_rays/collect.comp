@@ -23,16 +23,13 @@ void main() {
     const uvec2 texel = texelOf(g, block, t);
     if (any(greaterThanEqual(texel, g.texels))) return;
 
-    // Rays of this texel: a run of the block's, or one of those near its place where texels outnumber rays.
-    const uint shift = blockShift(g, block);
+    // Rays of this texel: a run of the block's, or at most one where texels outnumber rays.
     const bool fewer = g.raysPerBlock < count;
-    const uint guess = t * g.raysPerBlock / count;
-    const uint first = fewer ? max(guess, 1u) - 1u : firstRay(g, t);
-    const uint last = min(fewer ? guess + 2u : firstRay(g, t + 1u), g.raysPerBlock);
+    const uint first = fewer ? rayNear(g, t) : firstRay(g, t);
+    const uint last = fewer ? first + (rayTexel(g, block, first) == t ? 1u : 0u) : firstRay(g, t + 1u);
     vec3 sum = vec3(0.0);
     float rays = 0.0;
     for (uint j = first; j < last; ++j) {
-        if (fewer && rayTexel(g, shift, j) != t) continue;
         const vec4 light_ = arrived(blockInBatch * g.raysPerBlock + j);
         if (light_.w < 0.0) continue;
         sum += light_.rgb;

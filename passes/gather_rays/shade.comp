@@ -33,7 +33,7 @@ void main() {
     if (i >= push.rays) return;
     const uint blockIndex = push.firstBlock + i / g.raysPerBlock;
     const uvec2 block = uvec2(blockIndex % g.blocks.x, blockIndex / g.blocks.x);
-    const uvec2 texel = texelOf(g, block, rayTexel(g, blockShift(g, block), i % g.raysPerBlock));
+    const uvec2 texel = texelOf(g, block, rayTexel(g, block, i % g.raysPerBlock));
     const vec4 from = all(lessThan(texel, g.texels)) ? texelFetch(position, ivec2(texel), 0) : vec4(0.0);
 
     // A surfel without a normal receives no light.

@@ -14,7 +14,7 @@ layout(location = 3) in vec4 texCoords;
 layout(location = 4) in vec4 color;
 layout(location = 5) flat in vec3 geometricNormal;
 layout(location = 6) flat in uint material;
-layout(location = 7) flat in uint triangle;
+layout(location = 7) flat in vec2 uvDensity;
 
 layout(location = 0) out vec4 outPosition;
 layout(location = 1) out vec4 outNormal;
@@ -32,10 +32,11 @@ void main() {
     s.tangent = tangent;
     s.texCoords = texCoords;
     s.color = color;
+    s.uvDensity = uvDensity;
     s.material = material;
     if (alphaCut(sceneMaterials.data[material], s)) discard;
 
-    const VisibleSurface visible = visibleSurface(push.view, s, triangle);
+    const VisibleSurface visible = visibleSurface(push.view, s);
     outPosition = vec4(position, 1.0);
     outNormal = vec4(visible.normal, 0.0);
     outGeometricNormal = vec4(visible.geometricNormal, 0.0);

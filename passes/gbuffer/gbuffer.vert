@@ -15,18 +15,18 @@ layout(location = 3) out vec4 texCoords;
 layout(location = 4) out vec4 color;
 layout(location = 5) flat out vec3 geometricNormal;
 layout(location = 6) flat out uint material;
-layout(location = 7) flat out uint triangle;
+layout(location = 7) flat out vec2 uvDensity;
 
 void main() {
-    triangle = uint(gl_VertexIndex) / 3u;
     const uint corner = uint(gl_VertexIndex) % 3u;
     const vec2 barycentrics = vec2(corner == 1u ? 1.0 : 0.0, corner == 2u ? 1.0 : 0.0);
-    const SurfacePoint s = surfacePoint(triangle, barycentrics);
+    const SurfacePoint s = surfacePoint(uint(gl_VertexIndex) / 3u, barycentrics);
     position = s.position;
     normal = s.normal;
     tangent = s.tangent;
     texCoords = s.texCoords;
     color = s.color;
+    uvDensity = s.uvDensity;
     geometricNormal = s.geometricNormal;
     material = s.material;
     gl_Position = push.viewProjection * vec4(s.position, 1.0);

@@ -125,7 +125,7 @@ void GBufferPass::trace(PassContext& context) {
         const uint32_t batch = std::min(kBatchRays, texels - first);
         const RaysPush push{view, first, batch};
         context.stream.dispatch(aim_, {{"rays", rays_}}, push, linearGroups(batch));
-        context.tracer.closestHit(context.stream, rays_, hits_, batch);
+        context.tracer.closestHit(context.stream, rays_, hits_, batch, Coherence::Coherent);
         context.stream.dispatch(shade_,
                                 context.scene.bindings({{"hits", hits_},
                                                         {"position", g.position},

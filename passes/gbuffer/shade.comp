@@ -36,7 +36,7 @@ void main() {
     } else {
         const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
         point = vec4(s.position, 1.0);
-        visible = visibleSurface(push.view, s, hit.triangle);
+        visible = visibleSurface(push.view, s);
     }
     imageStore(position, texel, point);
     imageStore(normal, texel, vec4(visible.normal, 0.0));

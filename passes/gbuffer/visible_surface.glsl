@@ -11,7 +11,7 @@ struct VisibleSurface {
     Specular specular;
 };
 
-VisibleSurface visibleSurface(View view, SurfacePoint s, uint triangle) {
+VisibleSurface visibleSurface(View view, SurfacePoint s) {
     const GpuMaterial m = sceneMaterials.data[s.material];
     const vec3 away = s.position - view.origin;
     const float distance_ = max(length(away), 1e-20);
@@ -29,18 +29,19 @@ VisibleSurface visibleSurface(View view, SurfacePoint s, uint triangle) {
 #ifdef SHARP_NORMALS
     visible.normal = shadingNormal(m, s, 0.0);
 #else
-    visible.normal = shadingNormal(m, s, footprintLevel(m.normalTexture, triangle, area));
+    visible.normal = shadingNormal(m, s, footprintLevel(m.normalTexture, s, area));
 #endif
     if (dot(visible.normal, visible.normal) == 0.0) visible.normal = visible.geometricNormal;
     if (dot(visible.normal, visible.geometricNormal) < 0.0) visible.normal = -visible.normal;
     // Mip levels of a cut-out mix in the colour of what is cut away.
-    const float colorLevel = m.alphaMode == ALPHA_MASK ? 0.0 : footprintLevel(m.baseColorTexture, triangle, area);
-    visible.albedo = diffuseAlbedo(m, s, colorLevel);
-    const vec2 rough = lookup(m.metallicRoughnessTexture, s.texCoords, footprintLevel(m.metallicRoughnessTexture, triangle, area)).gb;
-    visible.specular = makeSpecular(baseColor(m, s, colorLevel).rgb, m.metallic * rough.y, m.roughness * rough.x, m.specular,
-                                    m.specularColor, m.ior);
+    const float colorLevel = m.alphaMode == ALPHA_MASK ? 0.0 : footprintLevel(m.baseColorTexture, s, area);
+    const vec3 base = baseColor(m, s, colorLevel).rgb;
+    const vec2 rough = lookup(m.metallicRoughnessTexture, s.texCoords, footprintLevel(m.metallicRoughnessTexture, s, area)).gb;
+    const float metallic = m.metallic * rough.y;
+    visible.albedo = base * (1.0 - metallic);
+    visible.specular = makeSpecular(base, metallic, m.roughness * rough.x, m.specular, m.specularColor, m.ior);
     visible.emission = front || m.doubleSided != 0u
-                           ? emission(m, s, footprintLevel(m.emissiveTexture, triangle, area))
+                           ? emission(m, s, footprintLevel(m.emissiveTexture, s, area))
                            : vec3(0.0);
     return visible;
 }

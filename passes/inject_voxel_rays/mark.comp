@@ -40,7 +40,7 @@ void main() {
     if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return;
     const uint blockIndex = push.firstBlock + i / g.raysPerBlock;
     const uvec2 block = uvec2(blockIndex % g.blocks.x, blockIndex / g.blocks.x);
-    const ivec2 texel = ivec2(texelOf(g, block, rayTexel(g, blockShift(g, block), i % g.raysPerBlock)));
+    const ivec2 texel = ivec2(texelOf(g, block, rayTexel(g, block, i % g.raysPerBlock)));
     const vec3 from = texelFetch(position, texel, 0).xyz;
     const vec3 normal = dot(s.geometricNormal, from - s.position) >= 0.0 ? s.geometricNormal : -s.geometricNormal;
     const uint faces = push.grid.directions == 1u ? 63u : facingBits(normal);

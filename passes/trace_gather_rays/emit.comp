@@ -23,7 +23,7 @@ void main() {
     if (i >= push.batchBlocks * g.raysPerBlock) return;
     const uint blockIndex = push.firstBlock + i / g.raysPerBlock, j = i % g.raysPerBlock;
     const uvec2 block = uvec2(blockIndex % g.blocks.x, blockIndex / g.blocks.x);
-    const ivec2 texel = ivec2(texelOf(g, block, rayTexel(g, blockShift(g, block), j)));
+    const ivec2 texel = ivec2(texelOf(g, block, rayTexel(g, block, j)));
 
     Ray ray;
     ray.origin = vec3(0.0);

@@ -49,18 +49,26 @@ std::shared_ptr<const Scene> movingSoup() {
 
 class TraceUpdate : public VulkanTest {
  protected:
+    static std::vector<TracerKind> tracerKinds() {
+        std::vector<TracerKind> kinds{TracerKind::Embree};
+        if (device().info().rayQuery) kinds.push_back(TracerKind::RayQuery);
+        if (device().info().rayPipeline) kinds.push_back(TracerKind::RayPipeline);
+        return kinds;
+    }
     template <typename T>
     static bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
         return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
     }
-    static std::vector<Hit> closestHits(RayTracer& tracer, const std::vector<Ray>& rays) {
+    static std::vector<Hit> closestHits(RayTracer& tracer, const std::vector<Ray>& rays,
+                                        Coherence coherence = Coherence::Incoherent) {
         return trace<Hit>(rays, [&](CommandStream& stream, const Buffer& from, const Buffer& to) {
-            tracer.closestHit(stream, from, to, uint32_t(rays.size()));
+            tracer.closestHit(stream, from, to, uint32_t(rays.size()), coherence);
         });
     }
-    static std::vector<uint32_t> occlusions(RayTracer& tracer, const std::vector<Ray>& rays) {
+    static std::vector<uint32_t> occlusions(RayTracer& tracer, const std::vector<Ray>& rays,
+                                            Coherence coherence = Coherence::Incoherent) {
         return trace<uint32_t>(rays, [&](CommandStream& stream, const Buffer& from, const Buffer& to) {
-            tracer.occluded(stream, from, to, uint32_t(rays.size()));
+            tracer.occluded(stream, from, to, uint32_t(rays.size()), coherence);
         });
     }
 
@@ -79,11 +87,7 @@ class TraceUpdate : public VulkanTest {
 TEST_F(TraceUpdate, EveryTracerIsAsOneMadeAtThatTime) {
     const auto scene = movingSoup();
     const std::vector<Ray> rays = randomRays(4000, 8);
-    std::vector<TracerKind> kinds{TracerKind::Embree};
-    if (device().info().rayQuery) kinds.push_back(TracerKind::RayQuery);
-    if (device().info().rayPipeline) kinds.push_back(TracerKind::RayPipeline);
-    std::vector<Hit> embreeHits;
-    for (const TracerKind kind : kinds) {
+    for (const TracerKind kind : tracerKinds()) {
         ShaderCompiler shaders = compiler();
         SceneState state = evaluate(scene, 0.1, Playback::Looping);
         const auto tracer = makeRayTracer(kind, device(), shaders, state);
@@ -111,6 +115,35 @@ TEST_F(TraceUpdate, EveryTracerIsAsOneMadeAtThatTime) {
             EXPECT_LE(different, 2u) << tracer->name();
             EXPECT_GT(movingHits, 400u);
         }
+    }
+}
+
+TEST_F(TraceUpdate, CoherentStreamsHitTheSame) {
+    std::vector<Ray> rays = randomRays(4001, 10);  // The last packet has one ray.
+    for (size_t i = 0; i < rays.size(); i += 7) rays[i].tMax = -1.0f;
+    for (const TracerKind kind : tracerKinds()) {
+        ShaderCompiler shaders = compiler();
+        const SceneState state = evaluate(movingSoup(), 0.1, Playback::Looping);
+        const auto tracer = makeRayTracer(kind, device(), shaders, state);
+        const std::vector<Hit> apart = closestHits(*tracer, rays);
+        const std::vector<Hit> together = closestHits(*tracer, rays, Coherence::Coherent);
+        const std::vector<uint32_t> hidden = occlusions(*tracer, rays, Coherence::Coherent);
+        size_t different = 0, hitCount = 0;
+        for (size_t i = 0; i < rays.size(); ++i) {
+            hitCount += apart[i].triangle != Hit::kMiss;
+            different += apart[i].triangle != together[i].triangle ||
+                         (apart[i].triangle != Hit::kMiss) != (hidden[i] == 1);
+            if (apart[i].triangle != together[i].triangle) continue;
+            if (apart[i].triangle == Hit::kMiss) {
+                EXPECT_EQ(together[i].t, apart[i].t) << tracer->name() << i;
+                continue;
+            }
+            EXPECT_NEAR(together[i].t, apart[i].t, 1e-5f * apart[i].t) << tracer->name() << i;
+            EXPECT_NEAR(together[i].u, apart[i].u, 1e-3f) << tracer->name() << i;
+            EXPECT_NEAR(together[i].v, apart[i].v, 1e-3f) << tracer->name() << i;
+        }
+        EXPECT_LE(different, 2u) << tracer->name();
+        EXPECT_GT(hitCount, 800u);
     }
 }
 

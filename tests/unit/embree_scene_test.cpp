@@ -171,14 +171,17 @@ TEST(EmbreeScene, StreamsNameTheFirstBadRay) {
         rays[12345] = rays[29000] = bad;
         std::vector<Hit> hits(rays.size());
         std::vector<uint32_t> occluded(rays.size());
-        for (const bool closest : {true, false}) {
-            try {
-                closest ? scene.closestHit(rays, hits) : scene.occluded(rays, occluded);
-                FAIL() << "a bad ray was traced";
-            } catch (const Error& error) {
-                EXPECT_NE(std::string(error.what()).find("ray 12345 "), std::string::npos) << error.what();
+        for (const Coherence coherence : {Coherence::Incoherent, Coherence::Coherent})
+            for (const bool closest : {true, false}) {
+                try {
+                    closest ? scene.closestHit(rays, hits, coherence)
+                            : scene.occluded(rays, occluded, coherence);
+                    FAIL() << "a bad ray was traced";
+                } catch (const Error& error) {
+                    EXPECT_NE(std::string(error.what()).find("ray 12345 "), std::string::npos)
+                        << error.what();
+                }
             }
-        }
     }
 }
 
