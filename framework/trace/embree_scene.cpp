@@ -266,30 +266,28 @@ struct EmbreeScene::Impl {
             results[k] = rays[k].tMax >= rays[k].tMin && query.tfar[k] < 0.0f ? 1u : 0u;
     }
 
-    /// Calls trace(first, count, context) for every packet of a stream, in parallel, after its rays' check.
-    /// Packets don't depend on how the work is divided.
-    template <typename Trace>
-    void forEachPacket(std::span<const Ray> rays, Coherence coherence, const Trace& trace) const {
+    /// Calls trace(first, count, context) for every kSize rays of a stream, in parallel, after their check.
+    /// How the work is divided makes no difference to what lies together.
+    template <size_t kSize, typename Trace>
+    void forEachPacket(std::span<const Ray> rays, const Trace& trace) const {
         std::atomic<size_t> firstBad{rays.size()};
-        const size_t packets = (rays.size() + kPacket - 1) / kPacket;
-        parallelRanges(packets, kStreamGrain / kPacket, [&](size_t begin, size_t end) {
+        const size_t packets = (rays.size() + kSize - 1) / kSize;
+        parallelRanges(packets, kStreamGrain / kSize, [&](size_t begin, size_t end) {
             RTCIntersectContext context;
             rtcInitIntersectContext(&context);
-            if (coherence == Coherence::Coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-            for (size_t first = begin * kPacket; first < std::min(end * kPacket, rays.size());
-                 first += kPacket) {
-                const auto packet = rays.subspan(first, std::min<size_t>(kPacket, rays.size() - first));
-                const auto bad = std::find_if_not(packet.begin(), packet.end(),
-                                                  [](const Ray& ray) { return isTraceable(ray); });
-                if (bad == packet.end()) [[likely]] {
-                    trace(first, packet.size(), context);
-                } else {
-                    const size_t i = first + size_t(bad - packet.begin());
+            if (kSize > 1) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+            const size_t last = std::min(end * kSize, rays.size());
+            for (size_t first = begin * kSize; first < last; first += kSize) {
+                const size_t count = std::min(kSize, last - first);
+                for (size_t i = first; i < first + count; ++i) {
+                    if (isTraceable(rays[i])) [[likely]]
+                        continue;
                     size_t known = firstBad.load();
                     while (i < known && !firstBad.compare_exchange_weak(known, i)) {
                     }
                     return;
                 }
+                trace(first, count, context);
             }
         });
         if (firstBad != rays.size())
@@ -343,23 +341,28 @@ bool EmbreeScene::occluded(const Ray& ray) const {
 
 void EmbreeScene::closestHit(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence) const {
     if (hits.size() < rays.size()) throw Error("{} rays but room for {} hits", rays.size(), hits.size());
-    impl_->forEachPacket(rays, coherence, [&](size_t first, size_t count, RTCIntersectContext& context) {
-        if (coherence == Coherence::Coherent)
-            return impl_->intersect(rays.subspan(first, count), hits.subspan(first, count), context);
-        for (size_t i = first; i < first + count; ++i) hits[i] = impl_->intersect(rays[i], context);
-    });
+    if (coherence == Coherence::Coherent)
+        impl_->forEachPacket<kPacket>(rays, [&](size_t first, size_t count, RTCIntersectContext& context) {
+            impl_->intersect(rays.subspan(first, count), hits.subspan(first, count), context);
+        });
+    else
+        impl_->forEachPacket<1>(rays, [&](size_t i, size_t, RTCIntersectContext& context) {
+            hits[i] = impl_->intersect(rays[i], context);
+        });
 }
 
 void EmbreeScene::occluded(std::span<const Ray> rays, std::span<uint32_t> results,
                            Coherence coherence) const {
     if (results.size() < rays.size())
         throw Error("{} rays but room for {} results", rays.size(), results.size());
-    impl_->forEachPacket(rays, coherence, [&](size_t first, size_t count, RTCIntersectContext& context) {
-        if (coherence == Coherence::Coherent)
-            return impl_->areOccluded(rays.subspan(first, count), results.subspan(first, count), context);
-        for (size_t i = first; i < first + count; ++i)
+    if (coherence == Coherence::Coherent)
+        impl_->forEachPacket<kPacket>(rays, [&](size_t first, size_t count, RTCIntersectContext& context) {
+            impl_->areOccluded(rays.subspan(first, count), results.subspan(first, count), context);
+        });
+    else
+        impl_->forEachPacket<1>(rays, [&](size_t i, size_t, RTCIntersectContext& context) {
             results[i] = impl_->isOccluded(rays[i], context) ? 1u : 0u;
-    });
+        });
 }
 
 size_t EmbreeScene::memoryBytes() const {

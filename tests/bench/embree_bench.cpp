@@ -162,6 +162,41 @@ void streamAgainstBareLoop(benchmark::State& state, const Scene& source) {
     state.counters["stream_Mray/s"] = double(rays.size()) / streamBest * 1e-6;
 }
 
+/// Rays of a camera in the middle of the scene, row by row; the image spans 60 degrees upright.
+std::vector<Ray> cameraRays(const Geometry& geometry) {
+    constexpr uint32_t kWidth = 640, kHeight = 360;
+    const float up = std::tan(glm::radians(30.0f)), right = up * kWidth / kHeight;
+    std::vector<Ray> rays(kWidth * kHeight);
+    for (uint32_t i = 0; i < rays.size(); ++i) {
+        const float x = 2 * (float(i % kWidth) + 0.5f) / kWidth - 1;
+        const float y = 1 - 2 * (float(i / kWidth) + 0.5f) / kHeight;
+        rays[i] = {0.5f * (geometry.boundsMin + geometry.boundsMax), 0,
+                   glm::normalize(glm::vec3(1, up * y, right * x)), kInfinity};
+    }
+    return rays;
+}
+
+/// Packets against single rays, alternately; `ratio` is the median of the pairs' ratios of time.
+void sponzaCameraRays(benchmark::State& state) {
+    if (!std::filesystem::exists(sponzaPath())) return state.SkipWithError("sponza.glb not found");
+    const SceneState scene = evaluate(loadGltf(sponzaPath()), 0.0);
+    const EmbreeScene tracer(scene);
+    const std::vector<Ray> rays = cameraRays(scene.geometry);
+    std::vector<Hit> apart(rays.size()), together(rays.size());
+    std::vector<double> ratios;
+    for (auto _ : state) {
+        const double apartSeconds = secondsOf([&] { tracer.closestHit(rays, apart); });
+        const double seconds = secondsOf([&] { tracer.closestHit(rays, together, Coherence::Coherent); });
+        ratios.push_back(seconds / apartSeconds);
+        state.SetIterationTime(seconds);
+    }
+    size_t different = 0;
+    for (size_t i = 0; i < rays.size(); ++i) different += apart[i].triangle != together[i].triangle;
+    std::sort(ratios.begin(), ratios.end());
+    state.counters["ratio"] = ratios[ratios.size() / 2];
+    state.counters["other_triangle"] = double(different) / double(rays.size());
+}
+
 void cornellClosest(benchmark::State& state) {
     streamAgainstBareLoop<false>(state, *makeBuiltinScene("cornell", Value()));
 }
@@ -176,6 +211,7 @@ void sponzaOccluded(benchmark::State& state) {
     if (!std::filesystem::exists(sponzaPath())) return state.SkipWithError("sponza.glb not found");
     streamAgainstBareLoop<true>(state, *loadGltf(sponzaPath()));
 }
+BENCHMARK(sponzaCameraRays)->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(15);
 BENCHMARK(cornellClosest)->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(15);
 BENCHMARK(cornellOccluded)->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(15);
 BENCHMARK(sponzaClosest)->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(15);

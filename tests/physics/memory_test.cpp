@@ -10,6 +10,8 @@ namespace {
 struct Case {
     const char* name;
     const char* graph;
+    const char* scene = "{}";
+    double mostOver = 1.1;  ///< Predicted peak over the peak taken.
 };
 
 // Every reservation of the passes that size memory by the voxels.
@@ -29,6 +31,21 @@ const Case kCases[] = {
     {"surfels",
      "[{pass: voxelize, resolution: 48, exposure_rays: 0}, {pass: place_surfels, points: 1}, {pass:"
      " inject_voxel_rays, rays: 1, bounces: 1}, {pass: filter_voxels}]"},
+    {"shadow_map",
+     "[{pass: gbuffer}, {pass: voxelize, resolution: 48, method: dominant_axis}, {pass: place_surfels, "
+     "points: 2},"
+     " {pass: inject_shadow_map, resolution: 128}, {pass: filter_voxels, layout: clipmap, clipmap_resolution:"
+     " 16}, {pass: gather_cones}]",
+     "{lights: point}"},
+    {"rsm",
+     "[{pass: gbuffer}, {pass: voxelize, resolution: 48}, {pass: inject_rsm, resolution: 128}, {pass:"
+     " trace_gather_rays, rays: 8, block: 4}, {pass: gather_rays, filter: 3, direct_at_hits: shadow_rays}]",
+     "{lights: point}"},
+    {"windows",
+     "[{pass: gbuffer}, {pass: voxelize_clipmap, resolution: 96, clipmap_resolution: 32}, {pass: "
+     "light_clipmap,"
+     " shadow_resolution: 128, bounces: 1}, {pass: gather_cones}]",
+     "{lights: point}", 1.3},  // Planned for the fullest places of the scene, wherever the camera goes.
     {"path_trace", "[{pass: path_trace, spp: 1, bounces: 0}]"},
 };
 
@@ -36,7 +53,7 @@ TEST(Memory, IsPredicted) {
     // The host counts voxels a little over (passes/common/voxel_count.h); buffers are padded.
     constexpr double kPadding = 1 << 16;
     for (const Case& c : kCases) {
-        Chain chain("cornell", "{}", c.graph, 32, 32);
+        Chain chain("cornell", c.scene, c.graph, 32, 32);
         chain.rebuild();
         const std::vector<PassMemory> taken = chain.graph().memory();
         ASSERT_EQ(taken.size(), chain.predicted.size());
@@ -49,7 +66,7 @@ TEST(Memory, IsPredicted) {
                         double(taken[i].bytes) / (1 << 20), double(own.bytes) / (1 << 20),
                         double(taken[i].scratchBytes) / (1 << 20), double(own.scratchBytes) / (1 << 20));
         }
-        EXPECT_LE(double(peakBytes(chain.predicted)), 1.1 * double(peakBytes(taken))) << c.name;
+        EXPECT_LE(double(peakBytes(chain.predicted)), c.mostOver * double(peakBytes(taken))) << c.name;
     }
 }
 
