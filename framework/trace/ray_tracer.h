@@ -24,7 +24,7 @@ class RayTracer {
 
     /// "ray_query", "ray_pipeline" or "embree".
     virtual std::string_view name() const = 0;
-    /// @throws Error where a buffer is too small.
+    /// @throws Error where a buffer is too small; `embree` also names the first ray that is not finite.
     void closestHit(CommandStream& stream, const Buffer& rays, const Buffer& hits, uint32_t count,
                     Coherence coherence = Coherence::Incoherent);
     void occluded(CommandStream& stream, const Buffer& rays, const Buffer& results, uint32_t count,

@@ -67,6 +67,25 @@ std::string strategy(const std::string& name, int bounces) {
     return text.replace(text.find("BOUNCES"), 7, std::to_string(bounces));
 }
 
+TEST(FinalGather, FollowsALightThatMoves) {
+    // What is kept from frame to frame is made anew: the image is that of a graph made where the light is.
+    for (const std::string& name : allStrategies()) {
+        const std::string graph = gatherGraph(strategy(name, 1), "rays: 4", "filter: 1");
+        const auto before = std::make_shared<SceneState>(
+            evaluate(makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")), 0.0));
+        const auto after = std::make_shared<SceneState>(*before);
+        after->lights.at(0).position.x += 0.4f;
+        Chain moved(before, graph, 16, 16, 1), made(after, graph, 16, 16, 1);
+        const ImageF old = moved.image("indirect");
+        moved.update([&](SceneState& state) {
+            state.lights = after->lights;
+            return std::vector<Box>();
+        });
+        EXPECT_EQ(moved.image("indirect").data, made.image("indirect").data) << name;
+        EXPECT_GT(difference(old, made.image("indirect")), 0.01) << name;
+    }
+}
+
 TEST(VoxelRays, ClosedRoomCatchesAllLight) {
     // A point light of 2 W/sr in a closed room: 8 pi W arrive, and albedo's part of that again with each
     // bounce.
