@@ -12,12 +12,6 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Each test runs on every backend that the device has.
 class TraceBackends : public VulkanTest {
  protected:
-    static std::vector<TracerKind> kinds() {
-        std::vector<TracerKind> kinds{TracerKind::Embree};
-        if (device().info().rayQuery) kinds.push_back(TracerKind::RayQuery);
-        if (device().info().rayPipeline) kinds.push_back(TracerKind::RayPipeline);
-        return kinds;
-    }
     static std::unique_ptr<RayTracer> make(TracerKind kind, const SceneState& state) {
         ShaderCompiler shaders = compiler();
         return makeRayTracer(kind, device(), shaders, state);
@@ -79,7 +73,7 @@ TEST_F(TraceBackends, AgreeOnATriangleSoupWithAlphaMasks) {
     }
     EXPECT_GT(misses, 500u);
     for (size_t count : hitsOfMaterial) EXPECT_GT(count, 50u);
-    for (TracerKind kind : kinds()) {
+    for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
         expectSameHits(expected, closestHits(*tracer, rays), tracer->name());
         EXPECT_EQ(tracer->raysTraced(), rays.size());
@@ -93,7 +87,7 @@ TEST_F(TraceBackends, MasksCutHoles) {
     const std::vector<Ray> rays = randomRays(5000, 2);
     auto unmasked = std::make_shared<Scene>(*state.scene);
     for (Material& material : unmasked->materials) material.alphaMode = AlphaMode::Opaque;
-    for (TracerKind kind : kinds()) {
+    for (TracerKind kind : tracerKinds(device())) {
         const std::vector<Hit> cut = closestHits(*make(kind, state), rays);
         SceneState whole = state;
         whole.scene = unmasked;
@@ -107,7 +101,7 @@ TEST_F(TraceBackends, MasksCutHoles) {
 TEST_F(TraceBackends, OccludedIsWhetherThereIsAClosestHit) {
     const SceneState state = triangleSoup(2000, 0.1f, 3);
     const std::vector<Ray> rays = randomRays(4000, 4);
-    for (TracerKind kind : kinds()) {
+    for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
         const std::vector<Hit> hits = closestHits(*tracer, rays);
         const std::vector<uint32_t> occluded = occlusions(*tracer, rays);
@@ -129,7 +123,7 @@ TEST_F(TraceBackends, HitOnOneTriangleHasItsClosedForm) {
         {{0.25f, 0.25f, 2}, 0, {0, 0, -1}, 1.5f},      // Ends before it.
         {{0.25f, 0.25f, 2}, 2.5f, {0, 0, -1}, 10},     // Begins behind it.
     };
-    for (TracerKind kind : kinds()) {
+    for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
         const std::vector<Hit> hits = closestHits(*tracer, rays);
         EXPECT_EQ(hits[0].triangle, 0u);
@@ -153,7 +147,7 @@ TEST_F(TraceBackends, HitCloseToItsRayKeepsItsDigitsFarFromTheOrigin) {
     const float z = state.geometry.positions[0].z, millimetre = 0x1p-10f;
     const std::vector<Ray> rays{{{100.25f, 100.25f, z + millimetre}, 0, {0.6f, 0, -0.8f}, 10}};
     const float expected = ((z + millimetre) - z) / 0.8f;
-    for (TracerKind kind : kinds()) {
+    for (TracerKind kind : tracerKinds(device())) {
         const std::vector<Hit> hits = closestHits(*make(kind, state), rays);
         EXPECT_EQ(hits[0].triangle, 0u);
         EXPECT_NEAR(hits[0].t, expected, 1e-5f * expected) << int(kind);
@@ -164,7 +158,7 @@ TEST_F(TraceBackends, InactiveRaysMiss) {
     const SceneState state = oneTriangle();
     const std::vector<Ray> rays{{{0.25f, 0.25f, 2}, 1, {0, 0, -1}, 0.5f},
                                 {{0.25f, 0.25f, 2}, 0, {0, 0, -1}, -1}};
-    for (TracerKind kind : kinds()) {
+    for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
         for (const Hit& hit : closestHits(*tracer, rays)) EXPECT_EQ(hit.triangle, Hit::kMiss);
         EXPECT_EQ(occlusions(*tracer, rays), (std::vector<uint32_t>{0, 0})) << tracer->name();
@@ -178,7 +172,7 @@ TEST_F(TraceBackends, RaysThatAreNotFiniteMissOnTheGpuAndAreNamedByEmbree) {
         {{nan, 0.25f, 2}, 0, {0, 0, -1}, 10},           {{0.25f, 0.25f, 2}, 0, {0, nan, -1}, 10},
         {{0.25f, 0.25f, kInfinity}, 0, {0, 0, -1}, 10}, {{0.25f, 0.25f, 2}, nan, {0, 0, -1}, 10},
         {{0.25f, 0.25f, 2}, 0, {0, 0, -1}, nan},        {{0.25f, 0.25f, 0}, 0, {0, 0, 0}, 10}};
-    for (TracerKind kind : kinds()) {
+    for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
         if (kind == TracerKind::Embree) {
             expectContains(errorOf([&] { closestHits(*tracer, rays); }), "ray 0 of a stream of 6");
@@ -192,7 +186,7 @@ TEST_F(TraceBackends, RaysThatAreNotFiniteMissOnTheGpuAndAreNamedByEmbree) {
 TEST_F(TraceBackends, EmptySceneIsMissed) {
     const SceneState state = emptyScene();
     const std::vector<Ray> rays = randomRays(100, 5);
-    for (TracerKind kind : kinds()) {
+    for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
         const std::vector<Hit> hits = closestHits(*tracer, rays);
         for (size_t i = 0; i < rays.size(); ++i) {
@@ -212,7 +206,7 @@ TEST_F(TraceBackends, DegenerateTrianglesAreMissed) {
     state.geometry.triangles = {{0, 1, 2}, {3, 4, 5}};
     state.geometry.triangleMaterials = {0, 0};
     const std::vector<Ray> rays{{{0.5f, 0.5f, 5}, 0, {0, 0, -1}, 10}, {{0.4f, 0, 5}, 0, {0, 0, -1}, 10}};
-    for (TracerKind kind : kinds()) {
+    for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
         for (const Hit& hit : closestHits(*tracer, rays))
             EXPECT_EQ(hit.triangle, Hit::kMiss) << tracer->name();
@@ -241,7 +235,7 @@ TEST_F(TraceBackends, StreamsLargerThanOneLaunchAreTracedWhole) {
     const uint32_t count = 65535 * 64 + 1000;
     std::vector<Ray> rays(count, Ray{{5, 5, 2}, 0, {0, 0, -1}, 10});
     rays[0].origin = rays[count / 2].origin = rays[count - 1].origin = {0.25f, 0.25f, 2};
-    for (TracerKind kind : kinds()) {
+    for (TracerKind kind : tracerKinds(device())) {
         if (kind == TracerKind::Embree) continue;
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
         const std::vector<uint32_t> occluded = occlusions(*tracer, rays);
@@ -257,7 +251,7 @@ TEST_F(TraceBackends, SmallBuffersAreNamed) {
     const Buffer rays(device(), "few rays", 3 * sizeof(Ray)), hits(device(), "few hits", 3 * sizeof(Hit));
     const Buffer more(device(), "more rays", 4 * sizeof(Ray));
     CommandStream stream(device());
-    for (TracerKind kind : kinds()) {
+    for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
         expectContains(errorOf([&] { tracer->closestHit(stream, rays, hits, 4); }), "'few rays'");
         expectContains(errorOf([&] { tracer->closestHit(stream, more, hits, 4); }), "'few hits'");
@@ -277,7 +271,7 @@ TEST_F(TraceBackends, AutoIsEmbreeOnSoftwareVulkanAndNamedKindsStay) {
 TEST_F(TraceBackends, TracersGiveTheirMemoryBack) {
     const uint64_t before = device().memoryUsedBytes();
     const SceneState state = triangleSoup(500, 0.1f, 8);
-    for (TracerKind kind : kinds()) make(kind, state);
+    for (TracerKind kind : tracerKinds(device())) make(kind, state);
     EXPECT_EQ(device().memoryUsedBytes(), before);
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scene/geometry.h"
-#include "trace/ray.h"
+#include "trace/ray_tracer.h"
 
 namespace voxray {
 
@@ -116,6 +116,14 @@ inline std::vector<Ray> randomRays(uint32_t count, uint32_t seed) {
         rays[i] = {origin, 1e-4f, (target - origin) * scale, tMax};
     }
     return rays;
+}
+
+/// The backends that a device has.
+inline std::vector<TracerKind> tracerKinds(const Device& device) {
+    std::vector<TracerKind> kinds{TracerKind::Embree};
+    if (device.info().rayQuery) kinds.push_back(TracerKind::RayQuery);
+    if (device.info().rayPipeline) kinds.push_back(TracerKind::RayPipeline);
+    return kinds;
 }
 
 }  // namespace voxray

@@ -49,12 +49,6 @@ std::shared_ptr<const Scene> movingSoup() {
 
 class TraceUpdate : public VulkanTest {
  protected:
-    static std::vector<TracerKind> tracerKinds() {
-        std::vector<TracerKind> kinds{TracerKind::Embree};
-        if (device().info().rayQuery) kinds.push_back(TracerKind::RayQuery);
-        if (device().info().rayPipeline) kinds.push_back(TracerKind::RayPipeline);
-        return kinds;
-    }
     template <typename T>
     static bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
         return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
@@ -87,7 +81,7 @@ class TraceUpdate : public VulkanTest {
 TEST_F(TraceUpdate, EveryTracerIsAsOneMadeAtThatTime) {
     const auto scene = movingSoup();
     const std::vector<Ray> rays = randomRays(4000, 8);
-    for (const TracerKind kind : tracerKinds()) {
+    for (const TracerKind kind : tracerKinds(device())) {
         ShaderCompiler shaders = compiler();
         SceneState state = evaluate(scene, 0.1, Playback::Looping);
         const auto tracer = makeRayTracer(kind, device(), shaders, state);
@@ -121,7 +115,7 @@ TEST_F(TraceUpdate, EveryTracerIsAsOneMadeAtThatTime) {
 TEST_F(TraceUpdate, CoherentStreamsHitTheSame) {
     std::vector<Ray> rays = randomRays(4001, 10);  // The last packet has one ray.
     for (size_t i = 0; i < rays.size(); i += 7) rays[i].tMax = -1.0f;
-    for (const TracerKind kind : tracerKinds()) {
+    for (const TracerKind kind : tracerKinds(device())) {
         ShaderCompiler shaders = compiler();
         const SceneState state = evaluate(movingSoup(), 0.1, Playback::Looping);
         const auto tracer = makeRayTracer(kind, device(), shaders, state);
