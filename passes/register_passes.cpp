@@ -14,13 +14,13 @@
 #include "passes/inject_rsm/inject_rsm.h"
 #include "passes/inject_shadow_map/inject_shadow_map.h"
 #include "passes/inject_voxel_rays/inject_voxel_rays.h"
+#include "passes/light_clipmap/light_clipmap.h"
 #include "passes/path_trace/path_trace_pass.h"
 #include "passes/place_surfels/place_surfels.h"
 #include "passes/probe_irradiance/probe_irradiance.h"
 #include "passes/trace_gather_rays/trace_gather_rays.h"
-#include "passes/voxelize/light_clipmap.h"
-#include "passes/voxelize/voxelize_clipmap.h"
 #include "passes/voxelize/voxelize_pass.h"
+#include "passes/voxelize_clipmap/voxelize_clipmap.h"
 
 namespace voxray {
 

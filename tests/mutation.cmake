@@ -2,15 +2,15 @@
 # AddressSanitizer and UndefinedBehaviorSanitizer whatever the build type; all else is linked as it is.
 set(BASE ${CMAKE_SOURCE_DIR}/framework/base)
 set(SCENE ${CMAKE_SOURCE_DIR}/framework/scene)
-set(EXPERIMENT ${CMAKE_SOURCE_DIR}/framework/experiment)
+set(CONFIG ${CMAKE_SOURCE_DIR}/framework/config)
 set(SANITIZERS -fsanitize=address,undefined -fno-sanitize-recover=undefined)
 add_library(sanitized_readers OBJECT
   ${BASE}/files.cpp ${BASE}/suggest.cpp ${BASE}/value.cpp
   ${SCENE}/animation.cpp ${SCENE}/geometry.cpp ${SCENE}/gltf_accessor.cpp ${SCENE}/gltf_animation.cpp
   ${SCENE}/gltf_check.cpp ${SCENE}/gltf_file.cpp ${SCENE}/gltf_material.cpp ${SCENE}/gltf_mesh.cpp
   ${SCENE}/gltf_nodes.cpp ${SCENE}/load.cpp ${SCENE}/mesh_repair.cpp ${SCENE}/tiny_gltf.cpp
-  ${EXPERIMENT}/config.cpp ${EXPERIMENT}/overrides.cpp ${EXPERIMENT}/scene_settings.cpp
-  ${EXPERIMENT}/sweep.cpp ${EXPERIMENT}/yaml.cpp)
+  ${CONFIG}/config.cpp ${CONFIG}/overrides.cpp ${CONFIG}/scene_settings.cpp
+  ${CONFIG}/sweep.cpp ${CONFIG}/yaml.cpp)
 target_link_libraries(sanitized_readers PRIVATE voxray_options fmt::fmt glm::glm TBB::tbb Vulkan::Headers
   nlohmann_json::nlohmann_json yaml-cpp PkgConfig::XXHASH)
 # Lightly optimized: the compiler takes longer than the test.

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "experiment/config.h"
+#include "config/config.h"
 
 namespace voxray {
 

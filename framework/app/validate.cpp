@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "experiment/config.h"
+#include "config/config.h"
 #include "experiment/validate.h"
 #include "passes/register_passes.h"
 

@@ -1,7 +1,7 @@
 #include "experiment/config_schema.h"
 
-#include "experiment/overrides.h"
-#include "experiment/settings.h"
+#include "config/overrides.h"
+#include "config/settings.h"
 #include "graph/graph.h"
 #include "scene/load.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/config.h"
+#include "config/config.h"
 #include "experiment/reference.h"
 #include "experiment/results.h"
 #include "vulkan/device.h"

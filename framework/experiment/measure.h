@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/settings.h"
+#include "config/settings.h"
 #include "graph/graph.h"
 #include "image/image.h"
 

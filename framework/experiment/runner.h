@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "experiment/config.h"
+#include "config/config.h"
 #include "graph/registry.h"
 
 namespace voxray {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/config.h"
+#include "config/config.h"
 #include "scene/geometry.h"
 #include "scene/scene.h"
 

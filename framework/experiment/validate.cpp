@@ -1,6 +1,6 @@
 #include "experiment/validate.h"
 
-#include "experiment/overrides.h"
+#include "config/overrides.h"
 #include "graph/graph.h"
 
 namespace voxray {

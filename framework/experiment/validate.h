@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "experiment/sweep.h"
+#include "config/sweep.h"
 #include "graph/graph.h"
 #include "graph/registry.h"
 

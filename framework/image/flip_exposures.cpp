@@ -23,17 +23,17 @@ FlipExposures flipExposures(const ImageF& reference) {
     const auto median = [](std::span<const double> sorted) {
         return (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]) / 2;
     };
-    double middle = median(luminances);
-    if (!(middle > 0)) {
+    double center = median(luminances);
+    if (!(center > 0)) {
         const auto lit = std::upper_bound(luminances.begin(), luminances.end(), 0.0);
-        middle = median({lit, luminances.end()});
+        center = median({lit, luminances.end()});
     }
 
     // The exposures that lift both luminances to 0.85.
     const double target = acesInverse(0.85);
     FlipExposures exposures;
     exposures.start = std::log2(target / luminances.back());
-    exposures.stop = std::log2(target / middle);
+    exposures.stop = std::log2(target / center);
     exposures.count = int(std::max(2.0, std::ceil(exposures.stop - exposures.start)));
     return exposures;
 }

@@ -24,7 +24,7 @@ struct Plane {
     const double* row(size_t y) const { return &data[y * width]; }
 };
 
-/// A filter along one axis: 2 r + 1 weights, the middle one at offset 0.
+/// A filter along one axis: 2 r + 1 weights, the center one at offset 0.
 using Kernel = std::vector<double>;
 
 /// exp(-x² / (2 sigma²)) at x = -radius ... radius, summing to 1.

@@ -16,7 +16,7 @@ from report.load import IMAGES, METRICS, ReportError, Results, section
 _HERE = Path(__file__).parent
 _CHART_METRICS = METRICS[:3]
 _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's row numbers
-_MOST_NAMED_POINTS = 12
+_MAX_NAMED_POINTS = 12
 # Of the manifest:
 _SHOWN_ELSEWHERE = ("config", "warnings", "baselines", "reference", "references", "variants")
 
@@ -119,7 +119,7 @@ def _setting(results: Results) -> str:
 def _charts(results: Results, lights, styles, numbers, anchors) -> tuple[list[dict], list[str]]:
     # A number stands at a point where the names are too long or too many to read.
     names = list(results.ok["variant"])
-    short = len(names) <= _MOST_NAMED_POINTS and all(len(name) <= _LONGEST_POINT_LABEL for name in names)
+    short = len(names) <= _MAX_NAMED_POINTS and all(len(name) <= _LONGEST_POINT_LABEL for name in names)
     labels = {name: name if short else numbers[name] for name in names}
     groups, not_drawn = [], set()
     for light in lights:

@@ -56,7 +56,7 @@ struct WhiteRoom {
     }
 };
 
-/// A closed cube of 2 m with a point light in its middle: all 4 pi I watts end in the walls, so that their
+/// A closed cube of 2 m with a point light in its center: all 4 pi I watts end in the walls, so that their
 /// mean radiosity is 4 pi I albedo / (24 m² (1 - albedo)).
 std::shared_ptr<const Scene> make(const WhiteRoom& params) {
     SceneBuilder b(WhiteRoom::name);
@@ -85,8 +85,8 @@ struct QuadLight {
     }
 };
 
-/// A black square that emits downwards over a parallel Lambert square in the plane y = 0, centred on one
-/// axis. The camera sees the receiver's middle from below the light.
+/// A black square that emits downwards over a parallel Lambert square in the plane y = 0, centered on one
+/// axis. The camera sees the receiver's center from below the light.
 std::shared_ptr<const Scene> make(const QuadLight& params) {
     SceneBuilder b(QuadLight::name);
     const uint32_t receiver = b.lambert("receiver", glm::vec3(params.albedo));

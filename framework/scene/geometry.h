@@ -15,7 +15,7 @@ struct Box {
     glm::vec3 min, max;
 };
 
-/// Per-vertex attributes, laid out as the shaders read them (see shaders/shared/scene_types.h). 64 bytes.
+/// Per-vertex attributes, laid out as the shaders read them (see shaders/scene/scene_types.h). 64 bytes.
 struct VertexAttributes {
     glm::vec3 normal{0, 1, 0};  ///< Unit length, world space; never NaN.
     float padding = 0;

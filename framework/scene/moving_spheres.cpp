@@ -18,7 +18,7 @@ void addMovingSpheres(Scene& scene, const MovingSpheres& spheres) {
     scene.meshes.push_back(sphereMesh("moving sphere", glm::vec3(0.0f), spheres.radius, 3,
                                       uint32_t(scene.materials.size() - 1), false, true));
 
-    // The smallest lattice of n x n x n that takes them all, centred as far as it is filled.
+    // The smallest lattice of n x n x n that takes them all, centered as far as it is filled.
     uint32_t side = 1;
     while (side * side * side < spheres.count) ++side;
     const uint32_t layers = (spheres.count + side * side - 1) / (side * side);
@@ -28,12 +28,12 @@ void addMovingSpheres(Scene& scene, const MovingSpheres& spheres) {
         Node node;
         node.name = "moving sphere " + std::to_string(i);
         node.translation = spheres.center + spheres.spacing * (place - half);
-        const glm::vec4 middle(node.translation, 0), swing(spheres.swing, 0);
+        const glm::vec4 center(node.translation, 0), swing(spheres.swing, 0);
         scene.animation.push_back({uint32_t(scene.nodes.size()),
                                    AnimatedProperty::Translation,
                                    Interpolation::Linear,
                                    {0, 0.25f * spheres.period, 0.75f * spheres.period, spheres.period},
-                                   {middle, middle + swing, middle - swing, middle}});
+                                   {center, center + swing, center - swing, center}});
         scene.instances.push_back({mesh, int32_t(scene.nodes.size())});
         scene.nodes.push_back(std::move(node));
     }

@@ -19,9 +19,9 @@ struct MovingSpheres {
         return std::tuple{
             field("count", &MovingSpheres::count, "Number of spheres; 0: none.", 0u, 4096u),
             field("radius", &MovingSpheres::radius, "In metres.", 0.001f, 1000.0f),
-            field("center", &MovingSpheres::center, "Middle of the lattice at time 0, metres.",
+            field("center", &MovingSpheres::center, "Center of the lattice at time 0, metres.",
                   glm::vec3(-1e6f), glm::vec3(1e6f)),
-            field("spacing", &MovingSpheres::spacing, "Between the centres of neighbours, metres.", 0.0f,
+            field("spacing", &MovingSpheres::spacing, "Between the centers of neighbours, metres.", 0.0f,
                   1e4f),
             field("swing", &MovingSpheres::swing,
                   "How far each moves from its place, to this side and then as far to the other, metres.",

@@ -158,17 +158,17 @@ Mesh sphereMesh(const std::string& name, const glm::vec3& center, float radius, 
 
     // Split each triangle into four, with the new corners on the sphere.
     for (uint32_t level = 0; level < subdivisions; ++level) {
-        std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
-        const auto middle = [&](uint32_t a, uint32_t b) {
-            const auto [entry, added] = middles.try_emplace(std::minmax(a, b), uint32_t(points.size()));
+        std::map<std::pair<uint32_t, uint32_t>, uint32_t> centers;
+        const auto center = [&](uint32_t a, uint32_t b) {
+            const auto [entry, added] = centers.try_emplace(std::minmax(a, b), uint32_t(points.size()));
             if (added) points.push_back(glm::normalize(points[a] + points[b]));
             return entry->second;
         };
         std::vector<glm::uvec3> split;
         for (const glm::uvec3& t : triangles) {
-            const uint32_t ab = middle(t.x, t.y);
-            const uint32_t bc = middle(t.y, t.z);
-            const uint32_t ca = middle(t.z, t.x);
+            const uint32_t ab = center(t.x, t.y);
+            const uint32_t bc = center(t.y, t.z);
+            const uint32_t ca = center(t.z, t.x);
             split.insert(split.end(), {{t.x, ab, ca}, {t.y, bc, ab}, {t.z, ca, bc}, {ab, bc, ca}});
         }
         triangles = std::move(split);

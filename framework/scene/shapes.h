@@ -21,7 +21,7 @@ class SceneBuilder {
     /// A parallelogram with its front towards cross(edgeU, edgeV).
     void quad(const std::string& name, const glm::vec3& corner, const glm::vec3& edgeU,
               const glm::vec3& edgeV, uint32_t material);
-    /// A box that stands at `base` (the centre of its bottom), turned about +Y; fronts outwards.
+    /// A box that stands at `base` (the center of its bottom), turned about +Y; fronts outwards.
     void box(const std::string& name, const glm::vec3& base, const glm::vec3& size, float angleRadians,
              uint32_t material);
     /// A closed axis-aligned room, fronts inwards. Materials in the order -x, +x, -y, +y, -z, +z;
@@ -45,7 +45,7 @@ class SceneBuilder {
 };
 
 /// A subdivided icosahedron of 20 * 4^subdivisions triangles with its corners on the sphere.
-/// @param inwards fronts and normals towards the centre
+/// @param inwards fronts and normals towards the center
 /// @param smooth normals of the sphere at shared corners; otherwise each triangle has its own, flat ones
 Mesh sphereMesh(const std::string& name, const glm::vec3& center, float radius, uint32_t subdivisions,
                 uint32_t material, bool inwards, bool smooth);

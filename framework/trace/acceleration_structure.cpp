@@ -167,8 +167,8 @@ uint64_t SceneStructure::bytes() const {
 }
 
 uint32_t trianglesPerChunk(const Device& device) {
-    constexpr uint64_t kMost = 1u << 22;  // Bounds the memory that a build needs beside the structure.
-    return uint32_t(std::min(kMost, device.accelerationStructureProperties().maxPrimitiveCount));
+    constexpr uint64_t kMax = 1u << 22;  // Bounds the memory that a build needs beside the structure.
+    return uint32_t(std::min(kMax, device.accelerationStructureProperties().maxPrimitiveCount));
 }
 
 SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const SceneState& state,

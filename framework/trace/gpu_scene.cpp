@@ -6,7 +6,7 @@
 #include <span>
 
 #include "base/error.h"
-#include "shaders/shared/scene_types.h"
+#include "shaders/scene/scene_types.h"
 
 namespace voxray {
 namespace {

@@ -8,8 +8,8 @@
 
 namespace voxray {
 
-/// A scene's triangles, materials, textures and lights on the device, as shaders/scene.glsl reads them
-/// (structs: shaders/shared/scene_types.h). Triangle numbers are those of Geometry.
+/// A scene's triangles, materials, textures and lights on the device, as shaders/scene/scene.glsl reads them
+/// (structs: shaders/scene/scene_types.h). Triangle numbers are those of Geometry.
 struct GpuScene {
     Buffer positions;          ///< 3 floats a vertex, tightly packed.
     Buffer attributes;         ///< VertexAttributes a vertex.
@@ -30,7 +30,7 @@ struct GpuScene {
     std::vector<Image> images;
     std::vector<Sampler> samplers;
 
-    /// The bindings that a shader including shaders/scene.glsl may use, followed by `more`.
+    /// The bindings that a shader including shaders/scene/scene.glsl may use, followed by `more`.
     std::vector<Binding> bindings(std::initializer_list<Binding> more) const;
 };
 

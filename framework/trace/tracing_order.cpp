@@ -14,8 +14,8 @@ namespace {
 
 constexpr size_t kParallelTriangles = 8192;
 
-/// Corners' minimum plus maximum: twice the middle of the triangle's box. By triangle, for those listed.
-std::vector<glm::vec3> middles(const Geometry& geometry, std::span<const uint32_t> triangles) {
+/// Corners' minimum plus maximum: twice the center of the triangle's box. By triangle, for those listed.
+std::vector<glm::vec3> centers(const Geometry& geometry, std::span<const uint32_t> triangles) {
     std::vector<glm::vec3> result(geometry.triangles.size());
     parallelRanges(triangles.size(), kParallelTriangles, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
@@ -31,47 +31,47 @@ std::vector<glm::vec3> middles(const Geometry& geometry, std::span<const uint32_
 /// Splits a list into halves (the first the larger), neighbours together; ties go by number, so that the
 /// outcome does not depend on threads.
 std::pair<std::span<uint32_t>, std::span<uint32_t>> halve(std::span<uint32_t> triangles,
-                                                          const std::vector<glm::vec3>& middles) {
-    glm::vec3 low = middles[triangles[0]], high = low;
+                                                          const std::vector<glm::vec3>& centers) {
+    glm::vec3 low = centers[triangles[0]], high = low;
     for (uint32_t t : triangles) {
-        low = glm::min(low, middles[t]);
-        high = glm::max(high, middles[t]);
+        low = glm::min(low, centers[t]);
+        high = glm::max(high, centers[t]);
     }
     const glm::vec3 extent = high - low;
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
     const size_t half = (triangles.size() + 1) / 2;
     std::nth_element(triangles.begin(), triangles.begin() + ptrdiff_t(half), triangles.end(),
                      [&](uint32_t a, uint32_t b) {
-                         return std::pair(middles[a][axis], a) < std::pair(middles[b][axis], b);
+                         return std::pair(centers[a][axis], a) < std::pair(centers[b][axis], b);
                      });
     return {triangles.first(half), triangles.subspan(half)};
 }
 
-void sortAsTree(std::span<uint32_t> triangles, const std::vector<glm::vec3>& middles) {
+void sortAsTree(std::span<uint32_t> triangles, const std::vector<glm::vec3>& centers) {
     if (triangles.size() < 2) return;
-    const auto halves = halve(triangles, middles);
+    const auto halves = halve(triangles, centers);
     if (triangles.size() < kParallelTriangles) {
-        sortAsTree(halves.first, middles);
-        sortAsTree(halves.second, middles);
+        sortAsTree(halves.first, centers);
+        sortAsTree(halves.second, centers);
     } else {
-        tbb::parallel_invoke([&] { sortAsTree(halves.first, middles); },
-                             [&] { sortAsTree(halves.second, middles); });
+        tbb::parallel_invoke([&] { sortAsTree(halves.first, centers); },
+                             [&] { sortAsTree(halves.second, centers); });
     }
 }
 
 /// Halves until a part is small enough to be a chunk, then orders it. How large the chunks are depends on the
 /// number of triangles alone. @return the first place of each.
 std::vector<uint32_t> sortIntoChunks(TracingOrder& order, const TracingOrder::Range& range,
-                                     const std::vector<glm::vec3>& middles) {
+                                     const std::vector<glm::vec3>& centers) {
     std::vector<uint32_t> chunkFirst;
     const auto split = [&](const auto& self, std::span<uint32_t> part) -> void {
         if (part.empty()) return;
         if (part.size() <= order.maxChunk) {
             chunkFirst.push_back(uint32_t(part.data() - order.triangles.data()));
-            sortAsTree(part, middles);
+            sortAsTree(part, centers);
             return;
         }
-        const auto halves = halve(part, middles);
+        const auto halves = halve(part, centers);
         self(self, halves.first);
         self(self, halves.second);
     };
@@ -103,9 +103,9 @@ TracingOrder tracingOrder(const SceneState& state, uint32_t maxChunk) {
     order.opaqueCount = groups[1].end;
     order.moving = {groups[1], groups[3]};
 
-    const std::vector<glm::vec3> centres = middles(geometry, order.triangles);
+    const std::vector<glm::vec3> triangleCenters = centers(geometry, order.triangles);
     for (const TracingOrder::Range& group : groups) {
-        const std::vector<uint32_t> chunks = sortIntoChunks(order, group, centres);
+        const std::vector<uint32_t> chunks = sortIntoChunks(order, group, triangleCenters);
         order.chunkFirst.insert(order.chunkFirst.end(), chunks.begin(), chunks.end());
     }
     return order;
@@ -114,7 +114,7 @@ TracingOrder tracingOrder(const SceneState& state, uint32_t maxChunk) {
 void sortMoving(const SceneState& state, TracingOrder& order) {
     for (const TracingOrder::Range& range : order.moving) {
         const auto triangles = std::span(order.triangles).subspan(range.first, range.end - range.first);
-        if (!triangles.empty()) sortIntoChunks(order, range, middles(state.geometry, triangles));
+        if (!triangles.empty()) sortIntoChunks(order, range, centers(state.geometry, triangles));
     }
 }
 

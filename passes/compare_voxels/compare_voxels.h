@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/common/voxels.h"
+#include "passes/common/voxels/voxels.h"
 
 namespace voxray {
 

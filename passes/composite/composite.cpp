@@ -1,7 +1,7 @@
 #include "passes/composite/composite.h"
 
-#include "passes/common/dispatch.h"
-#include "passes/common/frame_image.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/view/frame_image.h"
 
 namespace voxray {
 

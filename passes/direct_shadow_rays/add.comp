@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // Adds what the shadow rays of a batch of pixels carry where nothing was in their way, averaged over each pixel.
-#include "shaders/linear_index.glsl"
+#include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Carried { vec4 data[]; } carried;

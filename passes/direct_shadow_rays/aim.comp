@@ -2,12 +2,12 @@
 #extension GL_GOOGLE_include_directive : require
 // One shadow ray for each g-buffer texel of a batch of pixels towards a light, with the radiance that the texel reflects
 // if nothing is in the way. A pixel's rays follow each other.
-#include "shaders/lights.glsl"
-#include "shaders/linear_index.glsl"
-#include "shaders/sampling.glsl"
-#include "shaders/scene.glsl"
-#include "shaders/shared/ray_types.h"
-#include "shaders/specular.glsl"
+#include "shaders/lights/lights.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/sampling.glsl"
+#include "shaders/scene/scene.glsl"
+#include "shaders/trace/ray_types.h"
+#include "shaders/scene/specular.glsl"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 16) uniform sampler2D position;

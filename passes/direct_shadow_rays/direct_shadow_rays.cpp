@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "passes/common/dispatch.h"
-#include "passes/common/frame_image.h"
-#include "passes/common/random_seed.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/random_seed.h"
+#include "passes/common/view/frame_image.h"
 
 namespace voxray {
 namespace {

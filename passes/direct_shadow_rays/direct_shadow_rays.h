@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/common/gbuffer.h"
+#include "passes/common/view/gbuffer.h"
 
 namespace voxray {
 

@@ -1,7 +1,7 @@
 #include <utility>
 
-#include "passes/common/dispatch.h"
-#include "passes/common/radiance_clipmap.h"
+#include "passes/common/clipmap/radiance_clipmap.h"
+#include "passes/common/compute/dispatch.h"
 #include "passes/filter_voxels/radiance_storage.h"
 
 namespace voxray {

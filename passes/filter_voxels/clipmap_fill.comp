@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 // A box of a clipmap level's voxels. A thread takes a voxel and goes through all that it encloses on the source level, filtering on
 // the way up: what is stored doesn't depend on where the finer levels' windows are.
-#include "shaders/linear_index.glsl"
-#include "shaders/radiance_voxels.glsl"
-#include "shaders/surface_radiance.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/radiance/radiance_voxels.glsl"
+#include "shaders/radiance/surface_radiance.glsl"
 layout(local_size_x = 64) in;
 
 layout(push_constant, scalar) uniform Push {

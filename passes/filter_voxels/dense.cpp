@@ -2,16 +2,16 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "passes/common/dispatch.h"
+#include "passes/common/compute/dispatch.h"
 #include "passes/filter_voxels/radiance_storage.h"
-#include "shaders/shared/radiance_dense_types.h"
+#include "shaders/radiance/radiance_dense_types.h"
 
 namespace voxray {
 namespace {
 
 constexpr uint32_t kValueBytes = 8;  // Four half floats.
 
-/// The buffer `radianceVoxels` of shaders/radiance_dense.glsl.
+/// The buffer `radianceVoxels` of shaders/radiance/radiance_dense.glsl.
 struct Header {
     gpu::RadianceGrid grid;
     uint64_t values;

@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Level 0 of dense radiance voxels: the surfaces' own radiance and cover; nothing where there are none.
-#include "shaders/linear_index.glsl"
-#include "shaders/radiance_voxels.glsl"
-#include "shaders/surface_radiance.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/radiance/radiance_voxels.glsl"
+#include "shaders/radiance/surface_radiance.glsl"
 layout(local_size_x = 64) in;
 
 layout(push_constant, scalar) uniform Push {

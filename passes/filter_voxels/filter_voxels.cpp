@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "passes/common/light_sources.h"
+#include "passes/common/lights/light_sources.h"
 
 namespace voxray {
 namespace {
@@ -20,7 +20,7 @@ std::unique_ptr<RadianceStorage> makeStorage(const FilterVoxels::Params& params)
     return nullptr;
 }
 
-/// The power of two below the scene's typical irradiance, in the middle of the range of half floats.
+/// The power of two below the scene's typical irradiance, in the center of the range of half floats.
 float radianceUnit(const SceneState& state) {
     const float typical = meanIrradiance(lightSources(state), state.geometry);
     return typical > 0 ? std::exp2(std::floor(std::log2(typical))) : 1.0f;

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "passes/common/clipmap_windows.h"
-#include "passes/common/cone_bounces.h"
-#include "passes/common/radiance_voxels.h"
-#include "passes/common/voxels.h"
+#include "passes/common/clipmap/clipmap_windows.h"
+#include "passes/common/radiance/cone_bounces.h"
+#include "passes/common/radiance/radiance_voxels.h"
+#include "passes/common/voxels/voxels.h"
 #include "passes/filter_voxels/radiance_storage.h"
 
 namespace voxray {

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "passes/common/radiance_voxels.h"
-#include "passes/common/voxels.h"
+#include "passes/common/radiance/radiance_voxels.h"
+#include "passes/common/voxels/voxels.h"
 
 namespace voxray {
 
@@ -40,7 +40,7 @@ std::unique_ptr<RadianceStorage> makeSvoStorage(bool eachFrame);
 /// they are filled whole again and again.
 std::unique_ptr<RadianceStorage> makeClipmapStorage(uint32_t side, bool eachFrame);
 
-/// What shaders/surface_radiance.glsl reads.
+/// What shaders/radiance/surface_radiance.glsl reads.
 std::vector<Binding> surfaceRadianceBindings(const SurfaceVoxels& voxels, const SurfaceLight& light);
 
 }  // namespace voxray

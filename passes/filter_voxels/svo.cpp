@@ -1,10 +1,10 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "passes/common/dispatch.h"
-#include "passes/common/voxel_count.h"
-#include "passes/filter_voxels/octree_builder.h"
-#include "passes/filter_voxels/octree_collapse.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/octree/octree_builder.h"
+#include "passes/common/octree/octree_collapse.h"
+#include "passes/common/voxels/voxel_count.h"
 #include "passes/filter_voxels/radiance_storage.h"
 
 namespace voxray {
@@ -43,7 +43,7 @@ class SvoStorage final : public RadianceStorage {
 
     void prepare(PassSetup& setup, RadianceVoxels&) override {
         surface_ = makeComputeProgram(setup.device,
-                                      setup.compiler.compile("passes/filter_voxels/octree_surface.comp"));
+                                      setup.compiler.compile("passes/common/octree/octree_surface.comp"));
         builder_.emplace(setup.device, setup.compiler);
         collapse_.emplace(setup.device, setup.compiler);
     }

@@ -1,8 +1,8 @@
 #include "passes/gather_cones/gather_cones.h"
 
-#include "passes/common/cone_sets.h"
-#include "passes/common/dispatch.h"
-#include "passes/common/frame_image.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/radiance/cone_sets.h"
+#include "passes/common/view/frame_image.h"
 
 namespace voxray {
 namespace {

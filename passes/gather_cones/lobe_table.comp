@@ -2,13 +2,13 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 // What the cells of a lobe reflect, for each cosine to the viewer and each roughness: integrals by importance sampling. A thread
-// takes a cell. Cells hold equal parts of the visible half vectors: one in the middle, 6, 12 and so on round it.
+// takes a cell. Cells hold equal parts of the visible half vectors: one in the center, 6, 12 and so on round it.
 #include "passes/gather_cones/lobe_types.h"
-#include "shaders/sampling.glsl"
-#include "shaders/specular.glsl"
+#include "shaders/scene/sampling.glsl"
+#include "shaders/scene/specular.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0, scalar) writeonly buffer Cells { LobeCell data[]; } cells;
+layout(set = 0, binding = 0, scalar) writeonly buffer Cells { LobeStratum data[]; } cells;
 layout(push_constant) uniform Push {
     uint cells;
     uint points;  // For each cell.
@@ -65,5 +65,5 @@ void main() {
         const vec3 diffuse = cosineDirection(u.yx, vec3(0.0, 0.0, 1.0));
         grazing += schlickWeight(dot(out_, normalize(out_ + diffuse)));
     }
-    cells.data[i] = LobeCell(sum / max(weights, 1e-6), albedo / float(push.points * push.cells), grazing / float(push.points));
+    cells.data[i] = LobeStratum(sum / max(weights, 1e-6), albedo / float(push.points * push.cells), grazing / float(push.points));
 }

@@ -13,7 +13,7 @@
 VOXRAY_SHARED_BEGIN
 
 // A part of a lobe: what of it one cone stands for.
-struct LobeCell {
+struct LobeStratum {
     vec3 mean;    // Of the directions that it reflects from: along the surface away from the viewer, across
                   // that, along the normal.
     vec2 albedo;  // Part of an even surrounding that it reflects, by F0 and by F90.

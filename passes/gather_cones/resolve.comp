@@ -4,7 +4,7 @@
 // Radiance that each pixel reflects: albedo / pi times the irradiance of the traced texels around it that see much the same,
 // averaged over its sub-pixels. With SPECULAR what specular lobes reflect comes on top of what they leave to the diffuse ones.
 #include "passes/gather_cones/sparse.glsl"
-#include "shaders/sampling.glsl"
+#include "shaders/scene/sampling.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 16) uniform sampler2D irradiance;

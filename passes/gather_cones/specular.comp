@@ -3,8 +3,8 @@
 // Radiance that the specular lobe of each g-buffer texel reflects, by a cone for each of its cells, and what it leaves to the
 // diffuse lobe below.
 #include "passes/gather_cones/lobe_types.h"
-#include "shaders/radiance_cone.glsl"
-#include "shaders/specular.glsl"
+#include "shaders/radiance/radiance_cone.glsl"
+#include "shaders/scene/specular.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 16) uniform sampler2D position;
@@ -12,19 +12,19 @@ layout(set = 0, binding = 17) uniform sampler2D normal;
 layout(set = 0, binding = 18) uniform sampler2D geometricNormal;
 layout(set = 0, binding = 19) uniform sampler2D specular;
 layout(set = 0, binding = 20) uniform sampler2D fresnel;
-layout(set = 0, binding = 21, scalar) readonly buffer Cells { LobeCell data[]; } cells;
+layout(set = 0, binding = 21, scalar) readonly buffer Cells { LobeStratum data[]; } cells;
 layout(set = 0, binding = 22, rgba32f) writeonly uniform image2D reflected;
 layout(push_constant, scalar) uniform Push {
     vec3 camera;
     uint cells;
 } push;
 
-LobeCell mixCells(LobeCell a, LobeCell b, float t) {
-    return LobeCell(mix(a.mean, b.mean, t), mix(a.albedo, b.albedo, t), mix(a.grazing, b.grazing, t));
+LobeStratum mixCells(LobeStratum a, LobeStratum b, float t) {
+    return LobeStratum(mix(a.mean, b.mean, t), mix(a.albedo, b.albedo, t), mix(a.grazing, b.grazing, t));
 }
 
 // The table's, linear between its places.
-LobeCell cellAt(float cosOut, float roughness, uint cell) {
+LobeStratum cellAt(float cosOut, float roughness, uint cell) {
     const vec2 most = vec2(LOBE_COSINES - 1, LOBE_ROUGHNESSES - 1);
     const vec2 at = clamp(vec2(sqrt(cosOut), roughness), 0.0, 1.0) * most;
     const uvec2 corner = uvec2(min(at, most - 1.0));
@@ -71,7 +71,7 @@ void main() {
     const vec3 along = dot(away, away) > 1e-12 ? normalize(away) : normalize(cross(n, abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
     const vec3 across = cross(n, along);
     for (uint i = 0u; i < push.cells; ++i) {
-        const LobeCell cell = cellAt(cosOut, s.roughness, i);
+        const LobeStratum cell = cellAt(cosOut, s.roughness, i);
         const float meanLength = length(cell.mean);
         if (meanLength == 0.0) continue;
         const vec3 direction = (cell.mean.x * along + cell.mean.y * across + cell.mean.z * n) / meanLength;

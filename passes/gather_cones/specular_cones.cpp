@@ -1,8 +1,8 @@
 #include "passes/gather_cones/specular_cones.h"
 
 #include "base/error.h"
-#include "passes/common/dispatch.h"
-#include "passes/common/frame_image.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/view/frame_image.h"
 #include "passes/gather_cones/lobe_types.h"
 
 namespace voxray {
@@ -32,7 +32,7 @@ void SpecularCones::plan(PassPlan& plan, const char* pass, const GBuffer& gbuffe
     if (cells != 1 && cells != 7 && cells != 19)
         throw Error("{}: specular is {}; lobes are shared out between 1, 7 or 19 cones, 0 leaves them out",
                     pass, cells);
-    plan.reserve("specular lobes", uint64_t(LOBES) * cells * sizeof(gpu::LobeCell));
+    plan.reserve("specular lobes", uint64_t(LOBES) * cells * sizeof(gpu::LobeStratum));
     plan.reserve("specular reflection", imageBytes(reflectedImage(plan.frame, gbuffer)));
 }
 
@@ -47,7 +47,7 @@ void SpecularCones::prepare(PassSetup& setup, const GBuffer& gbuffer, const Radi
     reflected_ = Image(setup.device, "specular reflection", reflectedImage(setup.frame, gbuffer));
 
     // The table depends on nothing but its size.
-    table_ = Buffer(setup.device, "specular lobes", uint64_t(LOBES) * cells * sizeof(gpu::LobeCell));
+    table_ = Buffer(setup.device, "specular lobes", uint64_t(LOBES) * cells * sizeof(gpu::LobeStratum));
     const Program fill = program("passes/gather_cones/lobe_table.comp", {});
     setup.stream.dispatch(fill, {{"cells", table_}}, TablePush{cells, kPoints / cells},
                           linearGroups(uint64_t(LOBES) * cells));

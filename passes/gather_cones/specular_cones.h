@@ -1,7 +1,7 @@
 #pragma once
 
-#include "passes/common/gbuffer.h"
-#include "passes/common/radiance_voxels.h"
+#include "passes/common/radiance/radiance_voxels.h"
+#include "passes/common/view/gbuffer.h"
 
 namespace voxray {
 

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Irradiance from a set of cones, for every n-th texel of the G-buffer.
 #include "passes/gather_cones/sparse.glsl"
-#include "shaders/cone_set.glsl"
+#include "shaders/radiance/cone_set.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 16) uniform sampler2D position;

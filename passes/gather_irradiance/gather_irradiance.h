@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/common/voxel_lookup.h"
+#include "passes/common/voxels/voxel_lookup.h"
 
 namespace voxray {
 

@@ -3,7 +3,7 @@
 #define VOXRAY_GATHER_RAYS_ARRIVED_GLSL
 
 #extension GL_EXT_scalar_block_layout : require
-#include "shaders/shared/surfel_types.h"
+#include "shaders/surfels/surfel_types.h"
 
 layout(set = 0, binding = 16, scalar) readonly buffer Light { vec4 data[]; } light;
 #ifdef SHADOW_RAYS

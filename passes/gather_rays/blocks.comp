@@ -8,7 +8,7 @@
 // surface at distance r adds at most its share of E over r to the change of E per metre (Ward, Rubinstein and Clear 1988, there
 // with all light instead of the deviation). Over rays of luminance L and mean M: sum |L - M|/r / sum L, which by the inequality
 // of Cauchy and Schwarz is at most sqrt(sum (L - M)²/r * sum 1/r) / sum L.
-#include "shaders/shared/gather_filter.h"
+#include "shaders/filter/gather_filter.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 16, scalar) readonly buffer Moments { GatherMoments data[]; } moments;

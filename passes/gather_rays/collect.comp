@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // Irradiance of each G-buffer texel: the mean of what its rays bring.
 #include "passes/gather_rays/arrived.glsl"
-#include "shaders/gather_layout.glsl"
-#include "shaders/linear_index.glsl"
+#include "shaders/view/gather_layout.glsl"
+#include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 19, scalar) writeonly buffer Gathered { vec4 data[]; } gathered;  // Irradiance, number of rays.

@@ -9,8 +9,8 @@
 // hence `strictness` below 1. How noisy a texel is, is the relative variance of a ray over the number of rays that its value
 // stands for. A neighbour helps as long as the noise that it averages out outweighs the bias that it brings: its weight is
 // noise / (noise + bias²). The more rays, the narrower the filter; in the limit there is none.
-#include "shaders/octahedral.glsl"
-#include "shaders/shared/gather_filter.h"
+#include "shaders/scene/octahedral.glsl"
+#include "shaders/filter/gather_filter.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 16, scalar) readonly buffer Guide { FilterTexel data[]; } guide;

@@ -4,10 +4,10 @@
 #include <optional>
 #include <utility>
 
-#include "passes/common/face_irradiance.h"
-#include "passes/common/gather_hits.h"
-#include "passes/common/gbuffer.h"
-#include "passes/common/surfel_light.h"
+#include "passes/common/surfels/surfel_light.h"
+#include "passes/common/view/gather_hits.h"
+#include "passes/common/view/gbuffer.h"
+#include "passes/common/voxels/face_irradiance.h"
 #include "passes/gather_rays/irradiance_filter.h"
 
 namespace voxray {

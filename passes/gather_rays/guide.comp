@@ -2,10 +2,10 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // What guides the filter at each texel, in one place: its surface, and what its block knows of light, interpolated between
-// blocks' middles.
-#include "shaders/octahedral.glsl"
-#include "shaders/shared/gather_filter.h"
-#include "shaders/shared/gather_types.h"
+// blocks' centers.
+#include "shaders/scene/octahedral.glsl"
+#include "shaders/filter/gather_filter.h"
+#include "shaders/view/gather_types.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 16) uniform sampler2D position;
@@ -20,7 +20,7 @@ layout(push_constant, scalar) uniform Push {
 
 // Light from what is nearer than some texels changes within them anyhow: no bound is sharper than that (as Tabellion and
 // Lamorlette 2004 bound the radius of irradiance records by the pixel).
-#define LEAST_TEXELS 8.0
+#define MIN_TEXELS 8.0
 
 vec2 blockAt(ivec2 block) {
     const ivec2 inside = clamp(block, ivec2(0), ivec2(push.layout_.blocks) - 1);
@@ -42,7 +42,7 @@ void main() {
     const ivec2 corner = ivec2(floor(at));
     const vec2 light = mix(mix(blockAt(corner), blockAt(corner + ivec2(1, 0)), part.x),
                            mix(blockAt(corner + ivec2(0, 1)), blockAt(corner + ivec2(1, 1)), part.x), part.y);
-    const float most = sqrt(light.y) / (LEAST_TEXELS * push.texelAngle * distance(p.xyz, push.camera));
+    const float most = sqrt(light.y) / (MIN_TEXELS * push.texelAngle * distance(p.xyz, push.camera));
     guide.data[index] =
         FilterTexel(p.xyz, toOctahedral(texelFetch(normal, ivec2(texel), 0).xyz), min(light.x, most), light.y);
 }

@@ -1,9 +1,9 @@
 #include "passes/gather_rays/irradiance_filter.h"
 
-#include "passes/common/camera_matrix.h"
-#include "passes/common/dispatch.h"
-#include "passes/common/frame_image.h"
-#include "shaders/shared/gather_filter.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/view/camera_matrix.h"
+#include "passes/common/view/frame_image.h"
+#include "shaders/filter/gather_filter.h"
 
 namespace voxray {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "passes/common/gather_hits.h"
-#include "passes/common/gbuffer.h"
+#include "passes/common/view/gather_hits.h"
+#include "passes/common/view/gbuffer.h"
 
 namespace voxray {
 

@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 // Sums over the rays of each block that tell how noisy they are and how fast irradiance may change there.
 #include "passes/gather_rays/arrived.glsl"
-#include "shaders/linear_index.glsl"
-#include "shaders/sampling.glsl"
-#include "shaders/shared/gather_filter.h"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/sampling.glsl"
+#include "shaders/filter/gather_filter.h"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 19, scalar) writeonly buffer Moments { GatherMoments data[]; } moments;

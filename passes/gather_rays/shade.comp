@@ -3,12 +3,12 @@
 // What the surface at each gather ray's hit reflects of the light that its voxel holds: radiance times pi. A ray that misses
 // brings none: the environment is direct light. With SHADOW_RAYS the voxel's share is indirect light alone, and a surfel at each
 // hit is left for shadow rays to add the direct one.
-#include "shaders/face_irradiance.glsl"
-#include "shaders/gather_layout.glsl"
-#include "shaders/linear_index.glsl"
-#include "shaders/scene.glsl"
-#include "shaders/shared/ray_types.h"
-#include "shaders/shared/surfel_types.h"
+#include "shaders/voxels/face_irradiance.glsl"
+#include "shaders/view/gather_layout.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/scene.glsl"
+#include "shaders/trace/ray_types.h"
+#include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 16, scalar) readonly buffer Hits { Hit data[]; } hits;

@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // One camera ray for each of a batch of texels.
 #include "passes/gbuffer/view.glsl"
-#include "shaders/linear_index.glsl"
-#include "shaders/shared/ray_types.h"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 0, scalar) writeonly buffer Rays { Ray data[]; } rays;

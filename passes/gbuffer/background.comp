@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Fills the emission target with the environment's radiance; surfaces are drawn over it.
 #include "passes/gbuffer/view.glsl"
-#include "shaders/scene.glsl"
+#include "shaders/scene/scene.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 16, rgba32f) writeonly uniform image2D background;

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/gbuffer/view.glsl"
-#include "shaders/scene.glsl"
+#include "shaders/scene/scene.glsl"
 
 layout(push_constant, scalar) uniform Push {
     mat4 viewProjection;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "passes/common/camera_matrix.h"
-#include "passes/common/dispatch.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/view/camera_matrix.h"
 
 namespace voxray {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "passes/common/gbuffer.h"
+#include "passes/common/view/gbuffer.h"
 
 namespace voxray {
 

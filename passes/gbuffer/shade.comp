@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // What a batch of camera rays met, into the g-buffer's images.
 #include "passes/gbuffer/visible_surface.glsl"
-#include "shaders/linear_index.glsl"
-#include "shaders/shared/ray_types.h"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 16, scalar) readonly buffer Hits { Hit data[]; } hits;

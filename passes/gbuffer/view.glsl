@@ -1,4 +1,4 @@
-// The camera's samples: texel (x, y) of the g-buffer looks through the middle of its part of the image plane.
+// The camera's samples: texel (x, y) of the g-buffer looks through the center of its part of the image plane.
 #ifndef VOXRAY_GBUFFER_VIEW_GLSL
 #define VOXRAY_GBUFFER_VIEW_GLSL
 

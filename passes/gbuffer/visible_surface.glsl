@@ -1,7 +1,7 @@
 // What a g-buffer keeps of a point that the camera sees, however the point was found.
 #include "passes/gbuffer/view.glsl"
-#include "shaders/footprint.glsl"
-#include "shaders/specular.glsl"
+#include "shaders/scene/footprint.glsl"
+#include "shaders/scene/specular.glsl"
 
 struct VisibleSurface {
     vec3 normal;           // Shading normal, on the camera's side.

@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // Rays from the camera through low-discrepancy points of the image.
-#include "shaders/linear_index.glsl"
-#include "shaders/sampling.glsl"
-#include "shaders/shared/ray_types.h"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/sampling.glsl"
+#include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 16, scalar) writeonly buffer Rays { Ray data[]; } rays;

@@ -4,9 +4,9 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "passes/common/camera_matrix.h"
-#include "passes/common/dispatch.h"
-#include "passes/common/random_seed.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/random_seed.h"
+#include "passes/common/view/camera_matrix.h"
 
 namespace voxray {
 namespace {
@@ -38,7 +38,7 @@ void InjectCameraRays::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
     plan.get(irradiance_).eachFrame = true;
     const SurfaceVoxels& voxels = plan.get(voxels_);
-    plan.reserve("voxel samples (estimated)", 2 * VoxelWrites::plan(plan, kName, params_, voxels));
+    plan.reserve("voxel samples (estimated)", 2 * VoxelAccumulator::plan(plan, kName, params_, voxels));
     plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
     plan.reserve("paths", SurfelPaths::bytes(settings()));
     plan.reserve("camera rays", uint64_t(settings().batch) * (sizeof(Ray) + sizeof(Hit)));
@@ -46,8 +46,8 @@ void InjectCameraRays::plan(PassPlan& plan) {
 
 void InjectCameraRays::prepare(PassSetup& setup) {
     paths_ = SurfelPaths(setup, settings());
-    direct_ = VoxelWrites(setup.device, setup.compiler, params_);
-    indirect_ = VoxelWrites(setup.device, setup.compiler, params_);
+    direct_ = VoxelAccumulator(setup.device, setup.compiler, params_);
+    indirect_ = VoxelAccumulator(setup.device, setup.compiler, params_);
     rays_ = Buffer(setup.device, "camera rays", uint64_t(settings().batch) * sizeof(Ray));
     hits_ = Buffer(setup.device, "camera hits", uint64_t(settings().batch) * sizeof(Hit));
     emit_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_camera_rays/emit.comp"));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/common/surfel_paths.h"
+#include "passes/common/surfels/surfel_paths.h"
 
 namespace voxray {
 
@@ -48,7 +48,7 @@ class InjectCameraRays final : public Pass {
     Port<VoxelIrradiance> irradiance_;
     std::vector<LightSource> sources_;
     SurfelPaths paths_;
-    VoxelWrites direct_, indirect_;
+    VoxelAccumulator direct_, indirect_;
     Program emit_;
     Buffer rays_, hits_;
 };

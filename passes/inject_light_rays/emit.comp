@@ -1,12 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Starts a batch of rays from one source of light; each carries the source's power over the number of its rays.
-#include "shaders/linear_index.glsl"
-#include "shaders/lights.glsl"
-#include "shaders/sampling.glsl"
-#include "shaders/scene.glsl"
-#include "shaders/shared/light_path.h"
-#include "shaders/shared/ray_types.h"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/lights/lights.glsl"
+#include "shaders/scene/sampling.glsl"
+#include "shaders/scene/scene.glsl"
+#include "shaders/light_paths/light_path_types.h"
+#include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 16, scalar) writeonly buffer Rays { Ray data[]; } rays;

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "passes/common/dispatch.h"
-#include "passes/common/random_seed.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/random_seed.h"
 
 namespace voxray {
 namespace {
 
-constexpr uint32_t kMostBatchRays = 1u << 20;  // Bounds the memory of rays and what they carry to 108 MiB.
+constexpr uint32_t kMaxBatchRays = 1u << 20;  // Bounds the memory of rays and what they carry to 108 MiB.
 
 struct EmitPush {
     uint32_t kind;
@@ -30,7 +30,7 @@ void InjectLightRays::declare(PassBuilder& builder) {
 }
 
 uint32_t InjectLightRays::batchRays() const {
-    return std::min(params_.raysPerLight, kMostBatchRays);
+    return std::min(params_.raysPerLight, kMaxBatchRays);
 }
 
 void InjectLightRays::plan(PassPlan& plan) {
@@ -50,12 +50,12 @@ void InjectLightRays::record(PassContext& context) {
     paths_.begin(context, voxels, sources);
     for (uint32_t s = 0; s < sources.size(); ++s) {
         const uint32_t seed = randomSeed(context.frame, s);
-        for (uint32_t first = 0; first < params_.raysPerLight; first += kMostBatchRays) {
-            const uint32_t count = std::min(kMostBatchRays, params_.raysPerLight - first);
+        for (uint32_t first = 0; first < params_.raysPerLight; first += kMaxBatchRays) {
+            const uint32_t count = std::min(kMaxBatchRays, params_.raysPerLight - first);
             context.stream.dispatch(
                 emit_, context.scene.bindings({{"rays", paths_.rays()}, {"paths", paths_.paths()}}),
                 EmitPush{sources[s].kind, sources[s].light, first, count, params_.raysPerLight, seed,
-                         context.scene.emitterCount, sphere.centre, sphere.radius},
+                         context.scene.emitterCount, sphere.center, sphere.radius},
                 linearGroups(count));
             paths_.follow(context, voxels, {seed, first, count});
         }

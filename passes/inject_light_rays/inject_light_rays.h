@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/common/light_paths.h"
+#include "passes/common/light_paths/light_paths.h"
 
 namespace voxray {
 

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "passes/common/dispatch.h"
-#include "passes/common/light_views.h"
-#include "passes/common/random_seed.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/random_seed.h"
+#include "passes/common/lights/light_views.h"
 
 namespace voxray {
 namespace {
 
-constexpr uint32_t kMostBatchTexels = 1u << 20;  // Bounds the memory of rays and what they carry to 108 MiB.
+constexpr uint32_t kMaxBatchTexels = 1u << 20;  // Bounds the memory of rays and what they carry to 108 MiB.
 constexpr VkFormat kSeenFormat = VK_FORMAT_R32G32B32A32_UINT;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
@@ -49,20 +49,20 @@ void InjectRsm::plan(PassPlan& plan) {
     const std::vector<LightSource> sources = requireViewpoints(*plan.frame.scene, kName);
     plan.reserve("shadow map images",
                  imageBytes(seenDesc(params_.resolution)) + imageBytes(depthDesc(params_.resolution)));
-    LightPaths::plan(plan, kName, params_, std::min(texels(), kMostBatchTexels), plan.get(voxels_), sources);
+    LightPaths::plan(plan, kName, params_, std::min(texels(), kMaxBatchTexels), plan.get(voxels_), sources);
 }
 
 void InjectRsm::prepare(PassSetup& setup) {
     seen_ = Image(setup.device, "shadow map hits", seenDesc(params_.resolution));
     depth_ = Image(setup.device, "shadow map depth", depthDesc(params_.resolution));
-    const ShaderModule stages[] = {setup.compiler.compile("passes/common/light_view.vert"),
+    const ShaderModule stages[] = {setup.compiler.compile("passes/common/lights/light_view.vert"),
                                    setup.compiler.compile("passes/inject_rsm/rsm.frag")};
     RasterState state;
     state.colorFormats = {kSeenFormat};
     state.depthFormat = kDepthFormat;
     rasterize_ = makeRasterProgram(setup.device, stages, state);
     makeRays_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_rsm/rsm_rays.comp"));
-    paths_ = LightPaths(setup, params_, std::min(texels(), kMostBatchTexels));
+    paths_ = LightPaths(setup, params_, std::min(texels(), kMaxBatchTexels));
 }
 
 void InjectRsm::record(PassContext& context) {
@@ -85,8 +85,8 @@ void InjectRsm::record(PassContext& context) {
                                 context.scene.triangleCount * 3);
 
             // Texels are light rays with known hits.
-            for (uint32_t first = 0; first < texels(); first += kMostBatchTexels) {
-                const uint32_t batch = std::min(kMostBatchTexels, texels() - first);
+            for (uint32_t first = 0; first < texels(); first += kMaxBatchTexels) {
+                const uint32_t batch = std::min(kMaxBatchTexels, texels() - first);
                 context.stream.dispatch(
                     makeRays_,
                     context.scene.bindings({{"rays", paths_.rays()},

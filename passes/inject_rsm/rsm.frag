@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Which point of which triangle a texel sees.
-#include "shaders/scene.glsl"
+#include "shaders/scene/scene.glsl"
 
 layout(location = 0) in vec2 barycentrics;
 layout(location = 1) flat in uint triangle;

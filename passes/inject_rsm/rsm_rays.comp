@@ -1,11 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Each texel is a ray from the light whose hit the rasteriser found; it carries the light through the texel.
-#include "shaders/light_view.glsl"
-#include "shaders/linear_index.glsl"
-#include "shaders/scene.glsl"
-#include "shaders/shared/light_path.h"
-#include "shaders/shared/ray_types.h"
+#include "shaders/lights/light_view.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/scene.glsl"
+#include "shaders/light_paths/light_path_types.h"
+#include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 16, scalar) writeonly buffer Rays { Ray data[]; } rays;
@@ -30,7 +30,7 @@ void main() {
     const TexelRay beam = texelRay(push.view, onView);
     const GpuLight light = sceneLights.data[push.light];
 
-    // The beam through the texel: E * area, or I * solid angle (of the texel's middle; exact as texels shrink).
+    // The beam through the texel: E * area, or I * solid angle (of the texel's center; exact as texels shrink).
     Ray ray;
     ray.origin = beam.start;
     ray.direction = normalize(beam.along);

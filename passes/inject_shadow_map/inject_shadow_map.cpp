@@ -1,7 +1,7 @@
 #include "passes/inject_shadow_map/inject_shadow_map.h"
 
-#include "passes/common/dispatch.h"
-#include "passes/common/random_seed.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/random_seed.h"
 
 namespace voxray {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "passes/common/shadow_map.h"
-#include "passes/common/surfel_feedback.h"
+#include "passes/common/lights/shadow_map.h"
+#include "passes/common/surfels/surfel_feedback.h"
 
 namespace voxray {
 

@@ -2,10 +2,10 @@
 #extension GL_GOOGLE_include_directive : require
 // Adds the light of one view of a light to the surfels in it, by the share of the four nearest texels, weighted bilinearly,
 // that see the surfel.
-#include "shaders/light_view.glsl"
-#include "shaders/lights.glsl"
-#include "shaders/linear_index.glsl"
-#include "shaders/shared/surfel_types.h"
+#include "shaders/lights/light_view.glsl"
+#include "shaders/lights/lights.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
@@ -34,7 +34,7 @@ void main() {
     const vec3 irradiance = l.irradiance * max(dot(s.normal, l.direction), 0.0);
     if (all(equal(irradiance, vec3(0.0)))) return;
 
-    // In texels from the middle of the first; within half a texel of the border there is none further out.
+    // In texels from the center of the first; within half a texel of the border there is none further out.
     const vec2 at = inTexels(view, push.resolution, s.position) - 0.5;
     const ivec2 first = clamp(ivec2(floor(at)), ivec2(0), ivec2(push.resolution) - 2);
     const vec2 share = clamp(at - vec2(first), 0.0, 1.0);

@@ -1,8 +1,8 @@
 #include "passes/inject_voxel_rays/inject_voxel_rays.h"
 
-#include "passes/common/dispatch.h"
-#include "passes/common/frame_image.h"
-#include "passes/common/random_seed.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/random_seed.h"
+#include "passes/common/view/frame_image.h"
 
 namespace voxray {
 namespace {
@@ -31,7 +31,7 @@ void InjectVoxelRays::plan(PassPlan& plan) {
     plan.get(irradiance_).eachFrame = params_.demand;
     const SurfaceVoxels& voxels = plan.get(voxels_);
     if (params_.demand) {
-        plan.reserve("voxel samples (estimated)", 2 * VoxelWrites::plan(plan, kName, params_, voxels));
+        plan.reserve("voxel samples (estimated)", 2 * VoxelAccumulator::plan(plan, kName, params_, voxels));
         plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
         plan.reserve("paths", SurfelPaths::bytes(paths()));
         plan.reserve("faces asked for (estimated)", uint64_t(voxels.voxelCount) * sizeof(uint32_t));
@@ -47,8 +47,8 @@ void InjectVoxelRays::prepare(PassSetup& setup) {
         const auto program = [&](const char* file) {
             return makeComputeProgram(setup.device, setup.compiler.compile(file));
         };
-        direct_ = VoxelWrites(setup.device, setup.compiler, params_);
-        indirect_ = VoxelWrites(setup.device, setup.compiler, params_);
+        direct_ = VoxelAccumulator(setup.device, setup.compiler, params_);
+        indirect_ = VoxelAccumulator(setup.device, setup.compiler, params_);
         surfelPaths_ = SurfelPaths(setup, paths());
         mark_ = program("passes/inject_voxel_rays/mark.comp");
         select_ = program("passes/inject_voxel_rays/select.comp");

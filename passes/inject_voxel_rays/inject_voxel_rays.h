@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "passes/common/gather_hits.h"
-#include "passes/common/gbuffer.h"
-#include "passes/common/surfel_feedback.h"
-#include "passes/common/surfel_paths.h"
+#include "passes/common/surfels/surfel_feedback.h"
+#include "passes/common/surfels/surfel_paths.h"
+#include "passes/common/view/gather_hits.h"
+#include "passes/common/view/gbuffer.h"
 
 namespace voxray {
 
@@ -63,7 +63,7 @@ class InjectVoxelRays final : public Pass {
     std::vector<LightSource> sources_;
 
     // With demand.
-    VoxelWrites direct_, indirect_;
+    VoxelAccumulator direct_, indirect_;
     SurfelPaths surfelPaths_;
     Program mark_, select_;
     Buffer count_, asked_;

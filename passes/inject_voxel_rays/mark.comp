@@ -1,12 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Marks the voxel faces that the shading of gather rays will read: see irradianceAt() in shaders/face_irradiance.glsl.
-#include "shaders/facing.glsl"
-#include "shaders/gather_layout.glsl"
-#include "shaders/linear_index.glsl"
-#include "shaders/scene.glsl"
-#include "shaders/shared/ray_types.h"
-#include "shaders/voxels.glsl"
+// Marks the voxel faces that the shading of gather rays will read: see irradianceAt() in shaders/voxels/face_irradiance.glsl.
+#include "shaders/voxels/face.glsl"
+#include "shaders/view/gather_layout.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/scene.glsl"
+#include "shaders/trace/ray_types.h"
+#include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 16, scalar) readonly buffer Hits { Hit data[]; } hits;
@@ -19,10 +19,10 @@ layout(push_constant, scalar) uniform Push {
     uint rays;
 } push;
 
-float areaFacing(uint voxel, vec3 normal) {
+float faceArea(uint voxel, vec3 normal) {
     const VoxelMaterial m = voxelMaterials.data[voxel];
-    if (push.grid.directions == 1u) return dot(m.exposedPositive + m.exposedNegative, vec3(1.0));
-    return dot(normal * normal, mix(m.exposedPositive, m.exposedNegative, lessThan(normal, vec3(0.0))));
+    if (push.grid.directions == 1u) return dot(m.unoccludedPositive + m.unoccludedNegative, vec3(1.0));
+    return dot(normal * normal, mix(m.unoccludedPositive, m.unoccludedNegative, lessThan(normal, vec3(0.0))));
 }
 
 // Few voxels are asked for by many rays: look before the atomic.
@@ -43,19 +43,19 @@ void main() {
     const ivec2 texel = ivec2(texelOf(g, block, rayTexel(g, block, i % g.raysPerBlock)));
     const vec3 from = texelFetch(position, texel, 0).xyz;
     const vec3 normal = dot(s.geometricNormal, from - s.position) >= 0.0 ? s.geometricNormal : -s.geometricNormal;
-    const uint faces = push.grid.directions == 1u ? 63u : facingBits(normal);
+    const uint faces = push.grid.directions == 1u ? 63u : faceBits(normal);
 
     const ivec3 cell = voxelAt(push.grid, s.position);
     const uint own = voxelNumber(push.grid, cell);
     float area = 0.0;
     if (own != NO_VOXEL) {
         mark(own, faces);
-        area = areaFacing(own, normal);
+        area = faceArea(own, normal);
     }
     for (int k = 0; k < 27 && area < 0.05; ++k) {
         const uint voxel = voxelNumber(push.grid, cell + ivec3(k % 3, (k / 3) % 3, k / 9) - 1);
         if (k == 13 || voxel == NO_VOXEL) continue;
         mark(voxel, faces);
-        area += areaFacing(voxel, normal);
+        area += faceArea(voxel, normal);
     }
 }

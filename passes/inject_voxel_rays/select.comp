@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // Picks the surfels whose voxel faces are asked for. Their order is any; nothing depends on it.
-#include "shaders/facing.glsl"
-#include "shaders/linear_index.glsl"
-#include "shaders/shared/surfel_types.h"
+#include "shaders/voxels/face.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
@@ -19,6 +19,6 @@ void main() {
     const uint bits = asked.data[surfels.data[i].voxel];
     if (bits == 0u) return;
     const vec3 normal = surfels.data[i].normal;
-    const uint faces = facingBits(normal);
+    const uint faces = faceBits(normal);
     if ((bits & faces) != 0u) selected.data[atomicAdd(count.value, 1u)] = surfels.data[i];
 }

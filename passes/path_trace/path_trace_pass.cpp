@@ -1,6 +1,6 @@
 #include "passes/path_trace/path_trace_pass.h"
 
-#include "passes/common/frame_image.h"
+#include "passes/common/view/frame_image.h"
 #include "passes/path_trace/path_tracer.h"
 
 namespace voxray {

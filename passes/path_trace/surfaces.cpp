@@ -12,7 +12,7 @@ namespace {
 
 /// Rays start this many times the largest coordinate off their surface: some 30 roundings of a float.
 constexpr float kOffsetScale = 2e-6f;
-constexpr float kLeastCosine = 1e-3f;
+constexpr float kMinCosine = 1e-3f;
 
 float largestCoordinate(const glm::vec3& p) {
     return std::max(std::fabs(p.x), std::max(std::fabs(p.y), std::fabs(p.z)));
@@ -87,8 +87,8 @@ SurfacePoint SurfaceTable::at(const Hit& hit, const glm::vec3& direction) const 
     // A shading normal that leans away from the ray has no specular lobe: bend it back.
     if (point.bsdf.hasSpecular()) {
         const float cosOut = -glm::dot(point.shadingNormal, direction);
-        if (cosOut < kLeastCosine)
-            point.shadingNormal = glm::normalize(point.shadingNormal - direction * (kLeastCosine - cosOut));
+        if (cosOut < kMinCosine)
+            point.shadingNormal = glm::normalize(point.shadingNormal - direction * (kMinCosine - cosOut));
     }
     return point;
 }

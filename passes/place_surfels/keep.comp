@@ -1,10 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Keeps the candidates that have open space before them. Their order is any; nothing depends on it.
-#include "shaders/linear_index.glsl"
-#include "shaders/shared/ray_types.h"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/trace/ray_types.h"
 #extension GL_EXT_scalar_block_layout : require
-#include "shaders/shared/surfel_types.h"
+#include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 16, scalar) readonly buffer Rays { Ray data[]; } rays;

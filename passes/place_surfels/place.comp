@@ -2,12 +2,12 @@
 #extension GL_GOOGLE_include_directive : require
 // Both sides of points that are spread evenly over the surfaces, each with a ray along its normal, as long as a voxel, which
 // tells whether open space lies before it.
-#include "shaders/linear_index.glsl"
-#include "shaders/sampling.glsl"
-#include "shaders/scene.glsl"
-#include "shaders/shared/ray_types.h"
-#include "shaders/shared/surfel_types.h"
-#include "shaders/voxels.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/sampling.glsl"
+#include "shaders/scene/scene.glsl"
+#include "shaders/trace/ray_types.h"
+#include "shaders/surfels/surfel_types.h"
+#include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 16) readonly buffer PointTriangles { uint data[]; } pointTriangles;

@@ -3,15 +3,15 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "passes/common/dispatch.h"
-#include "passes/common/random_seed.h"
-#include "passes/common/surface_points.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/random_seed.h"
+#include "passes/common/surfels/surface_points.h"
 
 namespace voxray {
 namespace {
 
 constexpr uint32_t kBatchPoints = Surfels::kChunk / 2;
-constexpr uint64_t kMostPoints = 1u << 28;
+constexpr uint64_t kMaxPoints = 1u << 28;
 
 struct PlacePush {
     gpu::VoxelGrid grid;
@@ -28,7 +28,7 @@ void PlaceSurfels::declare(PassBuilder& builder) {
 }
 
 void PlaceSurfels::plan(PassPlan& plan) {
-    const uint64_t points = std::min(uint64_t(plan.get(voxels_).voxelCount) * params_.points, kMostPoints);
+    const uint64_t points = std::min(uint64_t(plan.get(voxels_).voxelCount) * params_.points, kMaxPoints);
     Surfels& surfels = plan.get(surfels_);
     surfels.most = 2 * points;
     plan.reserve("surfels (estimated)", surfels.most * sizeof(gpu::Surfel));
@@ -67,7 +67,7 @@ void PlaceSurfels::record(PassContext& context) {
                                                 {"candidates", candidates_}}),
                         PlacePush{voxels.grid, uint32_t(first), batch, randomSeed(context.frame)},
                         linearGroups(batch));
-        if (voxels.exposedOnly)
+        if (voxels.unoccludedOnly)
             context.tracer.occluded(stream, rays_, occluded_, 2 * batch);
         else
             stream.fill(occluded_, 0);
@@ -89,7 +89,7 @@ void PlaceSurfels::record(PassContext& context) {
         throw Error(
             "place_surfels: every surface has another within one voxel ({:.3g} m) before it, so none is open "
             "to "
-            "light; raise voxelize's 'resolution' or set its 'exposure_rays: 0'",
+            "light; raise voxelize's 'resolution' or set its 'visibility_rays: 0'",
             voxels.grid.voxelSize);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "passes/common/surfels.h"
-#include "passes/common/voxels.h"
+#include "passes/common/surfels/surfels.h"
+#include "passes/common/voxels/voxels.h"
 
 namespace voxray {
 

@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Irradiance by cones at every so many-th surfel, in a place that its number picks: the order of surfels is any.
-#include "shaders/cone_set.glsl"
-#include "shaders/linear_index.glsl"
-#include "shaders/shared/surfel_types.h"
+#include "shaders/radiance/cone_set.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;

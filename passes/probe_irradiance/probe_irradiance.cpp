@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
-#include "passes/common/cone_sets.h"
-#include "passes/common/dispatch.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/radiance/cone_sets.h"
 
 namespace voxray {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "passes/common/radiance_voxels.h"
-#include "passes/common/surfels.h"
+#include "passes/common/radiance/radiance_voxels.h"
+#include "passes/common/surfels/surfels.h"
 
 namespace voxray {
 

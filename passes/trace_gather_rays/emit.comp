@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // Starts a batch of gather rays from the G-buffer's surfaces, distributed by cosine about their normals.
-#include "shaders/gather_layout.glsl"
-#include "shaders/linear_index.glsl"
-#include "shaders/shared/ray_types.h"
+#include "shaders/view/gather_layout.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 16) uniform sampler2D position;

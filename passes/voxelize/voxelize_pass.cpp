@@ -1,7 +1,7 @@
 #include "passes/voxelize/voxelize_pass.h"
 
 #include "base/error.h"
-#include "passes/common/voxel_count.h"
+#include "passes/common/voxels/voxel_count.h"
 
 namespace voxray {
 namespace {
@@ -20,7 +20,7 @@ std::unique_ptr<VoxelizeMethod> makeMethod(const VoxelizePass::Params& params) {
 }  // namespace
 
 VoxelizePass::VoxelizePass(const Params& params)
-    : params_(params), builder_(makeMethod(params), params.exposureRays) {}
+    : params_(params), builder_(makeMethod(params), params.visibilityRays) {}
 
 void VoxelizePass::declare(PassBuilder& builder) {
     voxels_ = builder.write<SurfaceVoxels>("voxels", "surface voxels with their materials");
@@ -30,7 +30,7 @@ void VoxelizePass::plan(PassPlan& plan) {
     params_.check(kName);
     const Geometry& geometry = plan.frame.scene->geometry;
     SurfaceVoxels& v = plan.get(voxels_);
-    v.exposedOnly = params_.exposureRays > 0;
+    v.unoccludedOnly = params_.visibilityRays > 0;
     v.grid = makeVoxelGrid(geometry.boundsMin, geometry.boundsMax, params_.resolution);
     v.grid.directions = params_.directions;
     v.voxelCount = countSurfaceVoxels(geometry, v.grid).front();

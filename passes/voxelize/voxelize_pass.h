@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/voxelize/voxel_builder.h"
+#include "passes/common/voxel_builder/voxel_builder.h"
 
 namespace voxray {
 

@@ -2,7 +2,7 @@
 #extension GL_EXT_ray_tracing : require
 #extension GL_EXT_scalar_block_layout : require
 
-#include "shaders/shared/ray_types.h"
+#include "shaders/trace/ray_types.h"
 
 layout(location = 0) rayPayloadInEXT Hit payload;
 

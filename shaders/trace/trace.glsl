@@ -6,7 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
-#include "shaders/shared/ray_types.h"
+#include "shaders/trace/ray_types.h"
 #include "shaders/trace/trace_types.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer RayStream { Ray data[]; };

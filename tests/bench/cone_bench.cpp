@@ -11,7 +11,7 @@ namespace {
 
 /// Every triangle replaced by four, in the same place.
 void splitTriangles(Geometry& geometry) {
-    const auto middle = [&](uint32_t a, uint32_t b) {
+    const auto center = [&](uint32_t a, uint32_t b) {
         const VertexAttributes &first = geometry.attributes[a], &second = geometry.attributes[b];
         VertexAttributes mean = first;
         const glm::vec3 normal = first.normal + second.normal;
@@ -28,7 +28,7 @@ void splitTriangles(Geometry& geometry) {
     geometry.triangleMaterials.clear();
     for (size_t t = 0; t < whole.size(); ++t) {
         const glm::uvec3 v = whole[t];
-        const uint32_t ab = middle(v.x, v.y), bc = middle(v.y, v.z), ca = middle(v.z, v.x);
+        const uint32_t ab = center(v.x, v.y), bc = center(v.y, v.z), ca = center(v.z, v.x);
         for (const glm::uvec3 part : {glm::uvec3(v.x, ab, ca), glm::uvec3(ab, v.y, bc),
                                       glm::uvec3(ca, bc, v.z), glm::uvec3(ab, bc, ca)}) {
             geometry.triangles.push_back(part);

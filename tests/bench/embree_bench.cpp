@@ -37,7 +37,7 @@ SceneState opaqueState(const Scene& scene) {
     return evaluate(opaque, 0.0);
 }
 
-/// Rays from random places in the middle of the scene into random directions: incoherent, as gather rays are.
+/// Rays from random places in the center of the scene into random directions: incoherent, as gather rays are.
 std::vector<Ray> incoherentRays(const Geometry& geometry) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> unit(0, 1);
@@ -162,7 +162,7 @@ void streamAgainstBareLoop(benchmark::State& state, const Scene& source) {
     state.counters["stream_Mray/s"] = double(rays.size()) / streamBest * 1e-6;
 }
 
-/// Rays of a camera in the middle of the scene, row by row; the image spans 60 degrees upright.
+/// Rays of a camera in the center of the scene, row by row; the image spans 60 degrees upright.
 std::vector<Ray> cameraRays(const Geometry& geometry) {
     constexpr uint32_t kWidth = 640, kHeight = 360;
     const float up = std::tan(glm::radians(30.0f)), right = up * kWidth / kHeight;

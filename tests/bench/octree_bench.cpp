@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <map>
 
-#include "passes/common/dispatch.h"
-#include "passes/filter_voxels/octree_builder.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/octree/octree_builder.h"
 #include "scene/moving_spheres.h"
 #include "tests/gpu/chain.h"
 
@@ -35,7 +35,7 @@ test::Chain& sponza(uint32_t resolution, uint32_t directions = 6, const std::str
     scene->lights = {sun};
     chain = std::make_unique<test::Chain>(
         scene,
-        fmt::format("[{{pass: voxelize, resolution: {}, directions: {}, exposure_rays: 0}}{}]", resolution,
+        fmt::format("[{{pass: voxelize, resolution: {}, directions: {}, visibility_rays: 0}}{}]", resolution,
                     directions, more),
         16, 16, 1);
     return *chain;
@@ -114,14 +114,14 @@ void octreeUpdate(benchmark::State& state) {
     for (auto _ : state) {
         const double begin = cpuSeconds();
         chain.rebuild();
-        const double middle = cpuSeconds();
+        const double center = cpuSeconds();
         octree();
         const double end = cpuSeconds();
         seconds += 0.05;
         chain.goTo(seconds);
         octree();
         whole += end - begin;
-        structure += end - middle;
+        structure += end - center;
         update += cpuSeconds() - end;
     }
     const double runs = double(state.iterations());
@@ -141,7 +141,7 @@ BENCHMARK(octreeUpdate)
 constexpr std::array kThinConeLayouts{"dense", "svo", "svo", "clipmap, clipmap_resolution: 128"};
 constexpr int64_t kSkipping = 2;  ///< The octree once more, jumping over what is empty.
 
-/// Cones of 5 m from the middle of Sponza through each layout: as far as the clipmap's finest window reaches
+/// Cones of 5 m from the center of Sponza through each layout: as far as the clipmap's finest window reaches
 /// at 256 voxels, so that all take the same samples.
 void thinCone(benchmark::State& state) {
     const bool skip = state.range(2) == kSkipping;

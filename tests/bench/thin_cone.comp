@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // Cones through radiance voxels in steps of half a footprint, as in the thesis's comparison of layouts (Arnebäck 2017, section
 // 5.3.5): from one place in all directions, of a fixed length. SKIP jumps over what is empty.
-#include "shaders/linear_index.glsl"
-#include "shaders/radiance_voxels.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/radiance/radiance_voxels.glsl"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 0, scalar) writeonly buffer Met { vec4 data[]; } met;

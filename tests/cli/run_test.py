@@ -189,7 +189,7 @@ class Disk(Run):
         shutil.rmtree(self.path("out", "images", "resolution-16"))
         os.remove(self.path("out", "results.csv"))
 
-        # No file may grow beyond 2 KiB: every larger one fails in the middle of being written.
+        # No file may grow beyond 2 KiB: every larger one fails in the center of being written.
         def limit():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (2048, 2048))

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "config/yaml.h"
 #include "experiment/measure.h"
-#include "experiment/yaml.h"
 #include "graph/graph.h"
 #include "passes/register_passes.h"
 #include "scene/load.h"

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // How far radiance voxels are empty, and where cones would start, at a list of places.
-#include "shaders/linear_index.glsl"
-#include "shaders/radiance_voxels.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/radiance/radiance_voxels.glsl"
 layout(local_size_x = 64) in;
 
 struct Query {

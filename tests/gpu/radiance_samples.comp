@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Samples of radiance voxels, whatever their layout.
-#include "shaders/linear_index.glsl"
-#include "shaders/radiance_voxels.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/radiance/radiance_voxels.glsl"
 layout(local_size_x = 64) in;
 
 struct Query {

@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "passes/common/dispatch.h"
-#include "passes/common/radiance_voxels.h"
-#include "shaders/shared/voxel_types.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/radiance/radiance_voxels.h"
+#include "shaders/voxels/voxel_types.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {
 
-/// A question to radiance voxels, as shaders/radiance_voxels.glsl takes it.
+/// A question to radiance voxels, as shaders/radiance/radiance_voxels.glsl takes it.
 struct RadianceQuery {
     glm::vec3 position;  ///< m
     float footprint;     ///< m

@@ -2,10 +2,10 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // Writes the first word of each member of an array's first element, then of the second element: its stride.
-#include "shaders/shared/light_path.h"
-#include "shaders/shared/ray_types.h"
-#include "shaders/shared/scene_types.h"
-#include "shaders/shared/voxel_types.h"
+#include "shaders/light_paths/light_path_types.h"
+#include "shaders/trace/ray_types.h"
+#include "shaders/scene/scene_types.h"
+#include "shaders/voxels/voxel_types.h"
 layout(local_size_x = 1) in;
 
 #if defined(MATERIAL)
@@ -62,8 +62,8 @@ void main() {
     put(source.data[0].area);
     put(source.data[0].emission.x);
     put(source.data[0].metallic);
-    put(source.data[0].exposedPositive.x);
-    put(source.data[0].exposedNegative.x);
+    put(source.data[0].unoccludedPositive.x);
+    put(source.data[0].unoccludedNegative.x);
     put(source.data[0].roughness);
     put(source.data[1].albedo.x);
 #elif defined(LIGHT_PATH)

@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-#include "shaders/shared/light_path.h"
-#include "shaders/shared/scene_types.h"
-#include "shaders/shared/voxel_types.h"
+#include "shaders/light_paths/light_path_types.h"
+#include "shaders/scene/scene_types.h"
+#include "shaders/voxels/voxel_types.h"
 #include "tests/gpu/chain.h"
 #include "trace/ray.h"
 
@@ -75,8 +75,8 @@ TEST(SharedStructs, VoxelMaterial) {
     EXPECT_WORD(gpu::VoxelMaterial, area, 3);
     EXPECT_WORD(gpu::VoxelMaterial, emission, 4);
     EXPECT_WORD(gpu::VoxelMaterial, metallic, 5);
-    EXPECT_WORD(gpu::VoxelMaterial, exposedPositive, 6);
-    EXPECT_WORD(gpu::VoxelMaterial, exposedNegative, 7);
+    EXPECT_WORD(gpu::VoxelMaterial, unoccludedPositive, 6);
+    EXPECT_WORD(gpu::VoxelMaterial, unoccludedNegative, 7);
     EXPECT_WORD(gpu::VoxelMaterial, roughness, 8);
     EXPECT_EQ(seen[9], sizeof(gpu::VoxelMaterial) / 4);
 }

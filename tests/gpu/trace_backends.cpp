@@ -198,7 +198,7 @@ TEST_F(TraceBackends, EmptySceneIsMissed) {
 }
 
 TEST_F(TraceBackends, DegenerateTrianglesAreMissed) {
-    // Rays at the middle of triangles that are a point or a line.
+    // Rays at the center of triangles that are a point or a line.
     SceneState state = oneTriangle();
     state.geometry.positions = {{0.5f, 0.5f, 0}, {0.5f, 0.5f, 0}, {0.5f, 0.5f, 0},
                                 {0, 0, 1},       {1, 0, 1},       {0.5f, 0, 1}};

@@ -66,9 +66,9 @@ inline SceneState triangleSoup(uint32_t count, float size, uint32_t seed) {
     SceneState state;
     state.scene = scene;
     for (uint32_t t = 0; t < count; ++t) {
-        const glm::vec3 centre = random.vector(-1, 1);
+        const glm::vec3 center = random.vector(-1, 1);
         for (uint32_t corner = 0; corner < 3; ++corner) {
-            state.geometry.positions.push_back(centre + random.vector(-size, size));
+            state.geometry.positions.push_back(center + random.vector(-size, size));
             VertexAttributes vertex;
             for (int i = 0; i < 4; ++i) vertex.texCoords[i] = random(-1.5f, 1.5f);
             vertex.color.a = random(0, 1);

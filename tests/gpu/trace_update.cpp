@@ -2,7 +2,7 @@
 
 #include "gpu/trace_scenes.h"
 #include "gpu/vulkan_fixture.h"
-#include "shaders/shared/scene_types.h"
+#include "shaders/scene/scene_types.h"
 #include "trace/gpu_scene.h"
 #include "trace/ray_query_tracer.h"
 #include "trace/ray_tracer.h"
@@ -24,9 +24,9 @@ std::shared_ptr<const Scene> movingSoup() {
             Mesh mesh;
             mesh.material = material;
             for (uint32_t t = 0; t < 150; ++t) {
-                const glm::vec3 centre = random.vector(-1, 1);
+                const glm::vec3 center = random.vector(-1, 1);
                 for (int corner = 0; corner < 3; ++corner) {
-                    mesh.positions.push_back(centre + random.vector(-0.12f, 0.12f));
+                    mesh.positions.push_back(center + random.vector(-0.12f, 0.12f));
                     mesh.normals.emplace_back(0, 1, 0);
                     mesh.texCoords0.emplace_back(random(-1.5f, 1.5f), random(-1.5f, 1.5f));
                     mesh.texCoords1.emplace_back(random(-1.5f, 1.5f), random(-1.5f, 1.5f));

@@ -43,7 +43,7 @@ TEST_F(VulkanCompute, DiscardedCommandsLeaveNoTrace) {
     stream.fill(target, 7);
     stream.finish();
 
-    // An error in the middle of a pass: its resources go, the commands that name them stay.
+    // An error in the center of a pass: its resources go, the commands that name them stay.
     {
         const Buffer gone(device(), "gone", kCount * 4);
         stream.beginLabel("failing pass");
@@ -112,7 +112,7 @@ TEST_F(VulkanCompute, NoGroupsRecordNothingAndTooManyAreRefused) {
 }
 
 TEST_F(VulkanCompute, SamplesATextureAndATextureArray) {
-    // Two texels, red and green, looked up half-way and at the second texel's centre.
+    // Two texels, red and green, looked up half-way and at the second texel's center.
     const ImageDesc desc{.format = VK_FORMAT_R32G32B32A32_SFLOAT, .extent = {2, 1, 1}};
     const Image redGreen(device(), "red green", desc), blue(device(), "blue", desc);
     const Sampler linear(device(), Filter::Linear, VK_SAMPLER_ADDRESS_MODE_REPEAT,

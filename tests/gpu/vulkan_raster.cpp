@@ -59,7 +59,7 @@ TEST_F(VulkanRaster, DrawsWithoutAttachmentsIntoABuffer) {
     stream.fill(counter, 0);
     stream.draw(draw, {{"counter", counter}}, {}, targets, 3, 2);
 
-    // The diagonal's pixel centres lie on the edge: half of the square with or without the diagonal, twice.
+    // The diagonal's pixel centers lie on the edge: half of the square with or without the diagonal, twice.
     const uint32_t count = stream.readAs<uint32_t>(counter, 1)[0];
     EXPECT_TRUE(count == kSize * (kSize - 1) || count == kSize * (kSize + 1)) << count;
 }

@@ -15,9 +15,30 @@ LAYERS = {
     "scene": {"base", "image"},
     "trace": {"base", "image", "scene", "vulkan"},
     "graph": {"base", "image", "scene", "vulkan", "trace"},
-    "experiment": {"base", "image", "scene", "vulkan", "trace", "graph"},
-    "app": {"base", "image", "scene", "vulkan", "trace", "graph", "experiment"},
+    "config": {"base", "image", "scene", "vulkan", "trace"},
+    "experiment": {"base", "image", "scene", "vulkan", "trace", "graph", "config"},
+    "app": {"base", "image", "scene", "vulkan", "trace", "graph", "config", "experiment"},
 }
+
+# The machines that techniques share: passes/common/<room> and shaders/<room>. A room may use itself and what stands here.
+ROOMS = {
+    "compute": set(),
+    "view": {"compute"},
+    "filter": {"compute", "view"},
+    "voxels": {"compute", "view"},
+    "triangle_walk": {"compute", "voxels"},
+    "voxel_builder": {"compute", "voxels", "triangle_walk"},
+    "octree": {"compute", "voxels"},
+    "voxel_march": {"compute", "voxels", "octree"},
+    "radiance": {"compute", "voxels", "octree"},
+    "clipmap": {"compute", "voxels", "radiance"},
+    "lights": {"compute", "view", "voxels"},
+    "light_paths": {"compute", "voxels", "lights"},
+    "surfels": {"compute", "view", "voxels", "lights"},
+}
+
+# GLSL of the framework's own things, for every room.
+SHADER_BASE = {"shared", "scene", "trace"}
 
 # What a technique may use of the framework.
 PASSES_MAY_USE = LAYERS["graph"] | {"graph"}
@@ -27,7 +48,7 @@ THIRD_PARTY = {
     r"tiny_gltf\.h": ["framework/scene/"],
     r"embree\d*/": ["framework/trace/embree_scene.cpp", "tests/bench/"],
     r"OpenImageIO/": ["framework/image/"],
-    r"yaml-cpp/": ["framework/experiment/yaml.cpp"],
+    r"yaml-cpp/": ["framework/config/yaml.cpp"],
     r"vulkan/vulkan": ["framework/vulkan/", "framework/trace/", "tests/"],
     r"(glslang|SPIRV|spirv_cross)/": ["framework/vulkan/"],
     r"CLI/": ["framework/app/"],
@@ -64,7 +85,32 @@ def technique(path):
     return parts[1] if parts[0] == "passes" and len(parts) > 2 and parts[1] != "common" else None
 
 
+def room(path):
+    """The room of a file, None where it is in none."""
+    parts = path.split("/")
+    if path.startswith("passes/common/") and len(parts) > 3:
+        return parts[2]
+    return parts[1] if parts[0] == "shaders" and len(parts) > 2 and parts[1] not in SHADER_BASE else None
+
+
+def problem_of_rooms(includer, included):
+    for path in (includer, included):
+        if path.startswith("passes/common/") and room(path) is None:
+            return f"{path} is in no room: passes/common/<room>/"
+        if room(path) is not None and room(path) not in ROOMS:
+            return f"room {room(path)} is not known: add it to tests/house/layers.py"
+    mine, other = room(includer), room(included)
+    if mine and other and mine != other and other not in ROOMS[mine]:
+        return f"room {mine} includes {included}: it may include {', '.join(sorted(ROOMS[mine])) or 'no room'}"
+    if includer.startswith("shaders/") and mine is None and other:
+        return f"{includer} includes {included}: the scene's own GLSL knows no room"
+    return None
+
+
 def problem_of_own(includer, included):
+    rooms = problem_of_rooms(includer, included)
+    if rooms:
+        return rooms
     if included.startswith("shaders/"):
         return None
     if includer.startswith("shaders/"):

@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-#include "passes/common/clipmap_windows.h"
+#include "passes/common/clipmap/clipmap_windows.h"
 #include "tests/gpu/radiance_samples.h"
 
 namespace voxray::test {
@@ -31,17 +31,17 @@ std::shared_ptr<SceneState> cornellFrom(const glm::vec3& camera) {
     return state;
 }
 
-glm::vec3 middle(const gpu::RadianceGrid& grid) {
+glm::vec3 center(const gpu::RadianceGrid& grid) {
     return grid.origin + 0.5f * grid.voxelSize * glm::vec3(grid.resolution);
 }
 
-/// What minimumLevel() of shaders/radiance_clipmap.glsl answers.
+/// What minimumLevel() of shaders/radiance/radiance_clipmap.glsl answers.
 float minimumLevel(const ClipmapWindows& windows, const gpu::RadianceGrid& grid, const glm::vec3& camera,
                    glm::vec3 position) {
     position = glm::clamp(position, grid.origin, grid.origin + grid.voxelSize * glm::vec3(grid.resolution));
     for (uint32_t level = 0; level < windows.firstWhole(); ++level) {
         const gpu::ClipmapWindow w = windows.window(level, camera);
-        const glm::vec3 left = w.reach - glm::abs(position - w.middle);
+        const glm::vec3 left = w.reach - glm::abs(position - w.center);
         const float share = std::min({left.x, left.y, left.z}) * w.fall;
         if (share > 0) return float(level) + std::max(1 - share, 0.0f);
     }
@@ -128,7 +128,7 @@ TEST(Clipmap, ScrolledIsAsMadeFromScratch) {
 
 TEST(Clipmap, FillsWhatScrollsInAlone) {
     const glm::vec3 start =
-        middle(radiance(Chain("cornell", "{lights: point}", litVoxels(80, "layout: dense"))).grid);
+        center(radiance(Chain("cornell", "{lights: point}", litVoxels(80, "layout: dense"))).grid);
     Chain chain(cornellFrom(start), litVoxels(80, "layout: clipmap, clipmap_resolution: 16"), 8, 8, 1);
     const gpu::RadianceGrid& grid = radiance(chain).grid;
     const ClipmapWindows windows(grid, 16);
@@ -198,7 +198,7 @@ TEST(Clipmap, NothingJumpsWhenWindowsScroll) {
     for (RadianceQuery& q : queries) q.footprint = grid.voxelSize;
     for (const float scrolls : {0.5f, 1.0f, 2.0f}) {  // Levels 0, 1 and 2.
         const auto samplesAt = [&](float x) {
-            chain.runFrameFrom(middle(grid) + grid.voxelSize * glm::vec3(x, 0, 0));
+            chain.runFrameFrom(center(grid) + grid.voxelSize * glm::vec3(x, 0, 0));
             return sampleRadiance(radiance(chain), queries);
         };
         const std::vector<glm::vec4> before = samplesAt(scrolls - 0.5f * kStep);

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <numbers>
 
-#include "passes/common/clipmap_voxels.h"
-#include "passes/common/radiance_voxels.h"
-#include "passes/common/voxel_count.h"
+#include "passes/common/clipmap/clipmap_voxels.h"
+#include "passes/common/radiance/radiance_voxels.h"
+#include "passes/common/voxels/voxel_count.h"
 #include "scene/shapes.h"
 #include "tests/gpu/chain.h"
 
@@ -49,7 +49,7 @@ std::vector<std::vector<uint32_t>> content(Chain& chain) {
 }
 
 /// Voxels that were voxelized, and that were filled with radiance.
-std::pair<uint64_t, uint64_t> renewed(const Chain& chain) {
+std::pair<uint64_t, uint64_t> updated(const Chain& chain) {
     return {chain.frameSamples.at(0).voxelSteps, chain.frameSamples.at(1).voxelSteps};
 }
 
@@ -67,7 +67,7 @@ TEST(ClipmapVoxels, ScrolledAreAsMadeFromScratch) {
         scrolled.runFrameFrom(camera);
         Chain fresh(cornellFrom(camera), kGraph, 8, 8, 1);
         EXPECT_TRUE(content(scrolled) == content(fresh)) << camera.x;
-        EXPECT_LE(renewed(scrolled).first, renewed(fresh).first);
+        EXPECT_LE(updated(scrolled).first, updated(fresh).first);
     }
     EXPECT_FALSE(content(scrolled) == first);
 
@@ -83,14 +83,14 @@ TEST(ClipmapVoxels, VoxelizeWhatScrollsInAlone) {
     const uint64_t allRays = chain.frameSamples.at(0).rays;
     EXPECT_GT(allRays, 0u);
     chain.runFrameFrom(start);
-    EXPECT_EQ(renewed(chain), std::pair(uint64_t(0), uint64_t(0)));
+    EXPECT_EQ(updated(chain), std::pair(uint64_t(0), uint64_t(0)));
     EXPECT_EQ(chain.frameSamples.at(0).rays, 0u);
 
     // One voxel of level 0 along x: a slab there, and none or one on the coarser levels.
     chain.runFrameFrom(start + clipmap(chain).grid.voxelSize * glm::vec3(1, 0, 0));
-    EXPECT_GE(renewed(chain).first, 16u * 16);
-    EXPECT_LE(renewed(chain).first, 3u * 16 * 16);
-    EXPECT_EQ(renewed(chain).first, renewed(chain).second);
+    EXPECT_GE(updated(chain).first, 16u * 16);
+    EXPECT_LE(updated(chain).first, 3u * 16 * 16);
+    EXPECT_EQ(updated(chain).first, updated(chain).second);
     EXPECT_LT(chain.frameSamples.at(0).rays, allRays / 8);
 }
 
@@ -122,14 +122,14 @@ TEST(ClipmapVoxels, FollowWhatMoves) {
     };
     Chain moved(stateAt(0), kGraph, 8, 8, 1);
     auto last = content(moved);
-    const uint64_t whole = renewed(moved).first;
+    const uint64_t whole = updated(moved).first;
     for (int second = 1; second <= 3; ++second) {
         moved.update([&](SceneState& state) {
             std::vector<Box> changed = advance(state, second);
             state.lights = stateAt(second)->lights;
             return changed;
         });
-        EXPECT_LT(renewed(moved).first, whole / 2);
+        EXPECT_LT(updated(moved).first, whole / 2);
         Chain made(stateAt(second), kGraph, 8, 8, 1);
         EXPECT_TRUE(content(moved) == content(made)) << second;
         EXPECT_FALSE(content(moved) == last) << second;
@@ -141,14 +141,15 @@ TEST(ClipmapVoxels, FollowWhatMoves) {
         state.lights.at(0).position.x -= 0.3f;
         return std::vector<Box>();
     });
-    EXPECT_EQ(renewed(moved).first, 0u);
+    EXPECT_EQ(updated(moved).first, 0u);
     EXPECT_FALSE(content(moved) == last);
     auto lit = stateAt(3);
     lit->lights.at(0).position.x -= 0.3f;
     EXPECT_TRUE(content(moved) == content(*std::make_unique<Chain>(lit, kGraph, 8, 8, 1)));
 }
 
-/// A texel of shaders/radiance_texel.glsl: three mantissas of 14 bits, an exponent of 8 and opacity of 14.
+/// A texel of shaders/radiance/radiance_texel.glsl: three mantissas of 14 bits, an exponent of 8 and opacity
+/// of 14.
 glm::dvec4 unpack(glm::uvec2 t) {
     const uint64_t bits = uint64_t(t.x) | uint64_t(t.y) << 32;
     const double scale = std::ldexp(1.0, int(bits >> 42 & 255) - 126 - 1);

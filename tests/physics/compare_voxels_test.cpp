@@ -16,14 +16,14 @@ TEST(CompareVoxels, CountsWhatIsMissedAndAdded) {
     // A sphere: three_axis misses voxels that it cuts near a corner, dominant_axis adds some. Swapped, what
     // was missed is added.
     const std::string graph =
-        "[{pass: voxelize, id: a, resolution: 32, exposure_rays: 0, method: exact},"
-        " {pass: voxelize, id: b, resolution: 32, exposure_rays: 0, method: three_axis, samples: 1},"
+        "[{pass: voxelize, id: a, resolution: 32, visibility_rays: 0, method: exact},"
+        " {pass: voxelize, id: b, resolution: 32, visibility_rays: 0, method: three_axis, samples: 1},"
         " {pass: compare_voxels, inputs: {truth: ";
     Chain chain("furnace", "{}", graph + "a.voxels, voxels: b.voxels}}]");
     std::map<std::string, double> counted = reported(chain);
-    Chain exact("furnace", "{}", "[{pass: voxelize, resolution: 32, exposure_rays: 0, method: exact}]");
+    Chain exact("furnace", "{}", "[{pass: voxelize, resolution: 32, visibility_rays: 0, method: exact}]");
     Chain other("furnace", "{}",
-                "[{pass: voxelize, resolution: 32, exposure_rays: 0, method: three_axis, samples: 1}]");
+                "[{pass: voxelize, resolution: 32, visibility_rays: 0, method: three_axis, samples: 1}]");
     const Voxels truth(exact), found(other);
     int missed = 0, added = 0;
     truth.forEach([&](glm::ivec3 v) {

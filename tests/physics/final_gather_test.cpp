@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "passes/common/voxels.h"
+#include "passes/common/voxels/voxels.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {
@@ -156,7 +156,7 @@ TEST(FinalGather, ShadowRaysAtHitsKnowNoVoxels) {
     const auto error = [&](const std::string& gather) {
         Chain chain("white_room", "{albedo: 0.5}",
                     gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 0", "rays: 256", gather,
-                                "resolution: 3, exposure_rays: 0", "2"));
+                                "resolution: 3, visibility_rays: 0", "2"));
         return difference(chain.image("indirect"), reference.image("indirect"));
     };
     const double exact = error("direct_at_hits: shadow_rays"), coarse = error("direct_at_hits: voxels");
@@ -314,7 +314,7 @@ TEST(FinalGather, GridOfOneVoxel) {
     for (const std::string& name : allStrategies()) {
         Chain chain(
             "white_room", "{albedo: 0.5}",
-            gatherGraph(strategy(name, 3), "rays: 16", "filter: 0", "resolution: 1, exposure_rays: 0"));
+            gatherGraph(strategy(name, 3), "rays: 16", "filter: 0", "resolution: 1, visibility_rays: 0"));
         const double ratio = mean(chain.image("indirect")) / mean(reference.image("indirect"));
         EXPECT_GT(ratio, 0.3) << name;
         EXPECT_LT(ratio, 1.1) << name;

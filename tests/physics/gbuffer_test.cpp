@@ -7,7 +7,7 @@
 #include <glm/packing.hpp>
 
 #include "image/metrics.h"
-#include "passes/common/gbuffer.h"
+#include "passes/common/view/gbuffer.h"
 #include "scene/shapes.h"
 #include "tests/gpu/chain.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "image/metrics.h"
-#include "passes/common/voxels.h"
+#include "passes/common/voxels/voxels.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {
@@ -74,7 +74,7 @@ TEST(Injection, IsDeterministic) {
 
 TEST(DirectShadowRays, MatchClosedFormsOnAPlane) {
     // Punctual lights are exact: the same image as the path tracer's, which has its own closed-form tests,
-    // with rays through pixel centres instead of pixel means.
+    // with rays through pixel centers instead of pixel means.
     for (const std::string light : {"point", "spot", "directional"}) {
         Chain chain("plane", "{light: " + light + "}",
                     "[{pass: gbuffer}, {pass: direct_shadow_rays}, {pass: composite}]", 64, 64);
@@ -85,7 +85,7 @@ TEST(DirectShadowRays, MatchClosedFormsOnAPlane) {
 }
 
 TEST(DirectShadowRays, AreaLightConvergesToTheReference) {
-    // Pixel centres against pixel means: edges of the light weigh less the more pixels there are.
+    // Pixel centers against pixel means: edges of the light weigh less the more pixels there are.
     Chain chain("quad_light", "{}",
                 "[{pass: gbuffer}, {pass: direct_shadow_rays, samples: 64}, {pass: composite}]", 96, 96);
     Chain reference("quad_light", "{}", "[{pass: path_trace, spp: 64, bounces: 0}]", 96, 96);

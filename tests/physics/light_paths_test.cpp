@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "passes/common/voxels.h"
+#include "passes/common/voxels/voxels.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {
@@ -93,18 +93,18 @@ TEST(LightPaths, WithoutSecondaryRaysThereIsDirectLightOnly) {
 }
 
 TEST(LightPaths, EveryWriteGivesTheClosedFormBeforeAWall) {
-    // A point light of 2 W/sr at 1 m from each wall of a room: 2 W/m² in the wall's middle.
+    // A point light of 2 W/sr at 1 m from each wall of a room: 2 W/m² in the wall's center.
     for (const std::string write : {"average", "max", "moving_average, white: 4", "none"}) {
         Lit lit("white_room", "{intensity: 2}", "resolution: 25",
                 "pass: inject_light_rays, rays_per_light: 1048576, secondary: none, write: " + write);
-        const double middle = lit.mean(lit.direct, lit.face({0.999f, 0, 0}, 1));
-        EXPECT_NEAR(middle, 2.0, write == "none" ? 0.2 : 0.05) << write;
+        const double center = lit.mean(lit.direct, lit.face({0.999f, 0, 0}, 1));
+        EXPECT_NEAR(center, 2.0, write == "none" ? 0.2 : 0.05) << write;
     }
 }
 
 TEST(LightPaths, BeamsWidenOverMirrorBounces) {
     // One mirror bounce in a room of albedo 0.5: the light's image behind the far wall is 3 m from a wall's
-    // middle, its four images beside it are further off the normal; the largest is 0.5 * 2 / 9 W/m².
+    // center, its four images beside it are further off the normal; the largest is 0.5 * 2 / 9 W/m².
     Lit lit("white_room", "{albedo: 0.5, intensity: 2}", "resolution: 25",
             "pass: inject_light_rays, rays_per_light: 1048576, secondary: mirror, bounces: 1, write: max");
     EXPECT_NEAR(lit.mean(lit.indirect, lit.face({0, -0.999f, 0}, 2)), 1.0 / 9, 0.02 / 9);
@@ -119,9 +119,9 @@ TEST(LightPaths, MaxIsTheIrradianceAtTheNearestPoint) {
     double expected = 0;
     for (int x = 0; x < 24; ++x)
         for (int z = 0; z < 24; ++z) {
-            const glm::vec2 centre = (glm::vec2(x, z) - 11.5f) * (2 * half);
-            const glm::vec2 nearest = glm::max(glm::abs(centre) - half, glm::vec2(0.0f));
-            const size_t face = max.face({centre.x, 0, centre.y}, 2);
+            const glm::vec2 center = (glm::vec2(x, z) - 11.5f) * (2 * half);
+            const glm::vec2 nearest = glm::max(glm::abs(center) - half, glm::vec2(0.0f));
+            const size_t face = max.face({center.x, 0, center.y}, 2);
             expected +=
                 std::pow(1 + double(glm::dot(nearest, nearest)), -1.5) * max.area[face] * 4 * half * half;
         }
@@ -149,9 +149,9 @@ TEST(LightPaths, OneVoxelIsRefusedUnlessExposureIsOff) {
         Lit("white_room", "{}", "resolution: 1", "pass: inject_light_rays, rays_per_light: 4096");
         FAIL();
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("exposure_rays"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("visibility_rays"), std::string::npos) << error.what();
     }
-    Lit lit("white_room", "{}", "resolution: 1, exposure_rays: 0",
+    Lit lit("white_room", "{}", "resolution: 1, visibility_rays: 0",
             "pass: inject_light_rays, rays_per_light: 4096, secondary: none");
     EXPECT_NEAR(sum(lit.direct) / (4 * kPi), 1.0, 1e-3);
 }
@@ -193,7 +193,7 @@ TEST(InjectRsm, AgreesWithLightRays) {
 }
 
 TEST(InjectRsm, WideSpotsTakeTheCube) {
-    // From the middle of a room, a uniform cone of 80°: 2 pi (1 - cos 80°) I.
+    // From the center of a room, a uniform cone of 80°: 2 pi (1 - cos 80°) I.
     SceneState state = evaluate(makeBuiltinScene("white_room", parseYaml("{}", "scene")), 0.0);
     Light& light = state.lights.at(0);
     light.type = LightType::Spot;

@@ -1,7 +1,7 @@
 // Device memory that passes predict against what they are seen to take.
 #include <gtest/gtest.h>
 
-#include "passes/common/voxels.h"
+#include "passes/common/voxels/voxels.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {
@@ -20,7 +20,7 @@ const Case kCases[] = {
      "[{pass: gbuffer}, {pass: voxelize, resolution: 48}, {pass: inject_light_rays, rays_per_light: 4096,"
      " bounces: 2}, {pass: filter_voxels, layout: svo}, {pass: gather_cones}]"},
     {"one_direction",
-     "[{pass: gbuffer}, {pass: voxelize, resolution: 48, directions: 1, exposure_rays: 0, method: "
+     "[{pass: gbuffer}, {pass: voxelize, resolution: 48, directions: 1, visibility_rays: 0, method: "
      "three_axis},"
      " {pass: inject_light_rays, rays_per_light: 4096, bounces: 0}, {pass: filter_voxels, layout: svo, "
      "bounces:"
@@ -29,7 +29,7 @@ const Case kCases[] = {
      "[{pass: gbuffer}, {pass: voxelize, resolution: 48}, {pass: inject_camera_rays, rays: 1024, bounces: 1},"
      " {pass: filter_voxels, layout: svo, each_frame: true, bounces: 1}, {pass: gather_cones}]"},
     {"surfels",
-     "[{pass: voxelize, resolution: 48, exposure_rays: 0}, {pass: place_surfels, points: 1}, {pass:"
+     "[{pass: voxelize, resolution: 48, visibility_rays: 0}, {pass: place_surfels, points: 1}, {pass:"
      " inject_voxel_rays, rays: 1, bounces: 1}, {pass: filter_voxels}]"},
     {"shadow_map",
      "[{pass: gbuffer}, {pass: voxelize, resolution: 48, method: dominant_axis}, {pass: place_surfels, "
@@ -50,7 +50,7 @@ const Case kCases[] = {
 };
 
 TEST(Memory, IsPredicted) {
-    // The host counts voxels a little over (passes/common/voxel_count.h); buffers are padded.
+    // The host counts voxels a little over (passes/common/voxels/voxel_count.h); buffers are padded.
     constexpr double kPadding = 1 << 16;
     for (const Case& c : kCases) {
         Chain chain("cornell", c.scene, c.graph, 32, 32);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "passes/common/voxel_count.h"
+#include "passes/common/voxels/voxel_count.h"
 #include "tests/gpu/radiance_samples.h"
 #include "tests/physics/voxels_read.h"
 

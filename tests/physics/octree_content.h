@@ -6,15 +6,15 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "passes/filter_voxels/octree_builder.h"
-#include "passes/filter_voxels/octree_collapse.h"
+#include "passes/common/octree/octree_builder.h"
+#include "passes/common/octree/octree_collapse.h"
 #include "tests/gpu/radiance_samples.h"
 
 namespace voxray::test {
 
 using Faces = std::array<glm::dvec4, 6>;  ///< Premultiplied radiance and opacity for +x -x +y -y +z -z.
 
-/// What shaders/radiance_texel.glsl packs and unpacks.
+/// What shaders/radiance/radiance_texel.glsl packs and unpacks.
 inline glm::uvec2 packRadiance(const glm::dvec4& value) {
     const double largest = std::max({value.r, value.g, value.b});
     glm::uvec3 mantissa(0);
@@ -66,7 +66,7 @@ class Content {
                 for (int x = 0; x < size.x; ++x) visit({x, y, z});
     }
 
-    /// What sampleRadiance() must answer: shaders/radiance_voxels.glsl, in doubles.
+    /// What sampleRadiance() must answer: shaders/radiance/radiance_voxels.glsl, in doubles.
     glm::dvec4 sample(glm::dvec3 position, double footprint, glm::dvec3 direction) const {
         const double voxel = grid.voxelSize;
         const double level = std::clamp(std::log2(footprint / voxel), 0.0, double(levels.size() - 1));

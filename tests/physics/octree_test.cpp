@@ -212,7 +212,7 @@ TEST(Octree, EmptyDistanceHoldsNothing) {
         }
     }
     EXPECT_GT(skips, queries.size() / 20);
-    // From the middle of the hollow the whole of the octant's cube is skipped.
+    // From the center of the hollow the whole of the octant's cube is skipped.
     const float voxel = content.grid.voxelSize;
     const RadianceQuery inside{content.grid.origin + voxel * glm::vec3(33.5f), voxel, {1, 0, 0}};
     EXPECT_GT(tree.empty({inside})[0].x, 5 * voxel);

@@ -93,11 +93,11 @@ TEST(PathTraceClosedForm, FurnaceWithinATenthOfAPercent) {
 TEST(PathTraceClosedForm, FurnaceOfAnySizeAndPlaceNeitherLeaksNorShadowsItself) {
     const std::pair<glm::vec3, float> places[] = {
         {{0, 0, 0}, 1.0f}, {{0.1f, 0, 0}, 0.075f}, {{55, -3, 40}, 1.0f}, {{0, 0, 0}, 60.0f}};
-    for (const auto& [centre, half] : places) {
+    for (const auto& [center, half] : places) {
         HandScene s;
-        s.cube(centre, half, s.lambert({0.5f, 0.9f, 0.0f}, {1, 2, 3}), 1);
+        s.cube(center, half, s.lambert({0.5f, 0.9f, 0.0f}, {1, 2, 3}), 1);
         Camera camera;
-        camera.position = centre;
+        camera.position = center;
         for (const uint32_t bounces : {0u, 2u, 200u}) {
             const PathTraceResult r = s.render(camera, options(64, bounces));
             const double count = double(r.total.pixelCount());

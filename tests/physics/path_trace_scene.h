@@ -57,7 +57,7 @@ struct HandScene {
     }
 
     /// A cube whose fronts look inwards (`inwards` 1) or outwards (-1).
-    void cube(glm::vec3 centre, float half, uint32_t material, float inwards) {
+    void cube(glm::vec3 center, float half, uint32_t material, float inwards) {
         for (int axis = 0; axis < 3; ++axis)
             for (const float sign : {-1.0f, 1.0f}) {
                 glm::vec3 n(0.0f), a(0.0f), b(0.0f);
@@ -65,7 +65,7 @@ struct HandScene {
                 a[(axis + 1) % 3] = 2.0f * half;
                 b[(axis + 2) % 3] = 2.0f * half;
                 if (sign * inwards > 0.0f) std::swap(a, b);
-                quad(centre + n - 0.5f * (a + b), a, b, material);
+                quad(center + n - 0.5f * (a + b), a, b, material);
             }
     }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "passes/common/voxels.h"
+#include "passes/common/voxels/voxels.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {
@@ -66,8 +66,8 @@ TEST(ShadowMap, SpotsTakeOneMapOrTheCube) {
     // A uniform cone: 2 pi (1 - cos) I, narrower and wider than a side of the cube.
     for (const double degrees : {30.0, 80.0}) {
         Chain chain(roomWithSpot(degrees), injectGraph("inject_shadow_map, bounces: 0"), 8, 8, 1);
-        const double middle = degrees * kPi / 180 - 0.005;
-        EXPECT_NEAR(sum(directFlux(chain)) / (2 * kPi * (1 - std::cos(middle))), 1.0, 0.01) << degrees;
+        const double center = degrees * kPi / 180 - 0.005;
+        EXPECT_NEAR(sum(directFlux(chain)) / (2 * kPi * (1 - std::cos(center))), 1.0, 0.01) << degrees;
     }
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "passes/common/gbuffer.h"
+#include "passes/common/view/gbuffer.h"
 #include "scene/shapes.h"
 #include "tests/gpu/chain.h"
 

@@ -5,9 +5,9 @@
 #include <glm/gtx/component_wise.hpp>
 #include <numbers>
 
-#include "passes/common/voxel_count.h"
-#include "passes/common/voxels.h"
-#include "passes/filter_voxels/octree.h"
+#include "passes/common/octree/octree.h"
+#include "passes/common/voxels/voxel_count.h"
+#include "passes/common/voxels/voxels.h"
 #include "tests/gpu/radiance_samples.h"
 
 namespace voxray::test {

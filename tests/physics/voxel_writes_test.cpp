@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "passes/common/dispatch.h"
-#include "passes/common/voxel_writes.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/voxels/voxel_accumulator.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {
@@ -26,9 +26,9 @@ struct Merged {
         static Chain room("white_room", "{}", "[{pass: voxelize, resolution: 12}]");
         const SurfaceVoxels& voxels = *room.graph().resource<SurfaceVoxels>("voxels");
         const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, {});
-        VoxelWrites writes(device(), compiler, {write, white});
+        VoxelAccumulator writes(device(), compiler, {write, white});
         const Program writer = makeComputeProgram(
-            device(), compiler.compile("tests/gpu/voxel_writes.comp", VoxelWrites::defines(write)));
+            device(), compiler.compile("tests/gpu/voxel_accumulator.comp", VoxelAccumulator::defines(write)));
         CommandStream stream(device());
         const LargeBuffer fluxBuffer(device(), "flux", voxels.voxelCount * kFluxFloats * sizeof(float));
         const Buffer areaBuffer(device(), "area", voxels.voxelCount * kAreaFloats * sizeof(float));
@@ -65,7 +65,7 @@ struct Merged {
     double faceArea = 0;
 };
 
-TEST(VoxelWrites, AllAgreeOnOneValue) {
+TEST(VoxelAccumulator, AllAgreeOnOneValue) {
     EXPECT_LT(Merged(Write::Average, 300, 1.7f, 0).worst(1.7), 1e-6);
     EXPECT_LT(Merged(Write::Max, 300, 1.7f, 0).worst(1.7), 1e-6);
     EXPECT_LT(Merged(Write::None, 300, 1.7f, 0).worst(1.7), 1e-5);
@@ -73,7 +73,7 @@ TEST(VoxelWrites, AllAgreeOnOneValue) {
     EXPECT_LT(Merged(Write::MovingAverage, 300, 1.7f, 0).worst(1.7), 0.5 * 8 / 255 / 1.7 + 1e-4);
 }
 
-TEST(VoxelWrites, AverageIsTheMeanAndMaxTheLargest) {
+TEST(VoxelAccumulator, AverageIsTheMeanAndMaxTheLargest) {
     // 0.5 + 0.01 k for k = 0 ... 100: mean 1, maximum 1.5.
     EXPECT_LT(Merged(Write::Average, 101, 0.5f, 0.01f).worst(1.0), 1e-6);
     EXPECT_LT(Merged(Write::Max, 101, 0.5f, 0.01f).worst(1.5), 1e-6);
@@ -81,18 +81,18 @@ TEST(VoxelWrites, AverageIsTheMeanAndMaxTheLargest) {
     EXPECT_LT(Merged(Write::MovingAverage, 101, 0.5f, 0.01f).worst(1.0), 0.5);
 }
 
-TEST(VoxelWrites, AverageDoesNotDependOnOrder) {
+TEST(VoxelAccumulator, AverageDoesNotDependOnOrder) {
     const Merged forwards(Write::Average, 101, 0.123f, 0.037f),
         backwards(Write::Average, 101, 0.123f, 0.037f, true);
     EXPECT_EQ(forwards.flux, backwards.flux);
 }
 
-TEST(VoxelWrites, AverageKeepsBrightAndDimSamples) {
+TEST(VoxelAccumulator, AverageKeepsBrightAndDimSamples) {
     // 1 and 20004 times the typical irradiance in the brightest channel: no overflow, no loss.
     EXPECT_LT(Merged(Write::Average, 2, 0.01f, 50.0f).worst(25.01), 1e-6);
 }
 
-TEST(VoxelWrites, WhiteBoundsTheMovingAverage) {
+TEST(VoxelAccumulator, WhiteBoundsTheMovingAverage) {
     const Merged clipped(Write::MovingAverage, 4, 0.5f, 0, false, 1.0f);
     // Channels 0.5, 1 and 2: the last is cut off at 1.
     for (size_t face = 0; face < clipped.area.size(); ++face) {
@@ -103,15 +103,16 @@ TEST(VoxelWrites, WhiteBoundsTheMovingAverage) {
     }
 }
 
-TEST(VoxelWrites, AreaIsExposedWhereSamplesFell) {
+TEST(VoxelAccumulator, AreaIsExposedWhereSamplesFell) {
     for (const Write write : {Write::Average, Write::Max, Write::MovingAverage, Write::None}) {
         const Merged merged(write, 3, 1, 0);
         for (size_t voxel = 0; voxel < merged.materials.size(); ++voxel)
             for (size_t axis = 0; axis < 3; ++axis) {
                 const gpu::VoxelMaterial& m = merged.materials[voxel];
                 const bool written = voxel % 2 == 0;
-                ASSERT_EQ(merged.area[voxel * 6 + 2 * axis], written ? m.exposedPositive[int(axis)] : 0);
-                ASSERT_EQ(merged.area[voxel * 6 + 2 * axis + 1], written ? m.exposedNegative[int(axis)] : 0);
+                ASSERT_EQ(merged.area[voxel * 6 + 2 * axis], written ? m.unoccludedPositive[int(axis)] : 0);
+                ASSERT_EQ(merged.area[voxel * 6 + 2 * axis + 1],
+                          written ? m.unoccludedNegative[int(axis)] : 0);
             }
     }
 }

@@ -11,15 +11,15 @@ namespace {
 using Triangle = std::array<glm::dvec3, 3>;  // In voxels.
 
 /// Overlap with a box by all 13 separating axes (Akenine-Möller 2001).
-bool overlaps(const Triangle& t, glm::dvec3 centre, double half) {
+bool overlaps(const Triangle& t, glm::dvec3 center, double half) {
     std::vector<glm::dvec3> axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, glm::cross(t[1] - t[0], t[2] - t[0])};
     for (int e = 0; e < 3; ++e)
         for (int k = 0; k < 3; ++k)
             axes.push_back(glm::cross(axes[size_t(k)], t[size_t(e + 1) % 3] - t[size_t(e)]));
     for (const glm::dvec3& axis : axes) {
         if (glm::length(axis) < 1e-12) continue;
-        const double a = glm::dot(axis, t[0] - centre), b = glm::dot(axis, t[1] - centre),
-                     c = glm::dot(axis, t[2] - centre);
+        const double a = glm::dot(axis, t[0] - center), b = glm::dot(axis, t[1] - center),
+                     c = glm::dot(axis, t[2] - center);
         const double reach = half * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
         if (std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach) return false;
     }
@@ -73,7 +73,8 @@ std::vector<Triangle> inVoxels(const std::vector<glm::vec3>& corners, const gpu:
 
 TEST(VoxelizeExact, MarksTheVoxelsThatTrianglesOverlap) {
     const std::vector<glm::vec3> corners = randomCorners(7, 60);
-    const Voxels voxels = voxelize(triangleScene(corners), "method: exact, resolution: 27, exposure_rays: 0");
+    const Voxels voxels =
+        voxelize(triangleScene(corners), "method: exact, resolution: 27, visibility_rays: 0");
     const std::vector<Triangle> triangles = inVoxels(corners, voxels.grid);
     constexpr double kEpsilon = 1e-3;  // Of which the shader's margin is a quarter.
     int marked = 0;
@@ -93,7 +94,8 @@ TEST(VoxelizeExact, MarksTheVoxelsThatTrianglesOverlap) {
 
 TEST(VoxelizeExact, HoldsTheClippedAreaOfEveryVoxel) {
     const std::vector<glm::vec3> corners = randomCorners(3, 60);
-    const Voxels voxels = voxelize(triangleScene(corners), "method: exact, resolution: 19, exposure_rays: 0");
+    const Voxels voxels =
+        voxelize(triangleScene(corners), "method: exact, resolution: 19, visibility_rays: 0");
     const std::vector<Triangle> triangles = inVoxels(corners, voxels.grid);
     double total = 0;
     voxels.forEach([&](glm::ivec3 v) {
@@ -107,14 +109,14 @@ TEST(VoxelizeExact, HoldsTheClippedAreaOfEveryVoxel) {
 }
 
 TEST(VoxelizeExact, ASurfaceBetweenTwoVoxelsCountsOnce) {
-    // The middle plane of a grid of even resolution: both layers are marked, one has the area.
+    // The center plane of a grid of even resolution: both layers are marked, one has the area.
     SceneBuilder b("plane");
     const uint32_t grey = b.lambert("grey", glm::vec3(0.5f));
     b.quad("plane", {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, grey);
     b.box("above", {0, 0.5f, 0}, glm::vec3(0.5f), 0, grey);
     b.box("below", {0, -1, 0}, glm::vec3(0.5f), 0, grey);
     b.camera({0, 0, 3}, {0, 0, 0}, 60);
-    const Voxels voxels = voxelize(b.finish(), "method: exact, resolution: 16, exposure_rays: 0");
+    const Voxels voxels = voxelize(b.finish(), "method: exact, resolution: 16, visibility_rays: 0");
     ASSERT_EQ(voxels.grid.resolution.y, 16u);
     double area = 0;
     for (int y : {7, 8})

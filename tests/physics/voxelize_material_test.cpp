@@ -50,14 +50,14 @@ Material plain() {
 
 /// Visits the materials of the square's voxels that lie away from its edges.
 void forSquare(const Voxels& voxels,
-               const std::function<void(glm::vec3 centre, const gpu::VoxelMaterial&)>& visit) {
+               const std::function<void(glm::vec3 center, const gpu::VoxelMaterial&)>& visit) {
     int seen = 0;
     voxels.forEach([&](glm::ivec3 v) {
-        const glm::vec3 centre = voxels.grid.origin + (glm::vec3(v) + 0.5f) * voxels.grid.voxelSize;
-        if (!voxels.occupied(v) || std::abs(centre.z) > voxels.grid.voxelSize) return;
-        if (std::max(std::abs(centre.x), std::abs(centre.y)) > 1 - voxels.grid.voxelSize) return;
+        const glm::vec3 center = voxels.grid.origin + (glm::vec3(v) + 0.5f) * voxels.grid.voxelSize;
+        if (!voxels.occupied(v) || std::abs(center.z) > voxels.grid.voxelSize) return;
+        if (std::max(std::abs(center.x), std::abs(center.y)) > 1 - voxels.grid.voxelSize) return;
         if (voxels.at(v).area < 0.1f) return;
-        visit(centre, voxels.at(v));
+        visit(center, voxels.at(v));
         ++seen;
     });
     EXPECT_GT(seen, 30);
@@ -69,7 +69,7 @@ TEST(VoxelizeMaterial, HoldsMetallicAndRoughness) {
     m.metallic = 0.25f;
     m.roughness = 0.6f;
     for (const std::string method : kMethods)
-        forSquare(voxelize(square(m, {}), "resolution: 12, exposure_rays: 0, method: " + method),
+        forSquare(voxelize(square(m, {}), "resolution: 12, visibility_rays: 0, method: " + method),
                   [](glm::vec3, const gpu::VoxelMaterial& v) {
                       EXPECT_NEAR(v.metallic, 0.25, 1e-3);
                       EXPECT_NEAR(v.roughness, 0.6, 1e-3);
@@ -88,7 +88,7 @@ TEST(VoxelizeMaterial, ReadsTexturesAtTheVoxelsFootprint) {
     Material m = plain();
     m.baseColorTexture.texture = 0;
     for (const std::string method : kMethods)
-        forSquare(voxelize(square(m, {board}), "resolution: 12, exposure_rays: 0, method: " + method),
+        forSquare(voxelize(square(m, {board}), "resolution: 12, visibility_rays: 0, method: " + method),
                   [](glm::vec3, const gpu::VoxelMaterial& v) { EXPECT_NEAR(v.albedo.x, 0.5, 0.01); });
 }
 
@@ -100,10 +100,10 @@ TEST(VoxelizeMaterial, TexturesKeepTheirPlace) {
     Material m = plain();
     m.baseColorTexture.texture = 0;
     for (const std::string method : kMethods)
-        forSquare(voxelize(square(m, {ramp}), "resolution: 16, exposure_rays: 0, method: " + method),
-                  [&](glm::vec3 centre, const gpu::VoxelMaterial& v) {
-                      EXPECT_NEAR(v.albedo.x, 0.5 + 0.5 * centre.x, 0.04) << method;
-                      EXPECT_NEAR(v.albedo.y, 0.5 + 0.5 * centre.y, 0.04) << method;
+        forSquare(voxelize(square(m, {ramp}), "resolution: 16, visibility_rays: 0, method: " + method),
+                  [&](glm::vec3 center, const gpu::VoxelMaterial& v) {
+                      EXPECT_NEAR(v.albedo.x, 0.5 + 0.5 * center.x, 0.04) << method;
+                      EXPECT_NEAR(v.albedo.y, 0.5 + 0.5 * center.y, 0.04) << method;
                   });
 }
 
@@ -113,12 +113,12 @@ TEST(VoxelizeMaterial, NormalMapsTurnTheMeanNormalAndNoAreas) {
     Material m = plain();
     m.normalTexture.texture = 0;
     for (const std::string method : kMethods)
-        forSquare(voxelize(square(m, {map}), "resolution: 12, exposure_rays: 0, method: " + method),
+        forSquare(voxelize(square(m, {map}), "resolution: 12, visibility_rays: 0, method: " + method),
                   [](glm::vec3, const gpu::VoxelMaterial& v) {
                       EXPECT_NEAR(v.normal.x, 0.6, 0.01);
                       EXPECT_NEAR(v.normal.z, 0.8, 0.01);
-                      EXPECT_NEAR(v.exposedPositive.x, 0, 1e-4);
-                      EXPECT_NEAR(v.exposedPositive.z, v.area, 1e-3);
+                      EXPECT_NEAR(v.unoccludedPositive.x, 0, 1e-4);
+                      EXPECT_NEAR(v.unoccludedPositive.z, v.area, 1e-3);
                   });
 }
 
@@ -131,14 +131,14 @@ TEST(VoxelizeMaterial, AlphaMasksLeaveHoles) {
     m.baseColorTexture.texture = 0;
     m.alphaMode = AlphaMode::Mask;
     for (const std::string method : kMethods) {
-        const Voxels voxels =
-            voxelize(square(m, {stripes}), "resolution: 16, exposure_rays: 0, samples: 4, method: " + method);
+        const Voxels voxels = voxelize(square(m, {stripes}),
+                                       "resolution: 16, visibility_rays: 0, samples: 4, method: " + method);
         double area = 0, opacity = 0;
         int count = 0;
         voxels.forEach([&](glm::ivec3 v) {
-            const glm::vec3 centre = voxels.grid.origin + (glm::vec3(v) + 0.5f) * voxels.grid.voxelSize;
-            if (!voxels.occupied(v) || std::abs(centre.z) > voxels.grid.voxelSize) return;
-            EXPECT_GT(centre.x, -voxels.grid.voxelSize) << method;
+            const glm::vec3 center = voxels.grid.origin + (glm::vec3(v) + 0.5f) * voxels.grid.voxelSize;
+            if (!voxels.occupied(v) || std::abs(center.z) > voxels.grid.voxelSize) return;
+            EXPECT_GT(center.x, -voxels.grid.voxelSize) << method;
             area += voxels.at(v).area;
             if (voxels.at(v).area < 0.1f) return;
             opacity += voxels.at(v).opacity;
@@ -163,7 +163,7 @@ TEST(VoxelizeMaterial, OpacityIsTheShareOfSubSamples) {
             corners.push_back(glm::clamp(end + (end.x > 0.5f ? -step : step), 0.0f, 1.0f));
     for (const std::string method : {"exact", "dominant_axis"}) {
         const Voxels voxels =
-            voxelize(triangleScene(corners), "resolution: 4, exposure_rays: 0, method: " + method);
+            voxelize(triangleScene(corners), "resolution: 4, visibility_rays: 0, method: " + method);
         ASSERT_TRUE(voxels.occupied({1, 1, 1})) << method;
         EXPECT_EQ(voxels.at({1, 1, 1}).opacity, 0.25f) << method;
         EXPECT_NEAR(voxels.at({1, 1, 1}).area, 0.25, 1e-3) << method;

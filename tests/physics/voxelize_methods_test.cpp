@@ -31,7 +31,7 @@ Difference compare(const Voxels& truth, const Voxels& other) {
 /// Prints what the raster methods miss and add, in voxels, and their surface area. @return misses of
 /// dominant_axis.
 int report(const std::string& name, const std::shared_ptr<const Scene>& scene, int resolution) {
-    const std::string common = ", exposure_rays: 0, resolution: " + std::to_string(resolution);
+    const std::string common = ", visibility_rays: 0, resolution: " + std::to_string(resolution);
     const Voxels exact = voxelize(scene, "method: exact" + common);
     const Voxels dominant = voxelize(scene, "method: dominant_axis" + common);
     const Voxels three = voxelize(scene, "method: three_axis" + common);
@@ -74,7 +74,7 @@ std::shared_ptr<const Scene> arch() {
 
 /// Share of points spread over all triangles that lie in empty voxels.
 double missedPoints(const std::shared_ptr<const Scene>& scene, const std::string& parameters) {
-    const Voxels voxels = voxelize(scene, parameters + ", exposure_rays: 0");
+    const Voxels voxels = voxelize(scene, parameters + ", visibility_rays: 0");
     const Geometry g = evaluate(scene, 0.0).geometry;
     int points = 0, missed = 0;
     for (const glm::uvec3 t : g.triangles)
@@ -89,7 +89,7 @@ double missedPoints(const std::shared_ptr<const Scene>& scene, const std::string
 }
 
 TEST(VoxelizeMethods, NoPointOfAnArchIsInAnEmptyVoxel) {
-    // Where three projections sample the surface only at pixels' centres, voxels that it cuts near a corner
+    // Where three projections sample the surface only at pixels' centers, voxels that it cuts near a corner
     // stay empty. Magalhães 2020 (section 5.1.3) filtered across them and saw streaks.
     EXPECT_GT(missedPoints(arch(), "method: three_axis, samples: 1, resolution: 40"), 0.005);
     EXPECT_EQ(missedPoints(arch(), "method: dominant_axis, resolution: 40"), 0.0);
@@ -124,7 +124,8 @@ TEST(VoxelizeMethods, SumToTheSurfaceArea) {
     const double area = surfaceArea(evaluate(scene, 0.0).geometry);
     for (const auto& [method, tolerance] :
          {std::pair{"exact", 1e-4}, std::pair{"dominant_axis", 5e-3}, std::pair{"three_axis", 5e-3}}) {
-        const Voxels v = voxelize(scene, std::string("resolution: 32, exposure_rays: 0, method: ") + method);
+        const Voxels v =
+            voxelize(scene, std::string("resolution: 32, visibility_rays: 0, method: ") + method);
         EXPECT_NEAR(v.area() * v.grid.voxelSize * v.grid.voxelSize / area, 1.0, tolerance) << method;
     }
 }

@@ -16,7 +16,7 @@ TEST(Voxelize, SumsToTheSurfaceArea) {
     glm::dvec3 exposed(0.0);
     for (const gpu::VoxelMaterial& m : voxels.materials) {
         area += m.area;
-        exposed += glm::dvec3(m.exposedPositive + m.exposedNegative);
+        exposed += glm::dvec3(m.unoccludedPositive + m.unoccludedNegative);
     }
     const double face = double(voxels.grid.voxelSize) * voxels.grid.voxelSize;
     const double expected = surfaceArea(chain.state().geometry);
@@ -28,18 +28,19 @@ TEST(Voxelize, SumsToTheSurfaceArea) {
 TEST(Voxelize, InnerSidesOfThinWallsAreNotExposed) {
     // Cornell's boxes are closed shells; at 4 voxels along the room each side faces another within a voxel,
     // so that the shells' inner sides drop out. At 64 voxels they are wider than a voxel and count.
-    const auto exposedShare = [](uint32_t resolution) {
+    const auto unoccludedFraction = [](uint32_t resolution) {
         Chain chain("cornell", "{}", "[{pass: voxelize, resolution: " + std::to_string(resolution) + "}]");
         const Voxels voxels(chain);
         double area = 0, exposed = 0;
         for (const gpu::VoxelMaterial& m : voxels.materials) {
             area += 2 * m.area;
-            for (int axis = 0; axis < 3; ++axis) exposed += m.exposedPositive[axis] + m.exposedNegative[axis];
+            for (int axis = 0; axis < 3; ++axis)
+                exposed += m.unoccludedPositive[axis] + m.unoccludedNegative[axis];
         }
         return exposed / area;
     };
-    EXPECT_GT(exposedShare(64), 0.95);
-    EXPECT_LT(exposedShare(3), exposedShare(64) - 0.05);
+    EXPECT_GT(unoccludedFraction(64), 0.95);
+    EXPECT_LT(unoccludedFraction(3), unoccludedFraction(64) - 0.05);
 }
 
 TEST(Voxelize, RanksCountOccupiedVoxels) {

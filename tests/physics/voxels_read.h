@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "passes/common/voxels.h"
+#include "passes/common/voxels/voxels.h"
 #include "scene/shapes.h"
 #include "tests/gpu/chain.h"
 

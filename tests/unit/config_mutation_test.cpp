@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "experiment/sweep.h"
+#include "config/sweep.h"
 
 using namespace voxray;
 

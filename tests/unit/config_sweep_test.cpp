@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "experiment/sweep.h"
+#include "config/sweep.h"
 
 using namespace voxray;
 

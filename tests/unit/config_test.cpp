@@ -1,12 +1,12 @@
-#include "experiment/config.h"
+#include "config/config.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "base/files.h"
-#include "experiment/overrides.h"
-#include "experiment/yaml.h"
+#include "config/overrides.h"
+#include "config/yaml.h"
 
 using namespace voxray;
 

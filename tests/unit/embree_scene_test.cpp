@@ -211,11 +211,11 @@ TEST(TextureLookup, DecodesSrgbBeforeFiltering) {
     texture.height = 1;
     texture.srgb = true;
     texture.rgba = {0, 188, 10, 0, 255, 188, 10, 255};
-    const glm::vec4 middle = sampleTexture(texture, {0.5f, 0.5f});
-    EXPECT_FLOAT_EQ(middle.r, 0.5f);
-    EXPECT_NEAR(middle.g, 0.5029f, 1e-4f);
-    EXPECT_NEAR(middle.b, 10.0f / 255.0f / 12.92f, 1e-6f);
-    EXPECT_FLOAT_EQ(middle.a, 0.5f);
+    const glm::vec4 center = sampleTexture(texture, {0.5f, 0.5f});
+    EXPECT_FLOAT_EQ(center.r, 0.5f);
+    EXPECT_NEAR(center.g, 0.5029f, 1e-4f);
+    EXPECT_NEAR(center.b, 10.0f / 255.0f / 12.92f, 1e-6f);
+    EXPECT_FLOAT_EQ(center.a, 0.5f);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Wiring and checking of graphs, with passes that do nothing.
 #include <gtest/gtest.h>
 
-#include "experiment/yaml.h"
+#include "config/yaml.h"
 #include "graph/graph.h"
 
 namespace voxray {

@@ -1,0 +1,171 @@
+#include "config/overrides.h"
+
+#include <algorithm>
+
+#include "base/suggest.h"
+#include "config/yaml.h"
+
+namespace voxray {
+namespace {
+
+void setNested(Value& parent, const std::string& key, const Value& value, Merge merge);
+
+void mergeInto(Value& target, const Value& value, Merge merge) {
+    if (merge == Merge::Maps && target.isMap() && value.isMap()) {
+        for (const auto& [key, member] : value.members) setNested(target, key, member, merge);
+    } else {
+        target = value;
+    }
+}
+
+// One key of a map: null takes it out.
+void setNested(Value& parent, const std::string& key, const Value& value, Merge merge) {
+    if (value.isNull()) {
+        parent.erase(key);
+    } else if (Value* existing = parent.find(key)) {
+        mergeInto(*existing, value, merge);
+    } else {
+        parent.set(key, value);
+    }
+}
+
+// Follows a dotted path below `root`, making the maps on the way.
+void setAlong(Value& root, std::string_view path, const std::string& whole, const Value& value, Merge merge) {
+    Value* parent = &root;
+    for (size_t dot = path.find('.'); dot != std::string_view::npos; dot = path.find('.')) {
+        const std::string key(path.substr(0, dot));
+        path.remove_prefix(dot + 1);
+        Value* child = parent->find(key);
+        if (!child) {
+            Value made = Value::map();
+            made.where = value.where;
+            child = &parent->set(key, made);
+        }
+        if (!child->isMap())
+            throw UsageError(value.where, "{}: '{}' is {}, which has no keys", whole, key, child->text());
+        parent = child;
+    }
+    if (path.empty()) throw UsageError(value.where, "'{}': a path must not end in a dot", whole);
+    setNested(*parent, std::string(path), value, merge);
+}
+
+// Another pass in an entry's place; the id stays, so that later passes find it.
+void swapPass(Value& entry, const std::string& id, const Value& value, const std::string& path) {
+    Value swapped = Value::map();
+    swapped.where = value.where;
+    if (value.isScalar()) {
+        swapped.set("pass", value);
+    } else if (value.isMap() && value.find("pass")) {
+        swapped = value;
+    } else {
+        throw UsageError(value.where, "{}: expected a pass: its name, or a map with 'pass'", path);
+    }
+    Value idValue = Value::fromScalar(id);
+    idValue.where = value.where;
+    swapped.set("id", idValue);
+    entry = std::move(swapped);
+}
+
+void overridePass(Value& entry, const std::string& id, const std::string& rest, const std::string& path,
+                  const Value& value, Merge merge) {
+    const bool isSwap = rest.empty() && (merge == Merge::Replace || !value.isMap() || value.find("pass"));
+    if (isSwap) {
+        swapPass(entry, id, value, path);
+    } else if (rest.empty()) {
+        mergeInto(entry, value, merge);
+    } else {
+        setAlong(entry, rest, path, value, merge);
+    }
+}
+
+void overrideSweep(Value& config, const std::string& rest, const Value& value) {
+    if (rest.empty()) {
+        if (value.isNull())
+            config.erase("sweep");
+        else if (!value.isMap())
+            throw UsageError(value.where, "sweep: expected a map of lists");
+        for (const auto& [key, axis] : value.members) overrideSweep(config, key, axis);
+        return;
+    }
+    Value* sweep = config.find("sweep");
+    if (!sweep || !sweep->isMap()) {
+        Value made = Value::map();
+        made.where = value.where;
+        sweep = &config.set("sweep", made);
+    }
+    setNested(*sweep, rest, value, Merge::Replace);
+}
+
+}  // namespace
+
+const std::vector<std::string>& configKeys() {
+    static const std::vector<std::string> keys{"name",  "scene",     "image", "seed",    "tracer",
+                                               "graph", "reference", "sweep", "measure", "profiles"};
+    return keys;
+}
+
+std::string passId(const Value& entry) {
+    for (const char* key : {"id", "pass"})
+        if (const Value* found = entry.find(key); found && found->isScalar()) return found->scalar;
+    return {};
+}
+
+void applyOverride(Value& config, const std::string& path, const Value& value, Merge merge) {
+    const size_t dot = path.find('.');
+    const std::string first = path.substr(0, dot);
+    const std::string rest = dot == std::string::npos ? std::string() : path.substr(dot + 1);
+    if (first == "sweep") return overrideSweep(config, rest, value);
+    if (first == "profiles")
+        throw UsageError(value.where, "'{}': profiles can't be changed by an override", path);
+
+    // A pass
+    std::vector<std::string> candidates(configKeys());
+    if (Value* graph = config.find("graph"); graph && graph->isList()) {
+        for (Value& entry : graph->items) {
+            const std::string id = passId(entry);
+            if (id == first && !id.empty()) return overridePass(entry, id, rest, path, value, merge);
+            if (!id.empty()) candidates.push_back(id);
+        }
+    }
+
+    // A key of the config
+    if (std::find(configKeys().begin(), configKeys().end(), first) == configKeys().end())
+        throw UsageError(value.where, "'{}': neither a key of the config nor a pass of its graph{}", first,
+                         didYouMean(first, candidates));
+    setAlong(config, path, path, value, merge);
+}
+
+void applyProfile(Value& config, const std::string& name) {
+    const Value* profiles = config.find("profiles");
+    std::vector<std::string> names;
+    if (profiles)
+        for (const auto& member : profiles->members) names.push_back(member.key);
+    const Value* profile = profiles ? profiles->find(name) : nullptr;
+    if (!profile) {
+        const TextLocation where = profiles ? profiles->where : TextLocation{config.where.file, 0};
+        throw UsageError(where, "no profile '{}'{}", name,
+                         names.empty() ? "; this config has none" : didYouMean(name, names));
+    }
+    if (!profile->isMap()) throw UsageError(profile->where, "profiles.{}: expected a map of overrides", name);
+    const Value overrides = *profile;
+    for (const auto& [path, value] : overrides.members) applyOverride(config, path, value);
+}
+
+void applyAssignment(Value& config, const std::string& assignment) {
+    const std::string label = "--set " + assignment;
+    const size_t equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw UsageError("{}: expected path=value, as in image.width=320", label);
+    Value value = parseYaml(assignment.substr(equals + 1), label);
+
+    // One line needs no line number
+    const auto clearLines = [](auto&& self, Value& node) -> void {
+        node.where.line = 0;
+        for (Value& item : node.items) self(self, item);
+        for (auto& member : node.members) self(self, member.value);
+    };
+    clearLines(clearLines, value);
+    applyOverride(config, assignment.substr(0, equals), value);
+}
+
+}  // namespace voxray

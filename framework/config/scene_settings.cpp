@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "config/settings.h"
+
+namespace voxray {
+namespace {
+
+glm::vec3 direction(const glm::vec3& vector, const Value& at, const std::string& what) {
+    const float length = glm::length(vector);
+    if (!(length > 1e-12f)) throw UsageError(at.where, "{}: a direction must not be zero", what);
+    return vector / length;
+}
+
+// Light entries are named by the key that says their type.
+ConfigLight readLight(const Value& entry, size_t index) {
+    const std::string what = fmt::format("scene.lights[{}]", index);
+    if (!entry.isMap())
+        throw UsageError(entry.where, "{}: expected a map such as {{point: [0, 1, 0], intensity: [5, 5, 5]}}",
+                         what);
+    ConfigLight read;
+    Light& light = read.light;
+    light.name = fmt::format("config light {}", index);
+    if (const Value* axis = entry.find("directional")) {
+        const auto p = readParams<DirectionalLightSettings>(entry, what);
+        light.type = LightType::Directional;
+        light.intensity = p.irradiance;
+        read.move = p.move;
+        light.direction = direction(p.direction, *axis, what + ".directional");
+    } else if (entry.find("point")) {
+        const auto p = readParams<PointLightSettings>(entry, what);
+        light.intensity = p.intensity;
+        read.move = p.move;
+        light.position = p.position;
+    } else if (entry.find("spot")) {
+        const auto p = readParams<SpotLightSettings>(entry, what);
+        if (!(p.innerDegrees < p.outerDegrees))
+            throw UsageError(entry.where, "{}: inner_deg must be less than outer_deg", what);
+        light.type = LightType::Spot;
+        light.intensity = p.intensity;
+        read.move = p.move;
+        light.position = p.position;
+        light.direction = direction(p.direction, entry, what + ".direction");
+        light.innerConeAngle = glm::radians(p.innerDegrees);
+        light.outerConeAngle = glm::radians(p.outerDegrees);
+    } else {
+        const std::vector<std::string> types{"directional", "point", "spot"};
+        const std::string first = entry.members.empty() ? std::string() : entry.members[0].key;
+        throw UsageError(entry.where, "{}: not a type of light: '{}'{}", what, first,
+                         didYouMean(first, types));
+    }
+    return read;
+}
+
+void readCamera(const Value& value, SceneSettings& settings) {
+    settings.cameraWhere = value.where;
+    if (value.isScalar()) {
+        settings.cameraName = value.scalar;
+        return;
+    }
+    if (!value.isMap())
+        throw UsageError(value.where,
+                         "scene.camera: expected a camera's name, or a map with position and target");
+    settings.camera = readParams<CameraSettings>(value, "scene.camera");
+    for (const char* key : {"position", "target"})
+        if (!value.find(key)) throw UsageError(value.where, "scene.camera: '{}' is missing", key);
+    const glm::vec3 forward = settings.camera->target - settings.camera->position;
+    if (!(glm::length(forward) > 1e-6f))
+        throw UsageError(value.where, "scene.camera: position and target are the same point");
+    const glm::vec3 up = direction(settings.camera->up, value, "scene.camera.up");
+    if (!(glm::length(glm::cross(glm::normalize(forward), up)) > 1e-4f))
+        throw UsageError(value.where, "scene.camera: looks along its own 'up'; give another up");
+}
+
+void readEnvironment(const Value& value, SceneSettings& settings) {
+    settings.environmentWhere = value.where;
+    EnvironmentSettings environment;
+    if (value.isMap()) {
+        environment = readParams<EnvironmentSettings>(value, "scene.environment");
+    } else if (value.isScalar() && value.scalar == "none" && !value.quoted) {
+        environment.scale = glm::vec3(0.0f);
+    } else {
+        // A number or a triple is a radiance; any other text is a file
+        Value asMap = Value::map();
+        bool isNumber = value.isList();
+        if (value.isScalar()) {
+            try {
+                value.asNumber("");
+                isNumber = true;
+            } catch (const UsageError&) {
+            }
+        }
+        asMap.set(isNumber ? "scale" : "map", value);
+        environment = readParams<EnvironmentSettings>(asMap, "scene.environment");
+    }
+    settings.environment = environment;
+}
+
+}  // namespace
+
+SceneSettings readSceneSettings(const Value& map) {
+    if (!map.isMap())
+        throw UsageError(map.where,
+                         "scene: expected a map such as {{builtin: cornell}} or {{file: sponza.glb}}");
+    SceneSettings settings;
+    settings.where = map.where;
+
+    // A built-in scene's own parameters stand beside the keys that every scene has
+    const std::vector<std::string> known = fieldNames<SceneOptions>();
+    Value own = Value::map();
+    own.where = map.where;
+    for (const auto& [key, value] : map.members) {
+        const bool isBuiltinsLights = key == "lights" && value.isScalar() && map.find("builtin");
+        if (key == "camera") {
+            readCamera(value, settings);
+        } else if (key == "environment") {
+            readEnvironment(value, settings);
+        } else if (key == "moving_spheres") {
+            settings.movingSpheres = readParams<MovingSpheres>(value, "scene.moving_spheres");
+        } else if (key == "lights" && !isBuiltinsLights) {
+            if (!value.isList()) throw UsageError(value.where, "scene.lights: expected a list of lights");
+            for (size_t i = 0; i < value.items.size(); ++i)
+                settings.lights.push_back(readLight(value.items[i], i));
+        } else if (map.find("builtin") && std::find(known.begin(), known.end(), key) == known.end()) {
+            settings.builtinParameters.set(key, value);
+        } else {
+            own.set(key, value);
+        }
+    }
+    settings.options =
+        readParams<SceneOptions>(own, "scene", {"camera", "lights", "environment", "moving_spheres"});
+
+    // One source
+    const bool hasFile = !settings.options.file.empty(), hasBuiltin = !settings.options.builtin.empty();
+    if (hasFile && hasBuiltin)
+        throw UsageError(map.where,
+                         "scene: both 'file' and 'builtin' are set; take one out (null removes a key)");
+    if (!hasFile && !hasBuiltin) throw UsageError(map.where, "scene: needs 'file' or 'builtin'");
+    settings.sourceWhere = map.find(hasFile ? "file" : "builtin")->where;
+    return settings;
+}
+
+bool changesInTime(const SceneSettings& settings) {
+    return settings.options.timeStep > 0 ||
+           std::any_of(settings.lights.begin(), settings.lights.end(),
+                       [](const ConfigLight& entry) { return entry.move != glm::vec3(0.0f); });
+}
+
+}  // namespace voxray

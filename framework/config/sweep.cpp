@@ -1,0 +1,143 @@
+#include "config/sweep.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "base/files.h"
+#include "config/overrides.h"
+
+namespace voxray {
+namespace {
+
+constexpr size_t kMaxVariants = 10000;
+constexpr size_t kMaxNameLength = 120;
+
+struct Axis {
+    std::string path;
+    std::string label;  ///< Short name, for the names of variants.
+    std::vector<Value> values;
+    std::vector<std::string> texts;
+};
+
+void checkPath(const std::string& path, const TextLocation& where) {
+    static const std::vector<std::string> fixed{"name", "graph", "reference", "sweep", "measure", "profiles"};
+    const std::string first = path.substr(0, path.find('.'));
+    if (std::find(fixed.begin(), fixed.end(), first) != fixed.end())
+        throw UsageError(
+            where,
+            "sweep: '{}' is the same for all variants; sweep over a pass, scene, image, seed or tracer",
+            path);
+}
+
+// A map is called by what it is: its pass, scene or file; by all of its text where that is not enough.
+std::vector<std::string> describeValues(const std::vector<Value>& values) {
+    std::vector<std::string> texts;
+    std::map<std::string, int> uses;
+    for (const Value& value : values) {
+        std::string text = value.isScalar() ? value.scalar : value.text();
+        for (const char* key : {"pass", "builtin", "file", "directional", "point", "spot"})
+            if (const Value* found = value.find(key); found && value.isMap() && found->isScalar()) {
+                text = found->scalar;
+                break;
+            }
+        ++uses[text];
+        texts.push_back(text);
+    }
+    for (size_t i = 0; i < values.size(); ++i)
+        if (uses[texts[i]] > 1) texts[i] = values[i].text();
+    return texts;
+}
+
+std::string fileSafe(const std::string& text) {
+    std::string safe;
+    for (const char c : text) {
+        const bool isPlain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                             c == '_' || c == '.' || c == '-';
+        if (isPlain)
+            safe += c;
+        else if (safe.empty() || safe.back() != '-')
+            safe += '-';
+    }
+    while (!safe.empty() && safe.back() == '-') safe.pop_back();
+    return safe;
+}
+
+std::vector<Axis> readAxes(const Value& sweep) {
+    std::vector<Axis> axes;
+    std::map<std::string, int> labels;
+    for (const auto& [path, list] : sweep.members) {
+        checkPath(path, list.where);
+        const size_t dot = path.rfind('.');
+        const std::string label = dot == std::string::npos ? path : path.substr(dot + 1);
+        ++labels[label];
+        axes.push_back({path, label, list.items, describeValues(list.items)});
+        const std::set<std::string> unique(axes.back().texts.begin(), axes.back().texts.end());
+        if (unique.size() != axes.back().texts.size())
+            throw UsageError(list.where, "sweep.{}: a value appears twice", path);
+    }
+    for (Axis& axis : axes)
+        if (labels[axis.label] > 1) axis.label = axis.path;
+    return axes;
+}
+
+std::string shortened(const std::string& name) {
+    if (name.size() <= kMaxNameLength) return name;
+    return name.substr(0, kMaxNameLength - 9) + "-" + Hasher().add(name).hex().substr(0, 8);
+}
+
+}  // namespace
+
+std::vector<std::string> sweepKeys(const Experiment& experiment) {
+    std::vector<std::string> keys;
+    for (const auto& member : experiment.sweep.members) keys.push_back(member.key);
+    return keys;
+}
+
+std::vector<Variant> expandSweep(const Experiment& experiment) {
+    const std::vector<Axis> axes = readAxes(experiment.sweep);
+    size_t count = 1;
+    for (const Axis& axis : axes) {
+        count *= axis.values.size();
+        if (count > kMaxVariants)
+            throw UsageError(experiment.sweep.where, "sweep: more than {} variants", kMaxVariants);
+    }
+
+    std::vector<Variant> variants;
+    std::set<std::string> names;
+    for (size_t index = 0; index < count; ++index) {
+        // Mixed-radix digits of the index choose the values
+        std::vector<size_t> chosen(axes.size());
+        size_t rest = index;
+        for (size_t a = axes.size(); a-- > 0;) {
+            chosen[a] = rest % axes[a].values.size();
+            rest /= axes[a].values.size();
+        }
+
+        // Whole passes are swapped first, so that parameters reach the pass that is there in the end
+        Variant variant;
+        variant.config = experiment.config;
+        variant.config.erase("sweep");
+        for (const bool whole : {true, false})
+            for (size_t a = 0; a < axes.size(); ++a)
+                if ((axes[a].path.find('.') == std::string::npos) == whole)
+                    applyOverride(variant.config, axes[a].path, axes[a].values[chosen[a]], Merge::Replace);
+
+        for (size_t a = 0; a < axes.size(); ++a) {
+            variant.values.push_back(axes[a].texts[chosen[a]]);
+            variant.name += (a ? "_" : "") + fileSafe(axes[a].label + "-" + axes[a].texts[chosen[a]]);
+        }
+        if (axes.empty()) variant.name = "default";
+        variant.name = shortened(variant.name);
+
+        // Different values may look alike once they are safe as file names
+        const std::string plain = variant.name;
+        for (int copy = 2; !names.insert(variant.name).second; ++copy)
+            variant.name = plain + "-" + std::to_string(copy);
+        variant.setup = readSetup(variant.config);
+        variants.push_back(std::move(variant));
+    }
+    return variants;
+}
+
+}  // namespace voxray

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+
+namespace voxray {
+
+/// One point of the sweep.
+struct Variant {
+    std::string name;  ///< Unique, safe as a file name, e.g. "resolution-64_inject-inject_rsm".
+    std::vector<std::string> values;  ///< Text of each axis' value, in the order of sweepKeys().
+    Value config;  ///< The experiment's config with this variant's values in place, no sweep.
+    Setup setup;
+};
+
+/// The axes, in the file's order.
+std::vector<std::string> sweepKeys(const Experiment& experiment);
+
+/// Every combination of the sweep's values; the last axis runs fastest. One variant, "default", without a
+/// sweep. An axis is `<id>.<parameter>`, `<id>` (swaps the whole pass), `scene...`, `image...`, `seed` or
+/// `tracer`.
+/// @throws UsageError for another axis, a value that the config can't hold, or over 10,000 variants.
+std::vector<Variant> expandSweep(const Experiment& experiment);
+
+}  // namespace voxray

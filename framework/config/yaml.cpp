@@ -1,0 +1,110 @@
+#include "config/yaml.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <nlohmann/json.hpp>
+#include <unordered_set>
+
+#include "base/files.h"
+
+namespace voxray {
+namespace {
+
+constexpr size_t kMaxBytes = 1u << 20;
+constexpr size_t kMaxNodes = 100000;
+constexpr int kMaxDepth = 64;
+
+/// Turns yaml-cpp's nodes into Values.
+class Converter {
+ public:
+    explicit Converter(std::string file) : file_(std::move(file)) {}
+
+    Value convert(const YAML::Node& node, int depth, const TextLocation& fallback) {
+        // Limits: aliases make a small file large, and a node may contain itself
+        const TextLocation where = node.Mark().is_null() ? fallback : locate(node.Mark());
+        if (depth > kMaxDepth) throw UsageError(where, "nested more than {} levels deep", kMaxDepth);
+        if (++nodes_ > kMaxNodes) throw UsageError(where, "more than {} values", kMaxNodes);
+        if (const std::string& tag = node.Tag(); !tag.empty() && tag != "?" && tag != "!")
+            throw UsageError(where, "tags such as '{}' are not supported", tag);
+
+        Value value;
+        value.where = where;
+        switch (node.Type()) {
+            case YAML::NodeType::Undefined:
+            case YAML::NodeType::Null:
+                break;
+            case YAML::NodeType::Scalar:
+                value.kind = Value::Kind::Scalar;
+                value.scalar = node.Scalar();
+                value.quoted = node.Tag() == "!";
+                break;
+            case YAML::NodeType::Sequence:
+                value.kind = Value::Kind::List;
+                for (const YAML::Node& item : node) value.items.push_back(convert(item, depth + 1, where));
+                break;
+            case YAML::NodeType::Map:
+                convertMap(node, depth, value);
+                break;
+        }
+        return value;
+    }
+
+    TextLocation locate(const YAML::Mark& mark) const { return {file_, mark.is_null() ? 0 : mark.line + 1}; }
+
+ private:
+    void convertMap(const YAML::Node& node, int depth, Value& value) {
+        value.kind = Value::Kind::Map;
+        std::unordered_set<std::string> seen;
+        for (const auto& entry : node) {
+            const TextLocation where =
+                entry.first.Mark().is_null() ? value.where : locate(entry.first.Mark());
+            if (!entry.first.IsScalar()) throw UsageError(where, "a key must be a word");
+            const std::string& key = entry.first.Scalar();
+            if (!seen.insert(key).second) throw UsageError(where, "'{}' appears twice in the same map", key);
+            Value member = convert(entry.second, depth + 1, where);
+            member.where = where;
+            value.members.push_back({key, std::move(member)});
+        }
+    }
+
+    std::string file_;
+    size_t nodes_ = 0;
+};
+
+void checkUtf8(const std::string& text, const std::string& file) {
+    try {
+        static_cast<void>(nlohmann::json(text).dump());
+    } catch (const nlohmann::json::exception&) {
+        throw UsageError({file, 0}, "is not UTF-8 text");
+    }
+}
+
+}  // namespace
+
+Value parseYaml(const std::string& text, const std::string& fileName) {
+    if (text.size() > kMaxBytes) throw UsageError({fileName, 0}, "is larger than 1 MiB; not a config");
+    checkUtf8(text, fileName);
+    Converter converter(fileName);
+    try {
+        const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+        if (documents.size() > 1)
+            throw UsageError(converter.locate(documents[1].Mark()),
+                             "a second document; one file holds one config");
+        if (documents.empty()) return converter.convert(YAML::Node(), 0, {fileName, 1});
+        return converter.convert(documents[0], 0, {fileName, 1});
+    } catch (const YAML::Exception& error) {
+        throw UsageError(converter.locate(error.mark), "bad YAML: {}", error.msg);
+    }
+}
+
+Value readYaml(const std::filesystem::path& path) {
+    std::string text;
+    try {
+        text = readTextFile(path);
+    } catch (const Error& error) {
+        throw UsageError("{}", error.what());
+    }
+    return parseYaml(text, path.string());
+}
+
+}  // namespace voxray

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "vulkan/memory.h"
+
+namespace voxray {
+
+/// A buffer that may outgrow what devices bind at once (128 MiB on software Vulkan): shaders are given its
+/// address, in a buffer of its own. GLSL counterpart: shaders/compute/large_buffer.glsl.
+class LargeBuffer : public Buffer {
+ public:
+    LargeBuffer() = default;
+    /// As Buffer.
+    LargeBuffer(Device& device, const std::string& name, uint64_t bytes)
+        : Buffer(device, name, bytes),
+          at_(device, name + "'s address", sizeof(uint64_t), MemoryKind::Upload) {
+        at_.mappedAs<uint64_t>()[0] = address();
+    }
+
+    /// What to bind.
+    const Buffer& at() const { return at_; }
+
+ private:
+    Buffer at_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "passes/common/lights/light_sources.h"
+#include "passes/common/voxels/flux_accumulator.h"
+#include "passes/common/voxels/voxel_accumulator.h"
+
+namespace voxray {
+
+/// How a ray of light goes on from a surface.
+enum class Secondary { None, Mirror, Diffuse };
+template <>
+struct EnumNames<Secondary> {
+    static constexpr std::array names{std::pair{Secondary::None, "none"},
+                                      std::pair{Secondary::Mirror, "mirror"},
+                                      std::pair{Secondary::Diffuse, "diffuse"}};
+};
+
+/// The parameters that all passes share whose rays start at the lights.
+struct LightPathParams : WriteParams {
+    Secondary secondary = Secondary::Diffuse;
+    uint32_t bounces = 8;
+    static constexpr auto schema() {
+        return std::tuple_cat(
+            WriteParams::schema(),
+            std::tuple{field("secondary", &LightPathParams::secondary,
+                             "How rays go on from what they hit: none gives direct light only; mirror is the "
+                             "thesis's, about the normal and times the albedo; diffuse is a Lambert "
+                             "surface's, with Russian roulette by albedo."),
+                       field("bounces", &LightPathParams::bounces,
+                             "Bounces after a ray's first hit, unless secondary is none.", 0u, 64u)});
+    }
+    uint32_t lastBounce() const { return secondary == Secondary::None ? 0 : bounces; }
+};
+
+/// Follows rays from lights: each hit leaves light in its voxel, then the ray bounces. Whoever emits writes
+/// rays() and paths(), and hits() where it knows the first hit already.
+///
+/// `write: average` sums each ray's flux over the voxel's exposed area, and `none` does so without atomics.
+/// `max` and `moving_average` merge irradiances, as the thesis: the beam's power over its cross-section at
+/// the hit, times the cosine. A diffusely scattered ray has no cross-section, so they take punctual lights
+/// and mirror bounces only. Source: Magalhães 2020, sections 3.3.1 and 4.3.2.5.
+class LightPaths {
+ public:
+    LightPaths() = default;
+    /// @param batch rays that are followed at once, at most.
+    LightPaths(PassSetup& setup, const LightPathParams& params, uint32_t batch);
+
+    /// Reserves memory. @throws Error naming `pass` for what these parameters, lights or the device can't do.
+    static void plan(PassPlan& plan, const std::string& pass, const LightPathParams& params, uint32_t batch,
+                     const SurfaceVoxels& voxels, const std::vector<LightSource>& sources);
+
+    void begin(PassContext& context, const SurfaceVoxels& voxels, const std::vector<LightSource>& sources);
+    /// A batch of rays of one source: rays [first, first + count) of its stream.
+    struct Batch {
+        uint32_t seed;
+        uint32_t first;
+        uint32_t count;
+        bool hitsKnown = false;
+    };
+    void follow(PassContext& context, const SurfaceVoxels& voxels, const Batch& batch);
+    /// Allocates and fills the result, and frees the sums. @throws Error where no light fell on any voxel.
+    void finish(PassContext& context, const SurfaceVoxels& voxels, VoxelIrradiance& irradiance);
+
+    const Buffer& rays() const { return rays_; }    ///< Ray each.
+    const Buffer& hits() const { return hits_; }    ///< Hit each.
+    const Buffer& paths() const { return paths_; }  ///< gpu::LightPath each.
+
+ private:
+    LightPathParams params_;
+    bool sumsFlux_ = true;  ///< Else irradiance samples are merged.
+    Program expose_, follow_, unoccludedArea_;
+    Buffer rays_, hits_, paths_, visibilityRays_, hidden_;
+    std::array<FluxAccumulator, 2> fluxes_;        ///< Direct, indirect.
+    std::array<VoxelAccumulator, 2> irradiances_;  ///< Direct, indirect.
+};
+
+}  // namespace voxray

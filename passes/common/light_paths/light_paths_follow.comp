@@ -1,0 +1,87 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Leaves what each ray carries in the voxel that it hit, then turns it into its next bounce.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/sampling.glsl"
+#include "shaders/scene/scene.glsl"
+#include "shaders/light_paths/light_path_types.h"
+#include "shaders/trace/ray_types.h"
+#include "shaders/voxels/voxels.glsl"
+#ifdef FLUX
+#include "shaders/voxels/flux_accumulator.glsl"
+#else
+#include "shaders/voxels/voxel_accumulator.glsl"
+#endif
+layout(local_size_x = 64) in;
+
+layout(constant_id = 0) const bool mirror = false;
+
+layout(set = 0, binding = 16, scalar) buffer Rays { Ray data[]; } rays;
+layout(set = 0, binding = 17, scalar) buffer Paths { LightPath data[]; } paths;
+layout(set = 0, binding = 18, scalar) readonly buffer Hits { Hit data[]; } hits;
+layout(set = 0, binding = 19) readonly buffer Hidden { uint data[]; } hidden;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint firstRay;
+    uint batchRays;
+    uint seed;
+    uint bounce;
+    uint lastBounce;
+    float scale;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.batchRays) return;
+    Ray ray = rays.data[i];
+    if (ray.tMax < ray.tMin) return;
+    const Hit hit = hits.data[i];
+    rays.data[i].tMax = -1.0;
+    if (hit.triangle == NO_HIT) return;
+
+    // Deposit on the side that the ray came from, if open space lies before it, as voxelization counts its area.
+    const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
+    if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return;
+    const vec3 normal = dot(s.geometricNormal, ray.direction) <= 0.0 ? s.geometricNormal : -s.geometricNormal;
+    LightPath path = paths.data[i];
+    path.travelled += hit.t;
+    if (hidden.data[i] == 0u) {
+        const uint voxel = nearestVoxel(push.grid, s.position);
+        if (voxel != NO_VOXEL) {
+#ifdef FLUX
+            addFlux(voxel, normal, path.power, push.scale);
+#else
+            // Irradiance: the beam's power over its cross-section, times the cosine.
+            const float crossSection = path.area + path.solidAngle * path.travelled * path.travelled;
+            const vec3 irradiance = path.power * (-dot(normal, ray.direction) / max(crossSection, 1e-20));
+            writeIrradiance(voxel, normal, irradiance, 1.0, push.scale);
+#endif
+        }
+    }
+    if (push.bounce == push.lastBounce) return;
+
+    const GpuMaterial m = sceneMaterials.data[s.material];
+    const vec3 albedo = clamp(diffuseAlbedo(m, s, 0.0), 0.0, 1.0);
+    vec3 bounceNormal = shadingNormal(m, s, 0.0);
+    if (dot(bounceNormal, normal) < 0.0) bounceNormal = -bounceNormal;
+    vec3 direction;
+    if (mirror) {
+        direction = reflect(ray.direction, bounceNormal);
+        path.power *= albedo;
+    } else {
+        // Russian roulette by albedo keeps the power of surviving rays level; then a cosine-distributed bounce.
+        const float survive = max(albedo.r, max(albedo.g, albedo.b));
+        const uint index = push.firstRay + i;
+        const uint seed = hashCombine(push.seed, 16u + 2u * push.bounce);
+        if (sobol2(index, hashCombine(seed, 1u)).x >= survive) return;
+        direction = cosineDirection(sobol2(index, seed), bounceNormal);
+        path.power *= albedo / survive;
+    }
+    if (dot(direction, normal) <= 0.0) return;
+    paths.data[i] = path;
+    ray.origin = s.position + normal * surfaceOffset(s.position);
+    ray.direction = direction;
+    ray.tMin = 0.0;
+    ray.tMax = 1.0e30;
+    rays.data[i] = ray;
+}

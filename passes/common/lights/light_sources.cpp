@@ -1,0 +1,87 @@
+#include "passes/common/lights/light_sources.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace voxray {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+float largest(glm::vec3 v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+float triangleArea(const Geometry& g, glm::uvec3 t) {
+    return 0.5f *
+           glm::length(glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x]));
+}
+
+}  // namespace
+
+std::vector<LightSource> lightSources(const SceneState& state) {
+    std::vector<LightSource> all;
+    const auto add = [&](LightSource::Kind kind, uint32_t light, float power) {
+        if (power > 0) all.push_back({kind, light, power});
+    };
+    const Geometry& g = state.geometry;
+    const float radius = boundingSphere(g).radius;
+    const float disc = kPi * radius * radius;
+    for (uint32_t i = 0; i < state.lights.size(); ++i) {
+        const Light& light = state.lights[i];
+        const float solidAngleOrArea = light.type == LightType::Point ? 4 * kPi
+                                       : light.type == LightType::Spot
+                                           ? 2 * kPi * (1 - std::cos(light.outerConeAngle))
+                                           : disc;
+        add(LightSource::Punctual, i, largest(light.intensity) * solidAngleOrArea);
+    }
+    float emitted = 0;
+    for (size_t t = 0; t < g.triangles.size(); ++t) {
+        const Material& m = state.scene->materials[g.triangleMaterials[t]];
+        const float emission = largest(m.emission);
+        if (emission > 0)
+            emitted += emission * triangleArea(g, g.triangles[t]) * kPi * (m.doubleSided ? 2.0f : 1.0f);
+    }
+    add(LightSource::Emitters, 0, emitted);
+    const Environment& e = state.scene->environment;
+    const float peak = e.map ? *std::max_element(e.map->data.begin(), e.map->data.end()) : 1.0f;
+    add(LightSource::Environment, 0, largest(e.radiance) * peak * 4 * kPi * disc);
+    return all;
+}
+
+std::vector<LightSource> requireLightSources(const SceneState& state, const std::string& pass) {
+    std::vector<LightSource> all = lightSources(state);
+    if (all.empty())
+        throw Error(
+            "{}: the scene has no lights, emissive surfaces or environment; add one under 'scene: lights' "
+            "(docs/writing-a-config.md)",
+            pass);
+    return all;
+}
+
+double surfaceArea(const Geometry& geometry) {
+    double area = 0;
+    for (const glm::uvec3 t : geometry.triangles) area += triangleArea(geometry, t);
+    return area;
+}
+
+double totalPower(const std::vector<LightSource>& sources) {
+    double watts = 0;
+    for (const LightSource& source : sources) watts += source.power;
+    return watts;
+}
+
+float meanIrradiance(const std::vector<LightSource>& sources, const Geometry& geometry) {
+    const double area = surfaceArea(geometry);
+    return area > 0 ? float(totalPower(sources) / area) : 0.0f;
+}
+
+BoundingSphere boundingSphere(const Geometry& geometry) {
+    return {0.5f * (geometry.boundsMin + geometry.boundsMax),
+            0.5f * glm::length(geometry.boundsMax - geometry.boundsMin) * 1.001f + 1e-6f};
+}
+
+}  // namespace voxray

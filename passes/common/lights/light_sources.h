@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/geometry.h"
+
+namespace voxray {
+
+/// What shines in a scene: one punctual light, all emissive triangles together, or the environment.
+struct LightSource {
+    enum Kind : uint32_t { Punctual = 0, Emitters = 1, Environment = 2 };  // As shaders have them.
+    Kind kind;
+    uint32_t light;  ///< Index of a punctual light.
+    float power;     ///< W, an upper bound over the colour channels.
+};
+
+/// All sources of light whose power is not 0. A directional light and the environment shine on the disc that
+/// the scene's bounding sphere covers.
+std::vector<LightSource> lightSources(const SceneState& state);
+
+/// The same. @throws Error naming the pass where there is none.
+std::vector<LightSource> requireLightSources(const SceneState& state, const std::string& pass);
+
+/// Area of one side of all surfaces, m².
+double surfaceArea(const Geometry& geometry);
+
+/// W, an upper bound over the colour channels.
+double totalPower(const std::vector<LightSource>& sources);
+
+/// Irradiance of the scene's surfaces, W/m², if each caught its share by area of all power: a scale for sums.
+float meanIrradiance(const std::vector<LightSource>& sources, const Geometry& geometry);
+
+/// The scene's bounding sphere, a little larger, from which parallel light and the environment shine.
+struct BoundingSphere {
+    glm::vec3 center;
+    float radius;  ///< m
+};
+BoundingSphere boundingSphere(const Geometry& geometry);
+
+}  // namespace voxray

@@ -1,0 +1,23 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The scene's triangles as a light sees them.
+#include "shaders/lights/light_view.glsl"
+#include "shaders/scene/scene.glsl"
+
+layout(location = 0) out vec2 barycentrics;
+layout(location = 1) flat out uint triangle;
+layout(location = 2) out float depth;  // Along the view's axis, relative to its farthest depth.
+layout(push_constant, scalar) uniform Push { LightView view; } push;
+
+void main() {
+    const LightView view = push.view;
+    triangle = uint(gl_VertexIndex) / 3u;
+    const uint corner = uint(gl_VertexIndex) % 3u;
+    barycentrics = vec2(corner == 1u ? 1.0 : 0.0, corner == 2u ? 1.0 : 0.0);
+    const vec3 away = vertexPosition(triangleVertices(triangle)[corner]) - view.origin;
+    const float metres = dot(away, view.forward);
+    const vec2 plane = vec2(dot(away, view.right), dot(away, view.up)) / view.halfExtent;
+    const float z = (metres - view.nearest) / (view.farthest - view.nearest);
+    gl_Position = view.parallel != 0u ? vec4(plane, z, 1.0) : vec4(plane, z * view.farthest, metres);
+    depth = metres / view.farthest;
+}

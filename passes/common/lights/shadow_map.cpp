@@ -1,0 +1,99 @@
+#include "passes/common/lights/shadow_map.h"
+
+#include "passes/common/view/frame_image.h"
+
+namespace voxray {
+namespace {
+
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+
+/// As shaders/lights/shadow_maps.glsl has it.
+struct ShadowLight {
+    uint32_t light;
+    uint32_t firstView;
+    uint32_t views;
+};
+
+ImageDesc mapDesc(uint32_t resolution) {
+    ImageDesc desc;
+    desc.format = kDepthFormat;
+    desc.extent = {resolution, resolution, 1};
+    desc.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    return desc;
+}
+
+uint64_t texelBytes(uint32_t resolution) {
+    return uint64_t(resolution) * resolution * sizeof(float);
+}
+
+uint32_t viewCount(const SceneState& state, const std::vector<LightSource>& sources) {
+    uint32_t views = 0;
+    for (const LightSource& source : sources)
+        views += uint32_t(lightViews(state.lights[source.light], state.geometry).size());
+    return views;
+}
+
+}  // namespace
+
+ShadowMap::ShadowMap(PassSetup& setup, uint32_t resolution)
+    : image_(setup.device, "shadow map", mapDesc(resolution)), sampler_(texelSampler(setup.device)) {
+    const ShaderModule stages[] = {setup.compiler.compile("passes/common/lights/light_view.vert"),
+                                   setup.compiler.compile("passes/common/lights/shadow_map.frag")};
+    RasterState state;
+    state.depthFormat = kDepthFormat;
+    rasterize_ = makeRasterProgram(setup.device, stages, state);
+}
+
+uint64_t ShadowMap::bytes(uint32_t resolution) {
+    return imageBytes(mapDesc(resolution));
+}
+
+void ShadowMap::draw(PassContext& context, const gpu::LightView& view) const {
+    RasterTargets targets;
+    targets.depth = &image_;
+    targets.extent = image_.desc().extent;
+    context.stream.draw(rasterize_, context.scene.bindings({}), view, targets,
+                        context.scene.triangleCount * 3);
+}
+
+ShadowMaps::ShadowMaps(PassSetup& setup, const std::vector<LightSource>& sources, uint32_t resolution)
+    : resolution_(resolution),
+      map_(setup, resolution),
+      texels_(setup.device, "a shadow map's texels", texelBytes(resolution)),
+      lights_(setup.device, "lights with shadow maps",
+              2 * sizeof(uint32_t) + sources.size() * sizeof(ShadowLight)) {
+    const uint32_t views = viewCount(*setup.frame.scene, sources);
+    views_ = Buffer(setup.device, "lights' views", views * sizeof(gpu::LightView));
+    depths_ = LargeBuffer(setup.device, "shadow maps", views * texelBytes(resolution));
+}
+
+void ShadowMaps::plan(PassPlan& plan, const std::vector<LightSource>& sources, uint32_t resolution) {
+    plan.reserve("shadow map", ShadowMap::bytes(resolution) + texelBytes(resolution));
+    plan.reserve("shadow maps of all lights", viewCount(*plan.frame.scene, sources) * texelBytes(resolution));
+}
+
+void ShadowMaps::draw(PassContext& context, const std::vector<LightSource>& sources) {
+    const SceneState& state = *context.frame.scene;
+    CommandStream& stream = context.stream;
+    std::vector<uint32_t> header{resolution_, uint32_t(sources.size())};
+    std::vector<gpu::LightView> views;
+    for (const LightSource& source : sources) {
+        const auto own = lightViews(state.lights[source.light], state.geometry);
+        header.insert(header.end(), {source.light, uint32_t(views.size()), uint32_t(own.size())});
+        views.insert(views.end(), own.begin(), own.end());
+    }
+    stream.upload(lights_, header);
+    stream.upload(views_, views);
+    for (size_t v = 0; v < views.size(); ++v) {
+        map_.draw(context, views[v]);
+        stream.copy(map_.image(), texels_);
+        stream.copy(texels_, depths_, texels_.bytes(), 0, v * texels_.bytes());
+    }
+}
+
+std::vector<Binding> ShadowMaps::bindings() const {
+    return {{"shadowLights", lights_}, {"shadowViews", views_}, {"ShadowDepthsAt", depths_.at()}};
+}
+
+}  // namespace voxray

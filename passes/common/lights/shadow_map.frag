@@ -1,0 +1,14 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Depth along the view's axis, linear, so that its precision is the same everywhere.
+#include "shaders/scene/scene.glsl"
+
+layout(location = 0) in vec2 barycentrics;
+layout(location = 1) flat in uint triangle;
+layout(location = 2) in float depth;
+
+void main() {
+    const GpuMaterial m = sceneMaterials.data[sceneTriangleMaterials.data[triangle]];
+    if (m.alphaMode == ALPHA_MASK && alphaCut(m, surfacePoint(triangle, barycentrics))) discard;
+    gl_FragDepth = depth;
+}

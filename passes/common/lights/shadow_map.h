@@ -1,0 +1,49 @@
+#pragma once
+
+#include "graph/pass.h"
+#include "passes/common/compute/large_buffer.h"
+#include "passes/common/lights/light_views.h"
+
+namespace voxray {
+
+/// A depth view of the scene from a light.
+class ShadowMap {
+ public:
+    ShadowMap() = default;
+    /// @param resolution texels a side.
+    ShadowMap(PassSetup& setup, uint32_t resolution);
+
+    static uint64_t bytes(uint32_t resolution);
+    /// Depth along the view's axis of what each texel sees, relative to view.farthest.
+    void draw(PassContext& context, const gpu::LightView& view) const;
+    const Image& image() const { return image_; }
+    /// A sampler2D `shadowMap`.
+    Binding binding() const { return {"shadowMap", image_, sampler_}; }
+
+ private:
+    Image image_;
+    Sampler sampler_;
+    Program rasterize_;
+};
+
+/// Shadow maps of all punctual lights side by side, for shaders that ask any light about any point
+/// (shaders/lights/shadow_maps.glsl).
+class ShadowMaps {
+ public:
+    ShadowMaps() = default;
+    ShadowMaps(PassSetup& setup, const std::vector<LightSource>& sources, uint32_t resolution);
+
+    static void plan(PassPlan& plan, const std::vector<LightSource>& sources, uint32_t resolution);
+    /// Draws the maps of the lights as they stand now.
+    void draw(PassContext& context, const std::vector<LightSource>& sources);
+    std::vector<Binding> bindings() const;
+
+ private:
+    uint32_t resolution_ = 0;
+    ShadowMap map_;
+    Buffer texels_;  ///< Of one map.
+    Buffer lights_, views_;
+    LargeBuffer depths_;
+};
+
+}  // namespace voxray

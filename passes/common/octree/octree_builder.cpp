@@ -1,0 +1,118 @@
+#include "passes/common/octree/octree_builder.h"
+
+#include "passes/common/compute/dispatch.h"
+
+namespace voxray {
+namespace {
+
+struct FlagPush {
+    glm::uvec3 finerSize;
+    glm::uvec3 coarserSize;
+    uint32_t level;
+};
+
+struct SubdividePush {
+    glm::uvec3 finerSize;
+    uint32_t count;
+};
+
+struct NumberPush {
+    uint32_t level;
+    uint32_t count;
+    uint32_t firstNode;
+    uint32_t firstChild;
+};
+
+struct FilterPush {
+    uint32_t firstNode;
+    uint32_t count;
+};
+
+uint64_t flagWords(glm::uvec3 cells) {
+    return uint64_t((cells.x + 31) / 32) * cells.y * cells.z;
+}
+
+}  // namespace
+
+OctreeBuilder::OctreeBuilder(Device& device, const ShaderCompiler& compiler)
+    : flag_(makeComputeProgram(device, compiler.compile("passes/common/octree/octree_flag.comp"))),
+      subdivide_(makeComputeProgram(device, compiler.compile("passes/common/octree/octree_subdivide.comp"))),
+      number_(makeComputeProgram(device, compiler.compile("passes/common/octree/octree_number.comp"))),
+      filter_(makeComputeProgram(device, compiler.compile("passes/common/octree/octree_filter.comp"))),
+      prefixSum_(device, compiler) {}
+
+OctreeBuilder::Built OctreeBuilder::build(CommandStream& stream, const SurfaceVoxels& voxels,
+                                          RadianceVoxels& radiance) const {
+    Device& device = stream.device();
+    OctreeSize size{radiance.grid.resolution, radiance.grid.directions, {}};
+    const std::vector<Buffer> flags = flag(stream, voxels, size);
+    allocateOctree(stream, size, radiance);
+
+    // From the root down: which children there are, then their numbers and voxels.
+    const std::vector<uint32_t> first = size.first();
+    Buffer cells(device, "octree root", sizeof(uint32_t));
+    stream.fill(cells, 0);
+    for (uint32_t level = size.levels() - 1; level > 0; --level) {
+        const uint32_t count = size.nodes[level], words = (count + 3) / 4;
+        const Buffer masks(device, "octree masks", uint64_t(words) * sizeof(uint32_t));
+        const Buffer before(device, "octree ranks", uint64_t(words) * sizeof(uint32_t));
+        Buffer children(device, "octree cells", uint64_t(size.nodes[level - 1]) * sizeof(uint32_t));
+        const Buffer& finer = level == 1 ? voxels.occupancy : flags[level - 2];
+        stream.dispatch(subdivide_, {{"flags", finer}, {"cells", cells}, {"masks", masks}},
+                        SubdividePush{radianceResolution(size.resolution, level - 1), count},
+                        linearGroups(words));
+        prefixSum_.run(stream, masks, before, words);
+        stream.dispatch(number_,
+                        {{"radianceVoxels", radiance.header},
+                         {"cells", cells},
+                         {"masks", masks},
+                         {"before", before},
+                         {"childCells", children}},
+                        NumberPush{level, count, first[level], first[level - 1]}, linearGroups(words));
+        stream.finish();
+        cells = std::move(children);
+    }
+    return {std::move(size), std::move(cells)};
+}
+
+std::vector<Buffer> OctreeBuilder::flag(CommandStream& stream, const SurfaceVoxels& voxels,
+                                        OctreeSize& size) const {
+    // A bit for each voxel of each level above the leaves, from the bits below.
+    const uint32_t levels = radianceLevels(size.resolution);
+    const Buffer counts(stream.device(), "octree node counts", levels * sizeof(uint32_t));
+    stream.fill(counts, 0);
+    std::vector<Buffer> flags;
+    for (uint32_t level = 1; level < levels; ++level) {
+        const glm::uvec3 coarser = radianceResolution(size.resolution, level);
+        flags.emplace_back(stream.device(), "octree flags", flagWords(coarser) * sizeof(uint32_t));
+        stream.dispatch(flag_,
+                        {{"finer", level == 1 ? voxels.occupancy : flags[level - 2]},
+                         {"coarser", flags.back()},
+                         {"counts", counts}},
+                        FlagPush{radianceResolution(size.resolution, level - 1), coarser, level},
+                        linearGroups(flagWords(coarser)));
+    }
+    size.nodes = stream.readAs<uint32_t>(counts, levels);
+    size.nodes.front() = voxels.voxelCount;
+    return flags;
+}
+
+void OctreeBuilder::filter(CommandStream& stream, const OctreeSize& size, const RadianceVoxels& radiance,
+                           const Buffer& changed) const {
+    const std::vector<uint32_t> first = size.first();
+    for (uint32_t level = 1; level < size.levels(); ++level)
+        stream.dispatch(filter_, {{"radianceVoxels", radiance.header}, {"changed", changed}},
+                        FilterPush{first[level], size.nodes[level]}, linearGroups(size.nodes[level]));
+}
+
+uint64_t OctreeBuilder::scratchBytes(const OctreeSize& size) {
+    if (size.levels() == 1) return 0;
+    uint64_t bytes = size.levels() * sizeof(uint32_t);
+    for (uint32_t level = 1; level < size.levels(); ++level)
+        bytes += flagWords(radianceResolution(size.resolution, level)) * sizeof(uint32_t);
+    // The step from level 1 to the leaves takes most: masks and ranks a word of four nodes, voxels a node.
+    const uint64_t words = (size.nodes[1] + 3) / 4, blocks = (words + 1023) / 1024 + 1;
+    return bytes + (2 * words + blocks + size.nodes[1]) * sizeof(uint32_t);
+}
+
+}  // namespace voxray

@@ -1,0 +1,109 @@
+#include "passes/common/octree/octree_collapse.h"
+
+#include <algorithm>
+
+#include "passes/common/compute/dispatch.h"
+
+namespace voxray {
+namespace {
+
+struct UniformPush {
+    uint32_t level;
+    uint32_t count;
+    uint32_t firstNode;
+};
+
+struct LevelPush {
+    uint32_t level;
+    uint32_t count;
+    uint32_t firstNode;
+    uint32_t firstChild;
+};
+
+}  // namespace
+
+OctreeCollapse::OctreeCollapse(Device& device, const ShaderCompiler& compiler)
+    : prefixSum_(device, compiler) {
+    const auto program = [&](const char* file, const Defines& defines) {
+        return makeComputeProgram(device,
+                                  compiler.compile(std::string("passes/filter_voxels/") + file, defines));
+    };
+    uniform_ = program("octree_uniform.comp", {});
+    masks_ = program("octree_collapse.comp", {{"MASKS", "1"}});
+    words_ = program("octree_collapse.comp", {{"WORDS", "1"}});
+    table_ = program("octree_collapse_table.comp", {});
+}
+
+OctreeSize OctreeCollapse::run(CommandStream& stream, const OctreeSize& size,
+                               RadianceVoxels& radiance) const {
+    // From the leaves up: which nodes are uniform.
+    const std::vector<uint32_t> first = size.first();
+    const Buffer uniform(stream.device(), "octree uniform nodes",
+                         (uint64_t(size.nodeCount()) + 31) / 32 * sizeof(uint32_t));
+    const Buffer counts(stream.device(), "octree uniform counts", size.levels() * sizeof(uint32_t));
+    stream.fill(uniform, 0);
+    stream.fill(counts, 0);
+    for (uint32_t level = 1; level < size.levels(); ++level)
+        stream.dispatch(uniform_,
+                        {{"radianceVoxels", radiance.header}, {"uniform_", uniform}, {"counts", counts}},
+                        UniformPush{level, size.nodes[level], first[level]}, linearGroups(size.nodes[level]));
+
+    // Each of them drops its eight children.
+    const std::vector<uint32_t> uniformNodes = stream.readAs<uint32_t>(counts, size.levels());
+    OctreeSize smaller = size;
+    for (uint32_t level = 1; level < size.levels(); ++level)
+        smaller.nodes[level - 1] -= 8 * uniformNodes[level];
+    if (smaller.nodes != size.nodes) radiance = shrink(stream, radiance, size, uniform, smaller);
+    return smaller;
+}
+
+RadianceVoxels OctreeCollapse::shrink(CommandStream& stream, const RadianceVoxels& radiance,
+                                      const OctreeSize& size, const Buffer& uniform,
+                                      const OctreeSize& smaller) const {
+    Device& device = stream.device();
+    RadianceVoxels result;
+    result.layout = radiance.layout;
+    result.grid = radiance.grid;
+    allocateOctree(stream, smaller, result);
+
+    // From the root down, as it was built: masks, numbers, then words, values and the next level's list.
+    const std::vector<uint32_t> first = smaller.first();
+    Buffer nodes(device, "octree root", sizeof(glm::uvec2));
+    const glm::uvec2 root(1, 0);
+    stream.upload(nodes, std::as_bytes(std::span(&root, 1)));
+    for (uint32_t level = smaller.levels(); level-- > 0 && smaller.nodes[level] > 0;) {
+        const uint32_t count = smaller.nodes[level], words = (count + 3) / 4;
+        const uint32_t childCount = level > 0 ? smaller.nodes[level - 1] : 0;
+        const Buffer masks(device, "octree masks", uint64_t(words) * sizeof(uint32_t));
+        const Buffer before(device, "octree ranks", uint64_t(words) * sizeof(uint32_t));
+        Buffer children(device, "octree children", uint64_t(std::max(childCount, 1u)) * sizeof(glm::uvec2));
+        const LevelPush push{level, count, first[level], level > 0 ? first[level - 1] : 0};
+        std::vector<Binding> bindings{
+            {"radianceVoxels", radiance.header}, {"nodes", nodes}, {"uniform_", uniform}, {"masks", masks}};
+        stream.dispatch(masks_, bindings, push, linearGroups(words));
+        prefixSum_.run(stream, masks, before, words);
+        bindings.pop_back();
+        bindings.insert(bindings.end(),
+                        {{"before", before}, {"children", children}, {"collapsed", result.header}});
+        stream.dispatch(words_, bindings, push, linearGroups(words));
+        stream.finish();
+        nodes = std::move(children);
+    }
+
+    for (uint32_t level = smaller.levels(); level-- > smaller.tableLevel();) {
+        const glm::uvec3 voxels = radianceResolution(size.resolution, level);
+        stream.dispatch(table_, result.bindings(), level,
+                        linearGroups(uint64_t(voxels.x) * voxels.y * voxels.z));
+    }
+    stream.finish();
+    return result;
+}
+
+uint64_t OctreeCollapse::scratchBytes(const OctreeSize& size) {
+    // Marks, and the step of the largest level: masks and ranks a word of four nodes, place and voxel a node.
+    const uint64_t marks = (uint64_t(size.nodeCount()) + 31) / 32 + size.levels();
+    const uint64_t words = (uint64_t(size.nodes.front()) + 3) / 4, blocks = (words + 1023) / 1024 + 1;
+    return (marks + 2 * words + blocks + 2 * uint64_t(size.nodes.front()) + 2) * sizeof(uint32_t);
+}
+
+}  // namespace voxray

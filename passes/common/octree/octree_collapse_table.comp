@@ -1,0 +1,17 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The voxels of a table's level that lie in a uniform node of a coarser one take its word. A thread takes a voxel.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/octree/octree.glsl"
+layout(local_size_x = 64) in;
+
+layout(push_constant) uniform Push { uint level; } push;
+
+void main() {
+    const uvec3 size = uvec3(octreeSize(push.level));
+    const uint i = linearIndex();
+    if (i >= size.x * size.y * size.z) return;
+    const ivec3 voxel = ivec3(i % size.x, i / size.x % size.y, i / size.x / size.y);
+    const uint parent = radianceVoxels.table.data[octreeTableEntry(voxel >> 1, push.level + 1u)];
+    if (isUniform(parent)) radianceVoxels.table.data[octreeTableEntry(voxel, push.level)] = parent;
+}

@@ -1,0 +1,34 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Numbers the children of a level's nodes: they follow each other in the order of the masks' bits. Writes the nodes' words, in the
+// table too, and the voxels of the children. A thread takes four nodes.
+#include "passes/common/octree/octree_cells.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/octree/octree.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 0) readonly buffer Cells { uint data[]; } cells;
+layout(set = 0, binding = 1) readonly buffer Masks { uint words[]; } masks;
+layout(set = 0, binding = 2) readonly buffer Before { uint bits[]; } before;
+layout(set = 0, binding = 3) writeonly buffer ChildCells { uint data[]; } childCells;
+layout(push_constant) uniform Push {
+    uint level;
+    uint count;
+    uint firstNode;
+    uint firstChild;
+} push;
+
+void main() {
+    const uint word = linearIndex();
+    uint child = 4u * word < push.count ? before.bits[word] : 0u;
+    for (uint i = 4u * word; i < min(4u * word + 4u, push.count); ++i) {
+        const uint mask = masks.words[word] >> (8u * (i & 3u)) & 0xffu;
+        const uint node = mask | (push.firstChild + child) << 8;
+        const ivec3 cell = unpackCell(cells.data[i]);
+        radianceVoxels.nodes.data[push.firstNode + i] = node;
+        if (push.level >= radianceVoxels.octree.tableLevel)
+            radianceVoxels.table.data[octreeTableEntry(cell, push.level)] = node;
+        for (uint bits = mask; bits != 0u; bits &= bits - 1u)
+            childCells.data[child++] = packCell(2 * cell + octantOffset(findLSB(bits)));
+    }
+}

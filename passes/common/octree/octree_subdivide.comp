@@ -1,0 +1,33 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// The masks of the children of a level's nodes, from the flags of the finer level. A thread makes the masks of four nodes.
+#include "passes/common/octree/octree_cells.glsl"
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 0) readonly buffer Flags { uint words[]; } flags;
+layout(set = 0, binding = 1) readonly buffer Cells { uint data[]; } cells;
+layout(set = 0, binding = 2) writeonly buffer Masks { uint words[]; } masks;
+layout(push_constant, scalar) uniform Push {
+    uvec3 finerSize;
+    uint count;  // Nodes of the level.
+} push;
+
+bool flagged(uvec3 cell) {
+    if (any(greaterThanEqual(cell, push.finerSize))) return false;
+    const uint word = (cell.z * push.finerSize.y + cell.y) * ((push.finerSize.x + 31u) / 32u) + cell.x / 32u;
+    return (flags.words[word] >> (cell.x & 31u) & 1u) != 0u;
+}
+
+void main() {
+    const uint word = linearIndex();
+    if (4u * word >= push.count) return;
+    uint mask = 0u;
+    for (uint i = 0u; i < min(4u, push.count - 4u * word); ++i) {
+        const ivec3 first = 2 * unpackCell(cells.data[4u * word + i]);
+        for (uint octant = 0u; octant < 8u; ++octant)
+            if (flagged(uvec3(first) + (uvec3(octant, octant >> 1, octant >> 2) & 1u))) mask |= 1u << (8u * i + octant);
+    }
+    masks.words[word] = mask;
+}

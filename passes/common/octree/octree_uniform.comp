@@ -1,0 +1,37 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Marks and counts the uniform nodes of a level: all eight children are there, are uniform or leaves, and hold the same bits as
+// the node in each direction, so that it can stand for them. A thread takes a node.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/octree/octree.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 0) buffer Uniform { uint bits[]; } uniform_;
+layout(set = 0, binding = 1) buffer Counts { uint nodes[]; } counts;
+layout(push_constant) uniform Push {
+    uint level;
+    uint count;
+    uint firstNode;
+} push;
+
+bool standsForAll(uint node) {
+    const uint word = radianceVoxels.nodes.data[node];
+    if (octreeMask(word) != 0xffu) return false;
+    for (uint octant = 0u; octant < 8u; ++octant) {
+        const uint child = octreeChild(word, octant);
+        if (push.level > 1u && (uniform_.bits[child / 32u] >> (child & 31u) & 1u) == 0u) return false;
+        for (uint face = 0u; face < radianceVoxels.grid.directions; ++face) {
+            const uint values = face * radianceVoxels.octree.nodeCount;
+            if (radianceVoxels.values.data[values + child] != radianceVoxels.values.data[values + node]) return false;
+        }
+    }
+    return true;
+}
+
+void main() {
+    if (linearIndex() >= push.count) return;
+    const uint node = push.firstNode + linearIndex();
+    if (!standsForAll(node)) return;
+    atomicOr(uniform_.bits[node / 32u], 1u << (node & 31u));
+    atomicAdd(counts.nodes[push.level], 1u);
+}

@@ -1,0 +1,95 @@
+#include "passes/common/radiance/cone_bounces.h"
+
+#include <algorithm>
+
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/radiance/cone_sets.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kFaces = 6;
+constexpr uint32_t kBatchFaces = 1u << 19;  // Bounds the time of a dispatch.
+
+struct ListPush {
+    gpu::VoxelGrid grid;
+    uint32_t words;
+};
+
+struct GatherPush {
+    gpu::VoxelGrid grid;
+    uint32_t voxels;
+    uint32_t firstFace;
+    uint32_t faces;
+    uint32_t cones;
+};
+
+uint64_t cellBytes(uint64_t voxels) {
+    return voxels * sizeof(glm::uvec3);
+}
+
+uint64_t fluxBytes(uint64_t voxels) {
+    return voxels * kFluxFloats * sizeof(float);
+}
+
+}  // namespace
+
+void ConeBounces::plan(PassPlan& plan, uint64_t voxels, bool keeps) const {
+    plan.reserve("cones", coneSet(pass_, cones_).size() * sizeof(gpu::Cone));
+    const uint64_t light = cellBytes(voxels) + fluxBytes(voxels);
+    if (keeps)
+        plan.reserve("bounced light (estimated)", light);
+    else
+        plan.reserveScratch("bounced light (estimated)", light);
+}
+
+void ConeBounces::prepare(PassSetup& setup, const RadianceVoxels& radiance) {
+    const auto program = [&](const char* file, const Defines& defines) {
+        return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
+    };
+    list_ = program("passes/common/radiance/cone_bounces_list.comp", {});
+    gather_ = program("passes/common/radiance/cone_bounces_gather.comp", radiance.defines());
+    const std::vector<gpu::Cone> cones = coneSet(pass_, cones_);
+    coneSet_ = Buffer(setup.device, "cones", cones.size() * sizeof(gpu::Cone));
+    setup.stream.upload(coneSet_, cones);
+}
+
+void ConeBounces::list(PassContext& context, const SurfaceVoxels& voxels) {
+    const uint64_t count = voxels.voxelCount;
+    if (!cells_ || cells_.bytes() != cellBytes(count))
+        cells_ = Buffer(context.device, "cells of surface voxels", cellBytes(count));
+    if (!flux_ || flux_.bytes() != fluxBytes(count))
+        flux_ = LargeBuffer(context.device, "bounced flux", fluxBytes(count));
+    context.stream.dispatch(
+        list_, {{"voxelOccupancy", voxels.occupancy}, {"voxelRank", voxels.rank}, {"voxelCells", cells_}},
+        ListPush{voxels.grid, uint32_t(voxels.words())}, linearGroups(voxels.words()));
+}
+
+void ConeBounces::gather(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& injected,
+                         const RadianceVoxels& radiance) {
+    list(context, voxels);
+    std::vector<Binding> bindings = radiance.bindings();
+    bindings.insert(bindings.end(), {{"cones", coneSet_},
+                                     {"VoxelMaterialsAt", voxels.materials.at()},
+                                     {"voxelCells", cells_},
+                                     {"DirectFluxAt", injected.direct.at()},
+                                     {"IndirectFluxAt", injected.indirect.at()},
+                                     {"voxelArea", injected.area},
+                                     {"FluxAt", flux_.at()}});
+    const uint32_t faces = kFaces * voxels.voxelCount;
+    for (uint32_t first = 0; first < faces; first += kBatchFaces) {
+        const uint32_t batch = std::min(kBatchFaces, faces - first);
+        context.stream.dispatch(gather_, bindings,
+                                GatherPush{voxels.grid, voxels.voxelCount, first, batch, cones_},
+                                linearGroups(batch));
+        context.stream.finish();
+    }
+}
+
+void ConeBounces::release(CommandStream& stream) {
+    stream.finish();
+    cells_ = {};
+    flux_ = {};
+}
+
+}  // namespace voxray

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "passes/common/radiance/radiance_voxels.h"
+#include "passes/common/voxels/voxels.h"
+
+namespace voxray {
+
+/// The parameters of a pass that lets light bounce by cones; it adds schema() to its own with std::tuple_cat.
+struct ConeBounceParams {
+    uint32_t bounces = 0;
+    uint32_t bounceCones = 6;
+    static constexpr auto schema() {
+        return std::tuple{
+            field("bounces", &ConeBounceParams::bounces,
+                  "Bounces of light from voxel to voxel by cones, on top of those that the light has made.",
+                  0u, 32u),
+            field("bounce_cones", &ConeBounceParams::bounceCones,
+                  "Cones from each side of a voxel in a bounce: 5, 6, 16 or 36.", 5u, 36u)};
+    }
+};
+
+/// Light that voxels throw at each other: irradiance of each voxel's sides by a set of cones through radiance
+/// voxels. Docs: docs/cone-tracing.md.
+class ConeBounces {
+ public:
+    /// @param cones of the set, see coneSet(). @throws Error naming `pass` for a number without a set.
+    ConeBounces(const char* pass, uint32_t cones) : pass_(pass), cones_(cones) {}
+
+    /// @param voxels in all lists that light is gathered for.
+    /// @param keeps whether memory is kept from frame to frame; else it is scratch, for release() to free.
+    void plan(PassPlan& plan, uint64_t voxels, bool keeps) const;
+    void prepare(PassSetup& setup, const RadianceVoxels& radiance);
+    /// Flux that arrives at the voxels' sides from what `radiance` holds now, into `flux()`.
+    /// @param injected light, which tells the insides of solids.
+    void gather(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& injected,
+                const RadianceVoxels& radiance);
+    /// As VoxelIrradiance::indirect.
+    const LargeBuffer& flux() const { return flux_; }
+    /// The same, to keep: the next gather() begins anew.
+    LargeBuffer takeFlux() { return std::move(flux_); }
+    /// Frees what gather() took. Waits for the device.
+    void release(CommandStream& stream);
+
+ private:
+    void list(PassContext& context, const SurfaceVoxels& voxels);
+
+    const char* pass_;
+    uint32_t cones_;
+    Program list_, gather_;
+    Buffer coneSet_, cells_;
+    LargeBuffer flux_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,48 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Flux that arrives at the sides of surface voxels from what radiance voxels hold, by a set of cones from the voxel's center. A
+// thread takes a side.
+#include "shaders/radiance/cone_set.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/radiance/surface_radiance.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16, scalar) readonly buffer VoxelCells { uvec3 data[]; } voxelCells;
+layout(set = 0, binding = 17, scalar) readonly buffer FluxAt { LargeFloats flux; };
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint voxels;
+    uint firstFace;  // In the order of this pass: by side, then by voxel, so that threads side by side have alike work.
+    uint faces;
+    uint cones;
+} push;
+
+// The normal of a voxel's surfaces that face `axis` (unit). Of one plane it is their mean normal, on that side. The length of the
+// mean tells how far normals are spread: where it is the root of 1/2, as where two planes at right angles meet, or less, surfaces
+// are taken to face along the axis.
+vec3 sideNormal(vec3 mean, vec3 axis) {
+    const float flatness = clamp(2.0 * dot(mean, mean) - 1.0, 0.0, 1.0);
+    return flatness > 0.0 ? normalize(mix(axis, normalize(dot(mean, axis) < 0.0 ? -mean : mean), flatness)) : axis;
+}
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.faces) return;
+    const uint voxel = (push.firstFace + i) % push.voxels, side = (push.firstFace + i) / push.voxels, face = 6u * voxel + side;
+    const float area = voxelArea.data[face] * push.grid.voxelSize * push.grid.voxelSize;
+    vec3 arrives = vec3(0.0);
+    const VoxelMaterial m = voxelMaterials.data[voxel];
+    // What counts as the inside of a solid by the injected light, whose rays know what is hidden, stays dark.
+    const bool inside = faceFlux(face) == vec3(0.0) && isBackOfLit(m, voxel, side, 0.0);
+    if (area > 0.0 && !inside) {
+        const uvec3 cell = voxelCells.data[voxel];
+        const vec3 normal = sideNormal(m.normal, faceNormal(side));
+        const vec3 center = push.grid.origin + (vec3(cell) + 0.5) * push.grid.voxelSize;
+        // Where cones stand in their cells wanders from voxel to voxel: the additive recurrence of Roberts 2018, along each axis.
+        const vec3 dither = fract(vec3(0.5) + float(cell.x) * vec3(0.754877666, 0.569840296, 0.819172513) +
+                                  float(cell.y) * vec3(0.569840296, 0.754877666, 0.671043607) +
+                                  float(cell.z) * vec3(0.671043607, 0.819172513, 0.549700478));
+        arrives = area * coneIrradiance(center, normal, normal, push.cones, dither);
+    }
+    for (uint channel = 0u; channel < 3u; ++channel) flux.data[3u * face + channel] = arrives[channel];
+}

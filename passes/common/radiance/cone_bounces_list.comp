@@ -1,0 +1,22 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The cell of each surface voxel, by the voxel's number. A thread takes a word of the occupancy bits.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16, scalar) writeonly buffer VoxelCells { uvec3 data[]; } voxelCells;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint words;
+} push;
+
+void main() {
+    const uint word = linearIndex();
+    if (word >= push.words) return;
+    const uint row = word / push.grid.wordsPerRow, rows = heldVoxels(push.grid).y;
+    const uvec3 slot = uvec3(32u * (word % push.grid.wordsPerRow), row % rows, row / rows);
+    uint voxel = voxelRank.before[word];
+    for (uint bits = voxelOccupancy.words[word]; bits != 0u; bits &= bits - 1u)
+        voxelCells.data[voxel++] = voxelInSlot(push.grid, slot + uvec3(findLSB(bits), 0u, 0u));
+}

@@ -1,0 +1,16 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Adds what shadow rays carry to the surfels that they reach.
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16, scalar) readonly buffer Carried { vec4 data[]; } carried;
+layout(set = 0, binding = 17) readonly buffer Occluded { uint data[]; } occluded;
+layout(set = 0, binding = 18, scalar) buffer Direct { vec4 data[]; } direct;
+layout(push_constant) uniform Push { uint count; } push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i < push.count && occluded.data[i] == 0u) direct.data[i] += carried.data[i];
+}

@@ -1,0 +1,37 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One shadow ray from each surfel towards a source of light, with the irradiance that arrives if nothing is in the way.
+#include "shaders/lights/lights.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/trace/ray_types.h"
+#include "shaders/surfels/surfel_types.h"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(set = 0, binding = 17, scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(set = 0, binding = 18, scalar) writeonly buffer Carried { vec4 data[]; } carried;
+layout(push_constant, scalar) uniform Push {
+    uint count;
+    uint kind;
+    uint light;
+    uint samples;
+    uint emitterCount;
+    uint seed;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const Surfel s = surfels.data[i];
+    const LightSample l = sampleSource(push.kind, push.light, push.samples, push.emitterCount, s.position, s.normal, s.id,
+                                       push.seed);
+    const vec3 irradiance = l.irradiance * max(dot(s.normal, l.direction), 0.0);
+    const float offset = surfaceOffset(s.position);
+    Ray ray;
+    ray.origin = s.position + s.normal * offset;
+    ray.direction = l.direction;
+    ray.tMin = 0.0;
+    ray.tMax = any(greaterThan(irradiance, vec3(0.0))) ? l.distance_ - 2.0 * offset : -1.0;
+    rays.data[i] = ray;
+    carried.data[i] = vec4(irradiance, 0.0);
+}

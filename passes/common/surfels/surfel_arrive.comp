@@ -1,0 +1,66 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Makes a surfel of each hit, on the side that the ray came from. Russian roulette by albedo ends rays early; survivors'
+// reflectance and area make up for those. Surfels are appended in any order; nothing that follows depends on it.
+//
+// Camera rays are spread evenly over the image, so the surface that one stands for is the solid angle of its share of the image,
+// times distance², over the cosine to the surface. Points that are spread evenly over surfaces send cosine-distributed rays that
+// arrive evenly over what they reach (the kernel cos cos / distance² is the same from both ends): a ray hands its area on.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/sampling.glsl"
+#include "shaders/scene/scene.glsl"
+#include "shaders/trace/ray_types.h"
+#include "shaders/surfels/surfel_types.h"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16, scalar) readonly buffer Rays { Ray data[]; } rays;
+layout(set = 0, binding = 17, scalar) readonly buffer Hits { Hit data[]; } hits;
+layout(set = 0, binding = 18, scalar) readonly buffer Parents { Surfel data[]; } parents;
+layout(set = 0, binding = 19, scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
+layout(set = 0, binding = 20) buffer Count { uint value; } count;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint rayCount;
+    uint firstId;      // Of rays from a camera.
+    uint fromSurfels;  // 1: ray i is that of parent i. 0: of the camera; no roulette.
+    uint seed;
+    vec3 forward;     // Of the camera, unit length.
+    float imageArea;  // Of the image 1 m before the camera, over the area of all surfaces.
+    float maxArea;   // That a plane has in a voxel, in units of Surfel::area.
+} push;
+
+// Area of surface that a ray from the camera stands for.
+float cameraRayArea(Ray ray, float t, vec3 normal) {
+    const float cosImage = dot(ray.direction, push.forward), cosSurface = abs(dot(ray.direction, normal));
+    const float solidAngle = push.imageArea * cosImage * cosImage * cosImage;
+    return min(solidAngle * t * t / max(cosSurface, 1e-6), push.maxArea);
+}
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.rayCount) return;
+    const Ray ray = rays.data[i];
+    const Hit hit = hits.data[i];
+    if (ray.tMax < ray.tMin || hit.triangle == NO_HIT) return;
+    const SurfacePoint p = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
+    if (dot(p.geometricNormal, p.geometricNormal) == 0.0) return;
+
+    Surfel s;
+    s.id = push.fromSurfels != 0u ? parents.data[i].id : push.firstId + i;
+    s.parent = i;
+    s.reflectance = clamp(diffuseAlbedo(sceneMaterials.data[p.material], p, 0.0), 0.0, 1.0);
+    if (push.fromSurfels != 0u) {
+        s.area = parents.data[i].area;
+        const float survive = max(s.reflectance.r, max(s.reflectance.g, s.reflectance.b));
+        if (sobol2(s.id, push.seed).x >= survive) return;
+        s.reflectance /= survive;
+        s.area /= survive;
+    } else {
+        s.area = cameraRayArea(ray, hit.t, p.geometricNormal);
+    }
+    s.position = p.position;
+    s.normal = dot(p.geometricNormal, ray.direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
+    s.voxel = voxelNumber(push.grid, voxelAt(push.grid, p.position));
+    surfels.data[atomicAdd(count.value, 1u)] = s;
+}

@@ -1,0 +1,46 @@
+#include "passes/common/surfels/surfel_light.h"
+
+#include "passes/common/compute/dispatch.h"
+
+namespace voxray {
+namespace {
+
+struct AimPush {
+    uint32_t count;
+    uint32_t kind;
+    uint32_t light;
+    uint32_t samples;
+    uint32_t emitterCount;
+    uint32_t seed;
+};
+
+}  // namespace
+
+SurfelLight::SurfelLight(PassSetup& setup, uint32_t batch)
+    : aim_(makeComputeProgram(setup.device, setup.compiler.compile("passes/common/surfels/surfel_aim.comp"))),
+      add_(makeComputeProgram(setup.device, setup.compiler.compile("passes/common/surfels/surfel_add.comp"))),
+      rays_(setup.device, "shadow rays", uint64_t(batch) * sizeof(Ray)),
+      carried_(setup.device, "shadow ray irradiance", uint64_t(batch) * 4 * sizeof(float)),
+      occluded_(setup.device, "shadow ray results", uint64_t(batch) * sizeof(uint32_t)) {}
+
+void SurfelLight::measure(PassContext& context, const std::vector<LightSource>& sources,
+                          const Buffer& surfels, uint32_t count, uint32_t samples, uint32_t seed,
+                          const Buffer& direct) const {
+    CommandStream& stream = context.stream;
+    stream.fill(direct, 0);
+    for (const LightSource& source : sources) {
+        const bool punctual = source.kind == LightSource::Punctual;
+        for (uint32_t s = 0; s < (punctual ? 1 : samples); ++s) {
+            stream.dispatch(
+                aim_, context.scene.bindings({{"surfels", surfels}, {"rays", rays_}, {"carried", carried_}}),
+                AimPush{count, source.kind, punctual ? source.light : s, samples, context.scene.emitterCount,
+                        seed + source.kind},
+                linearGroups(count));
+            context.tracer.occluded(stream, rays_, occluded_, count);
+            stream.dispatch(add_, {{"carried", carried_}, {"occluded", occluded_}, {"direct", direct}}, count,
+                            linearGroups(count));
+        }
+    }
+}
+
+}  // namespace voxray

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "graph/pass.h"
+#include "passes/common/lights/light_sources.h"
+#include "shaders/surfels/surfel_types.h"
+
+namespace voxray {
+
+/// Direct irradiance of surfels by shadow rays: one to each punctual light, `samples` to the emissive
+/// surfaces and as many to the environment.
+class SurfelLight {
+ public:
+    SurfelLight() = default;
+    /// @param batch surfels in one call of add(), at most.
+    SurfelLight(PassSetup& setup, uint32_t batch);
+
+    static uint64_t bytes(uint32_t batch) { return uint64_t(batch) * (sizeof(Ray) + 20); }
+    /// Writes the irradiance, W/m², of the first `count` surfels to `direct`, 4 floats each.
+    void measure(PassContext& context, const std::vector<LightSource>& sources, const Buffer& surfels,
+                 uint32_t count, uint32_t samples, uint32_t seed, const Buffer& direct) const;
+
+ private:
+    Program aim_, add_;
+    Buffer rays_, carried_, occluded_;
+};
+
+}  // namespace voxray

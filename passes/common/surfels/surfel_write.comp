@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Leaves the irradiance of surfels in their voxels, each by the area that it stands for where the way of merging knows weights.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/surfels/surfel_types.h"
+#include "shaders/voxels/voxel_accumulator.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(set = 0, binding = 17, scalar) readonly buffer Irradiance { vec4 data[]; } irradiance;
+layout(push_constant) uniform Push {
+    uint count;
+    float scale;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count || surfels.data[i].voxel == 0xffffffffu) return;
+#if WRITE == WRITE_AVERAGE || WRITE == WRITE_NONE
+    const float weight = surfels.data[i].area;
+#else
+    const float weight = 1.0;
+#endif
+    writeIrradiance(surfels.data[i].voxel, surfels.data[i].normal, irradiance.data[i].rgb, weight, push.scale);
+}

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "graph/pass.h"
+#include "shaders/surfels/surfel_types.h"
+
+namespace voxray {
+
+/// Points on the sides of surfaces that open space lies before, spread evenly over their area: where the
+/// irradiance of voxels is measured. Each stands for the same area.
+struct Surfels : Resource {
+    struct Chunk {
+        Buffer surfels;  ///< gpu::Surfel each.
+        uint32_t count = 0;
+    };
+    /// Surfels of a chunk, at most.
+    static constexpr uint32_t kChunk = 1u << 18;
+    std::vector<Chunk> chunks;
+    uint64_t most = 0;  ///< An upper bound of their number, known from planning on.
+};
+
+}  // namespace voxray

@@ -1,0 +1,68 @@
+#include "passes/common/triangle_walk/triangle_tiles.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace voxray {
+namespace {
+
+constexpr int kTileSide = 8;  // Columns, as in exact.comp.
+
+/// Calls visit(packed tile) for the tiles that a triangle's bounds meet, only those that may reach into the
+/// region.
+template <typename Visit>
+void forEachTile(const Geometry& geometry, const gpu::VoxelGrid& grid, const VoxelRegion& region,
+                 uint32_t triangle, const Visit& visit) {
+    const auto corner = [&](int k) {
+        return (geometry.positions[geometry.triangles[triangle][k]] - grid.origin) / grid.voxelSize;
+    };
+    const glm::vec3 n = glm::abs(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+    const int axis = n.x > n.y ? (n.x > n.z ? 0 : 2) : (n.y > n.z ? 1 : 2);
+    const int u = (axis + 1) % 3, w = (axis + 2) % 3;
+    const GridBounds bounds(geometry, grid, triangle);
+    const auto column = [&](float at, int along) {
+        return std::clamp(int(std::floor(at)), 0, int(grid.resolution[along]) - 1);
+    };
+    // Tiles begin with the triangle, wherever the region is; those before and beyond it are passed over.
+    const auto first = [&](int along) {
+        const int own = column(bounds.low[along], along);
+        return own + std::max(int(region.low()[along]) - own, 0) / kTileSide * kTileSide;
+    };
+    const auto last = [&](int along) {
+        return std::min(column(bounds.high[along], along), int(region.high()[along]));
+    };
+    for (int y = first(w); y <= last(w); y += kTileSide)
+        for (int x = first(u); x <= last(u); x += kTileSide) {
+            glm::vec3 low = bounds.low, high = bounds.high;
+            low[u] = float(x), high[u] = float(x + kTileSide);
+            low[w] = float(y), high[w] = float(y + kTileSide);
+            if (region.meets(low, high)) visit(uint32_t(x) | uint32_t(y) << 10 | uint32_t(axis) << 20);
+        }
+}
+
+}  // namespace
+
+TriangleTiles::TriangleTiles(CommandStream& stream, const Geometry& geometry, const gpu::VoxelGrid& grid,
+                             const VoxelRegion& region, const std::vector<uint32_t>& triangles) {
+    std::vector<glm::uvec2> tiles;
+    for (const uint32_t t : triangles)
+        forEachTile(geometry, grid, region, t, [&](uint32_t tile) { tiles.push_back({t, tile}); });
+    count_ = uint32_t(tiles.size());
+    buffer_ =
+        Buffer(stream.device(), "tiles of triangles", std::max<size_t>(tiles.size(), 1) * sizeof(glm::uvec2));
+    if (!tiles.empty()) stream.upload(buffer_, tiles);
+}
+
+uint64_t TriangleTiles::bytes(const Geometry& geometry, gpu::VoxelGrid grid) {
+    uint64_t tiles = 0;
+    grid.side = std::bit_ceil(std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z}));
+    grid.first = {};
+    const VoxelRegion region(grid);
+    for (uint32_t t = 0; t < geometry.triangles.size(); ++t)
+        forEachTile(geometry, grid, region, t, [&](uint32_t) { ++tiles; });
+    return tiles * sizeof(glm::uvec2);
+}
+
+}  // namespace voxray

@@ -1,0 +1,98 @@
+#include "passes/common/triangle_walk/voxel_region.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+#include <numeric>
+#include <utility>
+
+#include "passes/common/voxels/voxels.h"
+
+namespace voxray {
+namespace {
+
+/// Voxels from a point on a surface to what may change its exposure: the probe's length, and to spare what
+/// its ray starts off the surface.
+constexpr float kProbeReach = 1 + 1.0f / 16;
+
+}  // namespace
+
+GridBounds::GridBounds(const Geometry& geometry, const gpu::VoxelGrid& grid, uint32_t triangle) {
+    constexpr float kSpare = 1.0f / 256;
+    const glm::uvec3 v = geometry.triangles[triangle];
+    const glm::vec3 &a = geometry.positions[v.x], &b = geometry.positions[v.y], &c = geometry.positions[v.z];
+    low = (glm::min(a, glm::min(b, c)) - grid.origin) / grid.voxelSize - kSpare;
+    high = (glm::max(a, glm::max(b, c)) - grid.origin) / grid.voxelSize + kSpare;
+}
+
+VoxelRegion::VoxelRegion(const gpu::VoxelGrid& grid) : VoxelRegion(grid, {heldVoxels(grid)}) {
+    wholeGrid_ = boxes_[0].size == grid.resolution;
+}
+
+VoxelRegion::VoxelRegion(const gpu::VoxelGrid& grid, std::vector<VoxelBox> boxes)
+    : grid_(grid), boxes_(std::move(boxes)), wholeGrid_(false) {
+    for (const VoxelBox& box : boxes_) {
+        const glm::vec3 first(box.first), end = first + glm::vec3(box.size);
+        low_ = &box == &boxes_[0] ? first : glm::min(low_, first);
+        high_ = &box == &boxes_[0] ? end : glm::max(high_, end);
+    }
+}
+
+std::vector<VoxelBox> VoxelRegion::slots() const {
+    const int side = int(grid_.side);
+    std::vector<VoxelBox> parts = boxes_;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<VoxelBox> whole = std::move(parts);
+        parts.clear();
+        for (VoxelBox box : whole) {
+            box.first[axis] &= side - 1;
+            const int beyond = box.first[axis] + int(box.size[axis]) - side;
+            if (beyond > 0) {
+                VoxelBox wrapped = box;
+                wrapped.first[axis] = 0;
+                wrapped.size[axis] = uint32_t(beyond);
+                parts.push_back(wrapped);
+                box.size[axis] -= uint32_t(beyond);
+            }
+            parts.push_back(box);
+        }
+    }
+    return parts;
+}
+
+bool VoxelRegion::meets(const glm::vec3& low, const glm::vec3& high) const {
+    const auto meet = [&](const glm::vec3& first, const glm::vec3& end) {
+        return glm::all(glm::lessThanEqual(low, end)) && glm::all(glm::greaterThanEqual(high, first));
+    };
+    if (wholeGrid_) return true;
+    return meet(low_, high_) && std::ranges::any_of(boxes_, [&](const VoxelBox& box) {
+               return meet(glm::vec3(box.first), glm::vec3(box.first) + glm::vec3(box.size));
+           });
+}
+
+std::vector<uint32_t> VoxelRegion::triangles(const Geometry& geometry) const {
+    std::vector<uint32_t> found(geometry.triangles.size());
+    std::iota(found.begin(), found.end(), 0u);
+    if (wholeGrid_) return found;
+    std::erase_if(found, [&](uint32_t triangle) {
+        const GridBounds bounds(geometry, grid_, triangle);
+        return !meets(bounds.low, bounds.high);
+    });
+    return found;
+}
+
+std::vector<VoxelBox> changedVoxels(const gpu::VoxelGrid& grid, const std::vector<Box>& changed) {
+    const VoxelBox held = heldVoxels(grid);
+    const glm::ivec3 end = held.first + glm::ivec3(held.size);
+    std::vector<VoxelBox> boxes;
+    for (const Box& box : changed) {
+        const glm::vec3 low = (box.min - grid.origin) / grid.voxelSize - kProbeReach;
+        const glm::vec3 high = (box.max - grid.origin) / grid.voxelSize + kProbeReach;
+        const glm::ivec3 first = glm::max(glm::ivec3(glm::floor(low)), held.first);
+        const glm::ivec3 last = glm::min(glm::ivec3(glm::floor(high)), end - 1);
+        if (glm::all(glm::lessThanEqual(first, last))) boxes.push_back({first, glm::uvec3(last - first + 1)});
+    }
+    return boxes;
+}
+
+}  // namespace voxray

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "graph/pass.h"
+
+namespace voxray {
+
+/// What the camera sees: `samples` x `samples` texels a pixel. Texel (samples x + i, samples y + j) is
+/// sub-pixel (i, j) of pixel (x, y), seen through its center; whoever makes an image of the frame's size from
+/// it averages the texels of each pixel. Texels that show no surface have position.w = 0.
+struct GBuffer : Resource {
+    uint32_t samples = 1;   ///< Sub-pixels along each side of a pixel; known from plan() on.
+    Image position;         ///< RGBA32F: world position in m, 1 where there is a surface.
+    Image normal;           ///< RGBA16F: shading normal, turned to the camera's side.
+    Image geometricNormal;  ///< RGBA16F: the triangle's normal, turned to the camera's side.
+    Image albedo;           ///< RGBA16F: diffuse reflectance.
+    Image emission;  ///< RGBA32F: radiance towards the camera, W/(m² sr); the environment's on a miss.
+    Image specular;  ///< RGBA16F: specular reflectance at normal incidence, roughness.
+    Image fresnel;   ///< RGBA8: reflectance at grazing incidence; what diffuse light loses at normal and at
+                     ///< grazing incidence. Both are read by shaders/scene/specular.glsl.
+
+    std::vector<const Image*> checkedImages() const override {
+        return {&position, &normal, &geometricNormal, &albedo, &emission, &specular};
+    }
+};
+
+/// Texels of a frame's g-buffer.
+inline glm::uvec2 gbufferExtent(const Frame& frame, uint32_t samples) {
+    return {frame.width * samples, frame.height * samples};
+}
+
+}  // namespace voxray

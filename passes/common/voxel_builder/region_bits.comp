@@ -1,0 +1,31 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// A bit for each voxel of a region that is made of boxes of slots. A work group's z is a box, a thread takes a word in it.
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+struct VoxelBox {
+    ivec3 first;
+    uvec3 size;
+};
+layout(set = 0, binding = 0, scalar) readonly buffer Boxes { VoxelBox data[]; } boxes;
+layout(set = 0, binding = 1) buffer Region { uint words[]; } region;
+layout(push_constant, scalar) uniform Push {
+    uint rows;  // Along y.
+    uint wordsPerRow;
+} push;
+
+void main() {
+    const uvec3 first = uvec3(boxes.data[gl_WorkGroupID.z].first), size = boxes.data[gl_WorkGroupID.z].size;
+    const uint firstWord = first.x / 32u, words = (first.x + size.x - 1u) / 32u - firstWord + 1u;
+    const uint i = linearIndex();
+    if (i >= words * size.y * size.z) return;
+    const uint word = firstWord + i % words;
+    const uint y = first.y + i / words % size.y, z = first.z + i / words / size.y;
+
+    // The word's bits from the box's first on up, to its last.
+    const uint from = max(first.x, 32u * word) - 32u * word, to = min(first.x + size.x, 32u * word + 32u) - 32u * word - 1u;
+    const uint bits = (0xffffffffu << from) & (0xffffffffu >> (31u - to));
+    atomicOr(region.words[(z * push.rows + y) * push.wordsPerRow + word], bits);
+}

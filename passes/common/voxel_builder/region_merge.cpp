@@ -1,0 +1,77 @@
+#include "passes/common/voxel_builder/region_merge.h"
+
+#include <algorithm>
+
+#include "passes/common/compute/dispatch.h"
+
+namespace voxray {
+namespace {
+
+struct BitsPush {
+    uint32_t rows;
+    uint32_t wordsPerRow;
+};
+
+}  // namespace
+
+RegionMerge::RegionMerge(Device& device, const ShaderCompiler& compiler)
+    : bits_(makeComputeProgram(device, compiler.compile("passes/common/voxel_builder/region_bits.comp"))),
+      join_(makeComputeProgram(device, compiler.compile("passes/common/voxel_builder/region_merge.comp"))),
+      materials_(makeComputeProgram(device,
+                                    compiler.compile("passes/common/voxel_builder/region_materials.comp"))) {}
+
+void RegionMerge::occupancy(CommandStream& stream, const VoxelRegion& region, const SurfaceVoxels& previous,
+                            SurfaceVoxels& fresh) {
+    Device& device = stream.device();
+    const Buffer bits(device, "voxel region", previous.occupancy.bytes());
+    stream.fill(bits, 0);
+    const std::vector<VoxelBox> list = region.slots();
+    Buffer boxes;
+    if (!list.empty()) {
+        boxes = Buffer(device, "boxes of voxels", list.size() * sizeof(VoxelBox));
+        stream.upload(boxes, list);
+        uint64_t words = 0;  // Of the largest box, at most.
+        for (const VoxelBox& box : list)
+            words = std::max(words, (uint64_t(box.size.x) / 32 + 2) * box.size.y * box.size.z);
+        const glm::uvec3 groups = linearGroups(words);
+        stream.dispatch(bits_, {{"boxes", boxes}, {"region", bits}},
+                        BitsPush{heldVoxels(previous.grid).size.y, previous.grid.wordsPerRow},
+                        {groups.x, groups.y, uint32_t(list.size())});
+    }
+
+    joined_ = Buffer(device, "voxel occupancy", previous.occupancy.bytes());
+    const uint32_t words = uint32_t(previous.words());
+    stream.dispatch(
+        join_,
+        {{"region", bits}, {"fresh", fresh.occupancy}, {"before", previous.occupancy}, {"joined", joined_}},
+        words, linearGroups(words));
+    stream.finish();
+}
+
+void RegionMerge::materials(CommandStream& stream, const PopulationPrefixSum& prefixSum,
+                            const SurfaceVoxels& fresh, SurfaceVoxels& previous) {
+    Device& device = stream.device();
+    const uint32_t words = uint32_t(previous.words());
+    Buffer rank(device, "voxel ranks", previous.rank.bytes());
+    previous.voxelCount = prefixSum.run(stream, joined_, rank, words);
+    LargeBuffer materials(device, "voxel materials",
+                          std::max<uint64_t>(previous.voxelCount, 1) * sizeof(gpu::VoxelMaterial));
+    if (previous.voxelCount == 0) stream.fill(materials, 0);
+    stream.dispatch(materials_,
+                    {{"fresh", fresh.occupancy},
+                     {"freshRank", fresh.rank},
+                     {"FreshMaterialsAt", fresh.materials.at()},
+                     {"previous", previous.occupancy},
+                     {"previousRank", previous.rank},
+                     {"PreviousMaterialsAt", previous.materials.at()},
+                     {"voxelOccupancy", joined_},
+                     {"voxelRank", rank},
+                     {"VoxelMaterialsAt", materials.at()}},
+                    words, linearGroups(words));
+    stream.finish();
+    previous.occupancy = std::move(joined_);
+    previous.rank = std::move(rank);
+    previous.materials = std::move(materials);
+}
+
+}  // namespace voxray

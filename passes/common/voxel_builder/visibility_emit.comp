@@ -1,0 +1,40 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// For each point on a surface that lies in one of the voxels a ray along its normal and one against it, as long as a voxel.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/sampling.glsl"
+#include "shaders/scene/scene.glsl"
+#include "shaders/trace/ray_types.h"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+// Triangle, and which of its points.
+layout(set = 0, binding = 16) readonly buffer Points { uvec2 data[]; } points;
+layout(set = 0, binding = 17, scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(set = 0, binding = 18) buffer Kept { uint count; } kept;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint points;
+    uint seed;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.points) return;
+    const uvec2 point = points.data[i];
+    const SurfacePoint s = surfacePoint(point.x, trianglePoint(sobol2(point.y, hashCombine(push.seed, point.x))));
+    if (s.geometricNormal == vec3(0.0)) return;
+    const float offset = surfaceOffset(s.position);
+    if (!isOccupied(push.grid, voxelAt(push.grid, s.position + s.geometricNormal * offset))) return;
+
+    const uint at = 2u * atomicAdd(kept.count, 1u);
+    for (uint side = 0u; side < 2u; ++side) {
+        const vec3 normal = side == 0u ? s.geometricNormal : -s.geometricNormal;
+        Ray ray;
+        ray.origin = s.position + normal * offset;
+        ray.direction = normal;
+        ray.tMin = 0.0;
+        ray.tMax = push.grid.voxelSize;
+        rays.data[at + side] = ray;
+    }
+}

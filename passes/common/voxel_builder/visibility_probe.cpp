@@ -1,0 +1,102 @@
+#include "passes/common/voxel_builder/visibility_probe.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/random_seed.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kBatchPoints = 1u << 18;
+constexpr uint64_t kCounts = 9;  // Of a voxel, as in resolve.comp.
+
+struct EmitPush {
+    gpu::VoxelGrid grid;
+    uint32_t points;
+    uint32_t seed;
+};
+
+struct CountPush {
+    gpu::VoxelGrid grid;
+    uint32_t points;
+};
+
+/// Points on a triangle: its area in voxel faces times the points of one, rounded up for as many of the
+/// triangles as it takes to have the right number in all. The part that is rounded is compared with the van
+/// der Corput sequence, which is spread evenly over neighbours in the list.
+uint64_t pointsOn(const Geometry& g, const gpu::VoxelGrid& grid, uint32_t triangle, uint32_t pointsPerFace) {
+    const glm::uvec3 v = g.triangles[triangle];
+    const glm::dvec3 p0 = g.positions[v.x], p1 = g.positions[v.y], p2 = g.positions[v.z];
+    const double face = double(grid.voxelSize) * grid.voxelSize;
+    uint32_t reversed = 0;
+    for (uint32_t bit = 0; bit < 32; ++bit) reversed |= (triangle >> bit & 1u) << (31 - bit);
+    const double points = 0.5 * glm::length(glm::cross(p1 - p0, p2 - p0)) / face * pointsPerFace;
+    return uint64_t(points + double(reversed) / 4294967296.0);
+}
+
+}  // namespace
+
+VisibilityProbe::VisibilityProbe(Device& device, const ShaderCompiler& compiler)
+    : emit_(makeComputeProgram(device, compiler.compile("passes/common/voxel_builder/visibility_emit.comp"))),
+      count_(makeComputeProgram(device,
+                                compiler.compile("passes/common/voxel_builder/visibility_count.comp"))) {}
+
+Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels,
+                            const std::vector<uint32_t>& triangles, uint32_t pointsPerFace) const {
+    CommandStream& stream = context.stream;
+    Buffer counts(context.device, "exposure counts",
+                  std::max<uint64_t>(voxels.voxelCount, 1) * kCounts * sizeof(uint32_t));
+    stream.fill(counts, 0);
+    if (pointsPerFace == 0 || voxels.voxelCount == 0) return counts;
+
+    // Batch by batch the points, of those that lie in the voxels two rays each, and what these find.
+    const Buffer batch(context.device, "exposure points", kBatchPoints * sizeof(glm::uvec2));
+    const Buffer kept(context.device, "number of exposure points", sizeof(uint32_t));
+    const Buffer rays(context.device, "exposure rays", 2ull * kBatchPoints * sizeof(Ray));
+    const Buffer occluded(context.device, "exposure results", 2ull * kBatchPoints * sizeof(uint32_t));
+    std::vector<glm::uvec2> points;  // Triangle, and which of its points.
+    const auto probe = [&] {
+        if (points.empty()) return;
+        stream.upload(batch, points);
+        stream.fill(kept, 0);
+        stream.dispatch(
+            emit_,
+            context.scene.bindings(
+                {{"points", batch}, {"rays", rays}, {"kept", kept}, {"voxelOccupancy", voxels.occupancy}}),
+            EmitPush{voxels.grid, uint32_t(points.size()), randomSeed(context.frame)},
+            linearGroups(points.size()));
+        points.clear();
+        const uint32_t count = stream.readAs<uint32_t>(kept, 1)[0];
+        if (count == 0) return;
+        context.tracer.occluded(stream, rays, occluded, 2 * count);
+        stream.dispatch(count_,
+                        {{"voxelOccupancy", voxels.occupancy},
+                         {"voxelRank", voxels.rank},
+                         {"rays", rays},
+                         {"occluded", occluded},
+                         {"counts", counts}},
+                        CountPush{voxels.grid, count}, linearGroups(count));
+    };
+    for (const uint32_t triangle : triangles) {
+        const uint64_t count = pointsOn(context.frame.scene->geometry, voxels.grid, triangle, pointsPerFace);
+        for (uint64_t i = 0; i < count; ++i) {
+            points.push_back({triangle, uint32_t(i)});
+            if (points.size() == kBatchPoints) probe();
+        }
+    }
+    probe();
+    stream.finish();
+    return counts;
+}
+
+uint64_t VisibilityProbe::bytes(uint32_t voxelCount, uint32_t pointsPerFace) {
+    const uint64_t counts = uint64_t(voxelCount) * kCounts * sizeof(uint32_t);
+    if (pointsPerFace == 0) return counts;
+    return counts + sizeof(uint32_t) +
+           kBatchPoints *
+               (2 * sizeof(glm::uvec2) /* with their staging */ + 2 * (sizeof(Ray) + sizeof(uint32_t)));
+}
+
+}  // namespace voxray

@@ -1,0 +1,36 @@
+#include "passes/common/voxels/face_irradiance.h"
+
+#include "passes/common/compute/dispatch.h"
+
+namespace voxray {
+namespace {
+
+struct Push {
+    uint32_t count;
+    float voxelFaceArea;
+    float directShare;
+};
+
+}  // namespace
+
+FaceIrradiance::FaceIrradiance(Device& device, const ShaderCompiler& compiler)
+    : program_(makeComputeProgram(device, compiler.compile("passes/common/voxels/face_irradiance.comp"))) {}
+
+void FaceIrradiance::update(CommandStream& stream, const SurfaceVoxels& voxels,
+                            const VoxelIrradiance& irradiance, Light light) {
+    if (!faces_ || faces_.bytes() != bytes(voxels.voxelCount)) {
+        faces_ = {};
+        faces_ = Buffer(stream.device(), "face irradiance", bytes(voxels.voxelCount));
+    }
+    const uint32_t faces = voxels.voxelCount * kAreaFloats;
+    stream.dispatch(
+        program_,
+        {{"DirectAt", irradiance.direct.at()},
+         {"IndirectAt", irradiance.indirect.at()},
+         {"area", irradiance.area},
+         {"faces", faces_}},
+        Push{faces, voxels.grid.voxelSize * voxels.grid.voxelSize, light == Light::Total ? 1.0f : 0.0f},
+        linearGroups(faces));
+}
+
+}  // namespace voxray

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "passes/common/voxels/voxels.h"
+
+namespace voxray {
+
+/// The irradiance of each voxel's six faces, ready for lookups by many rays
+/// (shaders/voxels/face_irradiance.glsl). 6 x (W/m², area in voxel faces) as 24 floats a voxel.
+class FaceIrradiance {
+ public:
+    FaceIrradiance() = default;
+    FaceIrradiance(Device& device, const ShaderCompiler& compiler);
+
+    /// Bytes that update() allocates.
+    static uint64_t bytes(uint32_t voxelCount) {
+        return uint64_t(voxelCount) * 4 * kAreaFloats * sizeof(float);
+    }
+    /// Which of the voxels' light to hold.
+    enum class Light { Indirect, Total };
+    /// Divides flux by area; allocates on the first call and where the number of voxels has changed.
+    void update(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
+                Light light = Light::Total);
+    /// Frees the irradiance, once the stream has finished.
+    void end() { faces_ = {}; }
+    const Buffer& buffer() const { return faces_; }
+
+ private:
+    Program program_;
+    Buffer faces_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,40 @@
+#include "passes/common/voxels/flux_accumulator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/common/compute/dispatch.h"
+
+namespace voxray {
+namespace {
+
+struct ResolvePush {
+    uint32_t count;
+    float wattsPerUnit;
+};
+
+}  // namespace
+
+FluxAccumulator::FluxAccumulator(Device& device, const ShaderCompiler& compiler)
+    : resolve_(makeComputeProgram(device,
+                                  compiler.compile("passes/common/voxels/flux_accumulator_resolve.comp"))) {}
+
+void FluxAccumulator::begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels,
+                            double power) {
+    sums_ = LargeBuffer(device, "flux sums", std::max(voxels.voxelCount, 1u) * kBytesPerVoxel);
+    stream.fill(sums_, 0);
+    unitsPerWatt_ = float(std::ldexp(1.0, 56) / power);
+}
+
+std::vector<Binding> FluxAccumulator::bindings() const {
+    return {{"FluxAccumulatorAt", sums_.at()}};
+}
+
+void FluxAccumulator::resolve(CommandStream& stream, const SurfaceVoxels& voxels,
+                              const LargeBuffer& flux) const {
+    const uint32_t values = voxels.voxelCount * kFluxFloats;
+    stream.dispatch(resolve_, {{"FluxAccumulatorAt", sums_.at()}, {"FluxAt", flux.at()}},
+                    ResolvePush{values, 1.0f / unitsPerWatt_}, linearGroups(values));
+}
+
+}  // namespace voxray

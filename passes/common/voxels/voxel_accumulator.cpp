@@ -1,0 +1,98 @@
+#include "passes/common/voxels/voxel_accumulator.h"
+
+#include "base/error.h"
+#include "passes/common/compute/dispatch.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint64_t kFaces = 6;
+
+struct ResolvePush {
+    uint32_t voxelCount;
+    float voxelSize;
+    float scale;
+};
+
+/// Bytes that the sums and the weights of a voxel take, as shaders/voxels/voxel_accumulator.glsl declares
+/// them.
+struct BytesPerVoxel {
+    uint64_t sums, weights;
+};
+BytesPerVoxel bytesPerVoxel(Write write) {
+    switch (write) {
+        case Write::Average:
+            return {kFaces * 3 * sizeof(uint64_t), kFaces * sizeof(uint64_t)};
+        case Write::MovingAverage:
+            return {kFaces * sizeof(uint32_t), 0};
+        default:
+            return {kFaces * 3 * sizeof(uint32_t), kFaces * sizeof(uint32_t)};
+    }
+}
+
+}  // namespace
+
+VoxelAccumulator::VoxelAccumulator(Device& device, const ShaderCompiler& compiler, const WriteParams& params)
+    : params_(params),
+      resolve_(makeComputeProgram(
+          device,
+          compiler.compile("passes/common/voxels/voxel_accumulator_resolve.comp", defines(params.write)))) {}
+
+uint64_t VoxelAccumulator::plan(const PassPlan& plan, const std::string& pass, const WriteParams& params,
+                                const SurfaceVoxels& voxels) {
+    if (params.write == Write::Average && !plan.device.shaderInt64Atomics)
+        throw Error(
+            "{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics), which 'write: "
+            "average' needs; choose another 'write'",
+            pass, plan.device.name);
+    const BytesPerVoxel bytes = bytesPerVoxel(params.write);
+    return voxels.voxelCount * (bytes.sums + bytes.weights);
+}
+
+Defines VoxelAccumulator::defines(Write write) {
+    switch (write) {
+        case Write::Average:
+            return {{"WRITE", "WRITE_AVERAGE"}};
+        case Write::Max:
+            return {{"WRITE", "WRITE_MAX"}};
+        case Write::MovingAverage:
+            return {{"WRITE", "WRITE_MOVING_AVERAGE"}};
+        default:
+            return {{"WRITE", "WRITE_NONE"}};
+    }
+}
+
+void VoxelAccumulator::begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels,
+                             float typicalIrradiance) {
+    const BytesPerVoxel bytes = bytesPerVoxel(params_.write);
+    const auto clear = [&](Buffer& buffer, const char* name, uint64_t size) {
+        if (!buffer || buffer.bytes() != size) {
+            buffer = {};
+            buffer = Buffer(device, name, size);
+        }
+        stream.fill(buffer, 0);
+    };
+    clear(sums_, "voxel irradiance sums", voxels.voxelCount * bytes.sums);
+    if (bytes.weights > 0) clear(weights_, "voxel irradiance weights", voxels.voxelCount * bytes.weights);
+    scale_ = 1;
+    if (params_.write == Write::Average && typicalIrradiance > 0)
+        scale_ = float(1u << 24) / typicalIrradiance;
+    if (params_.write == Write::MovingAverage) scale_ = 1 / params_.white;
+}
+
+std::vector<Binding> VoxelAccumulator::bindings() const {
+    std::vector<Binding> list{{"voxelSums", sums_}};
+    if (weights_) list.push_back({"voxelWeights", weights_});
+    return list;
+}
+
+void VoxelAccumulator::resolve(CommandStream& stream, const SurfaceVoxels& voxels, const LargeBuffer& flux,
+                               const Buffer& area) const {
+    std::vector<Binding> all = bindings();
+    all.insert(all.end(),
+               {{"VoxelMaterialsAt", voxels.materials.at()}, {"FluxAt", flux.at()}, {"area", area}});
+    stream.dispatch(resolve_, all, ResolvePush{voxels.voxelCount, voxels.grid.voxelSize, scale_},
+                    linearGroups(voxels.voxelCount));
+}
+
+}  // namespace voxray

@@ -1,0 +1,33 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Radiance that each pixel's surface reflects of the irradiance that the voxels hold there.
+#include "shaders/voxels/voxel_irradiance.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 16) uniform sampler2D position;
+layout(set = 0, binding = 17) uniform sampler2D normal;
+layout(set = 0, binding = 18) uniform sampler2D albedo;
+layout(set = 0, binding = 19, rgba32f) writeonly uniform image2D result;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    float radius;
+    int samples;  // Texels of the g-buffer along each side of a pixel.
+    uint sevenTap;
+} push;
+
+vec3 reflected(ivec2 texel) {
+    const vec4 p = texelFetch(position, texel, 0);
+    if (p.w == 0.0) return vec3(0.0);
+    const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
+    const vec3 irradiance = voxelIrradiance(push.grid, p.xyz, n, push.radius, push.sevenTap != 0u);
+    return texelFetch(albedo, texel, 0).rgb / 3.14159265358979 * irradiance;
+}
+
+void main() {
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(result)))) return;
+    vec3 sum = vec3(0.0);
+    for (int j = 0; j < push.samples; ++j)
+        for (int i = 0; i < push.samples; ++i) sum += reflected(pixel * push.samples + ivec2(i, j));
+    imageStore(result, pixel, vec4(sum / float(push.samples * push.samples), 1.0));
+}

@@ -1,0 +1,54 @@
+#include "passes/common/voxels/voxel_lookup.h"
+
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/view/frame_image.h"
+
+namespace voxray {
+namespace {
+
+struct Push {
+    gpu::VoxelGrid grid;
+    float radius;
+    uint32_t samples;
+    uint32_t sevenTap;
+};
+
+}  // namespace
+
+void VoxelLookupPass::declare(PassBuilder& builder) {
+    gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
+    voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
+    irradiance_ = builder.read<VoxelIrradiance>("irradiance", "light that arrives at the voxels' surfaces");
+    reflected_ = builder.write<FrameImage>(portName_, portHelp_);
+}
+
+void VoxelLookupPass::plan(PassPlan& plan) {
+    plan.reserve(portName_ + " image", imageBytes(frameImageDesc(plan.frame)));
+}
+
+void VoxelLookupPass::prepare(PassSetup& setup) {
+    setup.get(reflected_).image = Image(setup.device, portName_, frameImageDesc(setup.frame));
+    program_ =
+        makeComputeProgram(setup.device, setup.compiler.compile("passes/common/voxels/voxel_lookup.comp"));
+    sampler_ = texelSampler(setup.device);
+}
+
+void VoxelLookupPass::record(PassContext& context) {
+    const GBuffer& gbuffer = context.get(gbuffer_);
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    const VoxelIrradiance& irradiance = context.get(irradiance_);
+    context.stream.dispatch(
+        program_,
+        {{"position", gbuffer.position, sampler_},
+         {"normal", gbuffer.normal, sampler_},
+         {"albedo", gbuffer.albedo, sampler_},
+         {"voxelOccupancy", voxels.occupancy},
+         {"voxelRank", voxels.rank},
+         {"VoxelFluxAt", (irradiance.*flux_).at()},
+         {"voxelArea", irradiance.area},
+         {"result", context.get(reflected_).image}},
+        Push{voxels.grid, params_.radius, gbuffer.samples, params_.lookup == VoxelLookup::SevenTap ? 1u : 0u},
+        pixelGroups(context.frame.width, context.frame.height));
+}
+
+}  // namespace voxray

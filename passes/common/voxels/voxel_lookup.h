@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "passes/common/view/gbuffer.h"
+#include "passes/common/voxels/voxels.h"
+
+namespace voxray {
+
+enum class VoxelLookup { Trilinear, SevenTap };
+
+template <>
+struct EnumNames<VoxelLookup> {
+    static constexpr std::array names{std::pair{VoxelLookup::Trilinear, "trilinear"},
+                                      std::pair{VoxelLookup::SevenTap, "seven_tap"}};
+};
+
+/// Light reflected at every pixel's surface, albedo / pi times the irradiance that voxels hold there: all of
+/// gather_irradiance (indirect flux) and of direct_voxels (direct flux) but their names.
+class VoxelLookupPass : public Pass {
+ public:
+    struct Params {
+        float radius = 1.0f;
+        VoxelLookup lookup = VoxelLookup::Trilinear;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("radius", &Params::radius,
+                      "Reach of the interpolation in voxels; 1 is trilinear, more is smoother and blurs.",
+                      0.5f, 8.0f),
+                field("lookup", &Params::lookup,
+                      "trilinear: at the surface. seven_tap: there and at one voxel's distance along each "
+                      "axis, which hides holes in the voxels and blurs (Magalhães 2020, listing 4.8; there "
+                      "empty voxels count as black, here they have no say).")};
+        }
+    };
+
+    Phase phase() const override { return Phase::Frame; }
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ protected:
+    /// @param port what the pass writes, and its help. @param flux VoxelIrradiance::direct or ::indirect.
+    VoxelLookupPass(const Params& params, std::string port, std::string help,
+                    LargeBuffer VoxelIrradiance::*flux)
+        : params_(params), portName_(std::move(port)), portHelp_(std::move(help)), flux_(flux) {}
+
+ private:
+    Params params_;
+    std::string portName_, portHelp_;
+    LargeBuffer VoxelIrradiance::*flux_;
+    Port<GBuffer> gbuffer_;
+    Port<SurfaceVoxels> voxels_;
+    Port<VoxelIrradiance> irradiance_;
+    Port<FrameImage> reflected_;
+    Program program_;
+    Sampler sampler_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,49 @@
+#include "passes/common/voxels/voxels.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace voxray {
+
+void VoxelIrradiance::allocate(Device& device, uint32_t voxelCount) {
+    ++version;
+    const uint64_t fluxBytes = uint64_t(voxelCount) * kFluxFloats * sizeof(float);
+    if (direct && direct.bytes() == fluxBytes) return;
+    direct = {}, indirect = {}, area = {};  // The previous ones go first.
+    direct = LargeBuffer(device, "voxel direct flux", fluxBytes);
+    indirect = LargeBuffer(device, "voxel indirect flux", fluxBytes);
+    area = Buffer(device, "voxel area", uint64_t(voxelCount) * kAreaFloats * sizeof(float));
+}
+
+void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance) {
+    const std::vector<float> direct =
+        stream.readAs<float>(irradiance.direct, irradiance.direct.bytes() / sizeof(float));
+    if (std::ranges::none_of(direct, [](float watts) { return watts > 0; }))
+        throw Error(
+            "no light falls on any voxel: either the lights shine past the scene, or all that they reach has "
+            "another surface within one voxel ({:.3g} m); raise voxelize's 'resolution' or set its "
+            "'visibility_rays: 0'",
+            voxels.grid.voxelSize);
+}
+
+gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution) {
+    const glm::vec3 extent = boundsMax - boundsMin;
+    const float longest = std::max({extent.x, extent.y, extent.z, 1e-6f});
+    gpu::VoxelGrid grid{};
+    grid.voxelSize = longest / (float(resolution) - 0.25f);
+    for (int axis = 0; axis < 3; ++axis) {
+        const float voxels = std::ceil(extent[axis] / grid.voxelSize + 0.25f - 1e-4f);
+        grid.resolution[axis] = std::clamp(uint32_t(std::max(voxels, 1.0f)), 1u, resolution);
+    }
+    // The scene in the center of the grid.
+    grid.origin = 0.5f * (boundsMin + boundsMax) - 0.5f * grid.voxelSize * glm::vec3(grid.resolution);
+    grid.wordsPerRow = (grid.resolution.x + 31) / 32;
+    grid.side = std::bit_ceil(resolution);
+    grid.directions = 6;
+    return grid;
+}
+
+}  // namespace voxray

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include "graph/pass.h"
+#include "passes/common/compute/large_buffer.h"
+#include "passes/common/voxels/voxel_box.h"
+#include "shaders/voxels/voxel_types.h"
+
+namespace voxray {
+
+/// The voxels of a grid that are held: all of it, or a window.
+inline VoxelBox heldVoxels(const gpu::VoxelGrid& grid) {
+    return {grid.first, glm::min(grid.resolution, glm::uvec3(grid.side))};
+}
+
+/// The voxels that surfaces pass through: an occupancy bit for each voxel of the grid, ranks that number the
+/// occupied ones, and their materials. Empty space costs two bits a voxel. GLSL access:
+/// shaders/voxels/voxels.glsl.
+struct SurfaceVoxels : Resource {
+    gpu::VoxelGrid grid{};
+    bool unoccludedOnly =
+        false;  ///< Areas count only sides with open space before them; so must what lands on them.
+    uint32_t voxelCount = 0;  ///< Occupied voxels; known once the voxelizing pass has run.
+    uint64_t version = 0;     ///< Another one whenever the content is.
+    Buffer occupancy;         ///< 1 bit a voxel of the grid.
+    Buffer rank;              ///< 1 uint a word of `occupancy`: occupied voxels before it.
+    LargeBuffer materials;    ///< VoxelMaterial a surface voxel.
+
+    uint64_t words() const {
+        const glm::uvec3 held = heldVoxels(grid).size;
+        return uint64_t(grid.wordsPerRow) * held.y * held.z;
+    }
+    std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }
+};
+
+/// Floats that VoxelIrradiance's flux buffers hold for each voxel, and its area.
+constexpr uint32_t kFluxFloats = 18, kAreaFloats = 6;
+
+/// Light that arrives at the surfaces of each voxel, by the side that they face: flux for the 6 directions
+/// +x -x +y -y +z -z, and the area that it fell on. Their ratio is the mean irradiance; keeping them apart
+/// lets a lookup interpolate both. Where the area is 0 the injection did not look: nothing is known, and a
+/// lookup passes it over. GLSL access: shaders/voxels/voxel_irradiance.glsl.
+struct VoxelIrradiance : Resource {
+    LargeBuffer direct;      ///< W, straight from the lights: 6 directions of 3 floats a voxel.
+    LargeBuffer indirect;    ///< W, after one bounce or more; likewise.
+    Buffer area;             ///< In units of a voxel's face: 6 floats a voxel.
+    bool eachFrame = false;  ///< Whether it is measured anew in each frame; known from plan() on.
+    uint64_t version = 0;    ///< Another one whenever the light has been measured anew.
+
+    static uint64_t bytes(uint32_t voxelCount) {
+        return uint64_t(voxelCount) * (2 * kFluxFloats + kAreaFloats) * sizeof(float);
+    }
+    /// Before light is measured: makes the buffers where they don't have the right size; their content is
+    /// undefined.
+    void allocate(Device& device, uint32_t voxelCount);
+    std::vector<const Buffer*> checkedBuffers() const override { return {&direct, &indirect, &area}; }
+};
+
+/// Darkness everywhere is a mistake in the set-up, not a picture. @throws Error where no direct light arrives
+/// at any voxel. Waits for the device.
+void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance);
+
+/// The smallest grid of cubic voxels round a box, `resolution` voxels along its longest side, with an eighth
+/// of a voxel to spare, so that no surface lies on its border.
+gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution);
+
+}  // namespace voxray

@@ -1,0 +1,30 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// A box of a clipmap level's voxels from the surfaces in them. A thread takes a voxel.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/radiance/radiance_voxels.glsl"
+#include "shaders/radiance/surface_radiance.glsl"
+layout(local_size_x = 64) in;
+
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    ivec3 boxFirst;
+    uvec3 boxSize;
+    uint level;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    const uvec3 size = push.boxSize;
+    if (i >= size.x * size.y * size.z) return;
+    const ivec3 voxel = push.boxFirst + ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
+    const uint slot = clipmapSlot(radianceVoxels.window[push.level], voxel), number = voxelNumber(push.grid, voxel);
+    const uint directions = radianceVoxels.grid.directions;
+    for (uint side = 0u; side < directions; ++side) {
+        vec4 value = vec4(0.0);
+        if (number != NO_VOXEL)
+            value = directions == 6u ? faceRadiance(push.grid, number, side, 0.0)
+                                     : meanRadiance(push.grid, number, 0.0);
+        storeRadiance(slot, side, value);
+    }
+}

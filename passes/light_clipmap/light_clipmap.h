@@ -1,0 +1,66 @@
+#pragma once
+
+#include "passes/common/clipmap/clipmap_voxels.h"
+#include "passes/common/clipmap/radiance_clipmap.h"
+#include "passes/common/lights/shadow_map.h"
+#include "passes/common/radiance/cone_bounces.h"
+#include "passes/common/voxels/flux_accumulator.h"
+
+namespace voxray {
+
+/// Lights the surface voxels of a clipmap by shadow maps, while it visits the triangles in them, and fills
+/// radiance voxels with what they reflect. Docs: docs/clipmap.md.
+class LightClipmap final : public Pass {
+ public:
+    static constexpr const char* kName = "light_clipmap";
+    static constexpr const char* kHelp =
+        "Lights the voxels of voxelize_clipmap: each triangle's piece in a voxel is tested against a shadow "
+        "map of every light, and what voxels reflect is made radiance voxels for gather_cones, which bring "
+        "one "
+        "bounce more than 'bounces'. What scrolled in is lit in each frame; all of the "
+        "windows where a light or a surface has moved, and with bounces wherever anything scrolled in. No "
+        "emissive surfaces as lights and no environment: "
+        "they have no single viewpoint. Biased by: voxel size, so distance from the camera; "
+        "shadow_resolution. Source: Arnebäck 2017, section 4.1.2, after Panteleev 2014.";
+    struct Params : ConeBounceParams {
+        uint32_t shadowResolution = 512;
+        static constexpr auto schema() {
+            return std::tuple_cat(
+                std::tuple{field("shadow_resolution", &Params::shadowResolution,
+                                 "Texels along a side of each shadow map; a point light has six.", 2u,
+                                 4096u)},
+                ConeBounceParams::schema());
+        }
+    };
+
+    explicit LightClipmap(const Params& params) : params_(params), bounces_(kName, params.bounceCones) {}
+    Phase phase() const override { return Phase::Frame; }
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    /// Direct light of the voxels in boxes of a level. @param voxels those, or more.
+    VoxelIrradiance light(PassContext& context, const SurfaceVoxels& voxels,
+                          const std::vector<VoxelBox>& boxes);
+    /// Fills boxes of a level with what the voxels in them reflect.
+    void reflect(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
+                 const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light,
+                 const LargeBuffer& indirect);
+    /// Fills the levels beyond the first that is held whole, each from the one below.
+    void filter(PassContext& context);
+
+    Params params_;
+    Port<ClipmapVoxels> clipmap_;
+    Port<RadianceVoxels> radiance_;
+    std::vector<LightSource> sources_;
+    RadianceClipmap storage_;
+    ShadowMaps shadowMaps_;
+    Program light_, area_, window_, level_;
+    FluxAccumulator flux_;
+    ConeBounces bounces_;
+    std::optional<uint64_t> sceneVersion_;  ///< Of the last frame.
+};
+
+}  // namespace voxray

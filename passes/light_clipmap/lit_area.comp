@@ -1,0 +1,22 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The area that the flux of each voxel's sides is spread over, in units of a voxel's face: the exposed area. What light reaches is
+// open, whatever the probes found: so no less than the area that is lit.
+#include "passes/common/voxel_builder/sums_layout.h"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 16) readonly buffer LitArea { uint data[]; } litArea;
+layout(set = 0, binding = 17, scalar) writeonly buffer Area { float data[]; } area;
+layout(push_constant) uniform Push { uint voxelCount; } push;
+
+void main() {
+    const uint voxel = linearIndex();
+    if (voxel >= push.voxelCount) return;
+    const VoxelMaterial m = voxelMaterials.data[voxel];
+    for (uint face = 0u; face < 6u; ++face) {
+        const float exposed = (face & 1u) == 0u ? m.unoccludedPositive[face >> 1] : m.unoccludedNegative[face >> 1];
+        area.data[6u * voxel + face] = max(exposed, float(litArea.data[6u * voxel + face]) / UNITS_PER_FACE);
+    }
+}

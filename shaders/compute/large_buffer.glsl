@@ -1,0 +1,12 @@
+// Arrays that outgrow what devices bind at once: a block that holds nothing but the address is bound in their place
+// (passes/common/compute/large_buffer.h).
+#ifndef VOXRAY_LARGE_BUFFER_GLSL
+#define VOXRAY_LARGE_BUFFER_GLSL
+
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LargeFloats { float data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LargeUints { uint data[]; };
+
+#endif

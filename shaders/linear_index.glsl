@@ -1,2 +1,0 @@
-// Index of this thread among the work groups that linearGroups() in passes/common/dispatch.h lays out.
-uint linearIndex() { return gl_GlobalInvocationID.y * (32768u * 64u) + gl_GlobalInvocationID.x; }

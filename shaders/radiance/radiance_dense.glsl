@@ -1,0 +1,58 @@
+// Radiance voxels in full grids, one for each level (layout: dense). A voxel's values stand side by side, four half floats each.
+#ifndef VOXRAY_RADIANCE_DENSE_GLSL
+#define VOXRAY_RADIANCE_DENSE_GLSL
+
+#extension GL_EXT_buffer_reference : require
+
+#include "shaders/radiance/radiance_dense_types.h"
+
+// By address: a grid outgrows what devices bind as one buffer.
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RadianceValues { uvec2 data[]; };
+layout(set = 0, binding = 26, scalar) readonly buffer RadianceVoxels {
+    RadianceGrid grid;
+    RadianceValues values;
+    DenseLevel level[RADIANCE_DENSE_LEVELS];
+} radianceVoxels;
+
+#define NO_PLACE 0xffffffffu
+uint radianceIndex(DenseLevel level, ivec3 voxel) {
+    const uvec3 v = uvec3(voxel);
+    return level.first + (v.z * level.resolution.y + v.y) * level.resolution.x + v.x;
+}
+
+// `side`: 0 to 5 by facing direction, 0 where all share one.
+vec4 radianceValue(uint index, uint side) {
+    const uvec2 packed = radianceVoxels.values.data[index * radianceVoxels.grid.directions + side];
+    return vec4(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y));
+}
+
+// Bounded to what half floats hold: 65504 units of radiance.
+void storeRadiance(uint index, uint side, vec4 value) {
+    const vec4 bounded = min(value, vec4(65504.0));
+    radianceVoxels.values.data[index * radianceVoxels.grid.directions + side] =
+        uvec2(packHalf2x16(bounded.rg), packHalf2x16(bounded.ba));
+}
+
+#include "shaders/radiance/radiance_interpolation.glsl"
+
+vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
+    const DenseLevel d = radianceVoxels.level[level];
+    vec3 at;
+    const ivec3 corner = cornerVoxel(level, position, at);
+    uint place[8];
+    for (uint cell = 0u; cell < 8u; ++cell) {
+        const ivec3 voxel = blockVoxel(corner, cell);
+        const bool inside = all(greaterThanEqual(voxel, ivec3(0))) && all(lessThan(voxel, ivec3(d.resolution)));
+        place[cell] = inside && cellWeight(cell, at) > 0.0 ? radianceIndex(d, voxel) : NO_PLACE;
+    }
+    const vec4 met = interpolateBlock(place, at, direction);
+    return vec4(radianceVoxels.grid.unit * met.rgb, met.a);
+}
+
+// Metres from `position` along `direction` that hold nothing at this footprint: 0 where something may be here. Full grids keep
+// nothing that tells.
+float emptyDistance(vec3 position, float footprint, vec3 direction) { return 0.0; }
+
+uint startLevel(vec3 position, float dither) { return 0u; }
+
+#endif

@@ -1,0 +1,46 @@
+// Prefiltered radiance and cover of surfaces at all scales: one accessor for all layouts. The including shader is compiled with
+// RadianceVoxels::defines() and given RadianceVoxels::bindings() (passes/common/radiance/radiance_voxels.h). Bindings 24 to 27 of set 0.
+//
+// What a voxel stores, for each side that surfaces face: their cover, the area that they show along that axis in units of the
+// voxel's face, at most 1; and the radiance that they send that way times the cover. A ray meets the sides that face it, those
+// of axis k once for each layer of voxels across k that it passes: in |direction_k| layers for each voxel's width of its way. So
+// the covers that a ray collects in passing a closed surface add up to 1, whatever the angle, however values are interpolated.
+#ifndef VOXRAY_RADIANCE_VOXELS_GLSL
+#define VOXRAY_RADIANCE_VOXELS_GLSL
+
+#extension GL_EXT_scalar_block_layout : require
+
+#include "shaders/radiance/radiance_types.h"
+
+// A layout declares `radianceVoxels`, a buffer whose first member is a RadianceGrid named `grid`, and defines, for a position in
+// metres:
+//  - vec4 sampleLevel(uint level, vec3 position, vec3 direction): sampleRadiance() at one level, interpolated linearly in space;
+//  - float emptyDistance(vec3 position, float footprint, vec3 direction);
+//  - uint startLevel(vec3 position, float dither): the level whose voxels a cone that starts there has to be clear of; between
+//    levels it is drawn by `dither`, 0 to 1.
+#if defined(RADIANCE_DENSE)
+#include "shaders/radiance/radiance_dense.glsl"
+#elif defined(RADIANCE_SVO)
+#include "shaders/radiance/radiance_svo.glsl"
+#elif defined(RADIANCE_CLIPMAP)
+#include "shaders/radiance/radiance_clipmap.glsl"
+#endif
+
+float radianceVoxelSize(uint level) { return radianceVoxels.grid.voxelSize * float(1u << level); }
+
+// What a ray along `direction` (unit) meets in a cube of side `footprint` (m) round `position`: rgb, the radiance that surfaces
+// there send against `direction`, weighted by the part of the beam that they cover, W/(m² sr); a, that cover over one footprint's
+// length: 0 where there is nothing; above 1 where surfaces hide each other. Linear in space and between levels, by density along
+// the ray: a surface covers the same in both.
+vec4 sampleRadiance(vec3 position, float footprint, vec3 direction) {
+    const float top = float(radianceVoxels.grid.levels - 1u);
+    const float level = clamp(log2(footprint / radianceVoxels.grid.voxelSize), 0.0, top);
+    const uint finer = uint(level);
+    const float part = level - float(finer);
+    vec4 met = sampleLevel(finer, position, direction) * (1.0 - part) * (footprint / radianceVoxelSize(finer));
+    if (part > 0.0)
+        met += sampleLevel(finer + 1u, position, direction) * part * (footprint / radianceVoxelSize(finer + 1u));
+    return met;
+}
+
+#endif

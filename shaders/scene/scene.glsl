@@ -1,0 +1,121 @@
+// Access to the scene's triangles, materials, textures and lights. Bindings 0 to 7 of set 0 and set 1.
+#ifndef VOXRAY_SCENE_GLSL
+#define VOXRAY_SCENE_GLSL
+
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_nonuniform_qualifier : require
+
+#include "shaders/scene/scene_types.h"
+
+layout(set = 0, binding = 0, scalar) readonly buffer ScenePositions { float data[]; } scenePositions;
+layout(set = 0, binding = 1, scalar) readonly buffer SceneAttributes { GpuVertexAttributes data[]; } sceneAttributes;
+layout(set = 0, binding = 2, scalar) readonly buffer SceneTriangles { uint data[]; } sceneTriangles;
+layout(set = 0, binding = 3, scalar) readonly buffer SceneTriangleMaterials { uint data[]; } sceneTriangleMaterials;
+layout(set = 0, binding = 4, scalar) readonly buffer SceneMaterials { GpuMaterial data[]; } sceneMaterials;
+layout(set = 0, binding = 5, scalar) readonly buffer SceneLights { GpuLight data[]; } sceneLights;
+layout(set = 0, binding = 6, scalar) readonly buffer SceneEmitters { GpuEmitter data[]; } sceneEmitters;
+layout(set = 0, binding = 7) uniform sampler2D sceneEnvironment;
+layout(set = 1, binding = 0) uniform sampler2D sceneTextures[];
+
+uvec3 triangleVertices(uint triangle) {
+    return uvec3(sceneTriangles.data[3 * triangle], sceneTriangles.data[3 * triangle + 1],
+                 sceneTriangles.data[3 * triangle + 2]);
+}
+
+vec3 vertexPosition(uint vertex) {
+    return vec3(scenePositions.data[3 * vertex], scenePositions.data[3 * vertex + 1],
+                scenePositions.data[3 * vertex + 2]);
+}
+
+// A point on a triangle with everything that its material is looked up by.
+struct SurfacePoint {
+    vec3 position;
+    vec3 geometricNormal;  // Unit length, on the triangle's front side; zero for a degenerate triangle.
+    vec3 normal;           // Interpolated, unit length.
+    vec4 tangent;
+    vec4 texCoords;        // uv0, uv1
+    vec4 color;
+    vec2 uvDensity;        // Area of the triangle in uv0 and in uv1 over its own, 1/m²; 0 for a degenerate one.
+    uint material;
+};
+
+SurfacePoint surfacePoint(uint triangle, vec2 barycentrics) {
+    const uvec3 v = triangleVertices(triangle);
+    const vec3 w = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
+    const vec3 p0 = vertexPosition(v.x), p1 = vertexPosition(v.y), p2 = vertexPosition(v.z);
+    const GpuVertexAttributes a0 = sceneAttributes.data[v.x];
+    const GpuVertexAttributes a1 = sceneAttributes.data[v.y];
+    const GpuVertexAttributes a2 = sceneAttributes.data[v.z];
+    SurfacePoint s;
+    s.position = w.x * p0 + w.y * p1 + w.z * p2;
+    const vec3 cross_ = cross(p1 - p0, p2 - p0);
+    const float length_ = length(cross_);
+    s.geometricNormal = length_ > 0.0 ? cross_ / length_ : vec3(0.0);
+    const vec3 n = w.x * a0.normal + w.y * a1.normal + w.z * a2.normal;
+    s.normal = dot(n, n) > 0.0 ? normalize(n) : s.geometricNormal;
+    s.tangent = vec4(w.x * a0.tangent.xyz + w.y * a1.tangent.xyz + w.z * a2.tangent.xyz, a0.tangent.w);
+    s.texCoords = w.x * a0.texCoords + w.y * a1.texCoords + w.z * a2.texCoords;
+    s.color = w.x * a0.color + w.y * a1.color + w.z * a2.color;
+    const vec4 e1 = a1.texCoords - a0.texCoords, e2 = a2.texCoords - a0.texCoords;
+    s.uvDensity = length_ > 0.0 ? abs(e1.xz * e2.yw - e1.yw * e2.xz) / length_ : vec2(0.0);
+    s.material = sceneTriangleMaterials.data[triangle];
+    return s;
+}
+
+vec2 textureUv(GpuTextureRef ref, vec4 texCoords) {
+    const vec3 uv = vec3(ref.texCoord == 0u ? texCoords.xy : texCoords.zw, 1.0);
+    return vec2(dot(ref.rowU, uv), dot(ref.rowV, uv));
+}
+
+// Bilinear lookup at a mip level; white where the material has no such texture.
+vec4 lookup(GpuTextureRef ref, vec4 texCoords, float level) {
+    if (ref.texture == NO_TEXTURE) return vec4(1.0);
+    return textureLod(sceneTextures[nonuniformEXT(ref.texture)], textureUv(ref, texCoords), level);
+}
+
+vec4 baseColor(GpuMaterial m, SurfacePoint s, float level) {
+    return m.baseColor * s.color * lookup(m.baseColorTexture, s.texCoords, level);
+}
+
+bool alphaCut(GpuMaterial m, SurfacePoint s) {
+    return m.alphaMode == ALPHA_MASK && baseColor(m, s, 0.0).a < m.alphaCutoff;
+}
+
+// Share of the light that the surface reflects diffusely: base colour less what the metal takes.
+vec3 diffuseAlbedo(GpuMaterial m, SurfacePoint s, float level) {
+    const float metallic = m.metallic * lookup(m.metallicRoughnessTexture, s.texCoords, level).b;
+    return baseColor(m, s, level).rgb * (1.0 - metallic);
+}
+
+vec3 emission(GpuMaterial m, SurfacePoint s, float level) {
+    return m.emission * lookup(m.emissiveTexture, s.texCoords, level).rgb;
+}
+
+// The normal that the normal map gives, on the side of the interpolated normal.
+vec3 shadingNormal(GpuMaterial m, SurfacePoint s, float level) {
+    if (m.normalTexture.texture == NO_TEXTURE) return s.normal;
+    vec3 t = lookup(m.normalTexture, s.texCoords, level).xyz * 2.0 - 1.0;
+    t.xy *= m.normalScale;
+    const vec3 tangent = s.tangent.xyz - s.normal * dot(s.normal, s.tangent.xyz);
+    if (dot(tangent, tangent) <= 0.0) return s.normal;
+    const vec3 tangentUnit = normalize(tangent);
+    const vec3 bitangent = cross(s.normal, tangentUnit) * s.tangent.w;
+    const vec3 n = tangentUnit * t.x + bitangent * t.y + s.normal * t.z;
+    return dot(n, n) > 0.0 ? normalize(n) : s.normal;
+}
+
+// Radiant intensity of a spot light towards a direction away from it, relative to its axis
+// (KHR_lights_punctual).
+float spotFalloff(GpuLight light, float cosAngle) {
+    const float t = clamp((cosAngle - light.cosOuter) / max(0.001, light.cosInner - light.cosOuter), 0.0, 1.0);
+    return t * t;
+}
+
+// Radiance that arrives from infinitely far against a direction. Row 0 of the map is at +Y, its center at -Z.
+vec3 environmentRadiance(vec3 direction) {
+    const float pi = 3.14159265358979;
+    const vec2 uv = vec2(0.5 + atan(direction.x, -direction.z) / (2.0 * pi), acos(clamp(direction.y, -1.0, 1.0)) / pi);
+    return textureLod(sceneEnvironment, uv, 0.0).rgb;
+}
+
+#endif

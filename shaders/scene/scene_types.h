@@ -1,0 +1,70 @@
+// The scene's structs, shared by C++ (trace/gpu_scene.cpp) and GLSL (shaders/scene/scene.glsl).
+#ifndef VOXRAY_SHARED_SCENE_TYPES_H
+#define VOXRAY_SHARED_SCENE_TYPES_H
+
+#include "shaders/shared/types.h"
+
+VOXRAY_SHARED_BEGIN
+
+struct GpuTextureRef {
+    uint texture;   // Index into `textures`; NO_TEXTURE: none.
+    uint texCoord;  // 0 or 1.
+    vec3 rowU;      // uv' = (dot(rowU, (u, v, 1)), dot(rowV, (u, v, 1)))
+    vec3 rowV;
+};
+
+struct GpuMaterial {
+    vec4 baseColor;
+    vec3 emission;  // W/(m² sr)
+    float metallic;
+    vec3 specularColor;
+    float roughness;
+    float specular;
+    float ior;
+    float normalScale;
+    float alphaCutoff;
+    uint alphaMode;  // ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND
+    uint doubleSided;
+    GpuTextureRef baseColorTexture;
+    GpuTextureRef metallicRoughnessTexture;
+    GpuTextureRef normalTexture;
+    GpuTextureRef emissiveTexture;
+};
+
+struct GpuLight {
+    vec3 intensity;  // W/sr (point, spot) or W/m² (directional)
+    uint type;       // LIGHT_POINT, LIGHT_SPOT, LIGHT_DIRECTIONAL
+    vec3 position;
+    float cosInner;
+    vec3 direction;  // The way the light travels.
+    float cosOuter;
+};
+
+// An emissive triangle. `cumulativePower` runs from 0 to 1 over the list, so that a binary search picks
+// emitters in proportion to their power.
+struct GpuEmitter {
+    uint triangle;
+    float area;             // m²
+    float probability;      // Of being picked.
+    float cumulativePower;  // Of this and all earlier emitters, as a fraction.
+};
+
+struct GpuVertexAttributes {
+    vec3 normal;
+    float padding;
+    vec4 tangent;
+    vec4 texCoords;
+    vec4 color;
+};
+
+VOXRAY_SHARED_END
+
+#define NO_TEXTURE 0xffffffffu
+#define ALPHA_OPAQUE 0u
+#define ALPHA_MASK 1u
+#define ALPHA_BLEND 2u
+#define LIGHT_POINT 0u
+#define LIGHT_SPOT 1u
+#define LIGHT_DIRECTIONAL 2u
+
+#endif

@@ -1,0 +1,36 @@
+// Flux into voxels, summed by face in fixed point. Binding 13 of set 0; host: passes/common/voxels/flux_accumulator.h.
+// With RACY the sums are plain reads and writes that lose what meets.
+#ifndef VOXRAY_FLUX_ACCUMULATOR_GLSL
+#define VOXRAY_FLUX_ACCUMULATOR_GLSL
+
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_shader_atomic_int64 : require
+
+#include "shaders/voxels/face.glsl"
+#include "shaders/compute/large_buffer.glsl"
+
+// All lights' power is 2 to this in units of the sums.
+#define FLUX_POWER_BITS 56.0
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer FluxAccumulator { uint64_t data[]; };
+layout(set = 0, binding = 13, scalar) readonly buffer FluxAccumulatorAt { FluxAccumulator fluxAccumulator; };  // 3 a face
+
+// A surface's flux goes to the three directions that it faces, by the squares of its normal's components.
+void addFlux(uint voxel, vec3 normal, vec3 watts, float unitsPerWatt) {
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        const float share = normal[axis] * normal[axis] * unitsPerWatt;
+        const uint face = voxel * 6u + faceOf(normal, axis);
+        for (uint c = 0u; c < 3u; ++c) {
+            const uint64_t units = uint64_t(watts[c] * share);
+            if (units == 0ul) continue;
+#ifdef RACY
+            fluxAccumulator.data[face * 3u + c] += units;
+#else
+            atomicAdd(fluxAccumulator.data[face * 3u + c], units);
+#endif
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,100 @@
+// Irradiance samples into voxels, merged by face. Bindings 13 and 14 of set 0; host: passes/common/voxels/voxel_accumulator.h,
+// which defines WRITE.
+#ifndef VOXRAY_VOXEL_ACCUMULATOR_GLSL
+#define VOXRAY_VOXEL_ACCUMULATOR_GLSL
+
+#extension GL_EXT_scalar_block_layout : require
+
+#include "shaders/voxels/face.glsl"
+
+#define WRITE_AVERAGE 0
+#define WRITE_MAX 1
+#define WRITE_MOVING_AVERAGE 2
+#define WRITE_NONE 3
+
+#if WRITE == WRITE_AVERAGE
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_shader_atomic_int64 : require
+#define WEIGHT_UNITS 16777216.0
+#define LARGEST_SAMPLE 1099511627776.0  // 2^40 units: 2^16 times the typical irradiance.
+layout(set = 0, binding = 13, scalar) buffer VoxelSums { uint64_t data[]; } voxelSums;        // 3 a face
+layout(set = 0, binding = 14, scalar) buffer VoxelWeights { uint64_t data[]; } voxelWeights;  // 1 a face
+#elif WRITE == WRITE_MAX
+layout(set = 0, binding = 13, scalar) buffer VoxelSums { uint data[]; } voxelSums;        // 3 a face, bits of floats
+layout(set = 0, binding = 14, scalar) buffer VoxelWeights { uint data[]; } voxelWeights;  // 1 where a sample fell
+#elif WRITE == WRITE_MOVING_AVERAGE
+layout(set = 0, binding = 13, scalar) coherent buffer VoxelSums { uint data[]; } voxelSums;  // RGBA8, count in A
+#else
+layout(set = 0, binding = 13, scalar) buffer VoxelSums { float data[]; } voxelSums;        // 3 a face: means
+layout(set = 0, binding = 14, scalar) buffer VoxelWeights { float data[]; } voxelWeights;  // 1 a face
+#endif
+
+// Below this part of a sample, max and moving_average, which have no weights, leave it out.
+#define MIN_WEIGHT 0.0625
+
+// Merges a sample into face voxel * 6 + direction (+x -x +y -y +z -z). `irradiance` in W/m², not negative;
+// `weight` above 0; `scale` is VoxelAccumulator::scale().
+void writeFace(uint face, vec3 irradiance, float weight, float scale) {
+#if WRITE == WRITE_AVERAGE
+    const vec3 units = min(irradiance * (weight * scale), LARGEST_SAMPLE);
+    for (uint c = 0u; c < 3u; ++c)
+        if (units[c] >= 0.5) atomicAdd(voxelSums.data[face * 3u + c], uint64_t(units[c] + 0.5));
+    atomicAdd(voxelWeights.data[face], uint64_t(min(weight * WEIGHT_UNITS, LARGEST_SAMPLE) + 0.5));
+#elif WRITE == WRITE_MAX
+    // Floats that are not negative are ordered as their bits are.
+    if (weight < MIN_WEIGHT) return;
+    for (uint c = 0u; c < 3u; ++c) atomicMax(voxelSums.data[face * 3u + c], floatBitsToUint(irradiance[c]));
+    voxelWeights.data[face] = 1u;
+#elif WRITE == WRITE_MOVING_AVERAGE
+    // Magalhães 2020, listing 4.3: read, average, swap unless another thread came between.
+    if (weight < MIN_WEIGHT) return;
+    const vec3 color = clamp(irradiance * scale, 0.0, 1.0);
+    uint expected = 0u;
+    uint desired = packUnorm4x8(vec4(color, 1.0 / 255.0));
+    for (uint attempt = 0u; attempt < 65536u; ++attempt) {
+        const uint found = atomicCompSwap(voxelSums.data[face], expected, desired);
+        if (found == expected) return;
+        expected = found;
+        const vec4 mean = unpackUnorm4x8(found);
+        const float count = round(mean.a * 255.0);
+        desired = packUnorm4x8(vec4((mean.rgb * count + color) / (count + 1.0), (count + 1.0) / 255.0));
+    }
+#else
+    const float total = voxelWeights.data[face] + weight;
+    voxelWeights.data[face] = total;
+    for (uint c = 0u; c < 3u; ++c) {
+        const float mean = voxelSums.data[face * 3u + c];
+        voxelSums.data[face * 3u + c] = mean + (irradiance[c] - mean) * (weight / total);
+    }
+#endif
+}
+
+// The irradiance of a surface with unit normal `normal`: a sample of the three directions that it faces, which weigh
+// the squares of the normal's components, as its area does.
+void writeIrradiance(uint voxel, vec3 normal, vec3 irradiance, float weight, float scale) {
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        const float share = weight * normal[axis] * normal[axis];
+        if (share > 0.0) writeFace(voxel * 6u + faceOf(normal, axis), irradiance, share, scale);
+    }
+}
+
+// The merged irradiance of a face, W/m², and in w whether any sample fell on it.
+vec4 mergedIrradiance(uint face, float scale) {
+#if WRITE == WRITE_AVERAGE
+    const float weight = float(voxelWeights.data[face]) / WEIGHT_UNITS;
+    if (weight == 0.0) return vec4(0.0);
+    return vec4(vec3(voxelSums.data[face * 3u], voxelSums.data[face * 3u + 1u], voxelSums.data[face * 3u + 2u]) /
+                    (scale * weight), 1.0);
+#elif WRITE == WRITE_MAX
+    return vec4(uintBitsToFloat(voxelSums.data[face * 3u]), uintBitsToFloat(voxelSums.data[face * 3u + 1u]),
+                uintBitsToFloat(voxelSums.data[face * 3u + 2u]), voxelWeights.data[face]);
+#elif WRITE == WRITE_MOVING_AVERAGE
+    const vec4 mean = unpackUnorm4x8(voxelSums.data[face]);
+    return vec4(mean.rgb / scale, mean.a > 0.0 ? 1.0 : 0.0);
+#else
+    return vec4(voxelSums.data[face * 3u], voxelSums.data[face * 3u + 1u], voxelSums.data[face * 3u + 2u],
+                voxelWeights.data[face] > 0.0 ? 1.0 : 0.0);
+#endif
+}
+
+#endif

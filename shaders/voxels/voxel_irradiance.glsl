@@ -1,0 +1,60 @@
+// Mean irradiance of surfaces near a point from the flux that their voxels hold. Bindings 11 and 12 of set 0.
+#ifndef VOXRAY_VOXEL_IRRADIANCE_GLSL
+#define VOXRAY_VOXEL_IRRADIANCE_GLSL
+
+#include "shaders/voxels/voxels.glsl"
+
+// W, by voxel and facing direction +x -x +y -y +z -z, 3 floats each.
+layout(set = 0, binding = 11, scalar) readonly buffer VoxelFluxAt { LargeFloats voxelFlux; };
+// In units of a voxel's face, by voxel and facing direction.
+layout(set = 0, binding = 12, scalar) readonly buffer VoxelArea { float data[]; } voxelArea;
+
+// Adds up the flux and the area of surfaces that face a normal, with tent weights of `radius` voxels about a point.
+// `weightByAxis` and `face`: shares of the three directions that the normal faces, and their numbers.
+void addVoxels(VoxelGrid g, vec3 position, vec3 weightByAxis, uvec3 face, float radius, inout vec3 flux, inout float area) {
+    const vec3 center = (position - g.origin) / g.voxelSize - 0.5;
+    const ivec3 first = max(ivec3(ceil(center - radius)), ivec3(0));
+    const ivec3 last = min(ivec3(floor(center + radius)), ivec3(g.resolution) - 1);
+    for (int z = first.z; z <= last.z; ++z)
+        for (int y = first.y; y <= last.y; ++y)
+            for (int x = first.x; x <= last.x; ++x) {
+                const uint voxel = voxelNumber(g, ivec3(x, y, z));
+                if (voxel == NO_VOXEL) continue;
+                const vec3 tent = max(1.0 - abs(vec3(x, y, z) - center) / radius, 0.0);
+                const vec3 weight = weightByAxis * (tent.x * tent.y * tent.z);
+                const uint faces = g.directions == 1u ? 6u : 3u;
+                for (uint k = 0u; k < faces; ++k) {
+                    const float share = faces == 6u ? tent.x * tent.y * tent.z : weight[k];
+                    const uint at = (voxel * 6u + (faces == 6u ? k : face[k])) * 3u;
+                    area += share * voxelArea.data[at / 3u];
+                    flux += share * vec3(voxelFlux.data[at], voxelFlux.data[at + 1u], voxelFlux.data[at + 2u]);
+                }
+            }
+}
+
+// Irradiance (W/m²) on a surface at `position` with unit normal `normal`.
+//
+// A voxel knows the flux that its surfaces catch and their area, both split by facing direction. Both are interpolated
+// with tent weights of `radius` voxels, and their ratio taken last: a voxel that a surface only grazes weighs little, and
+// a half-lit one is half bright. The ratio is only as good as the area below it, which was sampled: under a tenth of a
+// voxel's face the reach doubles, up to twice. In a grid of one direction all six faces of a voxel count alike.
+//
+// `sevenTap` adds up seven places instead of one: the point and its neighbours at one voxel's distance along the axes.
+vec3 voxelIrradiance(VoxelGrid g, vec3 position, vec3 normal, float radius, bool sevenTap) {
+    const vec3 weightByAxis = normal * normal;
+    const uvec3 face = uvec3(normal.x < 0.0 ? 1u : 0u, normal.y < 0.0 ? 3u : 2u, normal.z < 0.0 ? 5u : 4u);
+    for (int attempt = 0; attempt < 3; ++attempt, radius *= 2.0) {
+        vec3 flux = vec3(0.0);
+        float area = 0.0;
+        addVoxels(g, position, weightByAxis, face, radius, flux, area);
+        for (int tap = 0; sevenTap && tap < 6; ++tap) {
+            vec3 offset = vec3(0.0);
+            offset[tap / 2] = tap % 2 == 0 ? g.voxelSize : -g.voxelSize;
+            addVoxels(g, position + offset, weightByAxis, face, radius, flux, area);
+        }
+        if (area > 0.1 || attempt == 2) return flux / (max(area, 0.1) * g.voxelSize * g.voxelSize);
+    }
+    return vec3(0.0);
+}
+
+#endif
