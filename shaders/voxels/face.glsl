@@ -3,7 +3,7 @@
 #define VOXRAY_FACE_GLSL
 
 // The direction along an axis that a normal faces.
-uint facing(vec3 normal, uint axis) { return 2u * axis + (normal[axis] < 0.0 ? 1u : 0u); }
+uint faceOf(vec3 normal, uint axis) { return 2u * axis + (normal[axis] < 0.0 ? 1u : 0u); }
 
 // A bit for each direction that a surface counts in, by a hundredth or more of its area.
 uint faceBits(vec3 normal) {
