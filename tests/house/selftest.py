@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """The house checks find what they are for: each rule against a tree that breaks it, and one that does not."""
+import graphlib
 import os
 import tempfile
 import unittest
@@ -29,8 +30,11 @@ class Layers(Tree):
         for path in ("framework/base/error.h", "framework/vulkan/device.h", "framework/image/image.h",
                      "framework/scene/scene.h", "framework/trace/ray.h", "framework/graph/pass.h",
                      "framework/experiment/runner.h", "framework/app/commands.h", "passes/register_passes.h",
-                     "passes/one/one.h", "passes/two/two.h", "passes/two/two.glsl", "passes/common/common.h",
-                     "shaders/shared/types.h", "tests/unit/helper.h"):
+                     "framework/config/yaml.h", "passes/one/one.h", "passes/two/two.h", "passes/two/two.glsl",
+                     "passes/common/compute/scan.h", "passes/common/voxels/voxels.h", "passes/common/octree/octree.h",
+                     "passes/common/stray.h", "passes/common/novel/novel.h", "shaders/shared/types.h",
+                     "shaders/scene/scene.glsl", "shaders/compute/scan.glsl", "shaders/voxels/grid.glsl",
+                     "shaders/octree/node.glsl", "tests/unit/helper.h"):
             self.write(path, "#pragma once\n")
 
     def refused(self, path, include):
@@ -64,18 +68,46 @@ class Layers(Tree):
 
     def test_passes(self):
         self.refused("framework/experiment/x.cpp", '"passes/register_passes.h"')
-        self.refused("framework/graph/x.cpp", '"passes/common/common.h"')
+        self.refused("framework/graph/x.cpp", '"passes/common/voxels/voxels.h"')
         self.refused("passes/one/x.cpp", '"passes/two/two.h"')
         self.refused("passes/one/x.comp", '"passes/two/two.glsl"')
         self.refused("passes/one/x.cpp", '"../two/two.h"')
-        self.refused("passes/common/x.cpp", '"passes/one/one.h"')
+        self.refused("passes/common/voxels/x.cpp", '"passes/one/one.h"')
         self.refused("passes/one/x.cpp", '"experiment/runner.h"')
+        self.refused("passes/one/x.cpp", '"config/yaml.h"')
         self.refused("shaders/x.glsl", '"passes/two/two.glsl"')
         self.refused("passes/one/x.cpp", '"tests/unit/helper.h"')
-        self.allowed("passes/one/x.cpp", '"passes/common/common.h"')
+        self.allowed("passes/one/x.cpp", '"passes/common/voxels/voxels.h"')
         self.allowed("passes/one/x.cpp", '"one.h"')
         self.allowed("passes/register_passes.cpp", '"passes/two/two.h"')
         self.allowed("framework/app/x.cpp", '"passes/register_passes.h"')
+
+    def test_rooms(self):
+        # Upwards, in circles, and what is in no room.
+        self.refused("passes/common/voxels/x.cpp", '"passes/common/octree/octree.h"')
+        self.refused("passes/common/compute/x.cpp", '"passes/common/voxels/voxels.h"')
+        self.refused("passes/common/x.cpp", '"passes/common/voxels/voxels.h"')
+        self.refused("passes/common/voxels/x.cpp", '"passes/common/stray.h"')
+        self.refused("passes/one/x.cpp", '"passes/common/stray.h"')
+        self.refused("passes/one/x.cpp", '"passes/common/novel/novel.h"')
+        self.allowed("passes/common/octree/x.cpp", '"passes/common/voxels/voxels.h"')
+        self.allowed("passes/common/octree/x.cpp", '"octree.h"')
+        self.allowed("passes/common/octree/x.cpp", '"graph/pass.h"')
+
+    def test_rooms_of_shaders(self):
+        self.refused("shaders/voxels/x.glsl", '"shaders/octree/node.glsl"')
+        self.refused("shaders/scene/x.glsl", '"shaders/voxels/grid.glsl"')
+        self.refused("shaders/novel/x.glsl", '"shaders/voxels/grid.glsl"')
+        self.refused("shaders/octree/x.glsl", '"passes/common/octree/octree.h"')
+        self.refused("passes/common/voxels/x.comp", '"shaders/octree/node.glsl"')
+        self.allowed("shaders/octree/x.glsl", '"shaders/voxels/grid.glsl"')
+        self.allowed("shaders/voxels/x.glsl", '"shaders/scene/scene.glsl"')
+        self.allowed("passes/common/octree/x.comp", '"shaders/voxels/grid.glsl"')
+        self.allowed("passes/one/x.comp", '"shaders/octree/node.glsl"')
+
+    def test_no_circles(self):
+        graphlib.TopologicalSorter(layers.LAYERS).prepare()
+        graphlib.TopologicalSorter(layers.ROOMS).prepare()
 
     def test_third_party(self):
         self.refused("framework/experiment/x.cpp", "<tiny_gltf.h>")
