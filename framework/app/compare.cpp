@@ -4,14 +4,13 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/commands.h"
 #include "base/error.h"
 #include "base/value.h"
 #include "image/image.h"
-#include "image/metrics.h"
+#include "image/score.h"
 
 namespace voxray {
 
@@ -30,19 +29,13 @@ struct Row {
     Scores scores;
 };
 
-using Metric = std::pair<const char*, double Scores::*>;
-constexpr Metric kMetrics[] = {{"flip", &Scores::flip},           {"flip_ldr", &Scores::flipLdr},
-                               {"ssim", &Scores::ssim},           {"psnr_db", &Scores::psnrDb},
-                               {"nrmse", &Scores::nrmse},         {"relmse", &Scores::relmse},
-                               {"mean_ratio", &Scores::meanRatio}};
-
 void printTable(const std::vector<Row>& rows) {
     fmt::print("{:<10}", "");
-    for (const auto& [name, member] : kMetrics) fmt::print(" {:>10}", name);
+    for (const Metric& metric : metrics()) fmt::print(" {:>10}", metric.name);
     fmt::print("\n");
     for (const Row& row : rows) {
         fmt::print("{:<10}", row.name);
-        for (const auto& [name, member] : kMetrics) fmt::print(" {:>10.5g}", row.scores.*member);
+        for (const Metric& metric : metrics()) fmt::print(" {:>10.5g}", row.scores.at(metric.name));
         fmt::print("\n");
     }
 }
@@ -57,7 +50,7 @@ void printJson(const std::vector<Row>& rows, const CompareOptions& options, cons
     out.set("reference", Value::fromScalar(options.reference.string(), true));
     for (const Row& row : rows) {
         Value scores = Value::map();
-        for (const auto& [name, member] : kMetrics) scores.set(name, number(row.scores.*member));
+        for (const Metric& metric : metrics()) scores.set(metric.name, number(row.scores.at(metric.name)));
         out.set(row.name == "test" ? "scores" : row.name, std::move(scores));
     }
     Value range = Value::map();
@@ -80,11 +73,11 @@ void compare(const CompareOptions& options) {
     ScoreOptions scoring;
     scoring.exposureStops = options.exposureStops;
     scoring.flipExposures = flipExposures(reference);
-    ImageF map;
-    const std::vector<Row> rows = {{"test", score(test, reference, scoring, &map)},
-                                   {"black", score(blackLike(reference), reference, scoring)},
-                                   {"constant", score(constantLike(reference), reference, scoring)}};
-    if (!options.flipMap.empty()) writePng(options.flipMap, map);
+    const Comparison comparison(test, reference, scoring);
+    const std::vector<Row> rows = {{"test", score(comparison)},
+                                   {"black", score({blackLike(reference), reference, scoring})},
+                                   {"constant", score({constantLike(reference), reference, scoring})}};
+    if (!options.flipMap.empty()) writePng(options.flipMap, comparison.flip.map);
 
     if (options.json)
         printJson(rows, options, scoring.flipExposures);

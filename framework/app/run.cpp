@@ -25,6 +25,9 @@ void printSummary(const RunSummary& summary, const RunOptions& options) {
     if (options.dryRun) return;
     if (!summary.reportError.empty())
         fmt::print(stderr, "voxray: error: no report: {}\n", summary.reportError);
+    if (summary.validationMessages > 0)
+        fmt::print(stderr, "voxray: error: the Vulkan validation layer has {} message{}\n",
+                   summary.validationMessages, summary.validationMessages == 1 ? "" : "s");
     if (summary.interrupted)
         fmt::print(stderr, "voxray: interrupted; finished variants are kept in {}, --resume goes on\n",
                    summary.out.string());
@@ -94,6 +97,9 @@ void addRunCommand(CLI::App& app, int& status) {
                       "Keep what an earlier run of the same experiment finished.");
     command->add_flag("--dry-run", options.dryRun,
                       "Print variants, passes and predicted memory; render nothing.");
+    command->add_flag("--validate", options.validation,
+                      "Turn Vulkan's validation layer on: its messages are printed and fail the run (exit "
+                      "status 1). Times are then not the method's.");
     command->add_flag("--quiet", options.quiet, "Print nothing but errors.");
     command->callback([arguments, &status] { status = run(*arguments); });
 }

@@ -4,6 +4,7 @@
 
 #include "config/overrides.h"
 #include "config/yaml.h"
+#include "image/score.h"
 
 namespace voxray {
 namespace {
@@ -123,7 +124,9 @@ Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
 }  // namespace
 
 std::vector<std::string> metricNames() {
-    return {"flip", "ssim", "psnr", "nrmse", "relmse", "mean_ratio"};
+    std::vector<std::string> names;
+    for (const Metric& metric : metrics()) names.emplace_back(metric.name);
+    return names;
 }
 
 Setup readSetup(const Value& config) {

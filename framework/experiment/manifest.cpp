@@ -1,5 +1,6 @@
 #include "experiment/manifest.h"
 
+#include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -14,20 +15,26 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json scoresJson(const Scores& scores, const std::string& prefix) {
-    Json json;
-    const std::vector<std::string> texts = scoreTexts(scores, metricNames());
-    for (size_t i = 0; i < texts.size(); ++i) {
-        const Json number = Json::parse(texts[i], nullptr, false);
-        json[prefix + scoreColumns()[i]] = number.is_number() ? number : Json(texts[i]);
-    }
+/// Of the keys under which a reference's noise stands, behind the metric's column.
+constexpr const char* kNoiseSuffix = "_noise";
+
+// JSON has no infinity: it is written as text.
+Json scoresJson(const Scores& scores, const std::string& suffix = "") {
+    Json json = Json::object();
+    for (const auto& [column, value] : scores)
+        json[column + suffix] = std::isfinite(value) ? Json(value) : Json(numberText(value));
     return json;
 }
 
-Json baselineJson(const Scores& total, const Scores& indirect) {
-    Json json = scoresJson(total, "");
-    json.update(scoresJson(indirect, "indirect_"));
-    return json;
+Json metricsJson() {
+    Json list = Json::array();
+    for (const Metric& metric : metrics())
+        list.push_back({{"name", metric.name},
+                        {"label", metric.label},
+                        {"unit", metric.unit},
+                        {"better", nameOf(metric.better)},
+                        {"meaning", metric.meaning}});
+    return list;
 }
 
 Json exposuresJson(const FlipExposures& e) {
@@ -41,27 +48,23 @@ Json referenceJson(const ReferenceRecord& r, const Value& pass) {
     json["hash"] = r.hash;
     json["seconds"] = r.seconds;
     json["cached"] = r.cached;
-    json["nrmse_noise"] = r.noise.nrmse;
-    json["relmse_noise"] = r.noise.relmse;
-    json["indirect_nrmse_noise"] = r.indirectNoise.nrmse;
-    json["indirect_relmse_noise"] = r.indirectNoise.relmse;
+    json.update(scoresJson(r.noise, kNoiseSuffix));
     return json;
 }
 
-Scores scoresFrom(const Json& json, const std::string& prefix) {
-    const auto number = [&](const char* name) {
-        const Json& value = json.at(prefix + name);
-        return value.is_number() ? value.get<double>() : std::stod(value.get<std::string>());
-    };
-    Scores s;
-    s.flip = number("flip");
-    s.flipLdr = number("flip_ldr");
-    s.ssim = number("ssim");
-    s.psnrDb = number("psnr_db");
-    s.nrmse = number("nrmse");
-    s.relmse = number("relmse");
-    s.meanRatio = number("mean_ratio");
-    return s;
+Scores scoresFrom(const Json& json) {
+    Scores scores;
+    for (const auto& [column, value] : json.items())
+        scores[column] = value.is_number() ? value.get<double>() : std::stod(value.get<std::string>());
+    return scores;
+}
+
+Scores noiseFrom(const Json& record) {
+    Scores noise;
+    const std::string suffix = kNoiseSuffix;
+    for (const auto& [key, value] : record.items())
+        if (key.ends_with(suffix)) noise[key.substr(0, key.size() - suffix.size())] = value.get<double>();
+    return noise;
 }
 
 FlipExposures exposuresFrom(const Json& json) {
@@ -99,14 +102,14 @@ std::string manifestJson(const ManifestData& data) {
     Value measure = writeParams(experiment.measure);
     json["measure"] = Json::parse(measure.json());
     json["measure"]["metrics"] = experiment.measure.metrics;
+    json["metrics"] = metricsJson();
 
     // What most runs have: one reference
     if (!data.references.empty()) {
         const ReferenceRecord& first = data.references[0];
         json["flip_exposures"] = exposuresJson(first.exposures);
         json["reference"] = referenceJson(first, data.referencePass);
-        json["baselines"] = {{"black", baselineJson(first.black, first.indirectBlack)},
-                             {"constant", baselineJson(first.constant, first.indirectConstant)}};
+        json["baselines"] = {{"black", scoresJson(first.black)}, {"constant", scoresJson(first.constant)}};
     }
     json["references"] = Json::array();
     for (const ReferenceRecord& r : data.references) {
@@ -116,8 +119,7 @@ std::string manifestJson(const ManifestData& data) {
             if (hash == r.hash) entry["variants"].push_back(variant);
         entry["flip_exposures"] = exposuresJson(r.exposures);
         entry["indirect_flip_exposures"] = exposuresJson(r.indirectExposures);
-        entry["baselines"] = {{"black", baselineJson(r.black, r.indirectBlack)},
-                              {"constant", baselineJson(r.constant, r.indirectConstant)}};
+        entry["baselines"] = {{"black", scoresJson(r.black)}, {"constant", scoresJson(r.constant)}};
         json["references"].push_back(entry);
     }
     json["auto"] = {{"tracer", data.tracer}, {"device", data.device.name}};
@@ -141,16 +143,12 @@ std::vector<ReferenceRecord> referencesOf(const std::string& manifestText) {
             r.hash = json.at("hash").get<std::string>();
             r.seconds = json.at("seconds").get<double>();
             r.cached = json.at("cached").get<bool>();
-            r.noise = {json.at("nrmse_noise").get<double>(), json.at("relmse_noise").get<double>()};
-            r.indirectNoise = {json.at("indirect_nrmse_noise").get<double>(),
-                               json.at("indirect_relmse_noise").get<double>()};
+            r.noise = noiseFrom(json);
             r.exposures = exposuresFrom(json.at("flip_exposures"));
             r.indirectExposures = exposuresFrom(json.at("indirect_flip_exposures"));
             const Json& baselines = json.at("baselines");
-            r.black = scoresFrom(baselines.at("black"), "");
-            r.indirectBlack = scoresFrom(baselines.at("black"), "indirect_");
-            r.constant = scoresFrom(baselines.at("constant"), "");
-            r.indirectConstant = scoresFrom(baselines.at("constant"), "indirect_");
+            r.black = scoresFrom(baselines.at("black"));
+            r.constant = scoresFrom(baselines.at("constant"));
             records.push_back(r);
         }
     } catch (const std::exception&) {

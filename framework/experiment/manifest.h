@@ -19,9 +19,9 @@ struct ReferenceRecord {
     std::string hash;
     double seconds = 0;
     bool cached = false;
-    NoiseFloor noise, indirectNoise;
+    Scores noise;  ///< Expected scores of the reference's own noise, by column, as far as known.
     FlipExposures exposures, indirectExposures;
-    Scores black, constant, indirectBlack, indirectConstant;
+    Scores black, constant;  ///< By column.
 };
 
 /// What `manifest.json` records.

@@ -41,7 +41,7 @@ bool isFinite(const ImageF& image) {
 
 }  // namespace
 
-NoiseFloor noiseFloor(const ImageF& mean, const ImageF& variance) {
+Scores noiseFloor(const ImageF& mean, const ImageF& variance) {
     // As the metrics do, in units of the reference's mean
     const double scale = meanOf(mean);
     if (!(scale > 0)) return {};
@@ -52,7 +52,7 @@ NoiseFloor noiseFloor(const ImageF& mean, const ImageF& variance) {
         relative += v / (r * r + 0.01);
     }
     const double count = double(mean.data.size());
-    return {std::sqrt(squares / count), relative / count};
+    return {{"nrmse", std::sqrt(squares / count)}, {"relmse", relative / count}};
 }
 
 uint64_t referenceSeed(uint64_t seed) {

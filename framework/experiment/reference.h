@@ -6,7 +6,7 @@
 
 #include "experiment/measure.h"
 #include "image/image.h"
-#include "image/metrics.h"
+#include "image/score.h"
 
 namespace voxray {
 
@@ -18,13 +18,9 @@ struct ReferenceImages {
     std::string hash;
 };
 
-/// Expected error of a noisy image against its own expectation, in the units of the metrics.
-struct NoiseFloor {
-    double nrmse = 0;
-    double relmse = 0;
-};
-/// From the variance of each pixel's mean, both images 3 channels.
-NoiseFloor noiseFloor(const ImageF& mean, const ImageF& variance);
+/// Expected nrmse and relmse of a noisy image against its own expectation, from the variance of each pixel's
+/// mean; both images have 3 channels. Empty for a black image.
+Scores noiseFloor(const ImageF& mean, const ImageF& variance);
 
 /// The seed that the reference renders with: not the variants' own, so that a path-traced variant does not
 /// share the reference's samples.

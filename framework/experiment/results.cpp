@@ -9,19 +9,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A score: its column, its name in `measure.metrics` (empty: always written) and where it is kept.
-struct ScoreColumn {
-    const char* name;
-    const char* metric;
-    double Scores::*member;
-};
-constexpr ScoreColumn kScoreColumns[] = {
-    {"flip", "flip", &Scores::flip},        {"ssim", "ssim", &Scores::ssim},
-    {"psnr_db", "psnr", &Scores::psnrDb},   {"nrmse", "nrmse", &Scores::nrmse},
-    {"relmse", "relmse", &Scores::relmse},  {"mean_ratio", "mean_ratio", &Scores::meanRatio},
-    {"flip_ldr", "flip", &Scores::flipLdr},
-};
-
 // JSON has no infinity: PSNR of equal images is written as text.
 Json numberJson(double value) {
     return std::isfinite(value) ? Json(value) : Json(numberText(value));
@@ -32,19 +19,15 @@ double numberFrom(const Json& json) {
     return text == "inf" ? HUGE_VAL : text == "-inf" ? -HUGE_VAL : std::nan("");
 }
 
-Json scoresJson(const std::optional<Scores>& scores) {
-    if (!scores) return nullptr;
-    Json json;
-    for (const ScoreColumn& column : kScoreColumns)
-        json[column.name] = numberJson((*scores).*(column.member));
+Json scoresJson(const Scores& scores) {
+    Json json = Json::object();
+    for (const auto& [column, value] : scores) json[column] = numberJson(value);
     return json;
 }
 
-std::optional<Scores> scoresFrom(const Json& json) {
-    if (json.is_null()) return {};
+Scores scoresFrom(const Json& json) {
     Scores scores;
-    for (const ScoreColumn& column : kScoreColumns)
-        scores.*(column.member) = numberFrom(json.at(column.name));
+    for (const auto& [column, value] : json.items()) scores[column] = numberFrom(value);
     return scores;
 }
 
@@ -82,32 +65,21 @@ std::string csvField(const std::string& text) {
     return quoted + "\"";
 }
 
-const std::vector<std::string>& scoreColumns() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> list;
-        for (const ScoreColumn& column : kScoreColumns) list.emplace_back(column.name);
-        return list;
-    }();
-    return names;
-}
-
-std::vector<std::string> scoreTexts(const Scores& scores, const std::vector<std::string>& metrics) {
-    std::vector<std::string> texts;
-    for (const ScoreColumn& column : kScoreColumns) {
-        const bool isWanted = std::find(metrics.begin(), metrics.end(), column.metric) != metrics.end();
-        texts.push_back(isWanted ? numberText(scores.*(column.member)) : "");
-    }
-    return texts;
+std::vector<ScoreColumn> scoreColumns() {
+    std::vector<ScoreColumn> columns;
+    for (const char* light : kLightPrefixes)
+        for (const Metric& metric : metrics())
+            columns.push_back({std::string(light) + metric.name, metric.name});
+    return columns;
 }
 
 std::string resultsCsv(const std::vector<VariantResult>& results, const std::vector<std::string>& sweepKeys,
-                       const std::vector<std::string>& metrics) {
+                       const std::vector<std::string>& metricNames) {
     std::vector<std::string> header{"variant", "status", "error", "device", "tracer"};
     append(header, sweepKeys);
     append(header, {"build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes",
                     "peak_bytes", "rays"});
-    append(header, scoreColumns());
-    for (const std::string& name : scoreColumns()) header.push_back("indirect_" + name);
+    for (const ScoreColumn& column : scoreColumns()) header.push_back(column.name);
 
     std::string text = csvLine(header);
     for (const VariantResult& r : results) {
@@ -119,9 +91,11 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
                             std::to_string(r.peakBytes), std::to_string(r.rays)});
         else
             append(fields, std::vector<std::string>(7));
-        for (const auto& scores : {r.total, r.indirect})
-            append(fields, r.ok && scores ? scoreTexts(*scores, metrics)
-                                          : std::vector<std::string>(scoreColumns().size()));
+        for (const ScoreColumn& column : scoreColumns()) {
+            const auto value = r.scores.find(column.name);
+            const bool isWanted = std::ranges::count(metricNames, column.metric) > 0;
+            fields.push_back(isWanted && value != r.scores.end() ? numberText(value->second) : "");
+        }
         text += csvLine(fields);
     }
     return text;
@@ -159,8 +133,7 @@ std::string resultJson(const VariantResult& r, const VariantInputs& inputs) {
     json["memory_bytes"] = r.memoryBytes;
     json["peak_bytes"] = r.peakBytes;
     json["rays"] = r.rays;
-    json["total"] = scoresJson(r.total);
-    json["indirect"] = scoresJson(r.indirect);
+    json["scores"] = scoresJson(r.scores);
     json["passes"] = Json::array();
     for (const PassCost& p : r.passes)
         json["passes"].push_back({{"pass", p.id},
@@ -194,8 +167,7 @@ std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text)
         r.memoryBytes = json.at("memory_bytes").get<uint64_t>();
         r.peakBytes = json.at("peak_bytes").get<uint64_t>();
         r.rays = json.at("rays").get<uint64_t>();
-        r.total = scoresFrom(json.at("total"));
-        r.indirect = scoresFrom(json.at("indirect"));
+        r.scores = scoresFrom(json.at("scores"));
         for (const Json& p : json.at("passes")) {
             const Phase phase = p.at("phase").get<std::string>() == "build" ? Phase::Build : Phase::Frame;
             r.passes.push_back({p.at("pass").get<std::string>(), phase, percentilesFrom(p.at("ms")),

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiment/measure.h"
-#include "image/metrics.h"
+#include "image/score.h"
 
 /// Rows of the result files and their text.
 namespace voxray {
@@ -24,8 +24,7 @@ struct VariantResult {
     uint64_t memoryBytes = 0;  ///< As in Measurement, likewise peakBytes.
     uint64_t peakBytes = 0;
     uint64_t rays = 0;
-    std::optional<Scores> total;     ///< Empty without a reference.
-    std::optional<Scores> indirect;  ///< Empty where the graph writes no indirect light.
+    Scores scores;  ///< By column; without those of a light that the graph doesn't write, or of no reference.
     std::vector<PassCost> passes;
     std::vector<ReportedValue> values;
 };
@@ -33,10 +32,16 @@ struct VariantResult {
 /// What a variant's result depends on, by name: compared on --resume.
 using VariantInputs = std::vector<std::pair<std::string, std::string>>;
 
-/// Columns of scores, without prefix.
-const std::vector<std::string>& scoreColumns();
-/// The scores as text in the order of scoreColumns(); "" for those that `metrics` leaves out.
-std::vector<std::string> scoreTexts(const Scores& scores, const std::vector<std::string>& metrics);
+/// What columns of the total and of the indirect light begin with.
+inline constexpr const char* kLightPrefixes[] = {"", "indirect_"};
+
+/// A column of scores and the metric that stands in it.
+struct ScoreColumn {
+    std::string name;
+    std::string metric;
+};
+/// Columns of scores, in the order of the table of metrics: the total light's, then the indirect light's.
+std::vector<ScoreColumn> scoreColumns();
 
 /// A number with nine digits, '.' as decimal point, "inf" or "nan" where it isn't finite.
 std::string numberText(double value);
@@ -44,10 +49,10 @@ std::string numberText(double value);
 /// One field of CSV (RFC 4180): quoted where it holds a comma, a quote or a line break.
 std::string csvField(const std::string& text);
 
-/// `results.csv`, `passes.csv` and, of what passes reported, `values.csv` (a row a variant, pass, name and
-/// frame; no frame in the build).
+/// `results.csv` (scores of metrics that `metricNames` leaves out stay empty), `passes.csv` and, of what
+/// passes reported, `values.csv` (a row a variant, pass, name and frame; no frame in the build).
 std::string resultsCsv(const std::vector<VariantResult>& results, const std::vector<std::string>& sweepKeys,
-                       const std::vector<std::string>& metrics);
+                       const std::vector<std::string>& metricNames);
 std::string passesCsv(const std::vector<VariantResult>& results);
 std::string valuesCsv(const std::vector<VariantResult>& results);
 

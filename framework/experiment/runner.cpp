@@ -49,8 +49,9 @@ class Run {
     void openFolder();
     void takeOverFinished();
     void runVariant(size_t index, Progress& progress);
-    const Judge* judgeOf(const Variant& variant, Progress& progress);
+    const PreparedReference* referenceOf(const Variant& variant, Progress& progress);
     void writeTables();
+    void printValidationMessages(Progress& progress);
     VariantInputs inputsOf(const Variant& variant);
     std::string outcome(const VariantResult& result) const;
     std::vector<std::string> warnings() const;
@@ -64,8 +65,8 @@ class Run {
     ManifestData manifest_;
     std::vector<std::string> leftOut_;         ///< A line for each pass that some variant does without.
     std::map<size_t, VariantResult> results_;  ///< By index into variants_.
-    std::optional<Judge> judge_;
-    bool judgeIsWritten_ = true;
+    std::optional<PreparedReference> reference_;
+    bool referenceIsWritten_ = true;
     RunSummary summary_;
 };
 
@@ -86,6 +87,7 @@ RunSummary Run::execute() {
         for (const std::string& warning : warnings()) progress.warn(warning);
         for (size_t i = 0; i < variants_.size() && !summary_.interrupted; ++i)
             if (!results_.count(i)) runVariant(i, progress);
+        printValidationMessages(progress);
     }
     for (const auto& [index, result] : results_) ++(result.ok ? summary_.ok : summary_.failed);
     if (summary_.interrupted) return summary_;
@@ -210,11 +212,11 @@ void Run::takeOverFinished() {
         fmt::print("{} of {} variants were finished already\n", summary_.resumed, variants_.size());
 }
 
-const Judge* Run::judgeOf(const Variant& variant, Progress& progress) {
+const PreparedReference* Run::referenceOf(const Variant& variant, Progress& progress) {
     if (experiment_.reference.isNull()) return nullptr;
     const ReferenceImages& images = session_->reference(experiment_, variant.setup, registry_,
                                                         [&](double fraction) { progress.update(fraction); });
-    if (judge_ && judge_->images.hash == images.hash) return &*judge_;
+    if (reference_ && reference_->images.hash == images.hash) return &*reference_;
 
     // The first reference is "reference"; each other one gets its own folder
     auto& records = manifest_.references;
@@ -223,10 +225,10 @@ const Judge* Run::judgeOf(const Variant& variant, Progress& progress) {
     const std::string folder = known != records.end() ? known->folder
                                : records.empty()      ? "reference"
                                                       : fmt::format("reference.{}", records.size() + 1);
-    judge_ = makeJudge(images, variant.setup.image, folder);
-    if (known == records.end()) records.push_back(judge_->record);
-    judgeIsWritten_ = false;
-    return &*judge_;
+    reference_ = prepareReference(images, variant.setup.image, folder);
+    if (known == records.end()) records.push_back(reference_->record);
+    referenceIsWritten_ = false;
+    return &*reference_;
 }
 
 void Run::runVariant(size_t index, Progress& progress) {
@@ -235,9 +237,9 @@ void Run::runVariant(size_t index, Progress& progress) {
     VariantResult failed;
     try {
         progress.begin(experiment_.reference.isNull() ? variant.name : variant.name + ": reference");
-        const Judge* judge = judgeOf(variant, progress);
+        const PreparedReference* reference = referenceOf(variant, progress);
         progress.begin(variant.name);
-        rendered = renderVariant(variant, experiment_, registry_, *session_, judge,
+        rendered = renderVariant(variant, experiment_, registry_, *session_, reference,
                                  [&](double fraction) { progress.update(fraction); });
     } catch (const std::bad_alloc&) {
         failed.error = "out of memory";
@@ -253,10 +255,11 @@ void Run::runVariant(size_t index, Progress& progress) {
 
     // What can't be written ends the run; what was written stays
     const float stops = variant.setup.image.exposureStops;
-    if (!judgeIsWritten_)
-        folder_->writeImages(judge_->record.folder,
-                             [&](const auto& path) { writeReferenceImages(path, judge_->images, stops); });
-    judgeIsWritten_ = true;
+    if (!referenceIsWritten_)
+        folder_->writeImages(reference_->record.folder, [&](const auto& path) {
+            writeReferenceImages(path, reference_->images, stops);
+        });
+    referenceIsWritten_ = true;
     if (rendered) {
         const VariantInputs inputs = inputsOf(variant);
         folder_->writeImages(variant.name, [&](const auto& path) {
@@ -272,14 +275,23 @@ void Run::runVariant(size_t index, Progress& progress) {
         results_[index] = failed;
     }
     writeTables();
+    printValidationMessages(progress);
     progress.end(outcome(results_[index]));
+}
+
+void Run::printValidationMessages(Progress& progress) {
+    const std::vector<std::string> messages = session_->device().validationMessages();
+    for (size_t& i = summary_.validationMessages; i < messages.size(); ++i)
+        progress.warn("Vulkan validation: " + messages[i]);
 }
 
 std::string Run::outcome(const VariantResult& r) const {
     if (!r.ok) return fmt::format("{}: failed: {}", r.variant, r.error);
     std::string line =
         fmt::format("{}: build {:.1f} ms, frame {:.1f} ms", r.variant, r.buildMs, r.frameMs.median);
-    if (r.total) line += fmt::format(", nRMSE {:.4g}, relMSE {:.4g}", r.total->nrmse, r.total->relmse);
+    for (const Metric& metric : metrics().first(2))
+        if (const auto value = r.scores.find(metric.name); value != r.scores.end())
+            line += fmt::format(", {} {:.4g}", metric.label, value->second);
     return line;
 }
 

@@ -16,7 +16,7 @@ struct RunOptions {
     bool resume = false;           ///< Keep what an earlier run of the same experiment finished.
     bool dryRun = false;           ///< Print variants, passes and predicted memory; render nothing.
     bool quiet = false;
-    bool validation = false;  ///< Vulkan validation layer; its messages fail the variant.
+    bool validation = false;  ///< Vulkan validation layer; its messages fail the run.
     bool report = true;       ///< Make report.html at the end.
     std::filesystem::path sourceRoot;
 };
@@ -24,13 +24,16 @@ struct RunOptions {
 struct RunSummary {
     size_t ok = 0;  ///< Resumed ones included.
     size_t failed = 0;
-    size_t resumed = 0;  ///< Taken over from an earlier run.
+    size_t resumed = 0;             ///< Taken over from an earlier run.
+    size_t validationMessages = 0;  ///< Of the Vulkan validation layer; all were printed.
     bool interrupted = false;
     std::string reportError;  ///< Why there is no report.
     std::filesystem::path out;
 
-    /// 0 done, 1 some variant or the report failed, 130 interrupted.
-    int exitStatus() const { return interrupted ? 130 : failed > 0 || !reportError.empty() ? 1 : 0; }
+    /// 0 done, 1 some variant or the report failed or the validation layer complained, 130 interrupted.
+    int exitStatus() const {
+        return interrupted ? 130 : failed > 0 || validationMessages > 0 || !reportError.empty() ? 1 : 0;
+    }
 };
 
 /// Renders every variant of an experiment, measures it and writes the results folder

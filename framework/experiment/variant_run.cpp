@@ -2,29 +2,39 @@
 
 namespace voxray {
 
-Judge makeJudge(ReferenceImages images, const ImageSettings& image, const std::string& folder) {
-    Judge judge{std::move(images), {}};
-    ReferenceRecord& r = judge.record;
-    const ReferenceImages& ref = judge.images;
+namespace {
+
+void addScores(Scores& all, const char* light, const Scores& scores) {
+    for (const auto& [metric, value] : scores) all[light + metric] = value;
+}
+
+}  // namespace
+
+PreparedReference prepareReference(ReferenceImages images, const ImageSettings& image,
+                                   const std::string& folder) {
+    PreparedReference reference{std::move(images), {}};
+    ReferenceRecord& r = reference.record;
+    const ReferenceImages& ref = reference.images;
     r.folder = folder;
     r.hash = ref.hash;
     r.seconds = ref.seconds;
     r.cached = ref.cached;
-    r.noise = noiseFloor(ref.final, ref.variance);
-    r.indirectNoise = noiseFloor(ref.indirect, ref.indirectVariance);
     r.exposures = flipExposures(ref.final);
     r.indirectExposures = flipExposures(ref.indirect);
-    const ScoreOptions total{image.exposureStops, r.exposures},
-        indirect{image.exposureStops, r.indirectExposures};
-    r.black = score(blackLike(ref.final), ref.final, total);
-    r.constant = score(constantLike(ref.final), ref.final, total);
-    r.indirectBlack = score(blackLike(ref.indirect), ref.indirect, indirect);
-    r.indirectConstant = score(constantLike(ref.indirect), ref.indirect, indirect);
-    return judge;
+    const auto addLight = [&](const char* light, const ImageF& mean, const ImageF& variance,
+                              const FlipExposures& exposures) {
+        const ScoreOptions options{image.exposureStops, exposures};
+        addScores(r.noise, light, noiseFloor(mean, variance));
+        addScores(r.black, light, score({blackLike(mean), mean, options}));
+        addScores(r.constant, light, score({constantLike(mean), mean, options}));
+    };
+    addLight(kLightPrefixes[0], ref.final, ref.variance, r.exposures);
+    addLight(kLightPrefixes[1], ref.indirect, ref.indirectVariance, r.indirectExposures);
+    return reference;
 }
 
 RenderedVariant renderVariant(const Variant& variant, const Experiment& experiment, const Registry& registry,
-                              Session& session, const Judge* judge,
+                              Session& session, const PreparedReference* reference,
                               const std::function<void(double)>& progress) {
     Device& device = session.device();
     const size_t messagesBefore = device.validationMessages().size();
@@ -57,15 +67,19 @@ RenderedVariant renderVariant(const Variant& variant, const Experiment& experime
     if (const auto messages = device.validationMessages(); messages.size() > messagesBefore)
         throw Error("Vulkan validation: {}", messages[messagesBefore]);
 
-    // Judge
-    if (judge) {
-        const float stops = variant.setup.image.exposureStops;
-        result.total = score(rendered.final, judge->images.final, {stops, judge->record.exposures},
-                             &rendered.flip.emplace());
+    // Score
+    if (reference) {
+        const auto addLight = [&](const char* light, const ImageF& test, const ImageF& right,
+                                  const FlipExposures& exposures) {
+            Comparison comparison(test, right, {variant.setup.image.exposureStops, exposures});
+            addScores(result.scores, light, score(comparison));
+            return std::move(comparison.flip.map);
+        };
+        const ReferenceImages& right = reference->images;
+        rendered.flip = addLight(kLightPrefixes[0], rendered.final, right.final, reference->record.exposures);
         if (rendered.indirect)
-            result.indirect =
-                score(*rendered.indirect, judge->images.indirect, {stops, judge->record.indirectExposures},
-                      &rendered.indirectFlip.emplace());
+            rendered.indirectFlip = addLight(kLightPrefixes[1], *rendered.indirect, right.indirect,
+                                             reference->record.indirectExposures);
     }
     result.variant = variant.name;
     result.ok = true;

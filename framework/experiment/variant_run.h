@@ -10,12 +10,13 @@
 namespace voxray {
 
 /// A reference with what every score against it needs.
-struct Judge {
+struct PreparedReference {
     ReferenceImages images;
     ReferenceRecord record;
 };
 /// Pins the exposures and scores the black and the constant image.
-Judge makeJudge(ReferenceImages images, const ImageSettings& image, const std::string& folder);
+PreparedReference prepareReference(ReferenceImages images, const ImageSettings& image,
+                                   const std::string& folder);
 
 /// One rendered variant: its row and its pictures.
 struct RenderedVariant {
@@ -25,10 +26,10 @@ struct RenderedVariant {
     std::optional<ImageF> flip, indirectFlip;  ///< 1 channel, where there is a reference.
 };
 
-/// Plans, prepares, runs, measures and judges a variant. @param judge nullptr: no scores.
+/// Plans, prepares, runs, measures and scores a variant. @param reference nullptr: no scores.
 /// @throws Error, Interrupted; validation messages are errors.
 RenderedVariant renderVariant(const Variant& variant, const Experiment& experiment, const Registry& registry,
-                              Session& session, const Judge* judge,
+                              Session& session, const PreparedReference* reference,
                               const std::function<void(double)>& progress);
 
 /// Writes final, indirect and the FLIP maps as EXR and PNG into a folder.

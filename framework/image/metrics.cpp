@@ -3,90 +3,87 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "image/plane.h"
 
 namespace voxray {
 
 namespace {
 
-// Mean of f(test value, reference value) over all values.
+// Mean of f(test value, reference value) over all values of the pixels that count.
 template <typename F>
-double meanOf(const ImageF& test, const ImageF& reference, const F& f) {
+double meanOf(const ImageF& test, const ImageF& reference, PixelMask mask, const F& f) {
+    const size_t count = countPixels(reference, mask);
     const size_t rowValues = size_t(reference.width) * reference.channels;
     const double sum = sumRows(reference.height, [&](size_t y) {
         const float* x = &test.data[y * rowValues];
         const float* r = &reference.data[y * rowValues];
+        const uint8_t* counts = mask.empty() ? nullptr : &mask[y * reference.width];
         double rowSum = 0;
-        for (size_t i = 0; i < rowValues; ++i) rowSum += f(double(x[i]), double(r[i]));
+        for (size_t i = 0; i < rowValues; ++i)
+            if (!counts || counts[i / reference.channels]) rowSum += f(double(x[i]), double(r[i]));
         return rowSum;
     });
-    return sum / double(reference.data.size());
+    return sum / double(count * reference.channels);
 }
 
-double meanOf(const ImageF& image) {
-    return meanOf(image, image, [](double x, double) { return x; });
+double meanOf(const ImageF& image, PixelMask mask) {
+    return meanOf(image, image, mask, [](double x, double) { return x; });
 }
 
 // What both images are multiplied by, so that neither exposure nor light strength changes a score.
-double scaleOf(const ImageF& reference) {
-    const double mean = meanOf(reference);
+double scaleOf(const ImageF& reference, PixelMask mask) {
+    const double mean = meanOf(reference, mask);
     return mean > 0 ? 1 / mean : 1;
 }
 
 }  // namespace
 
-double meanRatio(const ImageF& test, const ImageF& reference) {
+size_t countPixels(const ImageF& image, PixelMask mask) {
+    if (mask.empty()) return image.pixelCount();
+    if (mask.size() != image.pixelCount())
+        throw Error("a mask of {} pixels doesn't fit an image of {} x {}", mask.size(), image.width,
+                    image.height);
+    const size_t count = mask.size() - size_t(std::count(mask.begin(), mask.end(), uint8_t(0)));
+    if (count == 0) throw Error("the mask selects no pixel of the image");
+    return count;
+}
+
+double ErrorMap::meanUnder(PixelMask mask) const {
+    return mask.empty() ? mean : meanOf(map, mask);
+}
+
+double meanRatio(const ImageF& test, const ImageF& reference, PixelMask mask) {
     checkPair(test, reference);
-    const double testMean = meanOf(test), referenceMean = meanOf(reference);
+    const double testMean = meanOf(test, mask), referenceMean = meanOf(reference, mask);
     if (testMean == referenceMean) return 1;
     if (referenceMean == 0) return std::copysign(meanRatioCap, testMean);
     return std::clamp(testMean / referenceMean, -meanRatioCap, meanRatioCap);
 }
 
-double relMse(const ImageF& test, const ImageF& reference) {
+double relMse(const ImageF& test, const ImageF& reference, PixelMask mask) {
     checkPair(test, reference);
-    const double scale = scaleOf(reference);
-    return meanOf(test, reference, [scale](double x, double r) {
+    const double scale = scaleOf(reference, mask);
+    return meanOf(test, reference, mask, [scale](double x, double r) {
         const double difference = (x - r) * scale, base = r * scale;
         return difference * difference / (base * base + 0.01);
     });
 }
 
-double nRmse(const ImageF& test, const ImageF& reference) {
+double nRmse(const ImageF& test, const ImageF& reference, PixelMask mask) {
     checkPair(test, reference);
-    const double scale = scaleOf(reference);
-    return std::sqrt(meanOf(test, reference, [scale](double x, double r) {
+    const double scale = scaleOf(reference, mask);
+    return std::sqrt(meanOf(test, reference, mask, [scale](double x, double r) {
         const double difference = (x - r) * scale;
         return difference * difference;
     }));
 }
 
-double psnr(const ImageF& testDisplay, const ImageF& referenceDisplay) {
+double psnr(const ImageF& testDisplay, const ImageF& referenceDisplay, PixelMask mask) {
     checkPair(testDisplay, referenceDisplay);
     const double meanSquare =
-        meanOf(testDisplay, referenceDisplay, [](double x, double r) { return (x - r) * (x - r); });
+        meanOf(testDisplay, referenceDisplay, mask, [](double x, double r) { return (x - r) * (x - r); });
     return meanSquare > 0 ? std::min(-10 * std::log10(meanSquare), psnrCap) : psnrCap;
-}
-
-Scores score(const ImageF& test, const ImageF& reference, const ScoreOptions& options, ImageF* flipMap) {
-    checkPair(test, reference);
-    Scores scores;
-
-    // What an eye sees: display images at the fixed exposure, and all exposures at once.
-    const ImageF testDisplay = preview(test, options.exposureStops);
-    const ImageF referenceDisplay = preview(reference, options.exposureStops);
-    scores.flipLdr = flipLdr(testDisplay, referenceDisplay).mean;
-    scores.ssim = ssim(testDisplay, referenceDisplay);
-    scores.psnrDb = psnr(testDisplay, referenceDisplay);
-    ErrorMap flip = flipHdr(test, reference, options.flipExposures);
-    scores.flip = flip.mean;
-    if (flipMap) *flipMap = std::move(flip.map);
-
-    // What a meter sees: linear values.
-    scores.nrmse = nRmse(test, reference);
-    scores.relmse = relMse(test, reference);
-    scores.meanRatio = meanRatio(test, reference);
-    return scores;
 }
 
 ImageF blackLike(const ImageF& reference) {

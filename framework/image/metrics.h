@@ -1,20 +1,29 @@
 #pragma once
 
-#include <string>
-#include <vector>
+#include <cstdint>
+#include <span>
 
 #include "image/image.h"
 
-/// Image metrics as pure functions, all as CONVENTIONS.md has them. `test` and `reference` are 3-channel
-/// images of equal size, linear where the name does not say display. Every function is deterministic,
-/// whatever the number of threads. @throws Error where sizes differ, an image is empty or a pixel is NaN or
-/// infinite.
+/// Image metrics as pure functions. `test` and `reference` are 3-channel images of equal size, linear where
+/// the name does not say display. Every function is deterministic, whatever the number of threads. `mask`
+/// selects the pixels that count: means are taken over these alone, the reference's mean among them.
+/// @throws Error where sizes differ, an image is empty, a pixel is NaN or infinite, or a mask selects no
+/// pixel. The table of metrics that results are made of is in score.cpp.
 namespace voxray {
+
+/// A byte a pixel, row 0 at the top: other than 0 where the pixel counts. Empty: all pixels count.
+using PixelMask = std::span<const uint8_t>;
+
+/// Pixels that count. @throws Error where the mask doesn't fit the image or selects no pixel of it.
+size_t countPixels(const ImageF& image, PixelMask mask);
 
 /// Mean and per-pixel map of one error.
 struct ErrorMap {
     double mean = 0;
     ImageF map;  ///< 1 channel.
+    /// `mean`, or that of the pixels under a mask.
+    double meanUnder(PixelMask mask) const;
 };
 
 /// Largest score of psnr(), that of equal images: results stay finite numbers.
@@ -23,18 +32,19 @@ inline constexpr double psnrCap = 100;
 inline constexpr double meanRatioCap = 1e6;
 
 /// Mean of the test over mean of the reference, over all channels, within ±meanRatioCap; 1 where both are 0.
-double meanRatio(const ImageF& test, const ImageF& reference);
+double meanRatio(const ImageF& test, const ImageF& reference, PixelMask mask = {});
 /// mean((x-r)² / (r²+0.01)) after dividing both images by the reference's mean (by 1 where that is not above
 /// 0).
-double relMse(const ImageF& test, const ImageF& reference);
+double relMse(const ImageF& test, const ImageF& reference, PixelMask mask = {});
 /// sqrt(mean((x-r)²)) after dividing both images by the reference's mean (by 1 where that is not above 0).
-double nRmse(const ImageF& test, const ImageF& reference);
+double nRmse(const ImageF& test, const ImageF& reference, PixelMask mask = {});
 /// PSNR in dB of two display images in [0, 1] with peak 1; at most psnrCap.
-double psnr(const ImageF& testDisplay, const ImageF& referenceDisplay);
+double psnr(const ImageF& testDisplay, const ImageF& referenceDisplay, PixelMask mask = {});
 /// SSIM (Wang et al. 2004) on luma (Rec.709 weights on display values) of two display images in [0, 1]:
 /// Gaussian window 11, sigma 1.5, population covariance, K1 = 0.01, K2 = 0.03. The mean is taken where the
 /// window lies wholly in the image; an axis shorter than 11 pixels is not cropped but its edge repeated.
-double ssim(const ImageF& testDisplay, const ImageF& referenceDisplay);
+/// Under a mask the mean is taken over the windows around its pixels, the image's edge repeated.
+double ssim(const ImageF& testDisplay, const ImageF& referenceDisplay, PixelMask mask = {});
 
 /// The published viewing condition of FLIP: 0.7 m from a 0.7 m wide monitor of 3840 pixels, 3840 π / 180.
 inline constexpr double flipPixelsPerDegree = 67.02064327658225;
@@ -58,24 +68,6 @@ FlipExposures flipExposures(const ImageF& reference);
 /// @throws Error also where the exposures are not finite or not in order, or their count is below 1.
 ErrorMap flipHdr(const ImageF& test, const ImageF& reference, const FlipExposures& exposures,
                  double pixelsPerDegree = flipPixelsPerDegree);
-
-/// One row of scores. All are taken of the same pair.
-struct Scores {
-    double flip = 0;     ///< HDR-FLIP.
-    double flipLdr = 0;  ///< LDR-FLIP of the previews.
-    double ssim = 0;
-    double psnrDb = 0;
-    double nrmse = 0;
-    double relmse = 0;
-    double meanRatio = 0;
-};
-struct ScoreOptions {
-    float exposureStops = 0;      ///< Of the previews.
-    FlipExposures flipExposures;  ///< Pinned, so that results can be compared between runs.
-};
-/// @param flipMap receives the HDR-FLIP map where not null.
-Scores score(const ImageF& test, const ImageF& reference, const ScoreOptions& options,
-             ImageF* flipMap = nullptr);
 
 /// The two images that every table is read against, sized like the reference: all black, and the reference's
 /// mean colour everywhere.

@@ -31,7 +31,7 @@ Plane product(const Plane& a, const Plane& b) {
 
 }  // namespace
 
-double ssim(const ImageF& testDisplay, const ImageF& referenceDisplay) {
+double ssim(const ImageF& testDisplay, const ImageF& referenceDisplay, PixelMask mask) {
     checkPair(testDisplay, referenceDisplay);
 
     // Means, squares and products in the Gaussian window round each pixel.
@@ -42,19 +42,21 @@ double ssim(const ImageF& testDisplay, const ImageF& referenceDisplay) {
     const Plane meanXX = blur(product(test, test)), meanRR = blur(product(reference, reference));
     const Plane meanXR = blur(product(test, reference));
 
-    // The pixels whose window lies in the image.
-    const auto cropOf = [](uint32_t size) {
-        return size > 2 * windowRadius ? size_t(windowRadius) : size_t(0);
+    // The pixels whose window lies in the image; under a mask all of its pixels.
+    const auto cropOf = [&](uint32_t size) {
+        return mask.empty() && size > 2 * windowRadius ? size_t(windowRadius) : size_t(0);
     };
     const size_t cropX = cropOf(test.width), cropY = cropOf(test.height);
     const size_t columns = test.width - 2 * cropX, rows = test.height - 2 * cropY;
 
     // Mean of the index (equation 13 of the paper).
     constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
+    const size_t count = mask.empty() ? columns * rows : countPixels(testDisplay, mask);
     const double sum = sumRows(uint32_t(rows), [&](size_t row) {
         const size_t y = row + cropY;
         double rowSum = 0;
         for (size_t x = cropX; x < cropX + columns; ++x) {
+            if (!mask.empty() && !mask[y * test.width + x]) continue;
             const double x1 = meanX.row(y)[x], r1 = meanR.row(y)[x];
             const double varianceX = meanXX.row(y)[x] - x1 * x1;
             const double varianceR = meanRR.row(y)[x] - r1 * r1;
@@ -64,7 +66,7 @@ double ssim(const ImageF& testDisplay, const ImageF& referenceDisplay) {
         }
         return rowSum;
     });
-    return sum / (double(columns) * double(rows));
+    return sum / double(count);
 }
 
 }  // namespace voxray

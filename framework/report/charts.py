@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.judge import pareto_front
+from report.ranking import pareto_front
 from report.load import BASELINES, LIGHTS, Metric, Results
 from report.style import Style
 from report.svg import FONT_SIZE, STAND_INS, drawing, to_svg

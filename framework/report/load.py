@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -16,7 +17,8 @@ class ReportError(Exception):
 
 @dataclass(frozen=True)
 class Metric:
-    """One measure of an image against the reference. `better` is "low", "high" or "one" (closest to 1)."""
+    """One measure of an image against the reference, as the manifest lists it. `better` is one of BETTER: lower,
+    higher, or closer to 1."""
 
     key: str
     label: str
@@ -31,19 +33,7 @@ class Metric:
         return abs(value - 1.0) if self.better == "one" else value
 
 
-METRICS = (
-    Metric("nrmse", "nRMSE", "", "low", "root of the mean squared error, in units of the reference's mean; "
-           "weighs bright places"),
-    Metric("relmse", "relMSE", "", "low", "mean of squared error over (reference² + 0.01), in units of the "
-           "reference's mean; weighs dark places, leaks among them"),
-    Metric("flip", "HDR-FLIP", "", "low", "what an eye sees when flipping between the images, over a range "
-           "of exposures; 0 to 1"),
-    Metric("flip_ldr", "LDR-FLIP", "", "low", "what an eye sees when flipping between the previews; 0 to 1"),
-    Metric("ssim", "SSIM", "", "high", "structural similarity of the previews' luma; at most 1"),
-    Metric("psnr_db", "PSNR", "dB", "high", "peak signal-to-noise ratio of the previews, peak 1"),
-    Metric("mean_ratio", "mean ratio", "", "one", "mean of the image over mean of the reference; "
-           "1 keeps the energy"),
-)
+BETTER = ("low", "high", "one")
 LIGHTS = {"total": "", "indirect": "indirect_"}  # name -> column prefix
 IMAGES = {"total": ("final.png", "flip.png"), "indirect": ("indirect.png", "indirect_flip.png")}
 BASELINES = ("black", "constant")
@@ -51,7 +41,6 @@ BASELINES = ("black", "constant")
 _TEXT = ("variant", "status", "error", "device", "tracer")
 _COST = ("build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes",
          "peak_bytes", "rays")
-_SCORES = tuple(prefix + metric.key for prefix in LIGHTS.values() for metric in METRICS)
 _PASS_NUMBERS = ("ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes", "scratch_bytes")
 
 
@@ -65,6 +54,7 @@ class Results:
     values: a row a variant, pass, name and frame, as in values.csv: what passes reported; frame is NaN in the
         build; may be empty.
     manifest: the run's manifest.json, {} where it is absent or broken.
+    metrics: the manifest's list, in the order in which tables show them; the first three are charted.
     sweep_keys: the columns of `variants` that the sweep varied.
     warnings: what was absent or odd in the files, for the reader's eye, after the run's own warnings.
     """
@@ -74,6 +64,7 @@ class Results:
     passes: pd.DataFrame
     values: pd.DataFrame
     manifest: dict
+    metrics: tuple[Metric, ...]
     sweep_keys: list[str]
     warnings: list[str] = field(default_factory=list)
 
@@ -85,7 +76,7 @@ class Results:
     def lights(self) -> list[str]:
         """Which of "total" and "indirect" have any score or image, always with "total"."""
         def present(light: str) -> bool:
-            columns = [LIGHTS[light] + metric.key for metric in METRICS]
+            columns = [LIGHTS[light] + metric.key for metric in self.metrics]
             return bool(self.ok[columns].notna().any(axis=None)) or any(
                 self.image(folder, IMAGES[light][0]) for folder in ["reference", *self.ok["variant"]])
 
@@ -157,18 +148,19 @@ def load(directory: str | Path) -> Results:
     """
     directory = Path(directory)
     warnings: list[str] = []
-    variants, sweep_columns = _read_variants(directory / "results.csv", warnings)
+    variants = _read_variants(directory / "results.csv", warnings)
     passes = _read_passes(directory / "passes.csv", warnings)
     values = _read_values(directory / "values.csv", warnings)
     manifest = _read_manifest(directory / "manifest.json", warnings)
 
-    # The manifest names the sweep's keys; without it they are the columns that no format names.
+    # The manifest names metrics and sweep keys.
+    metrics = _metrics_of(manifest, warnings)
+    _to_numbers(variants, [prefix + metric.key for prefix in LIGHTS.values() for metric in metrics])
     declared = manifest.get("sweep_keys")
-    declared = declared if isinstance(declared, list) else sweep_columns
-    sweep_keys = [str(key) for key in declared if str(key) in variants.columns]
+    sweep_keys = [str(key) for key in declared if str(key) in variants.columns] if isinstance(declared, list) else []
     own = manifest.get("warnings")
     warnings = [str(text) for text in own] + warnings if isinstance(own, list) else warnings
-    results = Results(directory, variants, passes, values, manifest, sweep_keys, warnings)
+    results = Results(directory, variants, passes, values, manifest, metrics, sweep_keys, warnings)
     if (count := len(results.references())) > 1:
         warnings.append(f"The variants have {count} different references, so their scores are not of one "
                         "image. Each is judged by its own one's noise, black and constant image; charts "
@@ -184,30 +176,39 @@ def _read_table(path: Path) -> pd.DataFrame:
         raise ReportError(f"{path}: cannot read: {error}") from error
 
 
-def _to_numbers(table: pd.DataFrame, columns: tuple[str, ...]) -> None:
+def _metrics_of(manifest: dict, warnings: list[str]) -> tuple[Metric, ...]:
+    listed = manifest.get("metrics")
+    entries = listed if isinstance(listed, list) else []
+    known = [entry for entry in entries if isinstance(entry, dict) and entry.get("better") in BETTER
+             and isinstance(entry.get("name"), str)]
+    if not known or len(known) < len(entries):
+        warnings.append("The manifest doesn't list all metrics with their directions: scores are left out.")
+    return tuple(Metric(entry["name"], str(entry.get("label", entry["name"])), str(entry.get("unit", "")),
+                        entry["better"], str(entry.get("meaning", ""))) for entry in known)
+
+
+def _to_numbers(table: pd.DataFrame, columns: Iterable[str]) -> None:
     for column in columns:
         table[column] = pd.to_numeric(table[column], errors="coerce") if column in table else math.nan
 
 
-def _read_variants(path: Path, warnings: list[str]) -> tuple[pd.DataFrame, list[str]]:
+def _read_variants(path: Path, warnings: list[str]) -> pd.DataFrame:
     if not path.is_file():
         raise ReportError(f"{path}: no such file; name the folder that a run wrote its results to")
     table = _read_table(path)
     for column in ("variant", "status"):
         if column not in table:
             raise ReportError(f"{path}: has no column '{column}', so it is not a run's results.csv")
-    sweep = [column for column in table if column not in (*_TEXT, *_COST, *_SCORES)]
     for column in _TEXT:
         if column not in table:
             table[column] = ""
     _to_numbers(table, _COST)
-    _to_numbers(table, _SCORES)
 
     # A resumed run may have written a variant again: its last row holds.
     repeated = table["variant"].duplicated(keep="last")
     if repeated.any():
         warnings.append(f"results.csv has {int(repeated.sum())} repeated row(s); the last of each was taken.")
-    return table[~repeated].reset_index(drop=True), sweep
+    return table[~repeated].reset_index(drop=True)
 
 
 def _read_passes(path: Path, warnings: list[str]) -> pd.DataFrame:
@@ -247,9 +248,9 @@ def _read_manifest(path: Path, warnings: list[str]) -> dict:
     try:
         manifest = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        warnings.append(f"manifest.json cannot be read, so no provenance is shown: {error}")
+        warnings.append(f"manifest.json cannot be read, so neither scores nor provenance are shown: {error}")
         return {}
     if not isinstance(manifest, dict):
-        warnings.append("manifest.json is not a JSON object, so no provenance is shown.")
+        warnings.append("manifest.json is not a JSON object, so neither scores nor provenance are shown.")
         return {}
     return manifest

@@ -10,15 +10,14 @@ from pathlib import Path
 import jinja2
 import pandas as pd
 
-from report import charts, images, judge, style, table, text, values
-from report.load import IMAGES, METRICS, ReportError, Results, section
+from report import charts, images, ranking, style, table, text, values
+from report.load import IMAGES, ReportError, Results, section
 
 _HERE = Path(__file__).parent
-_CHART_METRICS = METRICS[:3]
 _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's row numbers
 _MAX_NAMED_POINTS = 12
 # Of the manifest:
-_SHOWN_ELSEWHERE = ("config", "warnings", "baselines", "reference", "references", "variants")
+_SHOWN_ELSEWHERE = ("config", "metrics", "warnings", "baselines", "reference", "references", "variants")
 
 
 @dataclass(frozen=True)
@@ -75,8 +74,8 @@ def render(results: Results) -> str:
     environment.filters["breakable"] = text.breakable
     return environment.get_template("template.html.j2").render(
         title=_title(results), setting=_setting(results), lights=lights, light=lights[-1],
-        summaries={light: judge.summary(results, light) for light in lights},
-        columns=columns, metrics=METRICS,
+        summaries={light: ranking.summary(results, light) for light in lights},
+        columns=columns, metrics=results.metrics,
         rows=table.variant_rows(results, columns, numbers, anchors),
         baselines=table.baseline_rows(results, columns), noises=table.noise_rows(results, columns),
         charts=chart_groups, not_drawn=not_drawn, legends=legends, markers=style.MARKERS, pass_colors=colors,
@@ -109,7 +108,7 @@ def _setting(results: Results) -> str:
     reference = section(manifest, "reference")
     if reference:
         spp = f", {reference['spp']} samples a pixel" if "spp" in reference else ""
-        parts.append(f"judged by {reference.get('pass', 'a reference')}{spp}")
+        parts.append(f"scored against {reference.get('pass', 'a reference')}{spp}")
     sentence = ", ".join(parts)
     sentence = sentence[:1].upper() + sentence[1:] + "." if sentence else ""
     return sentence + ("" if manifest.get("finished") or not manifest else
@@ -125,7 +124,7 @@ def _charts(results: Results, lights, styles, numbers, anchors) -> tuple[list[di
     for light in lights:
         for with_build in (False, True):
             drawn = []
-            for metric in _CHART_METRICS:
+            for metric in results.metrics[:3]:
                 time = "total" if with_build else "frame"
                 chart = charts.cost_error_chart(results, metric, light, with_build, styles, labels, anchors,
                                                 f"{light}-{time}-{metric.key}")

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from report.judge import is_numeric
+from report.ranking import is_numeric
 from report.load import Results
 
 CATEGORY_COLORS = tuple(f"c{i}" for i in range(8))

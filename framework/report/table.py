@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from report import judge, text
-from report.load import BASELINES, LIGHTS, METRICS, Metric, Results
+from report import ranking, text
+from report.load import BASELINES, LIGHTS, Metric, Results
 
 
 @dataclass(frozen=True)
@@ -62,14 +62,14 @@ class Row:
 
 def columns_of(results: Results, lights: list[str]) -> list[Column]:
     """The columns after the number and the name, without scores that no variant and no baseline has."""
-    columns = [Column(key, key, "varied by the sweep", align_text=not judge.is_numeric(results.variants[key]))
+    columns = [Column(key, key, "varied by the sweep", align_text=not ranking.is_numeric(results.variants[key]))
                for key in results.sweep_keys]
     columns += [Column(key, key, f"{key} that the variant ran on", align_text=True)
                 for key in ("device", "tracer") if results.variants[key].nunique() > 1]
     columns += [Column(key, cost.heading, cost.title) for key, cost in _COSTS.items()]
     arrows = {"low": "↓", "high": "↑", "one": "→1"}
     for light in lights:
-        for metric in METRICS:
+        for metric in results.metrics:
             column = LIGHTS[light] + metric.key
             known = results.ok[column].notna().any() or any(
                 math.isfinite(results.baseline(name, column, reference))
@@ -97,14 +97,14 @@ def variant_rows(results: Results, columns: list[Column], numbers: dict[str, str
 
 def _marks(results: Results, column: Column) -> dict[str, str]:
     if column.metric:
-        return judge.score_marks(results, column.metric, column.key)
-    return judge.cost_marks(results, column.key) if column.key in judge.COST_COLUMNS else {}
+        return ranking.score_marks(results, column.metric, column.key)
+    return ranking.cost_marks(results, column.key) if column.key in ranking.COST_COLUMNS else {}
 
 
 def _cell(results: Results, row: pd.Series, column: Column, mark: str) -> Cell:
     value = row[column.key]
     if column.metric:
-        worse = judge.beaten_by(results, column.metric, column.key, row["variant"], value)
+        worse = ranking.beaten_by(results, column.metric, column.key, row["variant"], value)
         title = f"worse than a {' and a '.join(worse)} image" if worse else ""
         return Cell(text.figures(value), _sort(value), column.light, "worse" if worse else mark, title)
     if column.key in _COSTS:

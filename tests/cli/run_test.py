@@ -8,7 +8,7 @@ import unittest
 
 from support import TINY, CommandTest
 
-METRICS = ["flip", "ssim", "psnr_db", "nrmse", "relmse", "mean_ratio", "flip_ldr"]
+METRICS = ["nrmse", "relmse", "flip", "flip_ldr", "ssim", "psnr_db", "mean_ratio"]
 RESULT_COLUMNS = (["variant", "status", "error", "device", "tracer", "voxelize.resolution", "build_ms",
                    "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays"] + METRICS +
                   ["indirect_" + metric for metric in METRICS])
@@ -44,8 +44,9 @@ class Run(CommandTest):
 
 class Results(Run):
     def test_files(self):
-        done = self.run_tiny()
+        done = self.run_tiny("out", "--validate")
         self.assertIn("report.html", done.stdout)
+        self.assertTrue(self.json("out", "manifest.json")["validation"])
         self.assertEqual(self.header("out", "results.csv"), RESULT_COLUMNS)
         self.assertEqual(self.header("out", "passes.csv"), PASS_COLUMNS)
         rows = self.rows("out", "results.csv")

@@ -37,12 +37,14 @@ class Constant : public Pass {
         bool nan = false;
         bool fail = false;
         bool interrupt = false;
+        bool misuse = false;
         uint32_t megabytes = 0;
         static constexpr auto schema() {
             return std::tuple{field("value", &Params::value, "Radiance.", 0.0f, 100.0f),
                               field("nan", &Params::nan, "Write NaN instead."),
                               field("fail", &Params::fail, "Throw with commands recorded."),
                               field("interrupt", &Params::interrupt, "Raise SIGINT."),
+                              field("misuse", &Params::misuse, "Use Vulkan in a way that it forbids."),
                               field("megabytes", &Params::megabytes, "Memory to ask for.", 0u, 1u << 20)};
         }
     };
@@ -60,6 +62,9 @@ class Constant : public Pass {
     void prepare(PassSetup& setup) override {
         setup.get(final_).image = constantImage(setup, "constant final");
         setup.get(indirect_).image = constantImage(setup, "constant indirect");
+        ImageDesc desc;
+        desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT;
+        if (params_.misuse) notToBeCleared_ = Image(setup.device, "not to be cleared", desc);
     }
     void record(PassContext& context) override {
         ++runs;
@@ -68,6 +73,7 @@ class Constant : public Pass {
         const float value = params_.nan ? std::numeric_limits<float>::quiet_NaN() : params_.value;
         context.stream.clear(context.get(final_).image, {{value, value, value, 1}});
         context.stream.clear(context.get(indirect_).image, {{value / 2, value / 2, value / 2, 1}});
+        if (params_.misuse) context.stream.clear(notToBeCleared_, {});
         if (params_.fail) throw Error("the pass gave up");
         context.extraRays = 10;
     }
@@ -75,6 +81,7 @@ class Constant : public Pass {
  private:
     Params params_;
     Port<FrameImage> final_, indirect_;
+    Image notToBeCleared_;
 };
 
 /// A reference of radiance 1 with a variance of 0.01.

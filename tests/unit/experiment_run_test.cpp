@@ -2,6 +2,7 @@
 
 #include "experiment_fakes.h"
 #include "image/image.h"
+#include "image/score.h"
 
 using namespace voxray;
 using namespace voxray::fakes;
@@ -42,6 +43,9 @@ TEST_F(RunTest, WritesResultsWithTheScoresOfClosedForms) {
     EXPECT_NEAR(manifest["baselines"]["black"]["nrmse"].get<double>(), 1, 1e-6);
     EXPECT_NEAR(manifest["baselines"]["constant"]["nrmse"].get<double>(), 0, 1e-6);
     EXPECT_EQ(manifest["config"]["name"], "fake");
+    EXPECT_EQ(manifest["metrics"].size(), metrics().size());
+    EXPECT_EQ(manifest["metrics"][0]["name"], "nrmse");
+    EXPECT_EQ(manifest["metrics"][0]["better"], "low");
     EXPECT_EQ(manifest["sweep_keys"][0], "constant.value");
     EXPECT_TRUE(manifest["finished"].is_string());
 }
@@ -53,9 +57,8 @@ TEST_F(RunTest, ColumnsAreTheDocumentedOnes) {
         text.substr(0, text.find('\n')),
         "variant,status,error,device,tracer,constant.value,build_ms,frame_ms_median,frame_ms_p05,frame_ms_"
         "p95,"
-        "memory_bytes,peak_bytes,rays,flip,ssim,psnr_db,nrmse,relmse,mean_ratio,flip_ldr,indirect_flip,"
-        "indirect_ssim,"
-        "indirect_psnr_db,indirect_nrmse,indirect_relmse,indirect_mean_ratio,indirect_flip_ldr");
+        "memory_bytes,peak_bytes,rays,nrmse,relmse,flip,flip_ldr,ssim,psnr_db,mean_ratio,indirect_nrmse,"
+        "indirect_relmse,indirect_flip,indirect_flip_ldr,indirect_ssim,indirect_psnr_db,indirect_mean_ratio");
 }
 
 TEST_F(RunTest, NanFailsItsVariantAndNamesThePass) {
@@ -74,6 +77,18 @@ TEST_F(RunTest, ThrowingPassFailsItsVariantAlone) {
     EXPECT_EQ(cell("fail-true", "error"), "the pass gave up");
     EXPECT_EQ(cell("fail-true", "nrmse"), "");
     EXPECT_EQ(cell("fail-false", "status"), "ok");
+}
+
+TEST_F(RunTest, MessagesOfTheValidationLayerFailTheRunAndArePrinted) {
+    testing::internal::CaptureStderr();
+    const RunSummary summary = run("sweep: {constant.misuse: [true, false]}\n");
+    const std::string errors = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(summary.failed, 1u);
+    EXPECT_GE(summary.validationMessages, 1u);
+    EXPECT_EQ(summary.exitStatus(), 1);
+    EXPECT_NE(errors.find("Vulkan validation: "), std::string::npos) << errors;
+    EXPECT_NE(cell("misuse-true", "error").find("Vulkan validation"), std::string::npos);
+    EXPECT_EQ(cell("misuse-false", "status"), "ok");
 }
 
 TEST_F(RunTest, MemoryAboveTheConfigsLimitIsRefused) {

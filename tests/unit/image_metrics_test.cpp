@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "image/metrics.h"
+#include "image/score.h"
 
 /// Metrics against closed forms and what must hold of any image.
 namespace voxray {
@@ -30,7 +30,7 @@ ImageF waves(float phase) {
 
 std::string errorOf(const ImageF& test, const ImageF& reference) {
     try {
-        score(test, reference, {});
+        score({test, reference, {}});
     } catch (const Error& error) {
         return error.what();
     }
@@ -38,15 +38,17 @@ std::string errorOf(const ImageF& test, const ImageF& reference) {
 }
 
 TEST(Metrics, EqualImagesArePerfect) {
-    ImageF map;
-    const Scores scores = score(waves(0), waves(0), {}, &map);
-    EXPECT_EQ(scores.flip, 0);
-    EXPECT_EQ(scores.flipLdr, 0);
-    EXPECT_NEAR(scores.ssim, 1, 1e-12);
-    EXPECT_EQ(scores.psnrDb, psnrCap);
-    EXPECT_EQ(scores.nrmse, 0);
-    EXPECT_EQ(scores.relmse, 0);
-    EXPECT_EQ(scores.meanRatio, 1);
+    const ImageF image = waves(0);
+    const Comparison comparison(image, image, {});
+    const Scores scores = score(comparison);
+    const ImageF& map = comparison.flip.map;
+    EXPECT_EQ(scores.at("flip"), 0);
+    EXPECT_EQ(scores.at("flip_ldr"), 0);
+    EXPECT_NEAR(scores.at("ssim"), 1, 1e-12);
+    EXPECT_EQ(scores.at("psnr_db"), psnrCap);
+    EXPECT_EQ(scores.at("nrmse"), 0);
+    EXPECT_EQ(scores.at("relmse"), 0);
+    EXPECT_EQ(scores.at("mean_ratio"), 1);
     EXPECT_EQ(map.channels, 1u);
     EXPECT_EQ(map.pixelCount(), waves(0).pixelCount());
 }
@@ -131,24 +133,65 @@ TEST(Metrics, FlipExposuresSpanMedianToLargest) {
 }
 
 TEST(Metrics, BlackReferencesGiveFiniteScores) {
-    const Scores both = score(grey(0), grey(0), {});
-    EXPECT_EQ(both.meanRatio, 1);
-    EXPECT_EQ(both.nrmse, 0);
-    const Scores lit = score(grey(0.5f), grey(0), {});
-    EXPECT_EQ(lit.meanRatio, meanRatioCap);
-    EXPECT_NEAR(lit.nrmse, 0.5, 1e-6);
-    EXPECT_NEAR(lit.relmse, 25, 1e-4);
+    const Scores both = score({grey(0), grey(0), {}});
+    EXPECT_EQ(both.at("mean_ratio"), 1);
+    EXPECT_EQ(both.at("nrmse"), 0);
+    const Scores lit = score({grey(0.5f), grey(0), {}});
+    EXPECT_EQ(lit.at("mean_ratio"), meanRatioCap);
+    EXPECT_NEAR(lit.at("nrmse"), 0.5, 1e-6);
+    EXPECT_NEAR(lit.at("relmse"), 25, 1e-4);
 }
 
 TEST(Metrics, BlackAndConstantImagesAreTheFloor) {
     const ImageF reference = waves(0);
-    const Scores black = score(blackLike(reference), reference, {});
-    EXPECT_EQ(black.meanRatio, 0);
-    const Scores constant = score(constantLike(reference), reference, {});
-    EXPECT_NEAR(constant.meanRatio, 1, 1e-6);
+    const Scores black = score({blackLike(reference), reference, {}});
+    EXPECT_EQ(black.at("mean_ratio"), 0);
+    const Scores constant = score({constantLike(reference), reference, {}});
+    EXPECT_NEAR(constant.at("mean_ratio"), 1, 1e-6);
 
     // Of a constant image nRMSE is the reference's deviation, so that black adds its mean: 1.
-    EXPECT_NEAR(black.nrmse * black.nrmse, 1 + constant.nrmse * constant.nrmse, 1e-3);
+    EXPECT_NEAR(black.at("nrmse") * black.at("nrmse"), 1 + constant.at("nrmse") * constant.at("nrmse"), 1e-3);
+}
+
+TEST(Metrics, MaskedScoresAreThoseOfThePixelsUnderTheMask) {
+    // Left of column 12: 3 where 2 should be. The rest: 9 where 1 should be.
+    ImageF test = grey(9), reference = grey(1);
+    std::vector<uint8_t> left(test.pixelCount());
+    for (uint32_t y = 0; y < test.height; ++y)
+        for (uint32_t x = 0; x < 12; ++x) {
+            left[y * test.width + x] = 1;
+            for (uint32_t c = 0; c < 3; ++c) {
+                test.pixel(x, y)[c] = 3;
+                reference.pixel(x, y)[c] = 2;
+            }
+        }
+    EXPECT_NEAR(nRmse(test, reference, left), 0.5, 1e-6);
+    EXPECT_NEAR(relMse(test, reference, left), 0.25 / 1.01, 1e-6);
+    EXPECT_NEAR(meanRatio(test, reference, left), 1.5, 1e-6);
+    EXPECT_NEAR(psnr(preview(test, -3), preview(reference, -3), left),
+                psnr(preview(grey(3), -3), preview(grey(2), -3)), 1e-9);
+
+    // What lies beyond the mask is seen by windows alone: five pixels off, SSIM and FLIP are those of the
+    // flat pair.
+    std::vector<uint8_t> inner(test.pixelCount());
+    inner[10 * test.width + 2] = 1;
+    EXPECT_NEAR(ssim(preview(test, -3), preview(reference, -3), inner),
+                ssim(preview(grey(3), -3), preview(grey(2), -3)), 1e-9);
+
+    // A whole mask changes nothing but SSIM, which then counts the border.
+    const ImageF shifted = waves(0.3f), still = waves(0);
+    const Comparison waved(shifted, still, {});
+    const std::vector<uint8_t> all(waved.test.pixelCount(), 1);
+    Scores masked = score(waved, all), whole = score(waved);
+    masked.erase("ssim");
+    whole.erase("ssim");
+    for (const auto& [name, value] : whole) EXPECT_NEAR(masked.at(name), value, 1e-6) << name;
+    EXPECT_THROW(nRmse(test, reference, std::vector<uint8_t>(3, 1)), Error);
+    EXPECT_THROW(nRmse(test, reference, std::vector<uint8_t>(test.pixelCount())), Error);
+}
+
+TEST(Metrics, NamesOfTheTableAreUnique) {
+    EXPECT_EQ(score({grey(1), grey(1), {}}).size(), metrics().size());
 }
 
 TEST(Metrics, WhatCannotBeComparedIsNamed) {
@@ -165,16 +208,10 @@ TEST(Metrics, WhatCannotBeComparedIsNamed) {
 TEST(Metrics, ThreadsDoNotChangeABit) {
     ScoreOptions options;
     options.flipExposures = flipExposures(waves(0));
-    const auto all = score(waves(0.7f), waves(0), options);
+    const auto all = score({waves(0.7f), waves(0), options});
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const auto alone = score(waves(0.7f), waves(0), options);
-    EXPECT_EQ(all.flip, alone.flip);
-    EXPECT_EQ(all.flipLdr, alone.flipLdr);
-    EXPECT_EQ(all.ssim, alone.ssim);
-    EXPECT_EQ(all.psnrDb, alone.psnrDb);
-    EXPECT_EQ(all.nrmse, alone.nrmse);
-    EXPECT_EQ(all.relmse, alone.relmse);
-    EXPECT_EQ(all.meanRatio, alone.meanRatio);
+    const auto alone = score({waves(0.7f), waves(0), options});
+    EXPECT_EQ(all, alone);
 }
 
 }  // namespace

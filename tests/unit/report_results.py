@@ -10,7 +10,12 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-SCORES = ("flip", "ssim", "psnr_db", "nrmse", "relmse", "mean_ratio", "flip_ldr")
+METRICS = [{"name": name, "label": label, "unit": unit, "better": better, "meaning": f"what {label} measures"}
+           for name, label, unit, better in (
+               ("nrmse", "nRMSE", "", "low"), ("relmse", "relMSE", "", "low"), ("flip", "HDR-FLIP", "", "low"),
+               ("flip_ldr", "LDR-FLIP", "", "low"), ("ssim", "SSIM", "", "high"), ("psnr_db", "PSNR", "dB", "high"),
+               ("mean_ratio", "mean ratio", "", "one"))]
+SCORES = tuple(metric["name"] for metric in METRICS)
 COSTS = ("build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays")
 SIZE = (64, 36)
 
@@ -48,7 +53,7 @@ def manifest(sweep_keys: list[str]) -> dict:
             "config": {"name": "synthetic", "scene": {"file": "cornell", "lights": [{"point": [0, 1, 0]}]},
                        "graph": [{"pass": "gbuffer"}, {"pass": "voxelize", "resolution": 64}]},
             "image": {"width": SIZE[0], "height": SIZE[1]}, "exposure_stops": 0.0,
-            "flip_exposures": {"start": -2.0, "stop": 3.0, "count": 5},
+            "metrics": METRICS, "flip_exposures": {"start": -2.0, "stop": 3.0, "count": 5},
             "reference": {"pass": "path_trace", "spp": 64, "seconds": 12.5, "cached": False,
                           "hash": "0123abcd", "nrmse_noise": 0.01, "relmse_noise": 0.001,
                           "indirect_nrmse_noise": 0.02, "indirect_relmse_noise": 0.002},

@@ -21,12 +21,12 @@ _ROOT = Path(__file__).resolve().parents[2]
 sys.path += [str(_ROOT / "framework"), str(_ROOT / "tests" / "unit")]
 
 import report_results as made_up  # noqa: E402
-from report import images, judge, make_report, page, text  # noqa: E402
-from report.load import METRICS, ReportError, load  # noqa: E402
+from report import images, make_report, page, ranking, text  # noqa: E402
+from report.load import Metric, ReportError, load  # noqa: E402
 from PIL import Image  # noqa: E402
 
 _VOID = {"meta", "img", "input", "br", "wbr", "path", "rect", "use", "hr", "link"}
-_NRMSE = METRICS[0]
+_NRMSE = Metric("nrmse", "nRMSE", "", "low", "")
 
 
 class Page(HTMLParser):
@@ -160,7 +160,8 @@ class PartOfARun(ReportTest):
         shown = self.make(rows, reference=False, indirect=False)
         self.assertIn("The reference's image is missing", shown.text)
         self.assertIn("manifest.json cannot be read", shown.text)
-        self.assertEqual(shown.count("svg", "chart"), 6)
+        self.assertIn("scores are left out", shown.text)
+        self.assertEqual(shown.count("svg", "chart"), 0)
 
     def test_single_variant(self):
         shown = self.make([made_up.variant("only", 10, 0.3)], made_up.manifest([]), indirect=False)
@@ -228,7 +229,7 @@ class PartOfARun(ReportTest):
         self.assertIn("- pass: gbuffer", shown.text)
 
     def test_manifest_of_odd_types(self):
-        run = {"config": [1], "baselines": 3, "reference": None, "sweep_keys": "x", "warnings": {"a": 1},
+        run = {"config": [1], "baselines": 3, "metrics": [3, {"name": "nrmse", "better": "yellow"}], "reference": None, "sweep_keys": "x", "warnings": {"a": 1},
                "image": [], "finished": True, "device": None}
         shown = self.make([made_up.variant("a", 10, 0.3), made_up.variant("b", 10, 0.3)], run)
         self.assertIn("2 of 2 variants finished", shown.text)
@@ -262,7 +263,7 @@ class Reading(ReportTest):
     def test_names_stay_text_and_scores_become_numbers(self):
         rows = [made_up.variant("001", 10, 0.3, resolution="064"),
                 made_up.variant("None", 20, 0.2, resolution="1e2")]
-        results = load(made_up.write_results(self.directory, rows, None, images=False))
+        results = load(made_up.write_results(self.directory, rows, made_up.manifest(["resolution"]), images=False))
         self.assertEqual(list(results.variants["variant"]), ["001", "None"])
         self.assertEqual(list(results.variants["resolution"]), ["064", "1e2"])
         self.assertEqual(results.sweep_keys, ["resolution"])
@@ -297,33 +298,33 @@ class Judging(ReportTest):
     def test_a_tie_is_a_difference_within_the_noise(self):
         # The reference's nRMSE noise is 0.01: 0.209 ties with 0.2, 0.211 does not.
         rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.209), ("c", 0.211))]
-        marks = judge.score_marks(self.results(rows), _NRMSE, "nrmse")
+        marks = ranking.score_marks(self.results(rows), _NRMSE, "nrmse")
         self.assertEqual(marks, {"a": "best", "b": "tie"})
-        marks = judge.score_marks(self.results(rows, reference={}), _NRMSE, "nrmse")
+        marks = ranking.score_marks(self.results(rows, reference={}), _NRMSE, "nrmse")
         self.assertEqual(marks, {"a": "best"})
 
     def test_best_of_each_direction(self):
         rows = [made_up.variant("bright", 10, 0.1), made_up.variant("dark", 10, 0.2)]
         rows[0]["mean_ratio"], rows[1]["mean_ratio"] = 1.3, 0.8
         results = self.results(rows)
-        best = {m.key: [n for n, mark in judge.score_marks(results, m, m.key).items() if mark == "best"]
-                for m in METRICS}
+        best = {m.key: [n for n, mark in ranking.score_marks(results, m, m.key).items() if mark == "best"]
+                for m in results.metrics}
         self.assertEqual(best.pop("mean_ratio"), ["dark"])  # 0.2 from 1 instead of 0.3
         self.assertEqual(set(map(tuple, best.values())), {("bright",)})
 
     def test_frame_times_tie_within_the_spread(self):
         # The fastest one's p95 is 10.5 ms.
         rows = [made_up.variant(name, ms, 0.1) for name, ms in (("a", 10.0), ("b", 10.4), ("c", 10.6))]
-        marks = judge.cost_marks(self.results(rows), "frame_ms_median")
+        marks = ranking.cost_marks(self.results(rows), "frame_ms_median")
         self.assertEqual(marks, {"a": "best", "b": "tie"})
 
     def test_worse_than_a_black_image(self):
         results = self.results([made_up.variant("a", 10, 0.1)])
-        self.assertEqual(judge.beaten_by(results, _NRMSE, "nrmse", "a", 1.0), ["constant"])
-        self.assertEqual(judge.beaten_by(results, _NRMSE, "nrmse", "a", 2.0), ["black", "constant"])
-        ssim = next(m for m in METRICS if m.key == "ssim")
-        self.assertEqual(judge.beaten_by(results, ssim, "ssim", "a", 0.9), [])
-        self.assertEqual(judge.beaten_by(results, ssim, "ssim", "a", -1.0), ["black", "constant"])
+        self.assertEqual(ranking.beaten_by(results, _NRMSE, "nrmse", "a", 1.0), ["constant"])
+        self.assertEqual(ranking.beaten_by(results, _NRMSE, "nrmse", "a", 2.0), ["black", "constant"])
+        ssim = next(m for m in results.metrics if m.key == "ssim")
+        self.assertEqual(ranking.beaten_by(results, ssim, "ssim", "a", 0.9), [])
+        self.assertEqual(ranking.beaten_by(results, ssim, "ssim", "a", -1.0), ["black", "constant"])
 
     def test_each_variant_is_judged_by_its_own_reference(self):
         # Noise 0.01 and 0.1; a black image scores 1.6 and 0.3.
@@ -333,9 +334,9 @@ class Judging(ReportTest):
         second["baselines"] = {"black": {"nrmse": 0.3}, "constant": {"nrmse": 0.25}}
         rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.28), ("c", 0.28))]
         results = self.results(rows, references=[first, second])
-        self.assertEqual(judge.score_marks(results, _NRMSE, "nrmse"), {"a": "best", "c": "tie"})
-        self.assertEqual(judge.beaten_by(results, _NRMSE, "nrmse", "b", 0.28), [])
-        self.assertEqual(judge.beaten_by(results, _NRMSE, "nrmse", "c", 0.28), ["constant"])
+        self.assertEqual(ranking.score_marks(results, _NRMSE, "nrmse"), {"a": "best", "c": "tie"})
+        self.assertEqual(ranking.beaten_by(results, _NRMSE, "nrmse", "b", 0.28), [])
+        self.assertEqual(ranking.beaten_by(results, _NRMSE, "nrmse", "c", 0.28), ["constant"])
         shown = Page(page.render(results))
         for words in ("a black image (reference)", "a black image (reference.2)",
                       "the reference's own noise (reference.2)"):
@@ -343,7 +344,7 @@ class Judging(ReportTest):
 
     def test_pareto_front(self):
         points = [(3, 1), (1, 5), (2, 5), (2, 3), (4, 1), (1, 6)]
-        self.assertEqual(judge.pareto_front(points), [1, 3, 0])
+        self.assertEqual(ranking.pareto_front(points), [1, 3, 0])
 
 
 class Writing(ReportTest):

@@ -6,7 +6,7 @@ import math
 
 import pandas as pd
 
-from report.load import BASELINES, LIGHTS, METRICS, Metric, Results
+from report.load import BASELINES, LIGHTS, Metric, Results
 
 COST_COLUMNS = ("build_ms", "frame_ms_median", "memory_bytes")
 
@@ -79,7 +79,7 @@ def summary(results: Results, light: str) -> list[str]:
 
     # The best of each error, with what cannot be told from it.
     worse: dict[str, list[str]] = {}
-    for metric in METRICS[:3]:
+    for metric in results.metrics[:3]:
         column = LIGHTS[light] + metric.key
         scores = results.ok.set_index("variant")[column].dropna()
         if scores.empty:
