@@ -3,3 +3,6 @@ add_test(NAME report.unit
   COMMAND /usr/bin/python3 -m unittest -v report_test
   WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}/tests/unit)
 set_tests_properties(report.unit PROPERTIES TIMEOUT 300)
+add_test(NAME scripts.compare_builds
+  COMMAND /usr/bin/python3 -m unittest -q compare_builds_test
+  WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/unit)
