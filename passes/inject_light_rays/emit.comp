@@ -19,7 +19,7 @@ layout(push_constant, scalar) uniform Push {
     uint totalRays;
     uint seed;
     uint emitterCount;
-    vec3 sceneCentre;
+    vec3 sceneCenter;
     float sceneRadius;
 } push;
 
@@ -28,7 +28,7 @@ vec3 discPoint(vec2 u, vec3 direction) {
     vec3 t, b;
     frame(direction, t, b);
     const float r = push.sceneRadius * sqrt(u.x), phi = 2.0 * PI * u.y;
-    return push.sceneCentre - direction * push.sceneRadius + t * (r * cos(phi)) + b * (r * sin(phi));
+    return push.sceneCenter - direction * push.sceneRadius + t * (r * cos(phi)) + b * (r * sin(phi));
 }
 
 void main() {

@@ -18,7 +18,7 @@ struct EmitPush {
     uint32_t totalRays;
     uint32_t seed;
     uint32_t emitterCount;
-    glm::vec3 sceneCentre;
+    glm::vec3 sceneCenter;
     float sceneRadius;
 };
 

@@ -14,7 +14,9 @@ QUOTED = re.compile(r"<!-- file: (\S+) -->\n```\w*\n(.*?)```\n", re.S)
 
 def pages(root):
     yield from (name for name in sorted(os.listdir(root)) if name.endswith(".md"))
-    yield from ("docs/" + name for name in sorted(os.listdir(os.path.join(root, "docs"))) if name.endswith(".md"))
+    for folder, folders, files in os.walk(os.path.join(root, "docs")):
+        folders.sort()
+        yield from (os.path.relpath(os.path.join(folder, name), root) for name in sorted(files) if name.endswith(".md"))
 
 
 def read(root, path):

@@ -5,9 +5,12 @@ import os
 import tempfile
 import unittest
 
+import commands
 import docs
 import hygiene
 import layers
+import skips
+import words
 
 
 class Tree(unittest.TestCase):
@@ -140,7 +143,7 @@ class Hygiene(Tree):
         self.write("framework/base/x.cpp", "int x;\n" * (hygiene.WANTED + 1))
         self.assertEqual(self.problems(), [])
         self.assertEqual(len(hygiene.check(self.root)[1]), 1)
-        self.write("framework/base/x.cpp", "int x;\n" * (hygiene.MOST + 1))
+        self.write("framework/base/x.cpp", "int x;\n" * (hygiene.MAX + 1))
         self.assertEqual(len(self.problems()), 1)
 
     def test_words(self):
@@ -171,6 +174,10 @@ class Docs(Tree):
         self.write("docs/page.md", "See [this](nowhere.md).\n")
         self.assertEqual(len(docs.check(self.root)), 1)
 
+    def test_pages_of_folders_are_read(self):
+        self.write("docs/papers/page.md", "See [this](nowhere.md).\n")
+        self.assertEqual(len(docs.check(self.root)), 1)
+
     def test_package_without_a_reason(self):
         self.write("docs/dependencies.md", "| `gcc` | compiles |\n")
         self.assertEqual(len(docs.check(self.root)), 1)
@@ -181,6 +188,92 @@ class Docs(Tree):
         self.assertEqual(docs.check(self.root), [])
         self.write("code.cpp", "int b;\n")
         self.assertEqual(len(docs.check(self.root)), 1)
+
+
+class Commands(Tree):
+    def setUp(self):
+        super().setUp()
+        self.write("configs/one.yaml", "name: one\n")
+        self.write("tests/bench/x_bench.cpp", "BENCHMARK(gather)\n    ->Arg(1);\n"
+                   "#define RAYS(scene, kind) \\\n    BENCHMARK_CAPTURE(trace, scene##_##kind##_closest, 1)\nRAYS(room, Embree);\n")
+        self.write("tests/unit/x_test.cpp", "TEST(Voxels, AreFew) {}\nTEST_F(Rays, Hit) {}\n")
+        self.write("tests/all.cmake", "voxray_tests(chain SHARDS 2)\nadd_test(NAME house.docs COMMAND x)\n")
+        self.write("program", "#!/usr/bin/env bash\n[[ $1 == run && $2 == --help ]] && echo '  --set PATH=VALUE  --dry-run' && exit\n"
+                   "[[ $1 == run && $* == *good=1* ]] && exit\n[[ $1 == run ]] && { echo 'bad key' >&2; exit 2; }\n"
+                   "[[ $1 == passes && ( $2 == --help || $2 == gather ) ]]\n", executable=True)
+        self.program = commands.Program(os.path.join(self.root, "program"))
+
+    def problems(self, text):
+        self.write("README.md", text + "\n")
+        self.write("docs/page.md", "")
+        return commands.check(self.root, self.program)
+
+    def test_what_is_there(self):
+        for text in ("run configs/one.yaml", "run CONFIG...", "bench gather", "bench 'gath|none'", "bench room_", "bench [FILTER]",
+                     "test Voxels", "test chain", "test 'house\\.'", "test", "passes gather", "passes NAME", "run --dry-run",
+                     "run configs/one.yaml --set good=1"):
+            self.assertEqual(self.problems(f"| `./voxray {text}` |"), [], text)
+            self.assertEqual(self.problems(f"```\n./voxray {text}  # Why.\n```"), [], text)
+        self.assertEqual(self.problems("`configs/one.yaml`, `tests/unit/`, `ninja tests_chain`, `passes/<name>/`"), [])
+
+    def test_what_is_not(self):
+        for text in ("run configs/two.yaml", "bench stream", "test Cones", "passes gatherer", "dance", "run --fast",
+                     "run configs/one.yaml --set bad=1"):
+            self.assertEqual(len(self.problems(f"Run `./voxray {text}`.")), 1, text)
+            self.assertEqual(len(self.problems(f"```\n./voxray {text}\n```")), 1, text)
+        for text in ("`configs/two.yaml`", "`ninja tests_cones`", "`tests/unit/y_test.cpp`"):
+            self.assertEqual(len(self.problems(text)), 1, text)
+
+
+class Skips(Tree):
+    def setUp(self):
+        super().setUp()
+        self.write("tests/unit/x_test.cpp", "TEST(Scenes, Large) {}\nTEST(Scenes, Small) {}\n")
+        self.write("tests/allowed_skips.txt", "# Comment.\nScenes.Large | not part of the repository\n")
+
+    def test_list(self):
+        self.assertEqual(skips.check(self.root), [])
+        self.write("tests/allowed_skips.txt", "Scenes.Gone | gone\nScenes.Large |\n")
+        self.assertEqual(len(skips.check(self.root)), 2)
+
+    def test_disabled_tests(self):
+        self.write("tests/unit/x_test.cpp", "TEST(Scenes, Large) {}\nTEST(Scenes, DISABLED_Small) {}\n")
+        self.assertEqual(len(skips.check(self.root)), 1)
+
+    def run_of(self, output, more=""):
+        self.write("run.xml", f'<testsuite><testcase name="scene.shard0" status="run">{more}'
+                   f"<system-out>{output}</system-out></testcase></testsuite>")
+        return skips.check_run(self.root, os.path.join(self.root, "run.xml"))
+
+    def test_runs(self):
+        self.assertEqual(self.run_of("all well"), ([], []))
+        self.assertEqual(self.run_of("x\n[  SKIPPED ] Scenes.Large: no file\ny"), (["skipped Scenes.Large: no file"], []))
+        self.assertEqual(len(self.run_of("[  SKIPPED ] Scenes.Small: no file\n")[1]), 1)
+        self.assertEqual(len(self.run_of("test_a (x.Y.test_a) ... skipped 'no reason'")[1]), 1)
+        self.assertEqual(len(self.run_of("not installed", '<skipped message="SKIP_RETURN_CODE=77"/>')[1]), 1)
+
+
+class Words(Tree):
+    def problems(self, text, path="passes/x.cpp"):
+        self.write(path, "int fine;\n" + text + "\n")
+        return words.check(self.root)
+
+    def test_words_of_our_own(self):
+        for text in ("// In the middle of a voxel.", "vec3 voxelMiddle;", "int MIDDLE_VOXEL;", "// The sphere's Centre.",
+                     "glm::vec3 sceneCentre;", "float formerLevel;", "// Formerly dark.", "// Voxels are renewed.",
+                     "constexpr int kMostRays = 3;", "int LEAST_LEVEL;", "FluxSums sums;", "int rays_at_least;"):
+            problems = self.problems(text)
+            self.assertEqual(len(problems), 1, (text, problems))
+            self.assertTrue(problems[0].startswith("passes/x.cpp:2: "), problems)
+        for path in ("docs/x.md", "configs/x.yaml", "shaders/x.glsl", "tests/x.py"):
+            found = [p for p in self.problems("# the middle", path) if p.startswith(path)]
+            self.assertEqual(len(found), 1, path)
+            os.remove(os.path.join(self.root, path))
+
+    def test_words_of_the_field_and_of_english(self):
+        for text in ("vec3 center;", "// At most three rays, at least one.", "int maxRays;",
+                     "// performer, transformed, reformer"):
+            self.assertEqual(self.problems(text), [], text)
 
 
 if __name__ == "__main__":

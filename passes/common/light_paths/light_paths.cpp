@@ -61,8 +61,8 @@ void LightPaths::plan(PassPlan& plan, const std::string& pass, const LightPathPa
         if (!plan.device.shaderInt64Atomics)
             throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", pass,
                         plan.device.name);
-        plan.reserveScratch("flux sums (estimated)", (indirect ? 2 : 1) * uint64_t(voxels.voxelCount) *
-                                                         FluxAccumulator::kBytesPerVoxel);
+        plan.reserveScratch("flux accumulator (estimated)", (indirect ? 2 : 1) * uint64_t(voxels.voxelCount) *
+                                                                FluxAccumulator::kBytesPerVoxel);
     } else {
         checkBeams(pass, params, sources);
         plan.reserveScratch("voxel samples (estimated)",

@@ -21,7 +21,7 @@ FluxAccumulator::FluxAccumulator(Device& device, const ShaderCompiler& compiler)
 
 void FluxAccumulator::begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels,
                             double power) {
-    sums_ = LargeBuffer(device, "flux sums", std::max(voxels.voxelCount, 1u) * kBytesPerVoxel);
+    sums_ = LargeBuffer(device, "flux accumulator", std::max(voxels.voxelCount, 1u) * kBytesPerVoxel);
     stream.fill(sums_, 0);
     unitsPerWatt_ = float(std::ldexp(1.0, 56) / power);
 }

@@ -1,0 +1,76 @@
+#!/usr/bin/python3
+"""Checks the words of identifiers, parameters, comments and documentation: one meaning each, the field's own.
+
+words.py [ROOT]: prints "file:line: 'word': say ..."; exit status 1 where there is one. Identifiers are read word by
+word: `kMostRays` and `most_rays` hold "most rays".
+"""
+import os
+import re
+import sys
+
+import hygiene
+
+ENDINGS = (".h", ".cpp", ".glsl", ".comp", ".vert", ".geom", ".frag", ".rgen", ".rmiss", ".rchit", ".rahit", ".py",
+           ".sh", ".cmake", ".txt", ".yaml", ".md", ".html", ".css", ".js")
+HERE = "tests/house/words.py"
+
+# (what to find in a line, what to say in its place, uses that stay), as regular expressions.
+WORDS = [
+    (r"middles?", "center", ()),
+    (r"cent(?:re|red|res)", "center", ()),
+    (r"former(?:ly)?", "previous", ()),
+    (r"renew(?:ed|s|al|ing)?", "updated or rebuilt", ()),
+    (r"flux sums?", "accumulator", ()),
+    (r"voxel writes?", "accumulator", ()),
+]
+
+# The same for identifiers alone: in prose the words are English.
+IDENTIFIERS = [
+    (r"most", "max", ()),
+    (r"least", "min", ("at_least",)),
+]
+
+IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
+
+
+def split(text):
+    """Words of identifiers, which begin at capitals and after underscores."""
+    text = re.sub(r"\bk([A-Z])", r"\1", text)
+    text = re.sub(r"([a-z0-9])([A-Z])", r"\1 \2", text)
+    return re.sub(r"([A-Z])([A-Z][a-z])", r"\1 \2", text).replace("_", " ")
+
+
+def is_compound(name):
+    return "_" in name.strip("_") or re.search(r"[a-z0-9][A-Z]", name) is not None
+
+
+def problems_of(line):
+    for pattern, instead, stays in WORDS:
+        text = split(line)
+        for kept in stays:
+            text = re.sub(kept, "", text, flags=re.I)
+        for found in re.findall(rf"\b(?:{pattern})\b", text, re.I):
+            yield f"'{found}': say {instead}"
+    for name in IDENTIFIER.findall(line):
+        if not is_compound(name) and not name.isupper():
+            continue
+        for pattern, instead, stays in IDENTIFIERS:
+            if re.search(rf"\b(?:{pattern})\b", split(name), re.I) and name not in stays:
+                yield f"'{name}': say {instead}"
+
+
+def check(root):
+    problems = []
+    for path in hygiene.tracked(root):
+        if not path.endswith(ENDINGS) or path == HERE or path == "tests/house/selftest.py":
+            continue
+        with open(os.path.join(root, path), encoding="utf-8", errors="replace") as file:
+            for number, line in enumerate(file, 1):
+                problems += [f"{path}:{number}: {text}" for text in problems_of(line)]
+    return problems
+
+
+if __name__ == "__main__":
+    found = check(sys.argv[1] if len(sys.argv) > 1 else ".")
+    print("\n".join(found) or "words: each has its one meaning")
+    sys.exit(1 if found else 0)
