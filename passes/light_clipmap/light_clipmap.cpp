@@ -4,18 +4,11 @@
 
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
-#include "passes/common/triangle_walk/triangle_tiles.h"
 
 namespace voxray {
 namespace {
 
 constexpr uint64_t kLitAreaBytes = kAreaFloats * sizeof(uint32_t);
-
-struct LightPush {
-    gpu::VoxelGrid grid;
-    uint32_t tileCount;
-    float unitsPerWatt;
-};
 
 struct WindowPush {
     gpu::VoxelGrid grid;
@@ -54,8 +47,7 @@ void LightClipmap::plan(PassPlan& plan) {
     plan.reserveScratch("irradiance (estimated)",
                         VoxelIrradiance::bytes(uint32_t(params_.bounces > 0 ? sum : most)));
     if (params_.bounces > 0) bounces_.plan(plan, sum, false);
-    plan.reserveScratch("tiles of triangles",
-                        TriangleTiles::bytes(plan.frame.scene->geometry, clipmap.levels[0].voxels.grid));
+    walk_->plan(plan, clipmap.levels[0].voxels.grid);
 }
 
 void LightClipmap::prepare(PassSetup& setup) {
@@ -65,7 +57,8 @@ void LightClipmap::prepare(PassSetup& setup) {
     const auto program = [&](const char* file, const Defines& defines) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
-    light_ = program("passes/common/triangle_walk/exact.comp", {{"LIGHT", "1"}});
+    walk_->prepare(setup);
+    light_ = walk_->compileVisitor(setup, "passes/light_clipmap/light_voxels");
     area_ = program("passes/light_clipmap/lit_area.comp", {});
     window_ = program("passes/light_clipmap/fill_window.comp", radiance.defines());
     level_ = program("passes/light_clipmap/fill_level.comp", radiance.defines());
@@ -128,20 +121,17 @@ VoxelIrradiance LightClipmap::light(PassContext& context, const SurfaceVoxels& v
     const Geometry& geometry = context.frame.scene->geometry;
     const uint32_t count = std::max(voxels.voxelCount, 1u);
 
-    // What arrives, at the triangles' pieces in the boxes
+    // Light that arrives at the clipped fragments in the boxes
     const VoxelRegion region(voxels.grid, boxes);
-    const TriangleTiles tiles(stream, geometry, voxels.grid, region, region.triangles(geometry));
+    walk_->select(context, voxels.grid, region, region.triangles(geometry));
     const Buffer litArea(context.device, "lit area", count * kLitAreaBytes);
     stream.fill(litArea, 0);
     flux_.begin(context.device, stream, voxels, totalPower(sources_));
-    std::vector<Binding> bindings = context.scene.bindings({{"tiles", tiles.buffer()},
-                                                            {"voxelOccupancy", voxels.occupancy},
-                                                            {"voxelRank", voxels.rank},
-                                                            {"litArea", litArea}});
+    std::vector<Binding> bindings{
+        {"voxelOccupancy", voxels.occupancy}, {"voxelRank", voxels.rank}, {"litArea", litArea}};
     for (const Binding& binding : flux_.bindings()) bindings.push_back(binding);
     for (const Binding& binding : shadowMaps_.bindings()) bindings.push_back(binding);
-    stream.dispatch(light_, bindings, LightPush{voxels.grid, tiles.count(), flux_.unitsPerWatt()},
-                    linearGroups(tiles.count()));
+    walk_->run(context, light_, voxels.grid, bindings, flux_.unitsPerWatt());
     VoxelIrradiance irradiance;
     irradiance.allocate(context.device, count);
     stream.fill(irradiance.indirect, 0);
@@ -151,6 +141,7 @@ VoxelIrradiance LightClipmap::light(PassContext& context, const SurfaceVoxels& v
         voxels.voxelCount, linearGroups(voxels.voxelCount));
 
     stream.finish();
+    walk_->release();
     flux_.end();
     return irradiance;
 }

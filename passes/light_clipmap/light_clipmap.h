@@ -4,6 +4,7 @@
 #include "passes/common/clipmap/radiance_clipmap.h"
 #include "passes/common/lights/shadow_map.h"
 #include "passes/common/radiance/cone_bounces.h"
+#include "passes/common/triangle_walk/triangle_walk.h"
 #include "passes/common/voxels/flux_accumulator.h"
 
 namespace voxray {
@@ -14,7 +15,8 @@ class LightClipmap final : public Pass {
  public:
     static constexpr const char* kName = "light_clipmap";
     static constexpr const char* kHelp =
-        "Lights the voxels of voxelize_clipmap: each triangle's piece in a voxel is tested against a shadow "
+        "Lights the voxels of voxelize_clipmap: the part of each triangle in a voxel is tested against a "
+        "shadow "
         "map of every light, and what voxels reflect is made radiance voxels for gather_cones, which bring "
         "one "
         "bounce more than 'bounces'. What scrolled in is lit in each frame; all of the "
@@ -33,7 +35,8 @@ class LightClipmap final : public Pass {
         }
     };
 
-    explicit LightClipmap(const Params& params) : params_(params), bounces_(kName, params.bounceCones) {}
+    explicit LightClipmap(const Params& params)
+        : params_(params), walk_(makeExactWalk()), bounces_(kName, params.bounceCones) {}
     Phase phase() const override { return Phase::Frame; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
@@ -57,6 +60,7 @@ class LightClipmap final : public Pass {
     std::vector<LightSource> sources_;
     RadianceClipmap storage_;
     ShadowMaps shadowMaps_;
+    std::unique_ptr<TriangleWalk> walk_;
     Program light_, area_, window_, level_;
     FluxAccumulator flux_;
     ConeBounces bounces_;

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The area that the flux of each voxel's sides is spread over, in units of a voxel's face: the exposed area. What light reaches is
-// open, whatever the probes found: so no less than the area that is lit.
-#include "passes/common/voxel_builder/sums_layout.h"
+// The area that the flux at each face of a voxel is spread over, in units of a voxel's face: the unoccluded area. A surface that light
+// reaches is visible, whatever the visibility probes found: so the area is at least the lit one.
+#include "passes/common/voxel_builder/surface_accumulator.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
@@ -16,7 +16,7 @@ void main() {
     if (voxel >= push.voxelCount) return;
     const VoxelMaterial m = voxelMaterials.data[voxel];
     for (uint face = 0u; face < 6u; ++face) {
-        const float exposed = (face & 1u) == 0u ? m.unoccludedPositive[face >> 1] : m.unoccludedNegative[face >> 1];
-        area.data[6u * voxel + face] = max(exposed, float(litArea.data[6u * voxel + face]) / UNITS_PER_FACE);
+        const float unoccluded = (face & 1u) == 0u ? m.unoccludedPositive[face >> 1] : m.unoccludedNegative[face >> 1];
+        area.data[6u * voxel + face] = max(unoccluded, float(litArea.data[6u * voxel + face]) / UNITS_PER_FACE);
     }
 }

@@ -39,8 +39,8 @@ void PlaceSurfels::plan(PassPlan& plan) {
 void PlaceSurfels::prepare(PassSetup& setup) {
     const auto make = [&](const char* name, uint64_t bytes) { return Buffer(setup.device, name, bytes); };
     triangles_ = make("surfels' triangles", kBatchPoints * sizeof(uint32_t));
-    rays_ = make("exposure rays", Surfels::kChunk * sizeof(Ray));
-    occluded_ = make("exposure results", Surfels::kChunk * sizeof(uint32_t));
+    rays_ = make("visibility rays", Surfels::kChunk * sizeof(Ray));
+    occluded_ = make("visibility results", Surfels::kChunk * sizeof(uint32_t));
     candidates_ = make("surfel candidates", Surfels::kChunk * sizeof(gpu::Surfel));
     kept_ = make("surfels kept", Surfels::kChunk * sizeof(gpu::Surfel));
     count_ = make("number of surfels", sizeof(uint32_t));

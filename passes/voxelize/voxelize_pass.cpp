@@ -6,21 +6,21 @@
 namespace voxray {
 namespace {
 
-std::unique_ptr<VoxelizeMethod> makeMethod(const VoxelizePass::Params& params) {
+std::unique_ptr<TriangleWalk> makeWalk(const VoxelizePass::Params& params) {
     switch (params.method) {
         case VoxelizeMethodName::ThreeAxis:
-            return makeThreeAxis(params.samples);
+            return makeThreeAxisWalk(params.samples);
         case VoxelizeMethodName::DominantAxis:
-            return makeDominantAxis();
+            return makeDominantAxisWalk();
         default:
-            return makeExact();
+            return makeExactWalk();
     }
 }
 
 }  // namespace
 
 VoxelizePass::VoxelizePass(const Params& params)
-    : params_(params), builder_(makeMethod(params), params.visibilityRays) {}
+    : params_(params), builder_(makeWalk(params), params.visibilityRays) {}
 
 void VoxelizePass::declare(PassBuilder& builder) {
     voxels_ = builder.write<SurfaceVoxels>("voxels", "surface voxels with their materials");

@@ -21,7 +21,7 @@ gpu::VoxelGrid levelGrid(gpu::VoxelGrid grid, uint32_t level, uint32_t side) {
 }  // namespace
 
 VoxelizeClipmap::VoxelizeClipmap(const Params& params)
-    : params_(params), builder_(makeExact(), params.visibilityRays) {}
+    : params_(params), builder_(makeExactWalk(), params.visibilityRays) {}
 
 void VoxelizeClipmap::declare(PassBuilder& builder) {
     clipmap_ = builder.write<ClipmapVoxels>("clipmap", "surface voxels round the camera, at all scales");

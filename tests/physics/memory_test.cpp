@@ -78,8 +78,8 @@ TEST(Memory, OfVoxelizationIsFreeForInjection) {
     const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
     const VoxelIrradiance& light = *chain.graph().resource<VoxelIrradiance>("irradiance");
     const std::map<std::string, uint64_t> held = device().memoryByResource();
-    for (const char* scratch : {"voxelization sums", "exposure counts", "exposure rays", "flux sums"})
-        EXPECT_EQ(held.count(scratch), scratch == std::string("exposure rays") ? 1u : 0u) << scratch;
+    for (const char* scratch : {"surface accumulator", "visibility counts", "visibility rays", "flux sums"})
+        EXPECT_EQ(held.count(scratch), scratch == std::string("visibility rays") ? 1u : 0u) << scratch;
     EXPECT_GT(device().memoryUsedBytes() - before,
               voxels.materials.bytes() + VoxelIrradiance::bytes(voxels.voxelCount));
     EXPECT_EQ(light.direct.bytes() + light.indirect.bytes() + light.area.bytes(),

@@ -78,12 +78,12 @@ LightPaths::LightPaths(PassSetup& setup, const LightPathParams& params, uint32_t
     rays_ = Buffer(setup.device, "light rays", batch * sizeof(Ray));
     hits_ = Buffer(setup.device, "light ray hits", batch * sizeof(Hit));
     paths_ = Buffer(setup.device, "light paths", batch * sizeof(gpu::LightPath));
-    visibilityRays_ = Buffer(setup.device, "exposure rays", batch * sizeof(Ray));
-    hidden_ = Buffer(setup.device, "exposure results", batch * sizeof(uint32_t));
+    visibilityRays_ = Buffer(setup.device, "visibility rays", batch * sizeof(Ray));
+    hidden_ = Buffer(setup.device, "visibility results", batch * sizeof(uint32_t));
     const auto compile = [&](const char* file, const Defines& defines = {}) {
         return setup.compiler.compile(file, defines);
     };
-    expose_ =
+    visibility_ =
         makeComputeProgram(setup.device, compile("passes/common/light_paths/light_paths_visibility.comp"));
     follow_ = makeComputeProgram(
         setup.device,
@@ -116,9 +116,9 @@ void LightPaths::follow(PassContext& context, const SurfaceVoxels& voxels, const
     for (uint32_t bounce = 0; bounce <= params_.lastBounce(); ++bounce) {
         if (bounce > 0 || !batch.hitsKnown) context.tracer.closestHit(stream, rays_, hits_, batch.count);
 
-        // Whether open space lies before each hit, where only exposed area counts.
+        // Whether each hit is visible from open space, where only unoccluded area counts.
         if (voxels.unoccludedOnly) {
-            stream.dispatch(expose_,
+            stream.dispatch(visibility_,
                             context.scene.bindings(
                                 {{"rays", rays_}, {"hits", hits_}, {"visibilityRays", visibilityRays_}}),
                             VisibilityPush{batch.count, voxels.grid.voxelSize}, linearGroups(batch.count));

@@ -39,7 +39,7 @@ struct LightPathParams : WriteParams {
 /// Follows rays from lights: each hit leaves light in its voxel, then the ray bounces. Whoever emits writes
 /// rays() and paths(), and hits() where it knows the first hit already.
 ///
-/// `write: average` sums each ray's flux over the voxel's exposed area, and `none` does so without atomics.
+/// `write: average` sums each ray's flux over the voxel's unoccluded area, and `none` does so without atomics.
 /// `max` and `moving_average` merge irradiances, as the thesis: the beam's power over its cross-section at
 /// the hit, times the cosine. A diffusely scattered ray has no cross-section, so they take punctual lights
 /// and mirror bounces only. Source: Magalhães 2020, sections 3.3.1 and 4.3.2.5.
@@ -72,7 +72,7 @@ class LightPaths {
  private:
     LightPathParams params_;
     bool sumsFlux_ = true;  ///< Else irradiance samples are merged.
-    Program expose_, follow_, unoccludedArea_;
+    Program visibility_, follow_, unoccludedArea_;
     Buffer rays_, hits_, paths_, visibilityRays_, hidden_;
     std::array<FluxAccumulator, 2> fluxes_;        ///< Direct, indirect.
     std::array<VoxelAccumulator, 2> irradiances_;  ///< Direct, indirect.

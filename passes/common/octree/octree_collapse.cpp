@@ -26,7 +26,7 @@ OctreeCollapse::OctreeCollapse(Device& device, const ShaderCompiler& compiler)
     : prefixSum_(device, compiler) {
     const auto program = [&](const char* file, const Defines& defines) {
         return makeComputeProgram(device,
-                                  compiler.compile(std::string("passes/filter_voxels/") + file, defines));
+                                  compiler.compile(std::string("passes/common/octree/") + file, defines));
     };
     uniform_ = program("octree_uniform.comp", {});
     masks_ = program("octree_collapse.comp", {{"MASKS", "1"}});

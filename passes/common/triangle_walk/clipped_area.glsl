@@ -11,13 +11,13 @@ vec3 trapezoid(vec2 a, vec2 b) {
 }
 
 // The same over the part of the unit square below a segment, signed by the segment's direction along x. Summed over a closed
-// polygon it is the polygon's share of the square, with no case for edges that meet the square's border.
+// polygon it is the polygon's part of the square, with no special case for edges that meet the square's border.
 vec3 squareBelow(vec2 a, vec2 b) {
     const float x0 = clamp(a.x, 0.0, 1.0), x1 = clamp(b.x, 0.0, 1.0);
     if (x0 == x1) return vec3(0.0);
     const vec2 from = vec2(x0, mix(a.y, b.y, (x0 - a.x) / (b.x - a.x)));
     const vec2 to = vec2(x1, mix(a.y, b.y, (x1 - a.x) / (b.x - a.x)));
-    // Three pieces: y is clamped before the first crossing of 0 or 1 and after the second.
+    // Three segments: y is clamped before the first crossing of 0 or 1 and after the second.
     const float rise = to.y - from.y;
     const vec2 crossings = rise == 0.0 ? vec2(0.0, 1.0) : clamp((vec2(0.0, 1.0) - from.y) / rise, 0.0, 1.0);
     const float y0 = clamp(from.y, 0.0, 1.0), y1 = clamp(to.y, 0.0, 1.0);
@@ -35,24 +35,24 @@ float clippedArea(GridTriangle t, ivec3 voxel, out vec2 center) {
         return t.area;
     }
 
-    // The triangle's edges, where they are between the voxel's lower and upper face, and along these faces what joins them.
+    // The outline of the triangle between the voxel's lower and upper face: its edges there, and what joins them along the faces.
     vec3 sums = vec3(0.0);
-    vec4 leaves = vec4(0.0), enters = vec4(0.0);  // Over the lower face, over the upper one.
+    vec4 exits = vec4(0.0), entries = vec4(0.0);  // Of the edges, over the lower face (xy) and the upper one (zw).
     vec3 a = t.p2 - corner;
     for (int k = 0; k < 3; ++k) {
         const vec3 b = (k == 0 ? t.p0 : k == 1 ? t.p1 : t.p2) - corner;
         const bvec2 insideA = bvec2(a.z >= 0.0, a.z < 1.0), insideB = bvec2(b.z >= 0.0, b.z < 1.0);
         const vec2 lower = mix(a.xy, b.xy, insideA.x == insideB.x ? 0.0 : a.z / (a.z - b.z));
         const vec2 upper = mix(a.xy, b.xy, insideA.y == insideB.y ? 0.0 : (a.z - 1.0) / (a.z - b.z));
-        if (insideA.x && !insideB.x) leaves.xy = lower;
-        if (insideB.x && !insideA.x) enters.xy = lower;
-        if (insideA.y && !insideB.y) leaves.zw = upper;
-        if (insideB.y && !insideA.y) enters.zw = upper;
+        if (insideA.x && !insideB.x) exits.xy = lower;
+        if (insideB.x && !insideA.x) entries.xy = lower;
+        if (insideA.y && !insideB.y) exits.zw = upper;
+        if (insideB.y && !insideA.y) entries.zw = upper;
         if ((insideA.x || insideB.x) && (insideA.y || insideB.y))
             sums += squareBelow(!insideA.x ? lower : !insideA.y ? upper : a.xy, !insideB.x ? lower : !insideB.y ? upper : b.xy);
         a = b;
     }
-    sums += squareBelow(leaves.xy, enters.xy) + squareBelow(leaves.zw, enters.zw);
+    sums += squareBelow(exits.xy, entries.xy) + squareBelow(exits.zw, entries.zw);
     center = corner.xy + (sums.x != 0.0 ? clamp(sums.yz / sums.x, 0.0, 1.0) : vec2(0.5));
     return abs(sums.x / t.normal.z);
 }

@@ -1,62 +1,58 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "passes/common/triangle_walk/voxelize_method.h"
+#include "passes/common/triangle_walk/raster_walk.h"
+#include "passes/common/triangle_walk/walk_types.h"
 
 namespace voxray {
 namespace {
 
-struct Push {
-    gpu::VoxelGrid grid;
-    uint32_t imageSide;
-    float emissionScale;
-};
-
 /// One raster pass. A geometry shader picks the axis that a triangle faces most; pixels are columns of voxels
-/// along it. A fragment is made for each column that the triangle touches (not only for those whose center it
-/// covers) and reaches each voxel that the triangle's plane passes through there. Sources: Magalhães 2020,
+/// along it. A pixel is drawn for each column that the triangle touches (not only for those whose center it
+/// contains) and reaches each voxel that the triangle's plane passes through there. Sources: Magalhães 2020,
 /// section 3.2.4.3; Crassin and Green 2012; Hasselgren et al. 2005 for growing triangles by half a pixel.
-class DominantAxis final : public RasterMethod {
+class DominantAxisWalk final : public RasterWalk {
  public:
-    void plan(PassPlan& plan, const SurfaceVoxels& voxels) override {
+    void plan(PassPlan& plan, const gpu::VoxelGrid& grid) override {
         if (!plan.device.geometryShader)
             throw Error(
                 "voxelize: method dominant_axis needs geometry shaders (geometryShader), which device '{}' "
                 "lacks; use method exact",
                 plan.device.name);
-        RasterMethod::plan(plan, voxels);
+        RasterWalk::plan(plan, grid);
     }
 
     void prepare(PassSetup& setup) override {
-        const ShaderModule vertex = setup.compiler.compile("passes/common/triangle_walk/dominant_axis.vert");
-        const ShaderModule geometry =
-            setup.compiler.compile("passes/common/triangle_walk/dominant_axis.geom");
-        for (const bool mark : {false, true}) {
-            const ShaderModule modules[] = {
-                vertex, geometry,
-                setup.compiler.compile("passes/common/triangle_walk/dominant_axis.frag", stepDefines(mark))};
-            (mark ? mark_ : add_) = makeRasterProgram(setup.device, modules, {});
-        }
+        vertex_ = setup.compiler.compile("passes/common/triangle_walk/dominant_axis.vert");
+        geometry_ = setup.compiler.compile("passes/common/triangle_walk/dominant_axis.geom");
     }
 
-    void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelizeStep& step) override {
+    Program compileVisitor(PassSetup& setup, const std::string& shader) const override {
+        const ShaderModule modules[] = {vertex_, geometry_,
+                                        setup.compiler.compile(shader + ".frag", {{"DOMINANT_AXIS", "1"}})};
+        return makeRasterProgram(setup.device, modules, {});
+    }
+
+    void run(PassContext& context, const Program& visitor, const gpu::VoxelGrid& grid,
+             std::span<const Binding> bindings, float visitorScale) const override {
         // One square image has room for the columns along any axis.
-        const glm::uvec3 r = voxels.grid.resolution;
-        const uint32_t side = std::max({r.x, r.y, r.z});
+        gpu::TriangleWalkPush push{};
+        push.grid = grid;
+        push.visitorScale = visitorScale;
+        push.imageSide = std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z});
         RasterTargets targets;
-        targets.extent = {side, side, 1};
-        context.stream.draw(step.mark ? mark_ : add_, bindings(context, voxels, step),
-                            Push{voxels.grid, side, step.emissionScale}, targets, corners());
+        targets.extent = {push.imageSide, push.imageSide, 1};
+        context.stream.draw(visitor, allBindings(context, bindings), push, targets, corners());
     }
 
  private:
-    Program mark_, add_;
+    ShaderModule vertex_, geometry_;
 };
 
 }  // namespace
 
-std::unique_ptr<VoxelizeMethod> makeDominantAxis() {
-    return std::make_unique<DominantAxis>();
+std::unique_ptr<TriangleWalk> makeDominantAxisWalk() {
+    return std::make_unique<DominantAxisWalk>();
 }
 
 }  // namespace voxray

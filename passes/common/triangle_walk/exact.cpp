@@ -1,31 +1,24 @@
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/triangle_walk/triangle_tiles.h"
-#include "passes/common/triangle_walk/voxelize_method.h"
+#include "passes/common/triangle_walk/triangle_walk.h"
+#include "passes/common/triangle_walk/walk_types.h"
 
 namespace voxray {
 namespace {
 
-struct Push {
-    gpu::VoxelGrid grid;
-    uint32_t tileCount;
-    float scale;
-};
-
-/// Triangle-box overlap by separating axes. A thread takes one tile of a triangle and walks its columns. What
-/// a voxel holds of a triangle is the triangle clipped to the voxel. Sources: Schwarz and Seidel 2010,
-/// section 4 (overlap); Sutherland and Hodgman 1974 (clipping).
-class Exact final : public VoxelizeMethod {
+/// Triangle-box overlap by separating axes. A thread takes one tile of a triangle and walks its columns. A
+/// fragment is the triangle clipped to the voxel. Sources: Schwarz and Seidel 2010, section 4 (overlap);
+/// Sutherland and Hodgman 1974 (clipping).
+class ExactWalk final : public TriangleWalk {
  public:
-    void plan(PassPlan& plan, const SurfaceVoxels& voxels) override {
-        plan.reserveScratch("tiles of triangles",
-                            TriangleTiles::bytes(plan.frame.scene->geometry, voxels.grid));
+    void plan(PassPlan& plan, const gpu::VoxelGrid& grid) override {
+        plan.reserveScratch("tiles of triangles", TriangleTiles::bytes(plan.frame.scene->geometry, grid));
     }
 
-    void prepare(PassSetup& setup) override {
-        for (const bool mark : {false, true})
-            (mark ? mark_ : add_) = makeComputeProgram(
-                setup.device,
-                setup.compiler.compile("passes/common/triangle_walk/exact.comp", stepDefines(mark)));
+    void prepare(PassSetup&) override {}
+
+    Program compileVisitor(PassSetup& setup, const std::string& shader) const override {
+        return makeComputeProgram(setup.device, setup.compiler.compile(shader + ".comp"));
     }
 
     void select(PassContext& context, const gpu::VoxelGrid& grid, const VoxelRegion& region,
@@ -33,23 +26,27 @@ class Exact final : public VoxelizeMethod {
         tiles_ = TriangleTiles(context.stream, context.frame.scene->geometry, grid, region, triangles);
     }
 
-    void release() override { tiles_ = {}; }
-
-    void run(PassContext& context, const SurfaceVoxels& voxels, const VoxelizeStep& step) override {
-        context.stream.dispatch(
-            step.mark ? mark_ : add_, stepBindings(context, voxels, step, {{"tiles", tiles_.buffer()}}),
-            Push{voxels.grid, tiles_.count(), step.emissionScale}, linearGroups(tiles_.count()));
+    void run(PassContext& context, const Program& visitor, const gpu::VoxelGrid& grid,
+             std::span<const Binding> bindings, float visitorScale) const override {
+        std::vector<Binding> all = context.scene.bindings({{"tiles", tiles_.buffer()}});
+        all.insert(all.end(), bindings.begin(), bindings.end());
+        gpu::TriangleWalkPush push{};
+        push.grid = grid;
+        push.visitorScale = visitorScale;
+        push.tiles = tiles_.count();
+        context.stream.dispatch(visitor, all, push, linearGroups(tiles_.count()));
     }
 
+    void release() override { tiles_ = {}; }
+
  private:
-    Program mark_, add_;
     TriangleTiles tiles_;
 };
 
 }  // namespace
 
-std::unique_ptr<VoxelizeMethod> makeExact() {
-    return std::make_unique<Exact>();
+std::unique_ptr<TriangleWalk> makeExactWalk() {
+    return std::make_unique<ExactWalk>();
 }
 
 }  // namespace voxray

@@ -9,7 +9,7 @@
 // Voxels count as closed boxes, larger by this on each side: grid coordinates up to 1024 are good to 2^-14.
 const float kMargin = 1.0 / 4096.0;
 
-// Coordinates are in voxels and turned: z runs along the world axis that the triangle faces most, x and y along the next two
+// Coordinates are in voxels and permuted: z runs along the world axis that the triangle faces most, x and y along the next two
 // in cyclic order.
 struct GridTriangle {
     uint index;
@@ -21,7 +21,7 @@ struct GridTriangle {
     vec2 slope;         // Of z over x and y.
     float area;         // In voxel faces; 0 where it is lost in rounding: such triangles have no voxels.
     vec2 texCoordWidth;  // log2 of a voxel's width in texture coordinates 0 and 1: the mean of both directions.
-    float planeError;   // What rounding may do to z on the plane, of note for slivers alone.
+    float planeError;   // What rounding may do to z on the plane: matters for slivers alone.
 };
 
 vec3 permuted(vec3 v, uint axis) { return axis == 0u ? v.yzx : axis == 1u ? v.zxy : v; }

@@ -7,7 +7,7 @@
 // Sub-samples of a voxel's face: 4x4, a bit each.
 const int kSide = 4;
 const float kSubSamples = 16.0;
-const uint CENTER = 1u << 16;  // Beside the sub-samples' bits: the center of the face.
+const uint CENTER = 1u << 16;  // A bit after those of the sub-samples: the center of the face.
 
 // Whether a point is on the inner side of an edge; of two triangles that share the edge, one owns it.
 bool owns(vec2 a, vec2 b, float winding, vec2 point) {
@@ -17,7 +17,7 @@ bool owns(vec2 a, vec2 b, float winding, vec2 point) {
 }
 
 // The sub-samples of the voxel's face across z whose lines along z meet the triangle within the voxel. To look along another
-// axis, turn all vectors.
+// axis, permute all vectors.
 uint subSamples(vec3 p0, vec3 p1, vec3 p2, vec3 normal, float winding, ivec3 voxel) {
     if (winding == 0.0) return 0u;
     const vec2 corner = vec2(voxel.xy);
@@ -38,24 +38,24 @@ uint subSamples(vec3 p0, vec3 p1, vec3 p2, vec3 normal, float winding, ivec3 vox
     return mask;
 }
 
-// Sub-samples seen along the triangle's own z.
+// Sub-samples seen along the triangle's own z, the axis that it faces most.
 uint ownSubSamples(GridTriangle t, ivec3 voxel) {
     return subSamples(t.p0, t.p1, t.p2, t.normal, t.winding.z, voxel);
 }
 
-// Sub-samples by world axis.
-uvec3 allSubSamples(GridTriangle t, ivec3 voxel) {
-    uvec3 mask = uvec3(0u);
-    for (uint k = 0u; k < 3u; ++k) {
-        mask[(t.axis + k) % 3u] = subSamples(t.p0, t.p1, t.p2, t.normal, t.winding.z, voxel);
+// Sub-samples seen along the other two axes, by world axis.
+uvec3 crossSubSamples(GridTriangle t, ivec3 voxel) {
+    uvec3 byAxis = uvec3(0u);
+    for (uint k = 1u; k < 3u; ++k) {
         t.p0 = t.p0.yzx;
         t.p1 = t.p1.yzx;
         t.p2 = t.p2.yzx;
         t.normal = t.normal.yzx;
         t.winding = t.winding.yzx;
         voxel = voxel.yzx;
+        byAxis[(t.axis + k) % 3u] = subSamples(t.p0, t.p1, t.p2, t.normal, t.winding.z, voxel);
     }
-    return mask;
+    return byAxis;
 }
 
 vec2 subSamplePoint(ivec3 voxel, int bit) {
@@ -64,13 +64,13 @@ vec2 subSamplePoint(ivec3 voxel, int bit) {
 }
 
 // Those of the sub-samples in `mask` that the material's alpha mask leaves.
-uint alphaLeaves(GridTriangle t, GpuMaterial m, ivec3 voxel, uint mask) {
-    uint left = 0u;
+uint opaqueSubSamples(GridTriangle t, GpuMaterial m, ivec3 voxel, uint mask) {
+    uint opaque = 0u;
     for (uint rest = mask; rest != 0u; rest &= rest - 1u) {
         const int bit = findLSB(rest);
-        if (!alphaCut(m, surfacePoint(t.index, barycentricsAt(t, subSamplePoint(voxel, bit))))) left |= 1u << uint(bit);
+        if (!alphaCut(m, surfacePoint(t.index, barycentricsAt(t, subSamplePoint(voxel, bit))))) opaque |= 1u << uint(bit);
     }
-    return left;
+    return opaque;
 }
 
 #endif

@@ -8,7 +8,7 @@
 namespace voxray {
 namespace {
 
-constexpr int kTileSide = 8;  // Columns, as in exact.comp.
+constexpr int kTileSide = 8;  // Columns, as in exact.glsl.
 
 /// Calls visit(packed tile) for the tiles that a triangle's bounds meet, only those that may reach into the
 /// region.

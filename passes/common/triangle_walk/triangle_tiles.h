@@ -8,7 +8,7 @@
 namespace voxray {
 
 /// Triangles cut into tiles of 8x8 columns of voxels, seen along the axis that each faces most, so that no
-/// thread walks all of a large one: what exact.comp works on.
+/// thread walks all of a large one: what exact.glsl works on.
 class TriangleTiles {
  public:
     /// The tiles of `triangles` that may reach into the region.

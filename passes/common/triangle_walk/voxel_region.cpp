@@ -9,14 +9,6 @@
 #include "passes/common/voxels/voxels.h"
 
 namespace voxray {
-namespace {
-
-/// Voxels from a point on a surface to what may change its exposure: the probe's length, and to spare what
-/// its ray starts off the surface.
-constexpr float kProbeReach = 1 + 1.0f / 16;
-
-}  // namespace
-
 GridBounds::GridBounds(const Geometry& geometry, const gpu::VoxelGrid& grid, uint32_t triangle) {
     constexpr float kSpare = 1.0f / 256;
     const glm::uvec3 v = geometry.triangles[triangle];
@@ -79,20 +71,6 @@ std::vector<uint32_t> VoxelRegion::triangles(const Geometry& geometry) const {
         return !meets(bounds.low, bounds.high);
     });
     return found;
-}
-
-std::vector<VoxelBox> changedVoxels(const gpu::VoxelGrid& grid, const std::vector<Box>& changed) {
-    const VoxelBox held = heldVoxels(grid);
-    const glm::ivec3 end = held.first + glm::ivec3(held.size);
-    std::vector<VoxelBox> boxes;
-    for (const Box& box : changed) {
-        const glm::vec3 low = (box.min - grid.origin) / grid.voxelSize - kProbeReach;
-        const glm::vec3 high = (box.max - grid.origin) / grid.voxelSize + kProbeReach;
-        const glm::ivec3 first = glm::max(glm::ivec3(glm::floor(low)), held.first);
-        const glm::ivec3 last = glm::min(glm::ivec3(glm::floor(high)), end - 1);
-        if (glm::all(glm::lessThanEqual(first, last))) boxes.push_back({first, glm::uvec3(last - first + 1)});
-    }
-    return boxes;
 }
 
 }  // namespace voxray

@@ -8,7 +8,7 @@
 
 namespace voxray {
 
-/// The voxels to make anew: all that a grid holds, or boxes of it, which may overlap.
+/// The voxels that a walk visits: all that a grid holds, or boxes of it, which may overlap.
 class VoxelRegion {
  public:
     /// All that the grid holds.
@@ -34,10 +34,6 @@ class VoxelRegion {
     bool wholeGrid_;
     glm::vec3 low_{0}, high_{0};
 };
-
-/// What changes where surfaces do, of the voxels that a grid holds: those that meet a changed box, m, and
-/// those within a voxel of it, as far as exposure probes reach.
-std::vector<VoxelBox> changedVoxels(const gpu::VoxelGrid& grid, const std::vector<Box>& changed);
 
 /// A triangle's bounds in grid coordinates, larger by more than the margin of grid_triangle.glsl.
 struct GridBounds {

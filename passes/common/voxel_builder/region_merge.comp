@@ -1,20 +1,20 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Occupancy with a region made anew: within it the new voxels, all others as before. Of the new ones those beyond the region are
-// dropped. A thread takes a word.
+// Occupancy of a grid in which a region was built again: within the region the rebuilt voxels, elsewhere the previous ones. Rebuilt
+// voxels beyond the region are dropped. A thread takes a word.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 0) readonly buffer Region { uint words[]; } region;
-layout(set = 0, binding = 1) buffer Fresh { uint words[]; } fresh;
-layout(set = 0, binding = 2) readonly buffer Before { uint words[]; } before;
-layout(set = 0, binding = 3) writeonly buffer Joined { uint words[]; } joined;
+layout(set = 0, binding = 1) buffer Rebuilt { uint words[]; } rebuilt;
+layout(set = 0, binding = 2) readonly buffer Previous { uint words[]; } previous;
+layout(set = 0, binding = 3) writeonly buffer Merged { uint words[]; } merged;
 layout(push_constant) uniform Push { uint words; } push;
 
 void main() {
     const uint word = linearIndex();
     if (word >= push.words) return;
-    const uint within = fresh.words[word] & region.words[word];
-    fresh.words[word] = within;
-    joined.words[word] = (before.words[word] & ~region.words[word]) | within;
+    const uint within = rebuilt.words[word] & region.words[word];
+    rebuilt.words[word] = within;
+    merged.words[word] = (previous.words[word] & ~region.words[word]) | within;
 }

@@ -16,12 +16,12 @@ struct BitsPush {
 
 RegionMerge::RegionMerge(Device& device, const ShaderCompiler& compiler)
     : bits_(makeComputeProgram(device, compiler.compile("passes/common/voxel_builder/region_bits.comp"))),
-      join_(makeComputeProgram(device, compiler.compile("passes/common/voxel_builder/region_merge.comp"))),
+      merge_(makeComputeProgram(device, compiler.compile("passes/common/voxel_builder/region_merge.comp"))),
       materials_(makeComputeProgram(device,
                                     compiler.compile("passes/common/voxel_builder/region_materials.comp"))) {}
 
 void RegionMerge::occupancy(CommandStream& stream, const VoxelRegion& region, const SurfaceVoxels& previous,
-                            SurfaceVoxels& fresh) {
+                            SurfaceVoxels& rebuilt) {
     Device& device = stream.device();
     const Buffer bits(device, "voxel region", previous.occupancy.bytes());
     stream.fill(bits, 0);
@@ -30,7 +30,7 @@ void RegionMerge::occupancy(CommandStream& stream, const VoxelRegion& region, co
     if (!list.empty()) {
         boxes = Buffer(device, "boxes of voxels", list.size() * sizeof(VoxelBox));
         stream.upload(boxes, list);
-        uint64_t words = 0;  // Of the largest box, at most.
+        uint64_t words = 0;  // Of the largest box, or a few more.
         for (const VoxelBox& box : list)
             words = std::max(words, (uint64_t(box.size.x) / 32 + 2) * box.size.y * box.size.z);
         const glm::uvec3 groups = linearGroups(words);
@@ -39,37 +39,39 @@ void RegionMerge::occupancy(CommandStream& stream, const VoxelRegion& region, co
                         {groups.x, groups.y, uint32_t(list.size())});
     }
 
-    joined_ = Buffer(device, "voxel occupancy", previous.occupancy.bytes());
+    merged_ = Buffer(device, "voxel occupancy", previous.occupancy.bytes());
     const uint32_t words = uint32_t(previous.words());
-    stream.dispatch(
-        join_,
-        {{"region", bits}, {"fresh", fresh.occupancy}, {"before", previous.occupancy}, {"joined", joined_}},
-        words, linearGroups(words));
+    stream.dispatch(merge_,
+                    {{"region", bits},
+                     {"rebuilt", rebuilt.occupancy},
+                     {"previous", previous.occupancy},
+                     {"merged", merged_}},
+                    words, linearGroups(words));
     stream.finish();
 }
 
 void RegionMerge::materials(CommandStream& stream, const PopulationPrefixSum& prefixSum,
-                            const SurfaceVoxels& fresh, SurfaceVoxels& previous) {
+                            const SurfaceVoxels& rebuilt, SurfaceVoxels& previous) {
     Device& device = stream.device();
     const uint32_t words = uint32_t(previous.words());
     Buffer rank(device, "voxel ranks", previous.rank.bytes());
-    previous.voxelCount = prefixSum.run(stream, joined_, rank, words);
+    previous.voxelCount = prefixSum.run(stream, merged_, rank, words);
     LargeBuffer materials(device, "voxel materials",
                           std::max<uint64_t>(previous.voxelCount, 1) * sizeof(gpu::VoxelMaterial));
     if (previous.voxelCount == 0) stream.fill(materials, 0);
     stream.dispatch(materials_,
-                    {{"fresh", fresh.occupancy},
-                     {"freshRank", fresh.rank},
-                     {"FreshMaterialsAt", fresh.materials.at()},
+                    {{"rebuilt", rebuilt.occupancy},
+                     {"rebuiltRank", rebuilt.rank},
+                     {"RebuiltMaterialsAt", rebuilt.materials.at()},
                      {"previous", previous.occupancy},
                      {"previousRank", previous.rank},
                      {"PreviousMaterialsAt", previous.materials.at()},
-                     {"voxelOccupancy", joined_},
+                     {"voxelOccupancy", merged_},
                      {"voxelRank", rank},
                      {"VoxelMaterialsAt", materials.at()}},
                     words, linearGroups(words));
     stream.finish();
-    previous.occupancy = std::move(joined_);
+    previous.occupancy = std::move(merged_);
     previous.rank = std::move(rank);
     previous.materials = std::move(materials);
 }

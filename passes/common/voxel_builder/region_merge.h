@@ -6,30 +6,29 @@
 
 namespace voxray {
 
-/// Puts the voxels of a region that was made anew in the place of the previous ones. Voxels beyond the region
-/// keep their materials; only their numbers move.
+/// Puts the voxels of a region that was built again in the place of the previous ones. Voxels beyond the
+/// region keep their materials; only their numbers change.
 class RegionMerge {
  public:
     RegionMerge() = default;
     RegionMerge(Device& device, const ShaderCompiler& compiler);
 
-    /// Joins occupancies: drops from `fresh` what lies beyond the region. `previous` stays as it is.
+    /// Merges occupancies: drops from `rebuilt` what lies beyond the region. `previous` stays as it is.
     void occupancy(CommandStream& stream, const VoxelRegion& region, const SurfaceVoxels& previous,
-                   SurfaceVoxels& fresh);
-    /// Then ranks and materials, once the fresh ones are there; `previous` becomes the result. Waits for the
+                   SurfaceVoxels& rebuilt);
+    /// Then ranks and materials, once `rebuilt` has them; `previous` becomes the result. Waits for the
     /// device.
-    void materials(CommandStream& stream, const PopulationPrefixSum& prefixSum, const SurfaceVoxels& fresh,
+    void materials(CommandStream& stream, const PopulationPrefixSum& prefixSum, const SurfaceVoxels& rebuilt,
                    SurfaceVoxels& previous);
 
-    /// Bytes that a join takes for a while, besides the materials of the voxels: five words for every two of
-    /// theirs.
+    /// Bytes of scratch memory, besides the materials of the voxels: five words for every two of theirs.
     static uint64_t scratchBytes(const SurfaceVoxels& voxels) {
         return 5 * voxels.words() * sizeof(uint32_t);
     }
 
  private:
-    Program bits_, join_, materials_;
-    Buffer joined_;  ///< Occupancy, between the two steps.
+    Program bits_, merge_, materials_;
+    Buffer merged_;  ///< Occupancy, between the two steps.
 };
 
 }  // namespace voxray

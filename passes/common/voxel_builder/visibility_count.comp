@@ -1,9 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Adds each point to its voxel: to all points by axis and, for each side with nothing before it, to the exposed ones by the
-// direction that the side faces. Weights are squared normal components in fixed point; 16 bits leave room for 65536 points.
+// Adds probe points to the counts of their voxels, nine each: visible points by face +x -x +y -y +z -z, then all points by axis. A
+// point on a surface with unit normal n counts n_a² along axis a, in fixed point; 16 bits leave room for 65536 points.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
+#include "shaders/voxels/face.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
@@ -18,16 +19,18 @@ layout(push_constant, scalar) uniform Push {
 void main() {
     const uint i = linearIndex();
     if (i >= push.points) return;
-    const uint voxel = voxelNumber(push.grid, voxelAt(push.grid, rays.data[2u * i].origin));
+    const Ray front = rays.data[2u * i];
+    const bool frontVisible = occluded.data[2u * i] == 0u, backVisible = occluded.data[2u * i + 1u] == 0u;
+    const uint voxel = voxelNumber(push.grid, voxelAt(push.grid, front.origin));
     if (voxel == NO_VOXEL) return;
+    const uint first = 9u * voxel;
     for (uint axis = 0u; axis < 3u; ++axis) {
-        const float component = rays.data[2u * i].direction[axis];
-        const uint weight = uint(round(component * component * 65536.0));
+        const uint weight = uint(round(front.direction[axis] * front.direction[axis] * 65536.0));
         if (weight == 0u) continue;
-        atomicAdd(counts.data[voxel * 9u + 6u + axis], weight);
-        // The front side faces as the normal does, the back side the other way.
-        const uint front = component < 0.0 ? 1u : 0u;
-        if (occluded.data[2u * i] == 0u) atomicAdd(counts.data[voxel * 9u + 2u * axis + front], weight);
-        if (occluded.data[2u * i + 1u] == 0u) atomicAdd(counts.data[voxel * 9u + 2u * axis + 1u - front], weight);
+        atomicAdd(counts.data[first + 6u + axis], weight);
+        // The front side turns to the face that the normal points to, the back side to the opposite one.
+        const uint face = faceOf(front.direction, axis);
+        if (frontVisible) atomicAdd(counts.data[first + face], weight);
+        if (backVisible) atomicAdd(counts.data[first + (face ^ 1u)], weight);
     }
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// For each point on a surface that lies in one of the voxels a ray along its normal and one against it, as long as a voxel.
+// Two rays from each probe point that lies in one of the voxels, as long as a voxel: along the surface's normal, and against it.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
@@ -8,8 +8,7 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-// Triangle, and which of its points.
-layout(set = 0, binding = 16) readonly buffer Points { uvec2 data[]; } points;
+layout(set = 0, binding = 16) readonly buffer Points { uvec2 data[]; } points;  // Triangle, and number of the point on it.
 layout(set = 0, binding = 17, scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(set = 0, binding = 18) buffer Kept { uint count; } kept;
 layout(push_constant, scalar) uniform Push {

@@ -10,7 +10,7 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kBatchPoints = 1u << 18;
-constexpr uint64_t kCounts = 9;  // Of a voxel, as in resolve.comp.
+constexpr uint64_t kCounts = 9;  // Of a voxel, as in visibility_count.comp.
 
 struct EmitPush {
     gpu::VoxelGrid grid;
@@ -23,9 +23,10 @@ struct CountPush {
     uint32_t points;
 };
 
-/// Points on a triangle: its area in voxel faces times the points of one, rounded up for as many of the
-/// triangles as it takes to have the right number in all. The part that is rounded is compared with the van
-/// der Corput sequence, which is spread evenly over neighbours in the list.
+/// Number of probes on a triangle: its area in voxel faces times `pointsPerFace`, rounded so that the mean
+/// over triangles is right: up where the fraction and the triangle's number in the van der Corput sequence
+/// add up to
+/// 1. The sequence is spread evenly over triangles that are neighbours in the list.
 uint64_t pointsOn(const Geometry& g, const gpu::VoxelGrid& grid, uint32_t triangle, uint32_t pointsPerFace) {
     const glm::uvec3 v = g.triangles[triangle];
     const glm::dvec3 p0 = g.positions[v.x], p1 = g.positions[v.y], p2 = g.positions[v.z];
@@ -46,17 +47,19 @@ VisibilityProbe::VisibilityProbe(Device& device, const ShaderCompiler& compiler)
 Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels,
                             const std::vector<uint32_t>& triangles, uint32_t pointsPerFace) const {
     CommandStream& stream = context.stream;
-    Buffer counts(context.device, "exposure counts",
+    Buffer counts(context.device, "visibility counts",
                   std::max<uint64_t>(voxels.voxelCount, 1) * kCounts * sizeof(uint32_t));
     stream.fill(counts, 0);
     if (pointsPerFace == 0 || voxels.voxelCount == 0) return counts;
 
-    // Batch by batch the points, of those that lie in the voxels two rays each, and what these find.
-    const Buffer batch(context.device, "exposure points", kBatchPoints * sizeof(glm::uvec2));
-    const Buffer kept(context.device, "number of exposure points", sizeof(uint32_t));
-    const Buffer rays(context.device, "exposure rays", 2ull * kBatchPoints * sizeof(Ray));
-    const Buffer occluded(context.device, "exposure results", 2ull * kBatchPoints * sizeof(uint32_t));
-    std::vector<glm::uvec2> points;  // Triangle, and which of its points.
+    // In batches: two rays from each point that lies in one of the voxels; whether they are occluded, into
+    // the counts of the point's voxel. The host makes points of all triangles, the device drops those
+    // elsewhere.
+    const Buffer batch(context.device, "visibility probes", kBatchPoints * sizeof(glm::uvec2));
+    const Buffer kept(context.device, "number of visibility probes", sizeof(uint32_t));
+    const Buffer rays(context.device, "visibility rays", 2ull * kBatchPoints * sizeof(Ray));
+    const Buffer occluded(context.device, "visibility results", 2ull * kBatchPoints * sizeof(uint32_t));
+    std::vector<glm::uvec2> points;  // Triangle, and number of the point on it.
     const auto probe = [&] {
         if (points.empty()) return;
         stream.upload(batch, points);

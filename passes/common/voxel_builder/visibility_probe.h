@@ -6,24 +6,39 @@
 
 namespace voxray {
 
-/// Finds how much of each voxel's surface has open space before it.
+/// Finds how much of each voxel's surface is visible, that is, has open space in front of it, by the voxel's
+/// six faces.
 ///
-/// Thin walls, slabs and cloth are closed shells: their inner sides take no light, but they face the same way
-/// as an outer side in the same voxel and would halve its mean irradiance. Points spread evenly over all
-/// surfaces send one ray along the normal from either side; a side is exposed if nothing lies within one
-/// voxel. Sides of a gap narrower than a voxel count as hidden. A triangle's points depend on that triangle
-/// alone: what moves elsewhere does not move them.
+/// Walls, slabs and cloth are closed shells, often thinner than a voxel. No light gets inside the shell, but
+/// its inner sides share a voxel with the outer sides and turn to the same faces. Light over the area of both
+/// would be half as bright as it is:
+///
+///        +-----------------+
+///        |        ^        |    A probe is a point on a surface with two rays of one voxel's length: along
+///        |        | free   |    the normal, and against it. The upper side of this slab is visible. Its
+///     ===|========o========|===   lower side is not: its ray meets the slab's other face.
+///        |        v meets  |
+///     ===|=================|===  slab
+///        +-----------------+  voxel
+///
+/// Probes are spread evenly over all surfaces. By face, the visible fraction of the area is
+///
+///     Σ of n_a² over the points whose side towards the face is visible / Σ of n_a² over all points
+///
+/// with a the axis of the face and n a point's unit normal, as a surface of area A counts A n_a² at the face.
+/// Gaps narrower than a voxel count as closed. A triangle's probes depend on that triangle alone: they stay
+/// where they are when other surfaces move.
 class VisibilityProbe {
  public:
     VisibilityProbe() = default;
     VisibilityProbe(Device& device, const ShaderCompiler& compiler);
 
-    /// Probes from the points of `triangles` that lie in one of `voxels`.
+    /// Probes the points of `triangles` that lie in one of `voxels`.
     /// @param pointsPerFace points for as much area as a voxel's face has.
-    /// @return 9 uints a voxel, as resolve.comp reads them.
+    /// @return 9 uints a voxel, as visibility_count.comp adds them up; all 0 without points.
     Buffer run(PassContext& context, const SurfaceVoxels& voxels, const std::vector<uint32_t>& triangles,
                uint32_t pointsPerFace) const;
-    /// Bytes that run() takes for a while, with what it returns.
+    /// Bytes of scratch memory of run(), with what it returns.
     static uint64_t bytes(uint32_t voxelCount, uint32_t pointsPerFace);
 
  private:

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
-#include "passes/common/voxel_builder/sums_layout.h"
+#include "passes/common/voxel_builder/surface_accumulator.h"
 
 namespace voxray {
 namespace {
@@ -28,24 +28,27 @@ void VoxelBuilder::planVoxels(PassPlan& plan, const SurfaceVoxels& voxels) {
 
 void VoxelBuilder::planWork(PassPlan& plan, const SurfaceVoxels& voxels, bool updates) {
     const uint64_t count = voxels.voxelCount;
-    plan.reserveScratch("sums (estimated)", count * SUMS_PER_VOXEL * sizeof(uint32_t));
-    plan.reserveScratch("exposure (estimated)", VisibilityProbe::bytes(voxels.voxelCount, visibilityRays_));
-    // The voxels of a region stand beside the previous ones, at worst all of them.
+    plan.reserveScratch("surface accumulator (estimated)", count * ACCUMULATOR_UINTS * sizeof(uint32_t));
+    plan.reserveScratch("visibility probes (estimated)",
+                        VisibilityProbe::bytes(voxels.voxelCount, visibilityRays_));
+    // A region's voxels are held together with the previous ones: at worst all of them twice.
     if (updates)
         plan.reserveScratch("update of a region (at most)",
                             RegionMerge::scratchBytes(voxels) + count * sizeof(gpu::VoxelMaterial));
-    method_->plan(plan, voxels);
+    walk_->plan(plan, voxels.grid);
     for (const Material& material : plan.frame.scene->scene->materials)
         for (int c = 0; c < 3; ++c) largestEmission_ = std::max(largestEmission_, material.emission[c]);
 }
 
 void VoxelBuilder::prepare(PassSetup& setup) {
-    method_->prepare(setup);
-    resolve_ =
-        makeComputeProgram(setup.device, setup.compiler.compile("passes/common/voxel_builder/resolve.comp"));
+    walk_->prepare(setup);
+    markVoxels_ = walk_->compileVisitor(setup, "passes/common/voxel_builder/mark_voxels");
+    addSurfaces_ = walk_->compileVisitor(setup, "passes/common/voxel_builder/add_surfaces");
+    resolve_ = makeComputeProgram(
+        setup.device, setup.compiler.compile("passes/common/voxel_builder/surface_accumulator_resolve.comp"));
     prefixSum_.emplace(setup.device, setup.compiler);
     visibilityProbe_ = VisibilityProbe(setup.device, setup.compiler);
-    join_ = RegionMerge(setup.device, setup.compiler);
+    merge_ = RegionMerge(setup.device, setup.compiler);
 }
 
 void VoxelBuilder::build(PassContext& context, SurfaceVoxels& voxels) {
@@ -54,13 +57,13 @@ void VoxelBuilder::build(PassContext& context, SurfaceVoxels& voxels) {
 }
 
 SurfaceVoxels VoxelBuilder::update(PassContext& context, const VoxelRegion& region, SurfaceVoxels& voxels) {
-    SurfaceVoxels fresh;
-    fresh.grid = voxels.grid;
-    fresh.unoccludedOnly = voxels.unoccludedOnly;
-    voxelize(context, region, fresh, &voxels);
-    join_.materials(context.stream, *prefixSum_, fresh, voxels);
+    SurfaceVoxels rebuilt;
+    rebuilt.grid = voxels.grid;
+    rebuilt.unoccludedOnly = voxels.unoccludedOnly;
+    voxelize(context, region, rebuilt, &voxels);
+    merge_.materials(context.stream, *prefixSum_, rebuilt, voxels);
     ++voxels.version;
-    return fresh;
+    return rebuilt;
 }
 
 void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, SurfaceVoxels& target,
@@ -71,27 +74,34 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
         target.rank = Buffer(context.device, "voxel ranks", target.words() * sizeof(uint32_t));
     }
     const std::vector<uint32_t> triangles = region.triangles(context.frame.scene->geometry);
-    method_->select(context, target.grid, region, triangles);
+    walk_->select(context, target.grid, region, triangles);
 
     // Mark occupied voxels, then number them.
     stream.fill(target.occupancy, 0);
-    method_->run(context, target, {true, &target.occupancy, 0});
-    if (previous) join_.occupancy(stream, region, *previous, target);
+    walk_->run(context, markVoxels_, target.grid, std::vector<Binding>{{"occupancy", target.occupancy}}, 0);
+    if (previous) merge_.occupancy(stream, region, *previous, target);
     target.voxelCount = prefixSum_->run(stream, target.occupancy, target.rank, uint32_t(target.words()));
     const uint64_t count = std::max(target.voxelCount, 1u);
     target.materials = LargeBuffer(context.device, "voxel materials", count * sizeof(gpu::VoxelMaterial));
     if (target.voxelCount == 0) stream.fill(target.materials, 0);
 
-    // Sum up what surfaces carry, in fixed point, and turn sums into averages.
-    const LargeBuffer sums(context.device, "voxelization sums", count * SUMS_PER_VOXEL * sizeof(uint32_t));
-    stream.fill(sums, 0);
-    method_->run(context, target, {false, &sums.at(), largestEmission_ > 0 ? 1.0f / largestEmission_ : 0.0f});
-    const Buffer probes = visibilityProbe_.run(context, target, triangles, visibilityRays_);
+    // Accumulate the surfaces' materials in fixed point, probe their visibility, and turn sums into averages.
+    const LargeBuffer accumulator(context.device, "surface accumulator",
+                                  count * ACCUMULATOR_UINTS * sizeof(uint32_t));
+    stream.fill(accumulator, 0);
+    walk_->run(context, addSurfaces_, target.grid,
+               std::vector<Binding>{{"SurfaceAccumulatorAt", accumulator.at()},
+                                    {"voxelOccupancy", target.occupancy},
+                                    {"voxelRank", target.rank}},
+               largestEmission_ > 0 ? 1.0f / largestEmission_ : 0.0f);
+    const Buffer visibility = visibilityProbe_.run(context, target, triangles, visibilityRays_);
     stream.dispatch(resolve_,
-                    {{"SumsAt", sums.at()}, {"VoxelMaterialsAt", target.materials.at()}, {"probes", probes}},
+                    {{"SurfaceAccumulatorAt", accumulator.at()},
+                     {"VoxelMaterialsAt", target.materials.at()},
+                     {"visibility", visibility}},
                     ResolvePush{target.voxelCount, largestEmission_}, linearGroups(target.voxelCount));
     stream.finish();
-    method_->release();
+    walk_->release();
 }
 
 }  // namespace voxray

@@ -6,7 +6,8 @@
 #include <tuple>
 
 #include "passes/common/compute/prefix_sum.h"
-#include "passes/common/triangle_walk/voxelize_method.h"
+#include "passes/common/triangle_walk/triangle_walk.h"
+#include "passes/common/voxel_builder/changed_voxels.h"
 #include "passes/common/voxel_builder/region_merge.h"
 #include "passes/common/voxel_builder/visibility_probe.h"
 #include "passes/common/voxels/voxels.h"
@@ -20,52 +21,55 @@ struct VoxelBuildParams {
     static constexpr auto schema() {
         return std::tuple{
             field("directions", &VoxelBuildParams::directions,
-                  "6: a voxel keeps light apart by the side that surfaces face. 1: all of a voxel shares one "
-                  "value, so that both sides of a thin wall mix.",
+                  "6: a voxel has light of its own for each of its six faces. 1: one value for all of a "
+                  "voxel, so "
+                  "that light from both sides of a thin wall mixes.",
                   1u, 6u),
             field("visibility_rays", &VoxelBuildParams::visibilityRays,
-                  "Points on a surface as large as a voxel's face that probe both sides for open space; 0 "
-                  "takes all sides for exposed, which darkens thin closed walls.",
+                  "Visibility probes on a surface as large as a voxel's face: points that look for open "
+                  "space in "
+                  "front of the surface and behind it. 0: all surfaces count as visible from both sides, "
+                  "which darkens thin closed walls.",
                   0u, 256u)};
     }
     /// @throws Error naming `pass` where directions is neither 1 nor 6.
     void check(const std::string& pass) const;
 };
 
-/// Makes surface voxels of triangles. A method finds the voxels, twice: first to mark them, then, once they
-/// are numbered, to sum up what their surfaces carry, weighted by area. Sums are integers: the result does
-/// not depend on the order of additions.
+/// Builds surface voxels from triangles, in two walks over them: the first marks the voxels that triangles
+/// meet, the second, once marked voxels are numbered, accumulates the materials of their surfaces, weighted
+/// by area. Sums are integers: the result does not depend on the order of additions.
 class VoxelBuilder {
  public:
-    /// @param visibilityRays points for as much area as a voxel's face has that probe for open space.
-    VoxelBuilder(std::unique_ptr<VoxelizeMethod> method, uint32_t visibilityRays)
-        : method_(std::move(method)), visibilityRays_(visibilityRays) {}
+    /// @param visibilityRays visibility probes for as much area as a voxel's face has.
+    VoxelBuilder(std::unique_ptr<TriangleWalk> walk, uint32_t visibilityRays)
+        : walk_(std::move(walk)), visibilityRays_(visibilityRays) {}
 
-    /// Reserves what `voxels` take, whose grid and number are known.
+    /// Reserves memory for `voxels`, whose grid and number are known.
     static void planVoxels(PassPlan& plan, const SurfaceVoxels& voxels);
-    /// Reserves what making them takes for a while.
+    /// Reserves scratch memory for building them.
     /// @param updates whether update() will be called.
     void planWork(PassPlan& plan, const SurfaceVoxels& voxels, bool updates);
     void prepare(PassSetup& setup);
 
-    /// All that the grid holds.
+    /// Builds all voxels that the grid holds.
     void build(PassContext& context, SurfaceVoxels& voxels);
-    /// Makes a region of them anew and joins it with what was made before, bit for bit as if all had been
-    /// made anew. @return the region's voxels alone, numbered by themselves.
+    /// Builds a region of them again and merges it into the others, bit for bit as if all had been built
+    /// again. @return the region's voxels alone, numbered by themselves.
     SurfaceVoxels update(PassContext& context, const VoxelRegion& region, SurfaceVoxels& voxels);
 
  private:
-    /// The voxels of a region, into `target`, whose grid is set. `previous`: all that the grid held before,
-    /// where the region is a part of it.
+    /// Builds the voxels of a region into `target`, whose grid is set. `previous`: all voxels of the last
+    /// build, where the region is a part of the grid.
     void voxelize(PassContext& context, const VoxelRegion& region, SurfaceVoxels& target,
                   const SurfaceVoxels* previous);
 
-    std::unique_ptr<VoxelizeMethod> method_;
+    std::unique_ptr<TriangleWalk> walk_;
     uint32_t visibilityRays_;
-    Program resolve_;
+    Program markVoxels_, addSurfaces_, resolve_;
     std::optional<PopulationPrefixSum> prefixSum_;
     VisibilityProbe visibilityProbe_;
-    RegionMerge join_;
+    RegionMerge merge_;
     float largestEmission_ = 0;
 };
 

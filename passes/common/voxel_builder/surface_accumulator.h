@@ -1,6 +1,6 @@
-// The sums that voxelization keeps for each voxel, in uints: shared by C++ and GLSL.
-#ifndef VOXRAY_VOXEL_SUMS_LAYOUT_H
-#define VOXRAY_VOXEL_SUMS_LAYOUT_H
+// What voxelization accumulates of the surfaces in each voxel, in uints: shared by C++ and GLSL.
+#ifndef VOXRAY_SURFACE_ACCUMULATOR_H
+#define VOXRAY_SURFACE_ACCUMULATOR_H
 
 // Fixed point with 20 bits after the point: an area of 10^-6 voxel faces still counts, and 2048 faces fit a
 // signed sum.
@@ -14,8 +14,8 @@
 #define SUM_EMISSION 10u  // Relative to the scene's largest.
 #define SUM_METALLIC 13u
 #define SUM_ROUGHNESS 14u
-// Masks of the 4x4 sub-samples that surfaces cover, by axis: not a sum, bits.
-#define SUM_COVERED 15u
-#define SUMS_PER_VOXEL 18u
+// Masks of the 4x4 sub-samples that surfaces meet, by axis: bits, not a sum.
+#define SUB_SAMPLES 15u
+#define ACCUMULATOR_UINTS 18u
 
 #endif

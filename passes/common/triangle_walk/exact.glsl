@@ -1,30 +1,25 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-// Every voxel that a triangle overlaps, by separating axes. A thread takes a tile of 8x8 columns of one triangle.
-#include "shaders/compute/linear_index.glsl"
+// Every voxel that a triangle overlaps, by separating axes. A thread takes a tile of 8x8 columns of one triangle. Entry point of
+// compute shaders that define visitFragment().
 #include "passes/common/triangle_walk/clipped_area.glsl"
-#include "passes/common/triangle_walk/visit.glsl"
+#include "passes/common/triangle_walk/clipped_fragment.glsl"
+#include "passes/common/triangle_walk/walk_push.glsl"
+#include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
 // Triangle; its first column (10 bits each) and, from bit 20, the axis that columns run along.
 layout(set = 0, binding = 17, scalar) readonly buffer Tiles { uvec2 data[]; } tiles;
-layout(push_constant, scalar) uniform Push {
-    VoxelGrid grid;
-    uint tileCount;
-    float scale;  // Of what visit() adds up.
-} push;
 
-#ifndef MARK
-float measureFragment(GridTriangle t, ivec3 voxel, uint own, out vec2 center) { return clippedArea(t, voxel, center); }
-#endif
+float measureFragment(GridTriangle t, ivec3 permutedVoxel, uint subSamples, out vec2 center) {
+    return clippedArea(t, permutedVoxel, center);
+}
 
 void main() {
     const uint i = linearIndex();
-    if (i >= push.tileCount) return;
+    if (i >= walk.tiles) return;
     const uvec2 tile = tiles.data[i];
-    const GridTriangle t = gridTriangle(push.grid, tile.x, tile.y >> 20);
+    const GridTriangle t = gridTriangle(walk.grid, tile.x, tile.y >> 20);
     if (t.area == 0.0) return;
-    const ivec3 resolution = ivec3(permutedVoxels(push.grid.resolution, t.axis));
+    const ivec3 resolution = ivec3(permutedVoxels(walk.grid.resolution, t.axis));
     const ivec2 first = ivec2(tile.y & 1023u, (tile.y >> 10) & 1023u);
     const ivec4 range = columnRange(t, kMargin, resolution.xy);
     const ivec2 from = max(range.xy, first), size = min(range.zw, first + 7) - from + 1;
@@ -48,6 +43,6 @@ void main() {
             found = voxel.z <= lastDepth && overlapsVoxel(t, voxel, kMargin);
         }
         if (!found) return;
-        visit(push.grid, t, voxel, push.scale);
+        visitFragment(triangleFragment(t, voxel));
     }
 }

@@ -1,0 +1,26 @@
+#include "passes/common/triangle_walk/raster_walk.h"
+
+#include <algorithm>
+
+namespace voxray {
+
+void RasterWalk::plan(PassPlan& plan, const gpu::VoxelGrid&) {
+    plan.reserveScratch("triangles to draw", plan.frame.scene->geometry.triangles.size() * sizeof(uint32_t));
+}
+
+void RasterWalk::select(PassContext& context, const gpu::VoxelGrid&, const VoxelRegion&,
+                        const std::vector<uint32_t>& triangles) {
+    corners_ = uint32_t(3 * triangles.size());
+    drawn_ = Buffer(context.device, "triangles to draw",
+                    std::max<size_t>(triangles.size(), 1) * sizeof(triangles[0]));
+    if (!triangles.empty()) context.stream.upload(drawn_, triangles);
+}
+
+std::vector<Binding> RasterWalk::allBindings(const PassContext& context,
+                                             std::span<const Binding> visitor) const {
+    std::vector<Binding> all = context.scene.bindings({{"drawnTriangles", drawn_}});
+    all.insert(all.end(), visitor.begin(), visitor.end());
+    return all;
+}
+
+}  // namespace voxray
