@@ -78,7 +78,8 @@ TEST(Memory, OfVoxelizationIsFreeForInjection) {
     const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
     const VoxelIrradiance& light = *chain.graph().resource<VoxelIrradiance>("irradiance");
     const std::map<std::string, uint64_t> held = device().memoryByResource();
-    for (const char* scratch : {"surface accumulator", "visibility counts", "visibility rays", "flux sums"})
+    for (const char* scratch :
+         {"surface accumulator", "visibility counts", "visibility rays", "flux accumulator"})
         EXPECT_EQ(held.count(scratch), scratch == std::string("visibility rays") ? 1u : 0u) << scratch;
     EXPECT_GT(device().memoryUsedBytes() - before,
               voxels.materials.bytes() + VoxelIrradiance::bytes(voxels.voxelCount));
