@@ -20,7 +20,7 @@ WORDS = [
     (r"cent(?:re|red|res)", "center", ()),
     (r"former(?:ly)?", "previous", ()),
     (r"renew(?:ed|s|al|ing)?", "updated or rebuilt", ()),
-    (r"flux accumulator?", "accumulator", ()),
+    (r"flux sums?", "accumulator", ()),
     (r"voxel writes?", "accumulator", ()),
 ]
 
