@@ -10,6 +10,7 @@
 #include "passes/gather_rays/gather_rays.h"
 #include "passes/gbuffer/gbuffer_pass.h"
 #include "passes/inject_camera_rays/inject_camera_rays.h"
+#include "passes/inject_gather_hits/inject_gather_hits.h"
 #include "passes/inject_light_rays/inject_light_rays.h"
 #include "passes/inject_rsm/inject_rsm.h"
 #include "passes/inject_shadow_map/inject_shadow_map.h"
@@ -31,6 +32,7 @@ void registerPasses(Registry& registry) {
     registry.add<InjectLightRays>();
     registry.add<PlaceSurfels>();
     registry.add<InjectVoxelRays>();
+    registry.add<InjectGatherHits>();
     registry.add<InjectCameraRays>();
     registry.add<InjectRsm>();
     registry.add<InjectShadowMap>();

@@ -45,25 +45,23 @@ int run(const RunArguments& arguments) {
     registerPasses(registry);
 
     // Nothing runs while any of the configs is wrong.
-    std::vector<Experiment> experiments;
-    for (const std::filesystem::path& config : arguments.configs) {
-        experiments.push_back(loadExperiment(config, arguments.config));
-        validateExperiment(experiments.back(), registry);
-    }
+    std::vector<WiredExperiment> experiments;
+    for (const std::filesystem::path& config : arguments.configs)
+        experiments.push_back(wireExperiment(loadExperiment(config, arguments.config), registry));
+    const auto nameOf = [&](size_t i) { return experiments[i].experiment.setup.general.name; };
     for (size_t i = 0; i < experiments.size(); ++i)
         for (size_t j = 0; j < i; ++j)
-            if (experiments[i].setup.general.name == experiments[j].setup.general.name)
+            if (nameOf(i) == nameOf(j))
                 throw UsageError("{} and {} are both named '{}': they would write to one folder",
-                                 arguments.configs[j].string(), arguments.configs[i].string(),
-                                 experiments[i].setup.general.name);
+                                 arguments.configs[j].string(), arguments.configs[i].string(), nameOf(i));
 
     int status = 0;
-    for (const Experiment& experiment : experiments) {
+    for (size_t i = 0; i < experiments.size(); ++i) {
         RunOptions options = arguments.options;
         options.scenes = arguments.scenes;
         options.sourceRoot = VOXRAY_SOURCE_DIR;
-        if (experiments.size() > 1 && !options.out.empty()) options.out /= experiment.setup.general.name;
-        const RunSummary summary = runExperiment(experiment, options, registry);
+        if (experiments.size() > 1 && !options.out.empty()) options.out /= nameOf(i);
+        const RunSummary summary = runExperiment(std::move(experiments[i]), options, registry);
         printSummary(summary, options);
         status = std::max(status, summary.exitStatus());
         if (summary.interrupted) break;

@@ -20,8 +20,8 @@ void validate(const std::filesystem::path& config, const Registry& registry) {
     std::vector<std::string> profiles = profileNames(config);
     profiles.insert(profiles.begin(), "");
     for (const std::string& profile : profiles) {
-        const Experiment experiment = loadExperiment(config, {profile, {}});
-        const size_t variants = validateExperiment(experiment, registry).size();
+        const size_t variants =
+            wireExperiment(loadExperiment(config, {profile, {}}), registry).variants.size();
         fmt::print("{}{}: valid, {} variant{}\n", config.string(),
                    profile.empty() ? "" : " --profile " + profile, variants, variants == 1 ? "" : "s");
     }

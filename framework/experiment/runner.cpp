@@ -18,8 +18,9 @@ namespace {
 constexpr double kMiB = 1024.0 * 1024.0;
 
 // --tracer stands above the config.
-void applyTracerOption(Experiment& experiment, std::vector<Variant>& variants, const std::string& name) {
+void applyTracerOption(WiredExperiment& wired, const std::string& name) {
     if (name.empty()) return;
+    Experiment& experiment = wired.experiment;
     if (experiment.sweep.find("tracer"))
         throw UsageError("--tracer {}: this config sweeps over the tracer", name);
     Value value = Value::map();
@@ -27,18 +28,15 @@ void applyTracerOption(Experiment& experiment, std::vector<Variant>& variants, c
     value.find("tracer")->where = {"--tracer", 0};
     const TracerKind kind = readParams<GeneralSettings>(value, "tracer").tracer;
     experiment.setup.general.tracer = kind;
-    for (Variant& variant : variants) variant.setup.general.tracer = kind;
+    for (WiredVariant& variant : wired.variants) variant.setup.general.tracer = kind;
 }
 
 /// One run: the state that its steps share.
 class Run {
  public:
-    Run(Experiment experiment, const RunOptions& options, const Registry& registry)
-        : experiment_(std::move(experiment)),
-          options_(options),
-          registry_(registry),
-          variants_(validateExperiment(experiment_, registry)) {
-        applyTracerOption(experiment_, variants_, options.tracer);
+    Run(WiredExperiment experiment, const RunOptions& options, const Registry& registry)
+        : wired_(std::move(experiment)), options_(options), registry_(registry) {
+        applyTracerOption(wired_, options.tracer);
     }
 
     RunSummary execute();
@@ -49,17 +47,18 @@ class Run {
     void openFolder();
     void takeOverFinished();
     void runVariant(size_t index, Progress& progress);
-    const PreparedReference* referenceOf(const Variant& variant, Progress& progress);
+    const PreparedReference* referenceOf(const WiredVariant& variant, Progress& progress);
     void writeTables();
     void printValidationMessages(Progress& progress);
-    VariantInputs inputsOf(const Variant& variant);
+    VariantInputs inputsOf(const WiredVariant& variant);
     std::string outcome(const VariantResult& result) const;
     std::vector<std::string> warnings() const;
 
-    Experiment experiment_;
+    WiredExperiment wired_;
+    const Experiment& experiment_ = wired_.experiment;
+    std::vector<WiredVariant>& variants_ = wired_.variants;
     const RunOptions& options_;
     const Registry& registry_;
-    std::vector<Variant> variants_;
     std::optional<Session> session_;
     std::optional<ResultsFolder> folder_;
     ManifestData manifest_;
@@ -118,20 +117,16 @@ void Run::openSession() {
     }
     manifest_.experiment = &experiment_;
     std::map<std::string, size_t> variantsWithout;  // By the pass that is left out.
-    for (const Variant& variant : variants_) {
-        std::vector<std::string> leftOut;
-        manifest_.graphs.emplace_back(variant.name, variantGraph(variant, registry_, &leftOut).resolved());
-        for (const std::string& id : leftOut) ++variantsWithout[id];
+    for (const WiredVariant& variant : variants_) {
+        manifest_.graphs.emplace_back(variant.name, variant.resolved);
+        manifest_.referenceHashes[variant.name] = session_->referenceHashOf(wired_, variant.setup);
+        for (const std::string& id : variant.leftOut) ++variantsWithout[id];
     }
     for (const auto& [id, count] : variantsWithout)
         leftOut_.push_back(
             fmt::format("'{}' is left out of {} of {} variants: no image that is judged depends on it there",
                         id, count, variants_.size()));
-    for (const Variant& variant : variants_)
-        manifest_.referenceHashes[variant.name] =
-            session_->referenceHashOf(experiment_, variant.setup, registry_);
-    if (!experiment_.reference.isNull())
-        manifest_.referencePass = Graph(registry_, referenceGraph(experiment_)).resolved().items[0];
+    if (!wired_.reference.isNull()) manifest_.referencePass = wired_.reference.items[0];
     manifest_.device = session_->device().info();
     manifest_.requestedDevice = options_.deviceName;
     manifest_.tracer = session_->tracerName(variants_[0].setup);
@@ -144,16 +139,15 @@ void Run::openSession() {
 void Run::printPlan() {
     fmt::print("{}: {} variant{} on {}\n", experiment_.setup.general.name, variants_.size(),
                variants_.size() == 1 ? "" : "s", session_->device().info().name);
-    for (const Variant& variant : variants_) {
+    for (WiredVariant& variant : variants_) {
         const PreparedScene prepared = session_->loader().prepare(variant.setup.scene);
         const Frame frame = frameOf(variant.setup, prepared, variant.setup.general.seed);
-        Graph graph = variantGraph(variant, registry_);
         fmt::print("{} (tracer {}, {} x {})\n", variant.name, session_->tracerName(variant.setup),
                    variant.setup.image.width, variant.setup.image.height);
         try {
             const std::vector<PassMemory> memory =
-                session_->plan(graph, frame, experiment_.measure.memoryLimitMb);
-            const std::vector<Graph::PassInfo> passes = graph.passes();
+                session_->plan(variant.graph, frame, experiment_.measure.memoryLimitMb);
+            const std::vector<Graph::PassInfo> passes = variant.graph.passes();
             uint64_t kept = 0;
             for (size_t i = 0; i < passes.size(); ++i) {
                 fmt::print("  {:24} {:6} {:10.1f} MiB", passes[i].id,
@@ -182,13 +176,13 @@ void Run::openFolder() {
     folder_.emplace(summary_.out, experiment_.setup.general.name, options_.resume);
 }
 
-VariantInputs Run::inputsOf(const Variant& variant) {
+VariantInputs Run::inputsOf(const WiredVariant& variant) {
     const Value measure = writeParams(experiment_.measure);
-    return {{"graph", Graph(registry_, variant.setup.graph).resolved().text()},
+    return {{"graph", variant.resolved.text()},
             {"scene", session_->loader().key(variant.setup.scene)},
             {"image", writeParams(variant.setup.image).text()},
             {"seed", std::to_string(variant.setup.general.seed)},
-            {"reference", session_->referenceHashOf(experiment_, variant.setup, registry_)},
+            {"reference", session_->referenceHashOf(wired_, variant.setup)},
             {"measure", measure.text()},
             {"tracer", session_->tracerName(variant.setup)},
             {"device", session_->device().info().name},
@@ -212,9 +206,9 @@ void Run::takeOverFinished() {
         fmt::print("{} of {} variants were finished already\n", summary_.resumed, variants_.size());
 }
 
-const PreparedReference* Run::referenceOf(const Variant& variant, Progress& progress) {
+const PreparedReference* Run::referenceOf(const WiredVariant& variant, Progress& progress) {
     if (experiment_.reference.isNull()) return nullptr;
-    const ReferenceImages& images = session_->reference(experiment_, variant.setup, registry_,
+    const ReferenceImages& images = session_->reference(wired_, variant.setup, registry_,
                                                         [&](double fraction) { progress.update(fraction); });
     if (reference_ && reference_->images.hash == images.hash) return &*reference_;
 
@@ -232,14 +226,14 @@ const PreparedReference* Run::referenceOf(const Variant& variant, Progress& prog
 }
 
 void Run::runVariant(size_t index, Progress& progress) {
-    const Variant& variant = variants_[index];
+    WiredVariant& variant = variants_[index];
     std::optional<RenderedVariant> rendered;
     VariantResult failed;
     try {
         progress.begin(experiment_.reference.isNull() ? variant.name : variant.name + ": reference");
         const PreparedReference* reference = referenceOf(variant, progress);
         progress.begin(variant.name);
-        rendered = renderVariant(variant, experiment_, registry_, *session_, reference,
+        rendered = renderVariant(variant, experiment_, *session_, reference,
                                  [&](double fraction) { progress.update(fraction); });
     } catch (const std::bad_alloc&) {
         failed.error = "out of memory";
@@ -317,8 +311,12 @@ void Run::writeTables() {
 
 }  // namespace
 
+RunSummary runExperiment(WiredExperiment experiment, const RunOptions& options, const Registry& registry) {
+    return Run(std::move(experiment), options, registry).execute();
+}
+
 RunSummary runExperiment(const Experiment& experiment, const RunOptions& options, const Registry& registry) {
-    return Run(experiment, options, registry).execute();
+    return runExperiment(wireExperiment(experiment, registry), options, registry);
 }
 
 }  // namespace voxray

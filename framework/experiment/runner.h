@@ -3,8 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "config/config.h"
-#include "graph/registry.h"
+#include "experiment/validate.h"
 
 namespace voxray {
 
@@ -39,8 +38,10 @@ struct RunSummary {
 /// Renders every variant of an experiment, measures it and writes the results folder
 /// (docs/reading-a-report.md). A variant that throws is recorded as failed and the others go on. Same config
 /// and seed: same images and metrics.
-/// @throws UsageError for what can be seen to be wrong before anything runs (graphs, missing scenes, sweeps);
-/// Error where the results folder can't be written: finished variants are kept.
+/// @throws UsageError for what can be seen to be wrong before anything runs (missing scenes, a device or
+/// tracer that isn't there); Error where the results folder can't be written: finished variants are kept.
+RunSummary runExperiment(WiredExperiment experiment, const RunOptions& options, const Registry& registry);
+/// The same, wired first. @throws UsageError also for graphs and sweeps.
 RunSummary runExperiment(const Experiment& experiment, const RunOptions& options, const Registry& registry);
 
 }  // namespace voxray

@@ -64,18 +64,16 @@ std::vector<PassMemory> Session::plan(Graph& graph, const Frame& frame, uint64_t
     return graph.plan(frame, device_.info(), limit);
 }
 
-std::string Session::referenceHashOf(const Experiment& experiment, const Setup& setup,
-                                     const Registry& registry) {
+std::string Session::referenceHashOf(const WiredExperiment& experiment, const Setup& setup) {
     if (experiment.reference.isNull()) return {};
-    const Graph graph(registry, referenceGraph(experiment));
-    return referenceHash(loader_.key(setup.scene), graph.resolved(), setup.image,
+    return referenceHash(loader_.key(setup.scene), experiment.reference, setup.image,
                          referenceSeed(setup.general.seed));
 }
 
-const ReferenceImages& Session::reference(const Experiment& experiment, const Setup& setup,
+const ReferenceImages& Session::reference(const WiredExperiment& experiment, const Setup& setup,
                                           const Registry& registry,
                                           const std::function<void(double)>& progress) {
-    const std::string hash = referenceHashOf(experiment, setup, registry);
+    const std::string hash = referenceHashOf(experiment, setup);
     if (reference_ && reference_->hash == hash) return *reference_;
     if (const auto failed = failedReferences_.find(hash); failed != failedReferences_.end())
         throw Error("{}", failed->second);
@@ -97,12 +95,12 @@ const ReferenceImages& Session::reference(const Experiment& experiment, const Se
     return *reference_;
 }
 
-ReferenceImages Session::makeReference(const std::string& hash, const Experiment& experiment,
+ReferenceImages Session::makeReference(const std::string& hash, const WiredExperiment& experiment,
                                        const Setup& setup, const Registry& registry,
                                        const std::function<void(double)>& progress) {
     SceneOnDevice& onDevice = scene(setup);
     const Frame frame = frameOf(setup, onDevice.prepared, referenceSeed(setup.general.seed));
-    Graph graph(registry, referenceGraph(experiment));
+    Graph graph = referenceGraph(experiment.experiment, registry);
     plan(graph, frame, 0);
     graph.prepare(frame, device_, compiler_, stream_);
     ReferenceImages reference =

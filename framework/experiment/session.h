@@ -46,17 +46,18 @@ class Session {
 
     /// The reference that judges a variant: from memory, from the cache on disk, or rendered now.
     /// A reference that failed fails again at once. @throws Error, Interrupted.
-    const ReferenceImages& reference(const Experiment& experiment, const Setup& setup,
+    const ReferenceImages& reference(const WiredExperiment& experiment, const Setup& setup,
                                      const Registry& registry, const std::function<void(double)>& progress);
     /// Its hash, "" where the experiment has none.
-    std::string referenceHashOf(const Experiment& experiment, const Setup& setup, const Registry& registry);
+    std::string referenceHashOf(const WiredExperiment& experiment, const Setup& setup);
 
     /// What went wrong without failing a variant, a line each.
     std::vector<std::string> warnings() const;
 
  private:
-    ReferenceImages makeReference(const std::string& hash, const Experiment& experiment, const Setup& setup,
-                                  const Registry& registry, const std::function<void(double)>& progress);
+    ReferenceImages makeReference(const std::string& hash, const WiredExperiment& experiment,
+                                  const Setup& setup, const Registry& registry,
+                                  const std::function<void(double)>& progress);
 
     Device device_;
     CommandStream stream_;

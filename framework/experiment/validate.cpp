@@ -23,37 +23,36 @@ void checkPassNames(const Experiment& experiment, const Registry& registry) {
 
 }  // namespace
 
-Graph variantGraph(const Variant& variant, const Registry& registry, std::vector<std::string>* leftOut) {
-    Graph graph(registry, variant.setup.graph);
-    const std::vector<std::string> dropped = graph.keepOnly({"final", "indirect"});
-    if (leftOut) *leftOut = dropped;
-    return graph;
-}
-
-Value referenceGraph(const Experiment& experiment) {
+Graph referenceGraph(const Experiment& experiment, const Registry& registry) {
     Value list = Value::list();
     list.where = experiment.reference.where;
     list.items.push_back(experiment.reference);
-    return list;
+    return Graph(registry, list);
 }
 
-std::vector<Variant> validateExperiment(const Experiment& experiment, const Registry& registry) {
+WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) {
     checkPassNames(experiment, registry);
-    std::vector<Variant> variants = expandSweep(experiment);
-    for (const Variant& variant : variants) {
-        const Graph graph(registry, variant.setup.graph);
+    WiredExperiment wired;
+    for (Variant& variant : expandSweep(experiment)) {
+        Graph graph(registry, variant.setup.graph);
         if (!graph.writes("final"))
             throw UsageError(variant.setup.graph.where,
                              "graph: no pass writes 'final', the image that is judged");
+        std::vector<std::string> leftOut = graph.keepOnly({"final", "indirect"});
+        Value resolved = graph.resolved();
+        wired.variants.push_back(
+            {std::move(variant), std::move(graph), std::move(resolved), std::move(leftOut)});
     }
     if (!experiment.reference.isNull()) {
-        const Graph graph(registry, referenceGraph(experiment));
+        const Graph graph = referenceGraph(experiment, registry);
         for (const char* port : {"final", "indirect", "variance", "indirect_variance"})
             if (!graph.writes(port))
                 throw UsageError(experiment.reference.where,
                                  "reference: the pass writes no '{}'; use path_trace", port);
+        wired.reference = graph.resolved();
     }
-    return variants;
+    wired.experiment = std::move(experiment);
+    return wired;
 }
 
 }  // namespace voxray

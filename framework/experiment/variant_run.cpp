@@ -33,8 +33,8 @@ PreparedReference prepareReference(ReferenceImages images, const ImageSettings& 
     return reference;
 }
 
-RenderedVariant renderVariant(const Variant& variant, const Experiment& experiment, const Registry& registry,
-                              Session& session, const PreparedReference* reference,
+RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experiment, Session& session,
+                              const PreparedReference* reference,
                               const std::function<void(double)>& progress) {
     Device& device = session.device();
     const size_t messagesBefore = device.validationMessages().size();
@@ -44,7 +44,7 @@ RenderedVariant renderVariant(const Variant& variant, const Experiment& experime
         // Plan, prepare, run
         SceneOnDevice& scene = session.scene(variant.setup);
         const Frame frame = frameOf(variant.setup, scene.prepared, variant.setup.general.seed);
-        Graph graph = variantGraph(variant, registry);
+        Graph graph = std::move(variant.graph);  // Its memory is free again at the end.
         session.plan(graph, frame, experiment.measure.memoryLimitMb);
         graph.prepare(frame, device, session.compiler(), session.stream());
         GraphTarget target{frame, device, session.stream(), *scene.tracer, scene.gpu, {}};

@@ -26,10 +26,11 @@ struct RenderedVariant {
     std::optional<ImageF> flip, indirectFlip;  ///< 1 channel, where there is a reference.
 };
 
-/// Plans, prepares, runs, measures and scores a variant. @param reference nullptr: no scores.
+/// Plans, prepares, runs, measures and scores a variant; takes its graph. @param reference nullptr: no
+/// scores.
 /// @throws Error, Interrupted; validation messages are errors.
-RenderedVariant renderVariant(const Variant& variant, const Experiment& experiment, const Registry& registry,
-                              Session& session, const PreparedReference* reference,
+RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experiment, Session& session,
+                              const PreparedReference* reference,
                               const std::function<void(double)>& progress);
 
 /// Writes final, indirect and the FLIP maps as EXR and PNG into a folder.

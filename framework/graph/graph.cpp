@@ -7,13 +7,14 @@
 #include <set>
 
 #include "graph/finite_check.h"
+#include "graph/memory_book.h"
 #include "graph/wiring.h"
 
 namespace voxray {
 
 struct Graph::Impl {
     std::vector<GraphNode> nodes;
-    std::vector<PassMemory> memory;
+    std::vector<MemoryBook> books;  ///< By node.
     std::optional<FiniteCheck> finiteCheck;
 
     void checkOutputs(const GraphNode& node, CommandStream& stream);
@@ -35,7 +36,7 @@ const std::vector<std::string>& Graph::reservedKeys() {
 
 Graph::Graph(const Registry& registry, const Value& passList) : impl_(std::make_unique<Impl>()) {
     impl_->nodes = wireGraph(registry, passList, reservedKeys());
-    impl_->memory.assign(impl_->nodes.size(), {});
+    impl_->books.resize(impl_->nodes.size());
 }
 
 Graph::~Graph() = default;
@@ -44,7 +45,7 @@ Graph& Graph::operator=(Graph&&) noexcept = default;
 
 std::vector<Graph::PassInfo> Graph::passes() const {
     std::vector<PassInfo> infos;
-    for (const GraphNode& node : impl_->nodes) infos.push_back({node.id, node.kind, node.pass->phase()});
+    for (const GraphNode& node : impl_->nodes) infos.push_back({node.id, node.kind, node.phase});
     return infos;
 }
 
@@ -69,7 +70,7 @@ std::vector<std::string> Graph::keepOnly(const std::vector<std::string>& portNam
         kept.push_back(std::move(nodes[n]));
     }
     nodes.assign(std::make_move_iterator(kept.rbegin()), std::make_move_iterator(kept.rend()));
-    impl_->memory.assign(nodes.size(), {});
+    impl_->books.assign(nodes.size(), {});
     std::reverse(dropped.begin(), dropped.end());
     return dropped;
 }
@@ -91,16 +92,16 @@ std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device
     std::vector<PassMemory> memory;
     std::string largest;
     uint64_t largestBytes = 0;
-    for (GraphNode& node : impl_->nodes) {
-        PassPlan plan(node.resources, frame, device);
+    for (size_t n = 0; n < impl_->nodes.size(); ++n) {
+        GraphNode& node = impl_->nodes[n];
+        PassPlan plan(node.resources, frame, device, node.phase);
         node.pass->plan(plan);
-        PassMemory& own = memory.emplace_back();
-        for (const PassPlan::Reservation& r : plan.reservations) {
-            (r.scratch ? own.scratchBytes : own.bytes) += r.bytes;
-            if (r.bytes > largestBytes) {
-                largestBytes = r.bytes;
-                largest = node.id + "'s " + r.name;
-            }
+        impl_->books[n] = MemoryBook(node.id, plan);
+        memory.push_back(impl_->books[n].planned());
+        for (const MemoryPlan::Part& part : plan.parts()) {
+            if (part.bytes <= largestBytes) continue;
+            largestBytes = part.bytes;
+            largest = node.id + "'s " + part.name;
         }
     }
     constexpr double kMiB = 1024.0 * 1024.0;
@@ -117,11 +118,8 @@ void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& co
     impl_->finiteCheck.emplace(device, compiler);
     for (size_t n = 0; n < impl_->nodes.size(); ++n) {
         GraphNode& node = impl_->nodes[n];
-        const uint64_t before = device.memoryUsedBytes();
         PassSetup setup(node.resources, frame, device, compiler, stream);
-        node.pass->prepare(setup);
-        stream.finish();
-        impl_->memory[n].bytes = device.memoryUsedBytes() - before;
+        impl_->books[n].prepare(stream, [&] { node.pass->prepare(setup); });
     }
 }
 
@@ -138,18 +136,19 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
     stream.resetTimestamps();
     for (size_t n = 0; n < impl_->nodes.size(); ++n) {
         GraphNode& node = impl_->nodes[n];
-        if (node.pass->phase() != phase) continue;
-        const uint64_t memoryBefore = device.memoryUsedBytes();
-        device.resetMemoryPeak();
+        if (node.phase != phase) continue;
         const uint64_t raysBefore = tracer.raysTraced();
 
         // Time the pass on the device; the Embree backend's host work falls between the stamps.
         PassContext context(node.resources, frame, device, stream, tracer, scene, frameIndex);
-        stream.beginLabel(node.id);
-        const uint32_t begin = stream.timestamp();
-        node.pass->record(context);
-        const uint32_t end = stream.timestamp();
-        stream.endLabel();
+        uint32_t begin = 0, end = 0;
+        impl_->books[n].record(stream, [&] {
+            stream.beginLabel(node.id);
+            begin = stream.timestamp();
+            node.pass->record(context);
+            end = stream.timestamp();
+            stream.endLabel();
+        });
 
         PassSample sample;
         sample.rays = tracer.raysTraced() - raysBefore + context.extraRays;
@@ -160,12 +159,6 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
                 throw Error("pass '{}' reported {} as '{}'", node.id, value.value, value.name);
         stamps.push_back({samples.size(), begin, end});
         samples.push_back(sample);
-
-        // A build pass may size its outputs by what it counted: what it holds now is what it costs.
-        PassMemory& memory = impl_->memory[n];
-        const uint64_t memoryAfter = device.memoryUsedBytes();
-        memory.bytes += memoryAfter - memoryBefore;
-        memory.scratchBytes = std::max(memory.scratchBytes, device.memoryPeakBytes() - memoryAfter);
         if (checkFinite) impl_->checkOutputs(node, stream);
     }
     stream.finish();
@@ -195,7 +188,9 @@ void Graph::Impl::checkOutputs(const GraphNode& node, CommandStream& stream) {
 }
 
 std::vector<PassMemory> Graph::memory() const {
-    return impl_->memory;
+    std::vector<PassMemory> memory;
+    for (const MemoryBook& book : impl_->books) memory.push_back(book.taken());
+    return memory;
 }
 
 const Resource* Graph::find(const std::string& portName, std::type_index type) const {

@@ -20,12 +20,6 @@ struct PassSample {
     std::vector<PassContext::Value> reported;
 };
 
-/// Device memory of one pass.
-struct PassMemory {
-    uint64_t bytes = 0;         ///< That it keeps, its outputs among it.
-    uint64_t scratchBytes = 0;  ///< That it takes besides while it records, at most.
-};
-
 /// The most that passes hold at once: all that they keep, and the scratch of the one that takes most, for
 /// they run one after another. Exact where all passes run again with the outputs of the last run still there,
 /// as repeated builds, moving scenes and frames do.
@@ -71,11 +65,13 @@ class Graph {
     /// the largest part).
     std::vector<PassMemory> plan(const Frame& frame, const DeviceInfo& device, uint64_t memoryLimitBytes);
 
-    /// Makes programs and resources. After plan(), with the same frame.
+    /// Makes what passes described, and lets them make their programs. After plan(), with the same frame.
+    /// @throws Error naming a pass that takes more memory than it planned.
     void prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler, CommandStream& stream);
 
     /// Runs all passes of a phase once and checks their outputs for NaN and infinity where `checkFinite`
-    /// (outside the measured time). @throws Error naming the pass.
+    /// (outside the measured time). @throws Error naming the pass, also where it takes more memory than it
+    /// planned.
     /// @return a sample for each pass of that phase, in the order of passes().
     std::vector<PassSample> run(Phase phase, const Frame& frame, Device& device, CommandStream& stream,
                                 RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/schema.h"
+#include "graph/memory_plan.h"
 #include "scene/geometry.h"
 #include "trace/gpu_scene.h"
 #include "trace/ray_tracer.h"
@@ -19,12 +20,12 @@
 #include "vulkan/program.h"
 
 /// What a technique implements. Life of a pass: `declare` its ports (pure) -> the graph is wired and sorted
-/// -> `plan` sizes (pure; predicts memory) -> `prepare` programs and resources -> `record`, once (build) or
+/// -> `plan` describes its memory, which the graph makes -> `prepare` programs -> `record`, once (build) or
 /// per frame.
 namespace voxray {
 
-/// What passes hand to each other: a plain struct of buffers and images. Producers fill in its description in
-/// plan() and its memory in prepare() or record().
+/// What passes hand to each other: a plain struct of buffers and images. The pass that writes it describes
+/// them in plan(), or makes them in record() where their size is counted.
 struct Resource {
     virtual ~Resource() = default;
     /// Float images and float buffers that are checked for NaN and infinity after the producing pass ran.
@@ -38,13 +39,14 @@ struct FrameImage : Resource {
     std::vector<const Image*> checkedImages() const override { return {&image}; }
 };
 
-/// A port of a pass, bound by the graph to a resource. Typed, so that `get` needs no cast.
+/// A port of a pass, bound by the graph to a resource: Port<const T> to read it, Port<T> to write it.
 template <typename T>
 struct Port {
     int index = -1;  ///< Of the pass's own ports.
 };
 
-/// When a pass runs: once for a scene and its lights, or in each frame.
+/// When a pass runs: once for a scene and its lights, or in each frame. A pass that reads what is written in
+/// each frame runs in each frame.
 enum class Phase { Build, Frame };
 
 struct PortInfo {
@@ -62,13 +64,13 @@ class PassBuilder {
     /// Reads what an earlier pass writes under this name (or under the name that the config's `inputs`
     /// gives).
     template <typename T>
-    Port<T> read(std::string name, std::string help) {
-        return add<T>({std::move(name), std::move(help), false, false, typeid(T)});
+    Port<const T> read(std::string name, std::string help) {
+        return add<const T>({std::move(name), std::move(help), false, false, typeid(T)});
     }
     /// The same, but the graph is valid without it; `PassPlan::has` and `PassContext::has` tell.
     template <typename T>
-    Port<T> readOptional(std::string name, std::string help) {
-        return add<T>({std::move(name), std::move(help), false, true, typeid(T)});
+    Port<const T> readOptional(std::string name, std::string help) {
+        return add<const T>({std::move(name), std::move(help), false, true, typeid(T)});
     }
     template <typename T>
     Port<T> write(std::string name, std::string help) {
@@ -121,32 +123,17 @@ class PortAccess {
     const std::vector<Resource*>& resources_;
 };
 
-/// Sizes and limits, known before any memory is taken.
-class PassPlan : public PortAccess {
+/// For describing buffers and images (MemoryPlan), before any memory is taken.
+class PassPlan : public PortAccess, public MemoryPlan {
  public:
-    PassPlan(const std::vector<Resource*>& resources, const Frame& f, const DeviceInfo& d)
-        : PortAccess(resources), frame(f), device(d) {}
+    PassPlan(const std::vector<Resource*>& resources, const Frame& f, const DeviceInfo& d, Phase p)
+        : PortAccess(resources), frame(f), device(d), phase(p) {}
     const Frame& frame;
     const DeviceInfo& device;
-    /// Bytes that this pass will allocate under `name` and keep.
-    void reserve(std::string name, uint64_t bytes) {
-        reservations.push_back({std::move(name), bytes, false});
-    }
-    /// Bytes that it takes only while it records: free again before the next pass. A pass with stages
-    /// reserves what the largest of them takes.
-    void reserveScratch(std::string name, uint64_t bytes) {
-        reservations.push_back({std::move(name), bytes, true});
-    }
-
-    struct Reservation {
-        std::string name;
-        uint64_t bytes;
-        bool scratch;
-    };
-    std::vector<Reservation> reservations;
+    const Phase phase;  ///< In which the pass runs.
 };
 
-/// For making programs, buffers and images.
+/// For making programs, and for uploading to buffers and images that were described.
 class PassSetup : public PortAccess {
  public:
     PassSetup(const std::vector<Resource*>& resources, const Frame& f, Device& d, const ShaderCompiler& c,
@@ -189,13 +176,15 @@ class PassContext : public PortAccess {
 class Pass {
  public:
     virtual ~Pass() = default;
-    virtual Phase phase() const = 0;
+    /// Frame for a pass that depends on the frame itself, such as its camera. Build for all others: they run
+    /// once, or in each frame where they read what is written in each frame.
+    virtual Phase phase() const { return Phase::Build; }
     /// Names the ports. No device work.
     virtual void declare(PassBuilder& builder) = 0;
-    /// Checks parameters against scene and device, describes outputs, reserves memory. Runs in graph order.
+    /// Checks parameters against scene and device, describes outputs and all memory. Runs in graph order.
     /// @throws Error for what this scene or device can't do.
     virtual void plan(PassPlan& plan) = 0;
-    /// Makes programs and resources. Runs in graph order, after all plans.
+    /// Makes programs; buffers and images are there. Runs in graph order, after all plans.
     virtual void prepare(PassSetup& setup) = 0;
     /// Records the work.
     virtual void record(PassContext& context) = 0;

@@ -183,8 +183,16 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
         }
     }
 
+    // What reads the output of a frame pass runs in each frame, too.
+    const std::vector<size_t> order = sorted(nodes, dependencies);
+    for (const size_t n : order) {
+        const bool readsFrame = std::ranges::any_of(
+            dependencies[n], [&](size_t writer) { return nodes[writer].phase == Phase::Frame; });
+        nodes[n].phase = readsFrame ? Phase::Frame : nodes[n].pass->phase();
+    }
+
     std::vector<GraphNode> inOrder;
-    for (const size_t n : sorted(nodes, dependencies)) inOrder.push_back(std::move(nodes[n]));
+    for (const size_t n : order) inOrder.push_back(std::move(nodes[n]));
     return inOrder;
 }
 

@@ -15,6 +15,7 @@ struct GraphNode {
     std::string id;
     std::string kind;  ///< Name in the registry.
     std::unique_ptr<Pass> pass;
+    Phase phase = Phase::Build;  ///< The pass's own, or Frame where it reads what is written in each frame.
     std::vector<PortInfo> ports;
     std::vector<Resource*> resources;  ///< By port; null for an optional input that nothing writes.
     std::vector<std::unique_ptr<Resource>> outputs;  ///< What this pass owns.

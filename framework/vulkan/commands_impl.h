@@ -35,6 +35,7 @@ struct CommandStream::Impl {
     std::vector<std::string> labels;  ///< Open ones, outermost first.
     std::vector<Buffer> staging;
     uint64_t stagingBytes = 0;
+    uint64_t stagingPeakBytes = 0;
     std::vector<VkQueryPool> queryPools;
     uint32_t timestamps = 0;
     PFN_vkCmdPushDescriptorSetKHR pushDescriptors = nullptr;

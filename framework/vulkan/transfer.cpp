@@ -44,7 +44,20 @@ VkOffset3D corner(glm::uvec3 size) {
 Buffer& CommandStream::Impl::stage(uint64_t bytes) {
     if (stagingBytes > 0 && stagingBytes + bytes > kStagingBytes) finish();
     stagingBytes += bytes;
+    stagingPeakBytes = std::max(stagingPeakBytes, stagingBytes);
     return staging.emplace_back(device, "staging", bytes, MemoryKind::Upload);
+}
+
+uint64_t CommandStream::stagingBytes() const {
+    return impl_->stagingBytes;
+}
+
+uint64_t CommandStream::stagingPeakBytes() const {
+    return impl_->stagingPeakBytes;
+}
+
+void CommandStream::resetStagingPeak() {
+    impl_->stagingPeakBytes = impl_->stagingBytes;
 }
 
 void CommandStream::fill(const Buffer& buffer, uint32_t word) {
@@ -143,6 +156,7 @@ std::vector<std::byte> CommandStream::read(const Buffer& buffer, uint64_t bytes,
         return out;
     }
     const Buffer staging(impl_->device, "staging", std::min(bytes, kStagingBytes), MemoryKind::Readback);
+    impl_->stagingPeakBytes = std::max(impl_->stagingPeakBytes, staging.bytes());
     for (uint64_t done = 0; done < bytes; done += staging.bytes()) {
         const uint64_t part = std::min(staging.bytes(), bytes - done);
         copy(buffer, staging, part, offset + done, 0);

@@ -19,14 +19,13 @@ class CompareVoxels final : public Pass {
     };
 
     explicit CompareVoxels(const Params&) {}
-    Phase phase() const override { return Phase::Build; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup&) override {}
     void record(PassContext& context) override;
 
  private:
-    Port<SurfaceVoxels> truth_, voxels_;
+    Port<const SurfaceVoxels> truth_, voxels_;
 };
 
 }  // namespace voxray

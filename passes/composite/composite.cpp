@@ -13,14 +13,13 @@ void Composite::declare(PassBuilder& builder) {
 }
 
 void Composite::plan(PassPlan& plan) {
-    plan.reserve("final image", imageBytes(frameImageDesc(plan.frame)));
+    plan.image(plan.get(final_).image, "final", frameImageDesc(plan.frame));
+    plan.image(black_, "black", ImageDesc{});
 }
 
 void Composite::prepare(PassSetup& setup) {
-    setup.get(final_).image = Image(setup.device, "final", frameImageDesc(setup.frame));
     program_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/composite/composite.comp"));
     sampler_ = texelSampler(setup.device);
-    black_ = Image(setup.device, "black", ImageDesc{});
     setup.stream.clear(black_, {});
 }
 

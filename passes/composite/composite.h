@@ -17,15 +17,15 @@ class Composite final : public Pass {
     };
 
     explicit Composite(const Params&) {}
-    Phase phase() const override { return Phase::Frame; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;
     void record(PassContext& context) override;
 
  private:
-    Port<GBuffer> gbuffer_;
-    Port<FrameImage> direct_, indirect_, final_;
+    Port<const GBuffer> gbuffer_;
+    Port<const FrameImage> direct_, indirect_;
+    Port<FrameImage> final_;
     Program program_;
     Sampler sampler_;
     Image black_;

@@ -47,17 +47,13 @@ void DirectShadowRays::declare(PassBuilder& builder) {
 void DirectShadowRays::plan(PassPlan& plan) {
     const GBuffer& gbuffer = plan.get(gbuffer_);
     const uint64_t rays = batchPixels(plan.frame, gbuffer) * gbuffer.samples * gbuffer.samples;
-    plan.reserve("shadow rays", rays * (sizeof(Ray) + 4 * sizeof(float) + sizeof(uint32_t)));
-    plan.reserve("direct image", imageBytes(frameImageDesc(plan.frame)));
+    plan.buffer(rays_, "shadow rays", rays * sizeof(Ray));
+    plan.buffer(carried_, "shadow ray radiance", rays * 4 * sizeof(float));
+    plan.buffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
+    plan.image(plan.get(direct_).image, "direct", frameImageDesc(plan.frame));
 }
 
 void DirectShadowRays::prepare(PassSetup& setup) {
-    const GBuffer& gbuffer = setup.get(gbuffer_);
-    const uint64_t rays = batchPixels(setup.frame, gbuffer) * gbuffer.samples * gbuffer.samples;
-    rays_ = Buffer(setup.device, "shadow rays", rays * sizeof(Ray));
-    carried_ = Buffer(setup.device, "shadow ray radiance", rays * 4 * sizeof(float));
-    occluded_ = Buffer(setup.device, "shadow ray results", rays * sizeof(uint32_t));
-    setup.get(direct_).image = Image(setup.device, "direct", frameImageDesc(setup.frame));
     aim_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/direct_shadow_rays/aim.comp"));
     add_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/direct_shadow_rays/add.comp"));
     sampler_ = texelSampler(setup.device);

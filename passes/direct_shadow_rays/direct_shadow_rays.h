@@ -27,7 +27,6 @@ class DirectShadowRays final : public Pass {
     };
 
     explicit DirectShadowRays(const Params& params) : params_(params) {}
-    Phase phase() const override { return Phase::Frame; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;
@@ -35,7 +34,7 @@ class DirectShadowRays final : public Pass {
 
  private:
     Params params_;
-    Port<GBuffer> gbuffer_;
+    Port<const GBuffer> gbuffer_;
     Port<FrameImage> direct_;
     Program aim_, add_;
     Sampler sampler_;

@@ -18,7 +18,7 @@ struct FillPush {
 /// Windows follow the camera: what scrolls in is filled, the rest stays. Docs: docs/clipmap.md.
 class ClipmapStorage final : public RadianceStorage {
  public:
-    ClipmapStorage(uint32_t side, bool eachFrame) : side_(side), eachFrame_(eachFrame) {}
+    explicit ClipmapStorage(uint32_t side) : side_(side) {}
 
     void plan(PassPlan& plan, const SurfaceVoxels&, RadianceVoxels& radiance) override {
         requirePowerOfTwo("filter_voxels", side_);
@@ -27,7 +27,6 @@ class ClipmapStorage final : public RadianceStorage {
     }
 
     void prepare(PassSetup& setup, RadianceVoxels& radiance) override {
-        clipmap_.prepare(setup, radiance);
         fill_ = makeComputeProgram(
             setup.device,
             setup.compiler.compile("passes/filter_voxels/clipmap_fill.comp", radiance.defines()));
@@ -38,7 +37,7 @@ class ClipmapStorage final : public RadianceStorage {
              RadianceVoxels& radiance, float emission) override {
         // Move the windows.
         const std::pair version{voxels.version, light.version};
-        const bool keep = !windows_.empty() && !eachFrame_ && version == version_;
+        const bool keep = !windows_.empty() && version == version_;
         const std::vector<gpu::ClipmapWindow> windows = clipmap_.follow(context, radiance);
 
         // Fill what is new in them; where surfaces or their light are, everything.
@@ -62,7 +61,6 @@ class ClipmapStorage final : public RadianceStorage {
 
  private:
     uint32_t side_;
-    bool eachFrame_;
     RadianceClipmap clipmap_;
     Program fill_;
     std::vector<gpu::ClipmapWindow> windows_;  ///< As they were in the last run.
@@ -71,8 +69,8 @@ class ClipmapStorage final : public RadianceStorage {
 
 }  // namespace
 
-std::unique_ptr<RadianceStorage> makeClipmapStorage(uint32_t side, bool eachFrame) {
-    return std::make_unique<ClipmapStorage>(side, eachFrame);
+std::unique_ptr<RadianceStorage> makeClipmapStorage(uint32_t side) {
+    return std::make_unique<ClipmapStorage>(side);
 }
 
 }  // namespace voxray

@@ -45,21 +45,19 @@ class DenseStorage final : public RadianceStorage {
                 "filter_voxels: {} values of {}x{}x{} voxels and their levels can't be numbered in 32 bits; "
                 "lower voxelize's 'resolution'",
                 values, grid.resolution.x, grid.resolution.y, grid.resolution.z);
-        plan.reserve("radiance voxels", values * kValueBytes + sizeof(Header));
+        radiance.storage = std::vector<Buffer>(1);
+        plan.buffer(radiance.storage[0], "radiance voxels", values * kValueBytes);
+        plan.buffer(radiance.header, "radiance voxels' header", sizeof(Header));
     }
 
     void prepare(PassSetup& setup, RadianceVoxels& radiance) override {
         const gpu::RadianceGrid& grid = radiance.grid;
-        radiance.storage.clear();
-        radiance.storage.emplace_back(setup.device, "radiance voxels",
-                                      allVoxels(grid) * grid.directions * kValueBytes);
         Header header{grid, radiance.storage[0].address(), {}};
         uint32_t first = 0;
         for (uint32_t level = 0; level < grid.levels; ++level) {
             header.levels[level] = {radianceResolution(grid.resolution, level), first};
             first += uint32_t(voxelsOf(header.levels[level].resolution));
         }
-        radiance.header = Buffer(setup.device, "radiance voxels' header", sizeof(Header));
         setup.stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
         const auto program = [&](const char* file) {
             return makeComputeProgram(setup.device, setup.compiler.compile(file, radiance.defines()));

@@ -13,9 +13,9 @@ std::unique_ptr<RadianceStorage> makeStorage(const FilterVoxels::Params& params)
         case RadianceLayout::Dense:
             return makeDenseStorage();
         case RadianceLayout::Svo:
-            return makeSvoStorage(params.eachFrame);
+            return makeSvoStorage();
         case RadianceLayout::Clipmap:
-            return makeClipmapStorage(params.clipmapResolution, params.eachFrame);
+            return makeClipmapStorage(params.clipmapResolution);
     }
     return nullptr;
 }
@@ -38,8 +38,7 @@ void FilterVoxels::declare(PassBuilder& builder) {
 }
 
 void FilterVoxels::plan(PassPlan& plan) {
-    if (plan.get(irradiance_).eachFrame && !params_.eachFrame)
-        throw Error("filter_voxels: the voxels are lit anew in each frame; set its 'each_frame: true'");
+    eachFrame_ = plan.phase == Phase::Frame;
     const gpu::VoxelGrid& grid = plan.get(voxels_).grid;
     if (params_.bounces > 0 && params_.layout == RadianceLayout::Clipmap)
         throw Error(
@@ -52,7 +51,7 @@ void FilterVoxels::plan(PassPlan& plan) {
                      grid.resolution, radianceLevels(grid.resolution),
                      grid.directions, radianceUnit(*plan.frame.scene)};
     storage_->plan(plan, plan.get(voxels_), radiance);
-    if (params_.bounces > 0) bounces_.plan(plan, plan.get(voxels_).voxelCount, params_.eachFrame);
+    if (params_.bounces > 0) bounces_.plan(plan, plan.get(voxels_).voxelCount, eachFrame_);
 }
 
 void FilterVoxels::prepare(PassSetup& setup) {
@@ -76,7 +75,7 @@ void FilterVoxels::record(PassContext& context) {
         bounces_.gather(context, voxels, irradiance, radiance);
         fill(bounces_.flux(), bounce == params_.bounces);
     }
-    if (params_.eachFrame) return;
+    if (eachFrame_) return;
     if (params_.bounces > 0) bounces_.release(context.stream);
     storage_->close(context.stream, radiance);
 }

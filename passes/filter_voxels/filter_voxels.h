@@ -22,7 +22,6 @@ class FilterVoxels final : public Pass {
     struct Params : ClipmapParams, ConeBounceParams {
         RadianceLayout layout = RadianceLayout::Dense;
         bool emission = false;
-        bool eachFrame = false;
         static constexpr auto schema() {
             return std::tuple_cat(
                 std::tuple{
@@ -32,17 +31,14 @@ class FilterVoxels final : public Pass {
                           "camera, which follows it in each frame."),
                     field("emission", &Params::emission,
                           "Whether what surfaces emit is in. Off, cones bring indirect light alone: a "
-                          "direct_* pass adds the rest."),
-                    field("each_frame", &Params::eachFrame,
-                          "Whether to filter in each frame, for light that is injected in each frame; else "
-                          "once.")},
+                          "direct_* pass adds the rest.")},
                 ClipmapParams::schema(), ConeBounceParams::schema());
         }
     };
 
     explicit FilterVoxels(const Params& params);
     Phase phase() const override {
-        return params_.eachFrame || params_.layout == RadianceLayout::Clipmap ? Phase::Frame : Phase::Build;
+        return params_.layout == RadianceLayout::Clipmap ? Phase::Frame : Phase::Build;
     }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
@@ -51,11 +47,12 @@ class FilterVoxels final : public Pass {
 
  private:
     Params params_;
-    Port<SurfaceVoxels> voxels_;
-    Port<VoxelIrradiance> irradiance_;
+    Port<const SurfaceVoxels> voxels_;
+    Port<const VoxelIrradiance> irradiance_;
     Port<RadianceVoxels> radiance_;
     std::unique_ptr<RadianceStorage> storage_;
     ConeBounces bounces_;
+    bool eachFrame_ = false;  ///< Whether it runs in each frame: storage keeps what it needs for that.
 };
 
 }  // namespace voxray

@@ -19,7 +19,7 @@ struct SurfaceLight {
 class RadianceStorage {
  public:
     virtual ~RadianceStorage() = default;
-    /// Reserves memory. `radiance` has its grid; the unit may be set to another. @throws Error for what this
+    /// Describes memory. `radiance` has its grid; the unit may be set to another. @throws Error for what this
     /// device can't do.
     virtual void plan(PassPlan& plan, const SurfaceVoxels& voxels, RadianceVoxels& radiance) = 0;
     virtual void prepare(PassSetup& setup, RadianceVoxels& radiance) = 0;
@@ -33,12 +33,11 @@ class RadianceStorage {
 /// A full grid for each level.
 std::unique_ptr<RadianceStorage> makeDenseStorage();
 
-/// A sparse octree (docs/svo.md). `eachFrame`: it is filled again and again.
-std::unique_ptr<RadianceStorage> makeSvoStorage(bool eachFrame);
+/// A sparse octree (docs/svo.md).
+std::unique_ptr<RadianceStorage> makeSvoStorage();
 
-/// Nested windows of at most `side` voxels along an axis, round the camera (docs/clipmap.md). `eachFrame`:
-/// they are filled whole again and again.
-std::unique_ptr<RadianceStorage> makeClipmapStorage(uint32_t side, bool eachFrame);
+/// Nested windows of at most `side` voxels along an axis, round the camera (docs/clipmap.md).
+std::unique_ptr<RadianceStorage> makeClipmapStorage(uint32_t side);
 
 /// What shaders/radiance/surface_radiance.glsl reads.
 std::vector<Binding> surfaceRadianceBindings(const SurfaceVoxels& voxels, const SurfaceLight& light);

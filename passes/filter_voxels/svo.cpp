@@ -21,8 +21,6 @@ struct SurfacePush {
 /// is filtered again.
 class SvoStorage final : public RadianceStorage {
  public:
-    explicit SvoStorage(bool eachFrame) : eachFrame_(eachFrame) {}
-
     void plan(PassPlan& plan, const SurfaceVoxels& voxels, RadianceVoxels& radiance) override {
         radiance.grid.unit = 1;  // Values have an exponent of their own.
         const OctreeSize size{radiance.grid.resolution, radiance.grid.directions,
@@ -30,7 +28,7 @@ class SvoStorage final : public RadianceStorage {
         plan.reserve("octree (estimated)", size.bytes());
         const uint64_t lists = uint64_t(size.nodes[0]) * sizeof(uint32_t) + OctreeBuilder::changedBytes(size);
         const uint64_t building = OctreeBuilder::scratchBytes(size);
-        if (eachFrame_) {
+        if (plan.phase == Phase::Frame) {
             plan.reserve("leaves and changes (estimated)", lists);
             plan.reserveScratch("building (estimated)", building);
         } else {
@@ -81,7 +79,6 @@ class SvoStorage final : public RadianceStorage {
     }
 
  private:
-    bool eachFrame_;
     Program surface_;
     std::optional<OctreeBuilder> builder_;
     std::optional<OctreeCollapse> collapse_;
@@ -92,8 +89,8 @@ class SvoStorage final : public RadianceStorage {
 
 }  // namespace
 
-std::unique_ptr<RadianceStorage> makeSvoStorage(bool eachFrame) {
-    return std::make_unique<SvoStorage>(eachFrame);
+std::unique_ptr<RadianceStorage> makeSvoStorage() {
+    return std::make_unique<SvoStorage>();
 }
 
 }  // namespace voxray

@@ -35,11 +35,11 @@ void GatherCones::declare(PassBuilder& builder) {
 }
 
 void GatherCones::plan(PassPlan& plan) {
-    plan.reserve("cones", coneSet(kName, params_.cones).size() * sizeof(gpu::Cone));
-    plan.reserve("indirect image", imageBytes(frameImageDesc(plan.frame)));
-    plan.reserve("gathered irradiance",
-                 imageBytes(tracedImage(plan.frame, plan.get(gbuffer_).samples, params_.sparse)));
-    if (params_.specular > 0) SpecularCones::plan(plan, kName, plan.get(gbuffer_), params_.specular);
+    plan.buffer(cones_, "cones", coneSet(kName, params_.cones).size() * sizeof(gpu::Cone));
+    plan.image(plan.get(indirect_).image, "indirect", frameImageDesc(plan.frame));
+    plan.image(irradiance_, "gathered irradiance",
+               tracedImage(plan.frame, plan.get(gbuffer_).samples, params_.sparse));
+    if (params_.specular > 0) specular_.plan(plan, kName, plan.get(gbuffer_), params_.specular);
 }
 
 void GatherCones::prepare(PassSetup& setup) {
@@ -50,14 +50,9 @@ void GatherCones::prepare(PassSetup& setup) {
     trace_ = program("passes/gather_cones/trace.comp", radiance.defines());
     resolve_ = program("passes/gather_cones/resolve.comp",
                        params_.specular > 0 ? Defines{{"SPECULAR", "1"}} : Defines{});
-    if (params_.specular > 0) specular_.prepare(setup, setup.get(gbuffer_), radiance, params_.specular);
+    if (params_.specular > 0) specular_.prepare(setup, radiance);
     sampler_ = texelSampler(setup.device);
-    const std::vector<gpu::Cone> cones = coneSet(kName, params_.cones);
-    cones_ = Buffer(setup.device, "cones", cones.size() * sizeof(gpu::Cone));
-    setup.stream.upload(cones_, cones);
-    setup.get(indirect_).image = Image(setup.device, "indirect", frameImageDesc(setup.frame));
-    irradiance_ = Image(setup.device, "gathered irradiance",
-                        tracedImage(setup.frame, setup.get(gbuffer_).samples, params_.sparse));
+    setup.stream.upload(cones_, coneSet(kName, params_.cones));
 }
 
 void GatherCones::record(PassContext& context) {

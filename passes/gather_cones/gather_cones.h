@@ -36,7 +36,6 @@ class GatherCones final : public Pass {
     };
 
     explicit GatherCones(const Params& params) : params_(params) {}
-    Phase phase() const override { return Phase::Frame; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;
@@ -44,8 +43,8 @@ class GatherCones final : public Pass {
 
  private:
     Params params_;
-    Port<GBuffer> gbuffer_;
-    Port<RadianceVoxels> radiance_;
+    Port<const GBuffer> gbuffer_;
+    Port<const RadianceVoxels> radiance_;
     Port<FrameImage> indirect_;
     Program trace_, resolve_;
     Sampler sampler_;

@@ -32,25 +32,22 @@ void SpecularCones::plan(PassPlan& plan, const char* pass, const GBuffer& gbuffe
     if (cells != 1 && cells != 7 && cells != 19)
         throw Error("{}: specular is {}; lobes are shared out between 1, 7 or 19 cones, 0 leaves them out",
                     pass, cells);
-    plan.reserve("specular lobes", uint64_t(LOBES) * cells * sizeof(gpu::LobeStratum));
-    plan.reserve("specular reflection", imageBytes(reflectedImage(plan.frame, gbuffer)));
+    cells_ = cells;
+    plan.buffer(table_, "specular lobes", uint64_t(LOBES) * cells * sizeof(gpu::LobeStratum));
+    plan.image(reflected_, "specular reflection", reflectedImage(plan.frame, gbuffer));
 }
 
-void SpecularCones::prepare(PassSetup& setup, const GBuffer& gbuffer, const RadianceVoxels& radiance,
-                            uint32_t cells) {
+void SpecularCones::prepare(PassSetup& setup, const RadianceVoxels& radiance) {
     const auto program = [&](const char* file, const Defines& defines) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
-    cells_ = cells;
     trace_ = program("passes/gather_cones/specular.comp", radiance.defines());
     sampler_ = texelSampler(setup.device);
-    reflected_ = Image(setup.device, "specular reflection", reflectedImage(setup.frame, gbuffer));
 
     // The table depends on nothing but its size.
-    table_ = Buffer(setup.device, "specular lobes", uint64_t(LOBES) * cells * sizeof(gpu::LobeStratum));
     const Program fill = program("passes/gather_cones/lobe_table.comp", {});
-    setup.stream.dispatch(fill, {{"cells", table_}}, TablePush{cells, kPoints / cells},
-                          linearGroups(uint64_t(LOBES) * cells));
+    setup.stream.dispatch(fill, {{"cells", table_}}, TablePush{cells_, kPoints / cells_},
+                          linearGroups(uint64_t(LOBES) * cells_));
     setup.stream.finish();
 }
 

@@ -10,8 +10,8 @@ namespace voxray {
 class SpecularCones {
  public:
     /// @param cells of a lobe: 1, 7 or 19. @throws Error for any other, naming `pass` and these.
-    static void plan(PassPlan& plan, const char* pass, const GBuffer& gbuffer, uint32_t cells);
-    void prepare(PassSetup& setup, const GBuffer& gbuffer, const RadianceVoxels& radiance, uint32_t cells);
+    void plan(PassPlan& plan, const char* pass, const GBuffer& gbuffer, uint32_t cells);
+    void prepare(PassSetup& setup, const RadianceVoxels& radiance);
     void record(PassContext& context, const GBuffer& gbuffer, const RadianceVoxels& radiance) const;
     /// RGBA32F: radiance reflected, W/(m² sr); the share of light that is left to the diffuse lobe below.
     const Image& reflected() const { return reflected_; }

@@ -56,9 +56,9 @@ void GatherRays::plan(PassPlan& plan) {
     plan.reserve("light of a batch of rays", batchRays(hits) * kLightBytes);
     if (shadowRays()) {
         sources_ = lightSources(*plan.frame.scene);
-        plan.reserve("shadow rays of a batch of hits",
-                     SurfelLight::bytes(uint32_t(batchRays(hits))) +
-                         batchRays(hits) * (sizeof(gpu::Surfel) + kLightBytes));
+        hitLight_.plan(plan, uint32_t(batchRays(hits)));
+        plan.buffer(surfels_, "gather ray hits' surfels", batchRays(hits) * sizeof(gpu::Surfel));
+        plan.buffer(direct_, "gather ray hits' direct light", batchRays(hits) * kLightBytes);
     }
     plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(plan.get(voxels_).voxelCount));
 }
@@ -79,11 +79,7 @@ void GatherRays::prepare(PassSetup& setup) {
     facesVersion_.reset();
     sampler_ = texelSampler(setup.device);
     light_ = Buffer(setup.device, "light of gather rays", batchRays(hits) * kLightBytes);
-    if (shadowRays()) {
-        hitLight_.emplace(setup, uint32_t(batchRays(hits)));
-        surfels_ = Buffer(setup.device, "gather ray hits' surfels", batchRays(hits) * sizeof(gpu::Surfel));
-        direct_ = Buffer(setup.device, "gather ray hits' direct light", batchRays(hits) * kLightBytes);
-    }
+    if (shadowRays()) hitLight_.prepare(setup);
 }
 
 void GatherRays::record(PassContext& context) {
@@ -125,8 +121,8 @@ void GatherRays::gather(PassContext& context, uint32_t batch) {
     stream.dispatch(shade_, shading, ShadePush{voxels.grid, hits.layout, firstBlock, rays},
                     linearGroups(rays));
     if (shadowRays())
-        hitLight_->measure(context, sources_, surfels_, rays, params_.lightSamples,
-                           randomSeed(context.frame, context.frameIndex) + 0x51u, direct_);
+        hitLight_.measure(context, sources_, surfels_, rays, params_.lightSamples,
+                          randomSeed(context.frame, context.frameIndex) + 0x51u, direct_);
 
     // Add up what the rays of each texel and of each block bring.
     const auto add = [&](const Program& program, Binding target, PushConstants push, uint64_t threads) {

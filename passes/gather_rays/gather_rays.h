@@ -57,7 +57,6 @@ class GatherRays final : public Pass {
     };
 
     explicit GatherRays(const Params& params) : params_(params) {}
-    Phase phase() const override { return Phase::Frame; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;
@@ -68,10 +67,10 @@ class GatherRays final : public Pass {
     void gather(PassContext& context, uint32_t batch);
 
     Params params_;
-    Port<GBuffer> gbuffer_;
-    Port<SurfaceVoxels> voxels_;
-    Port<VoxelIrradiance> irradiance_;
-    Port<GatherHits> hits_;
+    Port<const GBuffer> gbuffer_;
+    Port<const SurfaceVoxels> voxels_;
+    Port<const VoxelIrradiance> irradiance_;
+    Port<const GatherHits> hits_;
     Port<FrameImage> indirect_;
     FaceIrradiance faces_;
     std::optional<std::pair<uint64_t, uint64_t>> facesVersion_;  ///< Of the voxels and the light in them.
@@ -82,7 +81,7 @@ class GatherRays final : public Pass {
 
     // With shadow rays.
     std::vector<LightSource> sources_;
-    std::optional<SurfelLight> hitLight_;
+    SurfelLight hitLight_;
     Buffer surfels_, direct_;  ///< At the hits of a batch.
 };
 

@@ -12,8 +12,21 @@ constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays and hits
 constexpr VkFormat kWide = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kHalf = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat kByte = VK_FORMAT_R8G8B8A8_UNORM;
-/// Position, normal, geometric normal, albedo, emission, specular, Fresnel terms.
-constexpr std::array kFormats{kWide, kHalf, kHalf, kHalf, kWide, kHalf, kByte};
+
+/// The images, in the order in which gbuffer.frag writes them.
+struct Target {
+    const char* name;
+    Image GBuffer::*image;
+    VkFormat format;
+    bool cleared;  ///< Before surfaces are drawn; else it holds the environment.
+};
+constexpr Target kTargets[] = {{"gbuffer position", &GBuffer::position, kWide, true},
+                               {"gbuffer normal", &GBuffer::normal, kHalf, true},
+                               {"gbuffer geometric normal", &GBuffer::geometricNormal, kHalf, true},
+                               {"gbuffer albedo", &GBuffer::albedo, kHalf, true},
+                               {"gbuffer emission", &GBuffer::emission, kWide, false},
+                               {"gbuffer specular", &GBuffer::specular, kHalf, true},
+                               {"gbuffer fresnel", &GBuffer::fresnel, kByte, true}};
 
 /// As in view.glsl.
 struct View {
@@ -41,7 +54,7 @@ View viewOf(const Frame& frame, glm::uvec2 extent) {
     return {rays.origin, extent.x, rays.forward, extent.y, rays.right, rays.up};
 }
 
-ImageDesc target(glm::uvec2 extent, VkFormat format) {
+ImageDesc targetDesc(glm::uvec2 extent, VkFormat format) {
     ImageDesc desc;
     desc.format = format;
     desc.extent = {extent, 1};
@@ -50,7 +63,7 @@ ImageDesc target(glm::uvec2 extent, VkFormat format) {
 }
 
 ImageDesc depthTarget(glm::uvec2 extent) {
-    ImageDesc desc = target(extent, VK_FORMAT_D32_SFLOAT);
+    ImageDesc desc = targetDesc(extent, VK_FORMAT_D32_SFLOAT);
     desc.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
     return desc;
 }
@@ -66,45 +79,33 @@ void GBufferPass::declare(PassBuilder& builder) {
 }
 
 void GBufferPass::plan(PassPlan& plan) {
-    plan.get(gbuffer_).samples = params_.samples;
+    GBuffer& g = plan.get(gbuffer_);
+    g.samples = params_.samples;
     const glm::uvec2 extent = gbufferExtent(plan.frame, params_.samples);
-    uint64_t bytes = 0;
-    for (const VkFormat format : kFormats) bytes += imageBytes(target(extent, format));
-    plan.reserve("g-buffer images", bytes);
-    if (params_.method == GBufferMethod::Raster)
-        plan.reserve("depth", imageBytes(depthTarget(extent)));
-    else
-        plan.reserve("camera rays", batchRays(extent) * (sizeof(Ray) + sizeof(Hit)));
+    for (const Target& t : kTargets) plan.image(g.*t.image, t.name, targetDesc(extent, t.format));
+    if (params_.method == GBufferMethod::Raster) {
+        plan.image(depth_, "gbuffer depth", depthTarget(extent));
+    } else {
+        plan.buffer(rays_, "camera rays", batchRays(extent) * sizeof(Ray));
+        plan.buffer(hits_, "camera ray hits", batchRays(extent) * sizeof(Hit));
+    }
 }
 
 void GBufferPass::prepare(PassSetup& setup) {
-    const glm::uvec2 extent = gbufferExtent(setup.frame, params_.samples);
-    GBuffer& g = setup.get(gbuffer_);
-    g.position = Image(setup.device, "gbuffer position", target(extent, kWide));
-    g.normal = Image(setup.device, "gbuffer normal", target(extent, kHalf));
-    g.geometricNormal = Image(setup.device, "gbuffer geometric normal", target(extent, kHalf));
-    g.albedo = Image(setup.device, "gbuffer albedo", target(extent, kHalf));
-    g.emission = Image(setup.device, "gbuffer emission", target(extent, kWide));
-    g.specular = Image(setup.device, "gbuffer specular", target(extent, kHalf));
-    g.fresnel = Image(setup.device, "gbuffer fresnel", target(extent, kByte));
-
     const auto compile = [&](const char* file) {
         return setup.compiler.compile(
             std::string("passes/gbuffer/") + file,
             params_.normalMaps == NormalMaps::Sharp ? Defines{{"SHARP_NORMALS", "1"}} : Defines{});
     };
     if (params_.method == GBufferMethod::Rays) {
-        rays_ = Buffer(setup.device, "camera rays", batchRays(extent) * sizeof(Ray));
-        hits_ = Buffer(setup.device, "camera ray hits", batchRays(extent) * sizeof(Hit));
         aim_ = makeComputeProgram(setup.device, compile("aim.comp"));
         shade_ = makeComputeProgram(setup.device, compile("shade.comp"));
         return;
     }
-    depth_ = Image(setup.device, "gbuffer depth", depthTarget(extent));
     background_ = makeComputeProgram(setup.device, compile("background.comp"));
     const ShaderModule stages[] = {compile("gbuffer.vert"), compile("gbuffer.frag")};
     RasterState state;
-    state.colorFormats.assign(kFormats.begin(), kFormats.end());
+    for (const Target& t : kTargets) state.colorFormats.push_back(t.format);
     state.depthFormat = VK_FORMAT_D32_SFLOAT;
     surfaces_ = makeRasterProgram(setup.device, stages, state);
 }
@@ -152,9 +153,10 @@ void GBufferPass::rasterize(PassContext& context) {
     // All triangles over it, with depth test.
     const Geometry& geometry = frame.scene->geometry;
     RasterTargets targets;
-    const VkClearColorValue zero{};
-    targets.colors = {{&g.position, zero}, {&g.normal, zero},   {&g.geometricNormal, zero}, {&g.albedo, zero},
-                      {&g.emission, {}},   {&g.specular, zero}, {&g.fresnel, zero}};
+    for (const Target& t : kTargets) {
+        targets.colors.push_back({&(g.*t.image), {}});
+        if (t.cleared) targets.colors.back().clear = VkClearColorValue{};
+    }
     targets.depth = &depth_;
     targets.extent = {extent, 1};
     const SurfacePush push{

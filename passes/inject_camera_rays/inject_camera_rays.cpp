@@ -25,10 +25,6 @@ struct EmitPush {
 
 }  // namespace
 
-SurfelPaths::Settings InjectCameraRays::settings() const {
-    return {params_.write, std::min(params_.rays, kBatchRays), params_.bounces, params_.lightSamples, true};
-}
-
 void InjectCameraRays::declare(PassBuilder& builder) {
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels to light");
     irradiance_ = builder.write<VoxelIrradiance>("irradiance", "light that arrives at the voxels' surfaces");
@@ -36,20 +32,19 @@ void InjectCameraRays::declare(PassBuilder& builder) {
 
 void InjectCameraRays::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
-    plan.get(irradiance_).eachFrame = true;
     const SurfaceVoxels& voxels = plan.get(voxels_);
     plan.reserve("voxel samples (estimated)", 2 * VoxelAccumulator::plan(plan, kName, params_, voxels));
     plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
-    plan.reserve("paths", SurfelPaths::bytes(settings()));
-    plan.reserve("camera rays", uint64_t(settings().batch) * (sizeof(Ray) + sizeof(Hit)));
+    const uint32_t batch = std::min(params_.rays, kBatchRays);
+    paths_.plan(plan, {params_.write, batch, params_.bounces, params_.lightSamples, true});
+    plan.buffer(rays_, "camera rays", batch * sizeof(Ray));
+    plan.buffer(hits_, "camera hits", batch * sizeof(Hit));
 }
 
 void InjectCameraRays::prepare(PassSetup& setup) {
-    paths_ = SurfelPaths(setup, settings());
+    paths_.prepare(setup);
     direct_ = VoxelAccumulator(setup.device, setup.compiler, params_);
     indirect_ = VoxelAccumulator(setup.device, setup.compiler, params_);
-    rays_ = Buffer(setup.device, "camera rays", uint64_t(settings().batch) * sizeof(Ray));
-    hits_ = Buffer(setup.device, "camera hits", uint64_t(settings().batch) * sizeof(Hit));
     emit_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_camera_rays/emit.comp"));
 }
 

@@ -41,10 +41,8 @@ class InjectCameraRays final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    SurfelPaths::Settings settings() const;
-
     Params params_;
-    Port<SurfaceVoxels> voxels_;
+    Port<const SurfaceVoxels> voxels_;
     Port<VoxelIrradiance> irradiance_;
     std::vector<LightSource> sources_;
     SurfelPaths paths_;

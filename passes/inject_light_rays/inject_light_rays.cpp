@@ -29,18 +29,14 @@ void InjectLightRays::declare(PassBuilder& builder) {
     irradiance_ = builder.write<VoxelIrradiance>("irradiance", "light that arrives at the voxels' surfaces");
 }
 
-uint32_t InjectLightRays::batchRays() const {
-    return std::min(params_.raysPerLight, kMaxBatchRays);
-}
-
 void InjectLightRays::plan(PassPlan& plan) {
-    LightPaths::plan(plan, kName, params_, batchRays(), plan.get(voxels_),
-                     requireLightSources(*plan.frame.scene, kName));
+    paths_.plan(plan, kName, params_, std::min(params_.raysPerLight, kMaxBatchRays), plan.get(voxels_),
+                requireLightSources(*plan.frame.scene, kName));
 }
 
 void InjectLightRays::prepare(PassSetup& setup) {
     emit_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_light_rays/emit.comp"));
-    paths_ = LightPaths(setup, params_, batchRays());
+    paths_.prepare(setup);
 }
 
 void InjectLightRays::record(PassContext& context) {

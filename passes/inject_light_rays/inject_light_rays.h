@@ -31,17 +31,14 @@ class InjectLightRays final : public Pass {
     };
 
     explicit InjectLightRays(const Params& params) : params_(params) {}
-    Phase phase() const override { return Phase::Build; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;
     void record(PassContext& context) override;
 
  private:
-    uint32_t batchRays() const;
-
     Params params_;
-    Port<SurfaceVoxels> voxels_;
+    Port<const SurfaceVoxels> voxels_;
     Port<VoxelIrradiance> irradiance_;
     Program emit_;
     LightPaths paths_;

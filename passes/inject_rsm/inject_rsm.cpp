@@ -47,14 +47,12 @@ void InjectRsm::declare(PassBuilder& builder) {
 
 void InjectRsm::plan(PassPlan& plan) {
     const std::vector<LightSource> sources = requireViewpoints(*plan.frame.scene, kName);
-    plan.reserve("shadow map images",
-                 imageBytes(seenDesc(params_.resolution)) + imageBytes(depthDesc(params_.resolution)));
-    LightPaths::plan(plan, kName, params_, std::min(texels(), kMaxBatchTexels), plan.get(voxels_), sources);
+    plan.image(seen_, "shadow map hits", seenDesc(params_.resolution));
+    plan.image(depth_, "shadow map depth", depthDesc(params_.resolution));
+    paths_.plan(plan, kName, params_, std::min(texels(), kMaxBatchTexels), plan.get(voxels_), sources);
 }
 
 void InjectRsm::prepare(PassSetup& setup) {
-    seen_ = Image(setup.device, "shadow map hits", seenDesc(params_.resolution));
-    depth_ = Image(setup.device, "shadow map depth", depthDesc(params_.resolution));
     const ShaderModule stages[] = {setup.compiler.compile("passes/common/lights/light_view.vert"),
                                    setup.compiler.compile("passes/inject_rsm/rsm.frag")};
     RasterState state;
@@ -62,7 +60,7 @@ void InjectRsm::prepare(PassSetup& setup) {
     state.depthFormat = kDepthFormat;
     rasterize_ = makeRasterProgram(setup.device, stages, state);
     makeRays_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_rsm/rsm_rays.comp"));
-    paths_ = LightPaths(setup, params_, std::min(texels(), kMaxBatchTexels));
+    paths_.prepare(setup);
 }
 
 void InjectRsm::record(PassContext& context) {

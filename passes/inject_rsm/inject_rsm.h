@@ -27,7 +27,6 @@ class InjectRsm final : public Pass {
     };
 
     explicit InjectRsm(const Params& params) : params_(params) {}
-    Phase phase() const override { return Phase::Build; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;
@@ -37,7 +36,7 @@ class InjectRsm final : public Pass {
     uint32_t texels() const { return params_.resolution * params_.resolution; }
 
     Params params_;
-    Port<SurfaceVoxels> voxels_;
+    Port<const SurfaceVoxels> voxels_;
     Port<VoxelIrradiance> irradiance_;
     Program rasterize_, makeRays_;
     Image seen_, depth_;

@@ -26,17 +26,17 @@ void InjectShadowMap::declare(PassBuilder& builder) {
 
 void InjectShadowMap::plan(PassPlan& plan) {
     sources_ = requireViewpoints(*plan.frame.scene, kName);
-    SurfelFeedback::plan(plan, kName, params_, plan.get(voxels_));
-    plan.reserve("shadow map", ShadowMap::bytes(params_.resolution));
+    feedback_.plan(plan, kName, params_, plan.get(voxels_));
+    shadowMap_.plan(plan, params_.resolution);
     plan.reserveScratch("surfels' direct irradiance (estimated)",
                         plan.get(surfels_).most * 4 * sizeof(float));
 }
 
 void InjectShadowMap::prepare(PassSetup& setup) {
-    shadowMap_ = ShadowMap(setup, params_.resolution);
+    shadowMap_.prepare(setup);
     lightSurfels_ = makeComputeProgram(setup.device,
                                        setup.compiler.compile("passes/inject_shadow_map/light_surfels.comp"));
-    feedback_ = SurfelFeedback(setup, params_);
+    feedback_.prepare(setup);
 }
 
 void InjectShadowMap::record(PassContext& context) {

@@ -29,7 +29,6 @@ class InjectShadowMap final : public Pass {
     };
 
     explicit InjectShadowMap(const Params& params) : params_(params) {}
-    Phase phase() const override { return Phase::Build; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;
@@ -37,8 +36,8 @@ class InjectShadowMap final : public Pass {
 
  private:
     Params params_;
-    Port<SurfaceVoxels> voxels_;
-    Port<Surfels> surfels_;
+    Port<const SurfaceVoxels> voxels_;
+    Port<const Surfels> surfels_;
     Port<VoxelIrradiance> irradiance_;
     std::vector<LightSource> sources_;
     Program lightSurfels_;

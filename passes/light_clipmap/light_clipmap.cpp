@@ -34,7 +34,7 @@ void LightClipmap::plan(PassPlan& plan) {
     radiance.grid = clipmap.grid;
     storage_ = RadianceClipmap(clipmap.grid, clipmap.windows.side());
     storage_.plan(plan, kName, radiance);
-    ShadowMaps::plan(plan, sources_, params_.shadowResolution);
+    shadowMaps_.plan(plan, sources_, params_.shadowResolution);
 
     // One level at a time; with bounces all of them
     uint64_t most = 0, sum = 0;
@@ -51,9 +51,8 @@ void LightClipmap::plan(PassPlan& plan) {
 }
 
 void LightClipmap::prepare(PassSetup& setup) {
-    RadianceVoxels& radiance = setup.get(radiance_);
-    storage_.prepare(setup, radiance);
-    shadowMaps_ = ShadowMaps(setup, sources_, params_.shadowResolution);
+    const RadianceVoxels& radiance = setup.get(radiance_);
+    shadowMaps_.prepare(setup);
     const auto program = [&](const char* file, const Defines& defines) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };

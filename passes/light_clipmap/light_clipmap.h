@@ -37,7 +37,6 @@ class LightClipmap final : public Pass {
 
     explicit LightClipmap(const Params& params)
         : params_(params), walk_(makeExactWalk()), bounces_(kName, params.bounceCones) {}
-    Phase phase() const override { return Phase::Frame; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;
@@ -55,7 +54,7 @@ class LightClipmap final : public Pass {
     void filter(PassContext& context);
 
     Params params_;
-    Port<ClipmapVoxels> clipmap_;
+    Port<const ClipmapVoxels> clipmap_;
     Port<RadianceVoxels> radiance_;
     std::vector<LightSource> sources_;
     RadianceClipmap storage_;

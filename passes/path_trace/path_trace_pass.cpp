@@ -10,9 +10,7 @@ void upload(CommandStream& stream, const ImageF& from, const Image& to) {
     std::vector<float> rgba(from.pixelCount() * 4, 1.0f);
     for (size_t i = 0; i < from.pixelCount(); ++i)
         for (size_t c = 0; c < 3; ++c) rgba[4 * i + c] = from.data[3 * i + c];
-    Buffer staging(stream.device(), "path trace staging", rgba.size() * sizeof(float), MemoryKind::Upload);
-    stream.upload(staging, rgba);
-    stream.copy(staging, to);
+    stream.upload(to, std::as_bytes(std::span(rgba)));
     stream.finish();
 }
 
@@ -27,16 +25,15 @@ void PathTracePass::declare(PassBuilder& builder) {
 }
 
 void PathTracePass::plan(PassPlan& plan) {
-    plan.reserve("images", 4 * imageBytes(frameImageDesc(plan.frame)));
-    plan.reserveScratch("staging of an image", 2 * imageBytes(frameImageDesc(plan.frame)));
+    const ImageDesc desc = frameImageDesc(plan.frame);
+    plan.image(plan.get(final_).image, "path traced", desc);
+    plan.image(plan.get(indirect_).image, "path traced indirect", desc);
+    plan.image(plan.get(variance_).image, "path traced variance", desc);
+    plan.image(plan.get(indirectVariance_).image, "path traced indirect variance", desc);
+    plan.reserveScratch("staging of an image", imageBytes(desc));
 }
 
 void PathTracePass::prepare(PassSetup& setup) {
-    setup.get(final_).image = Image(setup.device, "path traced", frameImageDesc(setup.frame));
-    setup.get(indirect_).image = Image(setup.device, "path traced indirect", frameImageDesc(setup.frame));
-    setup.get(variance_).image = Image(setup.device, "path traced variance", frameImageDesc(setup.frame));
-    setup.get(indirectVariance_).image =
-        Image(setup.device, "path traced indirect variance", frameImageDesc(setup.frame));
     embree_ = std::make_unique<EmbreeScene>(*setup.frame.scene);
 }
 

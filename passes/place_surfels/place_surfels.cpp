@@ -32,18 +32,15 @@ void PlaceSurfels::plan(PassPlan& plan) {
     Surfels& surfels = plan.get(surfels_);
     surfels.most = 2 * points;
     plan.reserve("surfels (estimated)", surfels.most * sizeof(gpu::Surfel));
-    plan.reserve("a batch of points",
-                 kBatchPoints * (sizeof(uint32_t) + 2 * (sizeof(Ray) + 4 + 2 * sizeof(gpu::Surfel))) + 4);
+    plan.scratchBuffer(triangles_, "surfels' triangles", kBatchPoints * sizeof(uint32_t));
+    plan.scratchBuffer(rays_, "visibility rays", Surfels::kChunk * sizeof(Ray));
+    plan.scratchBuffer(occluded_, "visibility results", Surfels::kChunk * sizeof(uint32_t));
+    plan.scratchBuffer(candidates_, "surfel candidates", Surfels::kChunk * sizeof(gpu::Surfel));
+    plan.scratchBuffer(kept_, "surfels kept", Surfels::kChunk * sizeof(gpu::Surfel));
+    plan.scratchBuffer(count_, "number of surfels", sizeof(uint32_t));
 }
 
 void PlaceSurfels::prepare(PassSetup& setup) {
-    const auto make = [&](const char* name, uint64_t bytes) { return Buffer(setup.device, name, bytes); };
-    triangles_ = make("surfels' triangles", kBatchPoints * sizeof(uint32_t));
-    rays_ = make("visibility rays", Surfels::kChunk * sizeof(Ray));
-    occluded_ = make("visibility results", Surfels::kChunk * sizeof(uint32_t));
-    candidates_ = make("surfel candidates", Surfels::kChunk * sizeof(gpu::Surfel));
-    kept_ = make("surfels kept", Surfels::kChunk * sizeof(gpu::Surfel));
-    count_ = make("number of surfels", sizeof(uint32_t));
     place_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/place_surfels/place.comp"));
     keep_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/place_surfels/keep.comp"));
 }

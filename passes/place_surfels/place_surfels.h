@@ -12,8 +12,9 @@ class PlaceSurfels final : public Pass {
  public:
     static constexpr const char* kName = "place_surfels";
     static constexpr const char* kHelp =
-        "Spreads points evenly over the surfaces, where inject_voxel_rays and inject_shadow_map measure the "
-        "irradiance of voxels. Depends on geometry alone. Noisy by: points. Misses: voxels that hold little "
+        "Spreads points evenly over the surfaces, where inject_voxel_rays, inject_gather_hits and "
+        "inject_shadow_map measure the irradiance of voxels. Depends on geometry alone. Noisy by: points. "
+        "Misses: voxels that hold little "
         "surface may get no point.";
     struct Params {
         uint32_t points = 4;
@@ -24,7 +25,6 @@ class PlaceSurfels final : public Pass {
     };
 
     explicit PlaceSurfels(const Params& params) : params_(params) {}
-    Phase phase() const override { return Phase::Build; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;
@@ -32,10 +32,10 @@ class PlaceSurfels final : public Pass {
 
  private:
     Params params_;
-    Port<SurfaceVoxels> voxels_;
+    Port<const SurfaceVoxels> voxels_;
     Port<Surfels> surfels_;
     Program place_, keep_;
-    Buffer triangles_, rays_, occluded_, candidates_, kept_, count_;
+    Buffer triangles_, rays_, occluded_, candidates_, kept_, count_;  ///< Scratch, of a batch of points.
 };
 
 }  // namespace voxray

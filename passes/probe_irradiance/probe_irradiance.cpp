@@ -41,18 +41,14 @@ void ProbeIrradiance::plan(PassPlan& plan) {
             "take "
             "out scene.moving_spheres",
             kName);
-    plan.reserve("cones", coneSet(kName, params_.cones).size() * sizeof(gpu::Cone));
+    plan.buffer(cones_, "cones", coneSet(kName, params_.cones).size() * sizeof(gpu::Cone));
     const Surfels& surfels = plan.get(surfels_);
-    plan.reserve("irradiance of points", (surfels.most / stride(surfels) + 1) * sizeof(glm::vec4));
+    plan.buffer(irradiance_, "irradiance of points",
+                (surfels.most / stride(surfels) + 1) * sizeof(glm::vec4));
 }
 
 void ProbeIrradiance::prepare(PassSetup& setup) {
-    const std::vector<gpu::Cone> cones = coneSet(kName, params_.cones);
-    cones_ = Buffer(setup.device, "cones", cones.size() * sizeof(gpu::Cone));
-    setup.stream.upload(cones_, cones);
-    const Surfels& surfels = setup.get(surfels_);
-    irradiance_ = Buffer(setup.device, "irradiance of points",
-                         (surfels.most / stride(surfels) + 1) * sizeof(glm::vec4));
+    setup.stream.upload(cones_, coneSet(kName, params_.cones));
     gather_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/probe_irradiance/gather.comp",
                                                                       setup.get(radiance_).defines()));
     last_.clear();

@@ -44,8 +44,8 @@ class ProbeIrradiance final : public Pass {
     uint32_t stride(const Surfels& surfels) const;
 
     Params params_;
-    Port<Surfels> surfels_;
-    Port<RadianceVoxels> radiance_;
+    Port<const Surfels> surfels_;
+    Port<const RadianceVoxels> radiance_;
     Program gather_;
     Buffer cones_, irradiance_;
     std::vector<glm::vec4> last_;  ///< As `irradiance_` was in the last frame.

@@ -33,18 +33,14 @@ void TraceGatherRays::plan(PassPlan& plan) {
     const glm::uvec2 texels = glm::uvec2(plan.frame.width, plan.frame.height) * plan.get(gbuffer_).samples;
     hits.layout = {texels, (texels + params_.block - 1u) / params_.block, params_.block, params_.rays, 0};
     hits.blocksPerBatch = std::clamp(kBatchRays / params_.rays, 1u, hits.blocks());
-    const uint64_t rays = uint64_t(hits.blocks()) * params_.rays;
-    plan.reserve("gather hits", rays * sizeof(Hit));
-    plan.reserve("a batch of gather rays", uint64_t(hits.blocksPerBatch) * params_.rays * sizeof(Ray));
+    hits.batches = std::vector<Buffer>((hits.blocks() + hits.blocksPerBatch - 1) / hits.blocksPerBatch);
+    for (uint32_t b = 0; b < hits.batches.size(); ++b)
+        plan.buffer(hits.batches[b], "gather hits",
+                    uint64_t(hits.batchBlocks(b)) * params_.rays * sizeof(Hit));
+    plan.buffer(rays_, "gather rays", uint64_t(hits.blocksPerBatch) * params_.rays * sizeof(Ray));
 }
 
 void TraceGatherRays::prepare(PassSetup& setup) {
-    GatherHits& hits = setup.get(hits_);
-    for (uint32_t first = 0; first < hits.blocks(); first += hits.blocksPerBatch) {
-        const uint64_t rays = uint64_t(hits.batchBlocks(uint32_t(hits.batches.size()))) * params_.rays;
-        hits.batches.emplace_back(setup.device, "gather hits", rays * sizeof(Hit));
-    }
-    rays_ = Buffer(setup.device, "gather rays", uint64_t(hits.blocksPerBatch) * params_.rays * sizeof(Ray));
     emit_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/trace_gather_rays/emit.comp"));
     sampler_ = texelSampler(setup.device);
 }

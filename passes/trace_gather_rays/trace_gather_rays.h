@@ -6,9 +6,8 @@
 namespace voxray {
 
 /// The rays of a hybrid final gather: geometry from rays, light at their hits from voxels. Tracing stands
-/// apart from shading, so that an injection pass can light just what the rays hit (inject_voxel_rays,
-/// `demand`). Source: Magalhães 2020, section 6.1 (rays for detail below a voxel); sampling: Ahmed and Wonka
-/// 2020.
+/// apart from shading, so that an injection pass can light just what the rays hit (inject_gather_hits).
+/// Source: Magalhães 2020, section 6.1 (rays for detail below a voxel); sampling: Ahmed and Wonka 2020.
 class TraceGatherRays final : public Pass {
  public:
     static constexpr const char* kName = "trace_gather_rays";
@@ -28,7 +27,6 @@ class TraceGatherRays final : public Pass {
     };
 
     explicit TraceGatherRays(const Params& params) : params_(params) {}
-    Phase phase() const override { return Phase::Frame; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;
@@ -36,7 +34,7 @@ class TraceGatherRays final : public Pass {
 
  private:
     Params params_;
-    Port<GBuffer> gbuffer_;
+    Port<const GBuffer> gbuffer_;
     Port<GatherHits> hits_;
     Program emit_;
     Sampler sampler_;

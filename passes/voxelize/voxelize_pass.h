@@ -45,7 +45,6 @@ class VoxelizePass final : public Pass {
     };
 
     explicit VoxelizePass(const Params& params);
-    Phase phase() const override { return Phase::Build; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;

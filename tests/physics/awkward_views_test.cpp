@@ -9,7 +9,7 @@ namespace {
 const std::vector<std::string> kStrategies = {"inject_light_rays, rays_per_light: 65536",
                                               "inject_rsm, resolution: 128",
                                               "inject_voxel_rays, rays: 2",
-                                              "inject_voxel_rays, demand: true",
+                                              "inject_gather_hits",
                                               "inject_camera_rays, rays: 65536",
                                               "inject_shadow_map, resolution: 256, rays: 2"};
 

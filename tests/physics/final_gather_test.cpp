@@ -49,7 +49,7 @@ double difference(const ImageF& a, const ImageF& b) {
 
 const std::vector<std::string> kOfAllLights = {"inject_light_rays, rays_per_light: 131072, bounces: BOUNCES",
                                                "inject_voxel_rays, rays: 2, bounces: BOUNCES",
-                                               "inject_voxel_rays, demand: true, bounces: BOUNCES",
+                                               "inject_gather_hits, bounces: BOUNCES",
                                                "inject_camera_rays, rays: 65536, bounces: BOUNCES"};
 // Of point, spot and directional lights alone.
 const std::vector<std::string> kOfViewpoints = {
@@ -102,8 +102,8 @@ TEST(VoxelRays, AreDeterministic) {
                     gatherGraph(inject, "rays: 4", "filter: 0", "resolution: 24"));
         return chain.image("indirect").data;
     };
-    for (const std::string inject : {"inject_voxel_rays, bounces: 2", "inject_voxel_rays, demand: true",
-                                     "inject_camera_rays, rays: 8192"})
+    for (const std::string inject :
+         {"inject_voxel_rays, bounces: 2", "inject_gather_hits", "inject_camera_rays, rays: 8192"})
         EXPECT_EQ(run(inject), run(inject)) << inject;
 }
 
@@ -264,7 +264,7 @@ TEST(FinalGather, MorePathsOnDemandLowerTheNoise) {
     const auto image = [](const std::string& rays) {
         Chain chain("cornell", "{lights: point}",
                     "[{pass: gbuffer}, {pass: voxelize, resolution: 24}, {pass: place_surfels, points: 2}, "
-                    "{pass: trace_gather_rays, rays: 64}, {pass: inject_voxel_rays, demand: true, rays: " +
+                    "{pass: trace_gather_rays, rays: 64}, {pass: inject_gather_hits, rays: " +
                         rays + "}, {pass: gather_rays}]");
         return chain.image("indirect");
     };
@@ -283,7 +283,7 @@ TEST(FinalGather, BadInputIsNamed) {
               std::string::npos);
     EXPECT_NE(messageOf(scene,
                         "[{pass: gbuffer}, {pass: voxelize}, {pass: place_surfels}, {pass: "
-                        "inject_voxel_rays, demand: true}]")
+                        "inject_gather_hits}]")
                   .find("gather_hits"),
               std::string::npos);
     EXPECT_NE(

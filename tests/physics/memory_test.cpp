@@ -27,7 +27,7 @@ const Case kCases[] = {
      " 1}, {pass: gather_cones}]"},
     {"each_frame",
      "[{pass: gbuffer}, {pass: voxelize, resolution: 48}, {pass: inject_camera_rays, rays: 1024, bounces: 1},"
-     " {pass: filter_voxels, layout: svo, each_frame: true, bounces: 1}, {pass: gather_cones}]"},
+     " {pass: filter_voxels, layout: svo, bounces: 1}, {pass: gather_cones}]"},
     {"surfels",
      "[{pass: voxelize, resolution: 48, visibility_rays: 0}, {pass: place_surfels, points: 1}, {pass:"
      " inject_voxel_rays, rays: 1, bounces: 1}, {pass: filter_voxels}]"},

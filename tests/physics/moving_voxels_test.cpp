@@ -84,13 +84,16 @@ TEST(MovingVoxels, AreThoseThatAreMadeAnew) {
 }
 
 TEST(MovingVoxels, CarryTheSameLightInEachLayout) {
-    const std::string lit =
-        "[{pass: voxelize, resolution: 24}, {pass: inject_light_rays, rays_per_light: 8192, bounces: 1}, ";
-    for (const char* filter : {"layout: dense", "layout: svo", "layout: svo, each_frame: true",
-                               "layout: clipmap, clipmap_resolution: 16"}) {
-        SCOPED_TRACE(filter);
-        followWalk(lit + "{pass: filter_voxels, emission: true, " + filter + "}]", 2,
-                   [](Chain& moved, Chain& made) {
+    // The octree also where it is kept for light of each frame.
+    const std::string once = "{pass: inject_light_rays, rays_per_light: 8192, bounces: 1}";
+    const std::string eachFrame = "{pass: inject_camera_rays, rays: 8192, bounces: 1}";
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {once, "dense"}, {once, "svo"}, {eachFrame, "svo"}, {once, "clipmap, clipmap_resolution: 16"}};
+    for (const auto& [light, layout] : cases) {
+        SCOPED_TRACE(light + " " + layout);
+        followWalk("[{pass: voxelize, resolution: 24}, " + light +
+                       ", {pass: filter_voxels, emission: true, layout: " + layout + "}]",
+                   2, [](Chain& moved, Chain& made) {
                        const auto samples = [](Chain& chain) {
                            const auto& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
                            return sampleRadiance(*chain.graph().resource<RadianceVoxels>("radiance"),

@@ -67,22 +67,14 @@ TEST(RadianceVoxels, MemoryIsPredicted) {
     EXPECT_EQ(chain.predicted.back().bytes, r.header.bytes() + r.storage[0].bytes());
 }
 
-TEST(RadianceVoxels, LightOfEachFrameNeedsFilteringInEachFrame) {
-    const auto run = [](const std::string& filter) {
-        Chain(
-            "cornell", "{lights: point}",
-            "[{pass: gbuffer}, {pass: voxelize, resolution: 8}, {pass: inject_camera_rays, rays: 64}, {pass: "
-            "filter_voxels, " +
-                filter + "}]");
+TEST(RadianceVoxels, AreFilteredInThePhaseOfTheirLight) {
+    const auto phaseWith = [](const std::string& inject) {
+        const Chain chain("cornell", "{lights: point}",
+                          "[{pass: voxelize, resolution: 8}, {pass: " + inject + "}, {pass: filter_voxels}]");
+        return chain.graph().passes().back().phase;
     };
-    EXPECT_NO_THROW(run("each_frame: true"));
-    try {
-        run("each_frame: false");
-        FAIL() << "no error";
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("set its 'each_frame: true'"), std::string::npos)
-            << error.what();
-    }
+    EXPECT_EQ(phaseWith("inject_camera_rays, rays: 64"), Phase::Frame);
+    EXPECT_EQ(phaseWith("inject_light_rays, rays_per_light: 64"), Phase::Build);
 }
 
 }  // namespace

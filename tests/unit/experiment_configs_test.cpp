@@ -22,9 +22,10 @@ TEST(ShippedConfigs, ReadAndValidate) {
         for (const std::string& profile : profiles) {
             SCOPED_TRACE(entry.path().string() + " " + profile);
             try {
-                const Experiment experiment = loadExperiment(entry.path(), {profile, {}});
+                const WiredExperiment wired =
+                    wireExperiment(loadExperiment(entry.path(), {profile, {}}), registry);
                 SceneLoader loader({});
-                for (const Variant& variant : validateExperiment(experiment, registry))
+                for (const WiredVariant& variant : wired.variants)
                     if (!variant.setup.scene.options.builtin.empty()) loader.prepare(variant.setup.scene);
             } catch (const Error& error) {
                 ADD_FAILURE() << error.what();

@@ -18,10 +18,10 @@
 /// Tiny passes that write constant images, and a folder for each test.
 namespace voxray::fakes {
 
-inline Image constantImage(PassSetup& setup, const char* name) {
+inline void planImage(PassPlan& plan, Port<FrameImage> port, const char* name) {
     ImageDesc desc;
-    desc.extent = {setup.frame.width, setup.frame.height, 1};
-    return Image(setup.device, name, desc);
+    desc.extent = {plan.frame.width, plan.frame.height, 1};
+    plan.image(plan.get(port).image, name, desc);
 }
 
 /// What a Witness writes: nothing, but whoever reads it needs the witness.
@@ -58,14 +58,15 @@ class Constant : public Pass {
         indirect_ = b.write<FrameImage>("indirect", "Half of it.");
         b.readOptional<Testimony>("testimony", "Of a witness.");
     }
-    void plan(PassPlan& plan) override { plan.reserve("nothing", uint64_t(params_.megabytes) << 20); }
-    void prepare(PassSetup& setup) override {
-        setup.get(final_).image = constantImage(setup, "constant final");
-        setup.get(indirect_).image = constantImage(setup, "constant indirect");
+    void plan(PassPlan& plan) override {
+        planImage(plan, final_, "constant final");
+        planImage(plan, indirect_, "constant indirect");
         ImageDesc desc;
         desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT;
-        if (params_.misuse) notToBeCleared_ = Image(setup.device, "not to be cleared", desc);
+        if (params_.misuse) plan.image(notToBeCleared_, "not to be cleared", desc);
+        plan.reserve("nothing", uint64_t(params_.megabytes) << 20);
     }
+    void prepare(PassSetup&) override {}
     void record(PassContext& context) override {
         ++runs;
         cameraX.push_back(context.frame.camera.position.x);
@@ -102,10 +103,10 @@ class Truth : public Pass {
     void declare(PassBuilder& b) override {
         for (int i = 0; i < 4; ++i) images_[i] = b.write<FrameImage>(kNames[i], "A constant.");
     }
-    void plan(PassPlan&) override {}
-    void prepare(PassSetup& setup) override {
-        for (int i = 0; i < 4; ++i) setup.get(images_[i]).image = constantImage(setup, kNames[i]);
+    void plan(PassPlan& plan) override {
+        for (int i = 0; i < 4; ++i) planImage(plan, images_[i], kNames[i]);
     }
+    void prepare(PassSetup&) override {}
     void record(PassContext& context) override {
         ++runs;
         constexpr float kValues[] = {1.0f, 0.5f, 0.01f, 0.0025f};

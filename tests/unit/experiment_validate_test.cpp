@@ -17,7 +17,7 @@ namespace {
 void expectError(const std::string& graph, std::initializer_list<const char*> parts) {
     const std::string text = "name: x\nscene: {builtin: cornell}\n" + graph;
     try {
-        validateExperiment(parseExperiment(text, "x.yaml"), fakes::registry());
+        wireExperiment(parseExperiment(text, "x.yaml"), fakes::registry());
         ADD_FAILURE() << "no error for " << text;
     } catch (const UsageError& error) {
         const std::string message = error.what();

@@ -12,7 +12,6 @@ struct Light : Resource {};
 
 // A pass that does nothing but have ports.
 struct Idle : Pass {
-    Phase phase() const override { return Phase::Build; }
     void plan(PassPlan& plan) override { plan.reserve("results", 1u << 20); }
     void prepare(PassSetup&) override {}
     void record(PassContext&) override {}
@@ -72,6 +71,18 @@ struct SumUp : Idle {
     Params params;
 };
 
+// Runs in each frame.
+struct Blink : Idle {
+    static constexpr const char* kName = "blink";
+    static constexpr const char* kHelp = "Writes light in each frame.";
+    struct Params {
+        static constexpr auto schema() { return std::tuple{}; }
+    };
+    explicit Blink(const Params&) {}
+    Phase phase() const override { return Phase::Frame; }
+    void declare(PassBuilder& builder) override { builder.write<Light>("light", "the light"); }
+};
+
 // Only reports.
 struct CountVoxels : Idle {
     static constexpr const char* kName = "count_voxels";
@@ -89,6 +100,7 @@ Registry registry() {
     r.add<LightVoxels>();
     r.add<WrongType>();
     r.add<SumUp>();
+    r.add<Blink>();
     r.add<CountVoxels>();
     return r;
 }
@@ -122,6 +134,18 @@ TEST(GraphWiring, SortsWritersBeforeReaders) {
     const Graph g =
         graph("- {pass: light_voxels, inputs: {voxels: late}}\n- {pass: make_voxels, id: late}\n");
     EXPECT_EQ(g.passes()[0].id, "late");
+}
+
+TEST(GraphWiring, ReadersOfFramePassesRunInEachFrame) {
+    const Graph g = graph(
+        "[{pass: make_voxels}, {pass: light_voxels, id: once}, {pass: light_voxels, id: second, inputs: "
+        "{light: "
+        "first}}, {pass: light_voxels, id: first, inputs: {light: blink}}, {pass: blink}]");
+    const auto passes = g.passes();
+    ASSERT_EQ(passes.size(), 5u);
+    for (const Graph::PassInfo& pass : passes)
+        EXPECT_EQ(pass.phase, pass.id == "make_voxels" || pass.id == "once" ? Phase::Build : Phase::Frame)
+            << pass.id;
 }
 
 TEST(GraphWiring, RecordsEveryDefault) {

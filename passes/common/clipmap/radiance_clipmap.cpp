@@ -27,14 +27,9 @@ void RadianceClipmap::plan(PassPlan& plan, const std::string& pass, RadianceVoxe
     const uint64_t values = windows_.voxels() * radiance.grid.directions;
     if (values > UINT32_MAX)
         throw Error("{}: {} values can't be numbered in 32 bits; lower clipmap_resolution", pass, values);
-    plan.reserve("radiance clipmap", values * kValueBytes + sizeof(Header));
-}
-
-void RadianceClipmap::prepare(PassSetup& setup, RadianceVoxels& radiance) const {
-    radiance.storage.clear();
-    radiance.storage.emplace_back(setup.device, "radiance clipmap",
-                                  windows_.voxels() * radiance.grid.directions * kValueBytes);
-    radiance.header = Buffer(setup.device, "radiance clipmap's header", sizeof(Header));
+    radiance.storage = std::vector<Buffer>(1);
+    plan.buffer(radiance.storage[0], "radiance clipmap", values * kValueBytes);
+    plan.buffer(radiance.header, "radiance clipmap's header", sizeof(Header));
 }
 
 std::vector<gpu::ClipmapWindow> RadianceClipmap::follow(PassContext& context,

@@ -15,10 +15,9 @@ class RadianceClipmap {
     /// @param side of a window, a power of two.
     RadianceClipmap(const gpu::RadianceGrid& grid, uint32_t side) : windows_(grid, side) {}
 
-    /// Reserves memory and sets the unit: values have an exponent of their own. @throws Error naming `pass`
-    /// for more values than can be numbered.
+    /// Describes the memory and sets the unit: values have an exponent of their own. @throws Error naming
+    /// `pass` for more values than can be numbered.
     void plan(PassPlan& plan, const std::string& pass, RadianceVoxels& radiance) const;
-    void prepare(PassSetup& setup, RadianceVoxels& radiance) const;
     /// Moves the windows to the frame's camera. What is in their slots stays as it is.
     /// @return the windows, by level.
     std::vector<gpu::ClipmapWindow> follow(PassContext& context, RadianceVoxels& radiance) const;

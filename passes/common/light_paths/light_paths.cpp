@@ -56,8 +56,10 @@ void checkBeams(const std::string& pass, const LightPathParams& params,
 
 void LightPaths::plan(PassPlan& plan, const std::string& pass, const LightPathParams& params, uint32_t batch,
                       const SurfaceVoxels& voxels, const std::vector<LightSource>& sources) {
+    params_ = params;
+    sumsFlux_ = sumsFlux(params.write);
     const bool indirect = params.lastBounce() > 0;
-    if (sumsFlux(params.write)) {
+    if (sumsFlux_) {
         if (!plan.device.shaderInt64Atomics)
             throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", pass,
                         plan.device.name);
@@ -68,18 +70,15 @@ void LightPaths::plan(PassPlan& plan, const std::string& pass, const LightPathPa
         plan.reserveScratch("voxel samples (estimated)",
                             (indirect ? 2 : 1) * VoxelAccumulator::plan(plan, pass, params, voxels));
     }
-    plan.reserve("light rays", uint64_t(batch) * (2 * sizeof(Ray) + sizeof(Hit) + sizeof(gpu::LightPath) +
-                                                  sizeof(uint32_t)));
+    plan.buffer(rays_, "light rays", batch * sizeof(Ray));
+    plan.buffer(hits_, "light ray hits", batch * sizeof(Hit));
+    plan.buffer(paths_, "light paths", batch * sizeof(gpu::LightPath));
+    plan.buffer(visibilityRays_, "visibility rays", batch * sizeof(Ray));
+    plan.buffer(hidden_, "visibility results", batch * sizeof(uint32_t));
     plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
 }
 
-LightPaths::LightPaths(PassSetup& setup, const LightPathParams& params, uint32_t batch)
-    : params_(params), sumsFlux_(sumsFlux(params.write)) {
-    rays_ = Buffer(setup.device, "light rays", batch * sizeof(Ray));
-    hits_ = Buffer(setup.device, "light ray hits", batch * sizeof(Hit));
-    paths_ = Buffer(setup.device, "light paths", batch * sizeof(gpu::LightPath));
-    visibilityRays_ = Buffer(setup.device, "visibility rays", batch * sizeof(Ray));
-    hidden_ = Buffer(setup.device, "visibility results", batch * sizeof(uint32_t));
+void LightPaths::prepare(PassSetup& setup) {
     const auto compile = [&](const char* file, const Defines& defines = {}) {
         return setup.compiler.compile(file, defines);
     };
@@ -87,14 +86,14 @@ LightPaths::LightPaths(PassSetup& setup, const LightPathParams& params, uint32_t
         makeComputeProgram(setup.device, compile("passes/common/light_paths/light_paths_visibility.comp"));
     follow_ = makeComputeProgram(
         setup.device,
-        compile("passes/common/light_paths/light_paths_follow.comp", followDefines(params.write)),
-        {{0, params.secondary == Secondary::Mirror}});
+        compile("passes/common/light_paths/light_paths_follow.comp", followDefines(params_.write)),
+        {{0, params_.secondary == Secondary::Mirror}});
     unoccludedArea_ = makeComputeProgram(setup.device, compile("passes/common/voxels/unoccluded_area.comp"));
     for (int i = 0; i < 2; ++i) {
         if (sumsFlux_)
             fluxes_[size_t(i)] = FluxAccumulator(setup.device, setup.compiler);
         else
-            irradiances_[size_t(i)] = VoxelAccumulator(setup.device, setup.compiler, params);
+            irradiances_[size_t(i)] = VoxelAccumulator(setup.device, setup.compiler, params_);
     }
 }
 

@@ -45,13 +45,11 @@ struct LightPathParams : WriteParams {
 /// punctual lights and mirror bounces only. Source: Magalhães 2020, sections 3.3.1 and 4.3.2.5.
 class LightPaths {
  public:
-    LightPaths() = default;
-    /// @param batch rays that are followed at once, at most.
-    LightPaths(PassSetup& setup, const LightPathParams& params, uint32_t batch);
-
-    /// Reserves memory. @throws Error naming `pass` for what these parameters, lights or the device can't do.
-    static void plan(PassPlan& plan, const std::string& pass, const LightPathParams& params, uint32_t batch,
-                     const SurfaceVoxels& voxels, const std::vector<LightSource>& sources);
+    /// Describes the memory, the result's included. @param batch rays that are followed at once, at most.
+    /// @throws Error naming `pass` for what these parameters, lights or the device can't do.
+    void plan(PassPlan& plan, const std::string& pass, const LightPathParams& params, uint32_t batch,
+              const SurfaceVoxels& voxels, const std::vector<LightSource>& sources);
+    void prepare(PassSetup& setup);
 
     void begin(PassContext& context, const SurfaceVoxels& voxels, const std::vector<LightSource>& sources);
     /// A batch of rays of one source: rays [first, first + count) of its stream.

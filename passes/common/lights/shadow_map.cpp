@@ -36,17 +36,17 @@ uint32_t viewCount(const SceneState& state, const std::vector<LightSource>& sour
 
 }  // namespace
 
-ShadowMap::ShadowMap(PassSetup& setup, uint32_t resolution)
-    : image_(setup.device, "shadow map", mapDesc(resolution)), sampler_(texelSampler(setup.device)) {
+void ShadowMap::plan(PassPlan& plan, uint32_t resolution) {
+    plan.image(image_, "shadow map", mapDesc(resolution));
+}
+
+void ShadowMap::prepare(PassSetup& setup) {
+    sampler_ = texelSampler(setup.device);
     const ShaderModule stages[] = {setup.compiler.compile("passes/common/lights/light_view.vert"),
                                    setup.compiler.compile("passes/common/lights/shadow_map.frag")};
     RasterState state;
     state.depthFormat = kDepthFormat;
     rasterize_ = makeRasterProgram(setup.device, stages, state);
-}
-
-uint64_t ShadowMap::bytes(uint32_t resolution) {
-    return imageBytes(mapDesc(resolution));
 }
 
 void ShadowMap::draw(PassContext& context, const gpu::LightView& view) const {
@@ -57,20 +57,15 @@ void ShadowMap::draw(PassContext& context, const gpu::LightView& view) const {
                         context.scene.triangleCount * 3);
 }
 
-ShadowMaps::ShadowMaps(PassSetup& setup, const std::vector<LightSource>& sources, uint32_t resolution)
-    : resolution_(resolution),
-      map_(setup, resolution),
-      texels_(setup.device, "a shadow map's texels", texelBytes(resolution)),
-      lights_(setup.device, "lights with shadow maps",
-              2 * sizeof(uint32_t) + sources.size() * sizeof(ShadowLight)) {
-    const uint32_t views = viewCount(*setup.frame.scene, sources);
-    views_ = Buffer(setup.device, "lights' views", views * sizeof(gpu::LightView));
-    depths_ = LargeBuffer(setup.device, "shadow maps", views * texelBytes(resolution));
-}
-
 void ShadowMaps::plan(PassPlan& plan, const std::vector<LightSource>& sources, uint32_t resolution) {
-    plan.reserve("shadow map", ShadowMap::bytes(resolution) + texelBytes(resolution));
-    plan.reserve("shadow maps of all lights", viewCount(*plan.frame.scene, sources) * texelBytes(resolution));
+    resolution_ = resolution;
+    const uint32_t views = viewCount(*plan.frame.scene, sources);
+    map_.plan(plan, resolution);
+    plan.buffer(texels_, "a shadow map's texels", texelBytes(resolution));
+    plan.buffer(lights_, "lights with shadow maps",
+                2 * sizeof(uint32_t) + sources.size() * sizeof(ShadowLight));
+    plan.buffer(views_, "lights' views", views * sizeof(gpu::LightView));
+    plan.buffer(depths_, "shadow maps", views * texelBytes(resolution));
 }
 
 void ShadowMaps::draw(PassContext& context, const std::vector<LightSource>& sources) {

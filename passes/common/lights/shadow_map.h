@@ -9,11 +9,9 @@ namespace voxray {
 /// A depth view of the scene from a light.
 class ShadowMap {
  public:
-    ShadowMap() = default;
     /// @param resolution texels a side.
-    ShadowMap(PassSetup& setup, uint32_t resolution);
-
-    static uint64_t bytes(uint32_t resolution);
+    void plan(PassPlan& plan, uint32_t resolution);
+    void prepare(PassSetup& setup);
     /// Depth along the view's axis of what each texel sees, relative to view.farthest.
     void draw(PassContext& context, const gpu::LightView& view) const;
     const Image& image() const { return image_; }
@@ -30,10 +28,8 @@ class ShadowMap {
 /// (shaders/lights/shadow_maps.glsl).
 class ShadowMaps {
  public:
-    ShadowMaps() = default;
-    ShadowMaps(PassSetup& setup, const std::vector<LightSource>& sources, uint32_t resolution);
-
-    static void plan(PassPlan& plan, const std::vector<LightSource>& sources, uint32_t resolution);
+    void plan(PassPlan& plan, const std::vector<LightSource>& sources, uint32_t resolution);
+    void prepare(PassSetup& setup) { map_.prepare(setup); }
     /// Draws the maps of the lights as they stand now.
     void draw(PassContext& context, const std::vector<LightSource>& sources);
     std::vector<Binding> bindings() const;

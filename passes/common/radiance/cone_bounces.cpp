@@ -34,8 +34,8 @@ uint64_t fluxBytes(uint64_t voxels) {
 
 }  // namespace
 
-void ConeBounces::plan(PassPlan& plan, uint64_t voxels, bool keeps) const {
-    plan.reserve("cones", coneSet(pass_, cones_).size() * sizeof(gpu::Cone));
+void ConeBounces::plan(PassPlan& plan, uint64_t voxels, bool keeps) {
+    plan.buffer(coneSet_, "cones", coneSet(pass_, cones_).size() * sizeof(gpu::Cone));
     const uint64_t light = cellBytes(voxels) + fluxBytes(voxels);
     if (keeps)
         plan.reserve("bounced light (estimated)", light);
@@ -49,17 +49,19 @@ void ConeBounces::prepare(PassSetup& setup, const RadianceVoxels& radiance) {
     };
     list_ = program("passes/common/radiance/cone_bounces_list.comp", {});
     gather_ = program("passes/common/radiance/cone_bounces_gather.comp", radiance.defines());
-    const std::vector<gpu::Cone> cones = coneSet(pass_, cones_);
-    coneSet_ = Buffer(setup.device, "cones", cones.size() * sizeof(gpu::Cone));
-    setup.stream.upload(coneSet_, cones);
+    setup.stream.upload(coneSet_, coneSet(pass_, cones_));
 }
 
 void ConeBounces::list(PassContext& context, const SurfaceVoxels& voxels) {
     const uint64_t count = voxels.voxelCount;
-    if (!cells_ || cells_.bytes() != cellBytes(count))
+    if (!cells_ || cells_.bytes() != cellBytes(count)) {
+        cells_ = {};
         cells_ = Buffer(context.device, "cells of surface voxels", cellBytes(count));
-    if (!flux_ || flux_.bytes() != fluxBytes(count))
+    }
+    if (!flux_ || flux_.bytes() != fluxBytes(count)) {
+        flux_ = {};
         flux_ = LargeBuffer(context.device, "bounced flux", fluxBytes(count));
+    }
     context.stream.dispatch(
         list_, {{"voxelOccupancy", voxels.occupancy}, {"voxelRank", voxels.rank}, {"voxelCells", cells_}},
         ListPush{voxels.grid, uint32_t(voxels.words())}, linearGroups(voxels.words()));

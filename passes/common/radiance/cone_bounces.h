@@ -32,7 +32,7 @@ class ConeBounces {
 
     /// @param voxels in all lists that light is gathered for.
     /// @param keeps whether memory is kept from frame to frame; else it is scratch, for release() to free.
-    void plan(PassPlan& plan, uint64_t voxels, bool keeps) const;
+    void plan(PassPlan& plan, uint64_t voxels, bool keeps);
     void prepare(PassSetup& setup, const RadianceVoxels& radiance);
     /// Flux that arrives at the voxels' sides from what `radiance` holds now, into `flux()`.
     /// @param injected light, which tells the insides of solids.

@@ -25,30 +25,29 @@ struct FeedbackPush {
 
 }  // namespace
 
-SurfelFeedback::SurfelFeedback(PassSetup& setup, const FeedbackParams& params)
-    : params_(params),
-      direct_(setup.device, setup.compiler, params),
-      indirect_(setup.device, setup.compiler, params),
-      faces_(setup.device, setup.compiler),
-      rays_(setup.device, "gather rays", Surfels::kChunk * sizeof(Ray)),
-      hits_(setup.device, "gather ray hits", Surfels::kChunk * sizeof(Hit)) {
+void SurfelFeedback::prepare(PassSetup& setup) {
+    direct_ = VoxelAccumulator(setup.device, setup.compiler, params_);
+    indirect_ = VoxelAccumulator(setup.device, setup.compiler, params_);
+    faces_ = FaceIrradiance(setup.device, setup.compiler);
     const auto program = [&](const char* file, const Defines& defines = {}) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
-    write_ = program("passes/common/surfels/surfel_write.comp", VoxelAccumulator::defines(params.write));
+    write_ = program("passes/common/surfels/surfel_write.comp", VoxelAccumulator::defines(params_.write));
     gather_ = program("passes/common/surfels/surfel_gather.comp");
     feedback_ =
-        program("passes/common/surfels/surfel_feedback.comp", VoxelAccumulator::defines(params.write));
+        program("passes/common/surfels/surfel_feedback.comp", VoxelAccumulator::defines(params_.write));
 }
 
 void SurfelFeedback::plan(PassPlan& plan, const std::string& pass, const FeedbackParams& params,
                           const SurfaceVoxels& voxels) {
+    params_ = params;
     // Samples of direct light are free again before those of the bounces begin.
     plan.reserveScratch("voxel samples (estimated)", VoxelAccumulator::plan(plan, pass, params, voxels));
     if (params.bounces > 0)
         plan.reserveScratch("face irradiance (estimated)", FaceIrradiance::bytes(voxels.voxelCount));
     plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
-    plan.reserve("gather rays of a chunk of surfels", Surfels::kChunk * (sizeof(Ray) + sizeof(Hit)));
+    plan.buffer(rays_, "gather rays", Surfels::kChunk * sizeof(Ray));
+    plan.buffer(hits_, "gather ray hits", Surfels::kChunk * sizeof(Hit));
 }
 
 void SurfelFeedback::begin(PassContext& context, const SurfaceVoxels& voxels,

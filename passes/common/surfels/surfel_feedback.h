@@ -27,12 +27,10 @@ struct FeedbackParams : WriteParams {
 /// iteration, Goral et al. 1984.
 class SurfelFeedback {
  public:
-    SurfelFeedback() = default;
-    SurfelFeedback(PassSetup& setup, const FeedbackParams& params);
-
-    /// Reserves memory, the result's included. @throws Error naming `pass` for what the device can't do.
-    static void plan(PassPlan& plan, const std::string& pass, const FeedbackParams& params,
-                     const SurfaceVoxels& voxels);
+    /// Describes the memory, the result's included. @throws Error naming `pass` for what the device can't do.
+    void plan(PassPlan& plan, const std::string& pass, const FeedbackParams& params,
+              const SurfaceVoxels& voxels);
+    void prepare(PassSetup& setup);
 
     /// Allocates the result and clears the sums.
     void begin(PassContext& context, const SurfaceVoxels& voxels, const std::vector<LightSource>& sources,

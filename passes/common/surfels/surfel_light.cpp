@@ -16,12 +16,16 @@ struct AimPush {
 
 }  // namespace
 
-SurfelLight::SurfelLight(PassSetup& setup, uint32_t batch)
-    : aim_(makeComputeProgram(setup.device, setup.compiler.compile("passes/common/surfels/surfel_aim.comp"))),
-      add_(makeComputeProgram(setup.device, setup.compiler.compile("passes/common/surfels/surfel_add.comp"))),
-      rays_(setup.device, "shadow rays", uint64_t(batch) * sizeof(Ray)),
-      carried_(setup.device, "shadow ray irradiance", uint64_t(batch) * 4 * sizeof(float)),
-      occluded_(setup.device, "shadow ray results", uint64_t(batch) * sizeof(uint32_t)) {}
+void SurfelLight::plan(PassPlan& plan, uint32_t batch) {
+    plan.buffer(rays_, "shadow rays", uint64_t(batch) * sizeof(Ray));
+    plan.buffer(carried_, "shadow ray irradiance", uint64_t(batch) * 4 * sizeof(float));
+    plan.buffer(occluded_, "shadow ray results", uint64_t(batch) * sizeof(uint32_t));
+}
+
+void SurfelLight::prepare(PassSetup& setup) {
+    aim_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/common/surfels/surfel_aim.comp"));
+    add_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/common/surfels/surfel_add.comp"));
+}
 
 void SurfelLight::measure(PassContext& context, const std::vector<LightSource>& sources,
                           const Buffer& surfels, uint32_t count, uint32_t samples, uint32_t seed,

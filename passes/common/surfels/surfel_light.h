@@ -10,11 +10,9 @@ namespace voxray {
 /// surfaces and as many to the environment.
 class SurfelLight {
  public:
-    SurfelLight() = default;
-    /// @param batch surfels in one call of add(), at most.
-    SurfelLight(PassSetup& setup, uint32_t batch);
-
-    static uint64_t bytes(uint32_t batch) { return uint64_t(batch) * (sizeof(Ray) + 20); }
+    /// @param batch surfels in one call of measure(), at most.
+    void plan(PassPlan& plan, uint32_t batch);
+    void prepare(PassSetup& setup);
     /// Writes the irradiance, W/m², of the first `count` surfels to `direct`, 4 floats each.
     void measure(PassContext& context, const std::vector<LightSource>& sources, const Buffer& surfels,
                  uint32_t count, uint32_t samples, uint32_t seed, const Buffer& direct) const;

@@ -28,36 +28,32 @@ struct WritePush {
     float scale;
 };
 
-constexpr uint64_t kLevelBytes = sizeof(gpu::Surfel) + 8 * sizeof(float);
-
 }  // namespace
 
-SurfelPaths::SurfelPaths(PassSetup& setup, const Settings& settings)
-    : settings_(settings),
-      light_(setup, settings.batch),
-      rays_(setup.device, "path rays", uint64_t(settings.batch) * sizeof(Ray)),
-      hits_(setup.device, "path hits", uint64_t(settings.batch) * sizeof(Hit)),
-      count_(setup.device, "number of surfels", sizeof(uint32_t)) {
+void SurfelPaths::plan(PassPlan& plan, const Settings& settings) {
+    settings_ = settings;
+    const uint64_t batch = settings.batch;
+    light_.plan(plan, settings.batch);
+    plan.buffer(rays_, "path rays", batch * sizeof(Ray));
+    plan.buffer(hits_, "path hits", batch * sizeof(Hit));
+    plan.buffer(count_, "number of surfels", sizeof(uint32_t));
+    levels_ = std::vector<Level>(settings.levels());
+    for (Level& level : levels_) {
+        plan.buffer(level.surfels, "surfels", batch * sizeof(gpu::Surfel));
+        plan.buffer(level.direct, "surfels' direct irradiance", batch * 4 * sizeof(float));
+        plan.buffer(level.indirect, "surfels' indirect irradiance", batch * 4 * sizeof(float));
+    }
+}
+
+void SurfelPaths::prepare(PassSetup& setup) {
+    light_.prepare(setup);
     const auto program = [&](const char* file, const Defines& defines = {}) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
     gather_ = program("passes/common/surfels/surfel_gather.comp");
     arrive_ = program("passes/common/surfels/surfel_arrive.comp");
     return_ = program("passes/common/surfels/surfel_return.comp");
-    write_ = program("passes/common/surfels/surfel_write.comp", VoxelAccumulator::defines(settings.write));
-    for (uint32_t level = 0; level < settings.levels(); ++level) {
-        levels_.push_back(
-            {Buffer(setup.device, "surfels", uint64_t(settings.batch) * sizeof(gpu::Surfel)),
-             Buffer(setup.device, "surfels' direct irradiance", uint64_t(settings.batch) * 4 * sizeof(float)),
-             Buffer(setup.device, "surfels' indirect irradiance",
-                    uint64_t(settings.batch) * 4 * sizeof(float)),
-             0});
-    }
-}
-
-uint64_t SurfelPaths::bytes(const Settings& settings) {
-    return uint64_t(settings.batch) * (sizeof(Ray) + sizeof(Hit) + kLevelBytes * settings.levels()) +
-           SurfelLight::bytes(settings.batch) + sizeof(uint32_t);
+    write_ = program("passes/common/surfels/surfel_write.comp", VoxelAccumulator::defines(settings_.write));
 }
 
 uint32_t SurfelPaths::makeSurfels(PassContext& context, const SurfaceVoxels& voxels, const Buffer& rays,

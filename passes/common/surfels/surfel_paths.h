@@ -17,10 +17,8 @@ class SurfelPaths {
         bool secondary = false;     ///< Also write to the voxels of what the first surfels' rays hit.
         uint32_t levels() const { return 1 + bounces + (secondary ? 1 : 0); }
     };
-    SurfelPaths() = default;
-    SurfelPaths(PassSetup& setup, const Settings& settings);
-
-    static uint64_t bytes(const Settings& settings);
+    void plan(PassPlan& plan, const Settings& settings);
+    void prepare(PassSetup& setup);
 
     struct Targets {
         const SurfaceVoxels& voxels;

@@ -23,11 +23,10 @@ void VoxelLookupPass::declare(PassBuilder& builder) {
 }
 
 void VoxelLookupPass::plan(PassPlan& plan) {
-    plan.reserve(portName_ + " image", imageBytes(frameImageDesc(plan.frame)));
+    plan.image(plan.get(reflected_).image, portName_, frameImageDesc(plan.frame));
 }
 
 void VoxelLookupPass::prepare(PassSetup& setup) {
-    setup.get(reflected_).image = Image(setup.device, portName_, frameImageDesc(setup.frame));
     program_ =
         makeComputeProgram(setup.device, setup.compiler.compile("passes/common/voxels/voxel_lookup.comp"));
     sampler_ = texelSampler(setup.device);

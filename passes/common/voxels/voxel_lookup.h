@@ -35,7 +35,6 @@ class VoxelLookupPass : public Pass {
         }
     };
 
-    Phase phase() const override { return Phase::Frame; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;
@@ -51,9 +50,9 @@ class VoxelLookupPass : public Pass {
     Params params_;
     std::string portName_, portHelp_;
     LargeBuffer VoxelIrradiance::*flux_;
-    Port<GBuffer> gbuffer_;
-    Port<SurfaceVoxels> voxels_;
-    Port<VoxelIrradiance> irradiance_;
+    Port<const GBuffer> gbuffer_;
+    Port<const SurfaceVoxels> voxels_;
+    Port<const VoxelIrradiance> irradiance_;
     Port<FrameImage> reflected_;
     Program program_;
     Sampler sampler_;

@@ -44,11 +44,10 @@ constexpr uint32_t kFluxFloats = 18, kAreaFloats = 6;
 /// lets a lookup interpolate both. Where the area is 0 the injection did not look: nothing is known, and a
 /// lookup passes it over. GLSL access: shaders/voxels/voxel_irradiance.glsl.
 struct VoxelIrradiance : Resource {
-    LargeBuffer direct;      ///< W, straight from the lights: 6 directions of 3 floats a voxel.
-    LargeBuffer indirect;    ///< W, after one bounce or more; likewise.
-    Buffer area;             ///< In units of a voxel's face: 6 floats a voxel.
-    bool eachFrame = false;  ///< Whether it is measured anew in each frame; known from plan() on.
-    uint64_t version = 0;    ///< Another one whenever the light has been measured anew.
+    LargeBuffer direct;    ///< W, straight from the lights: 6 directions of 3 floats a voxel.
+    LargeBuffer indirect;  ///< W, after one bounce or more; likewise.
+    Buffer area;           ///< In units of a voxel's face: 6 floats a voxel.
+    uint64_t version = 0;  ///< Another one whenever the light has been measured anew.
 
     static uint64_t bytes(uint32_t voxelCount) {
         return uint64_t(voxelCount) * (2 * kFluxFloats + kAreaFloats) * sizeof(float);

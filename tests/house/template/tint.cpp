@@ -8,19 +8,20 @@ void Tint::declare(PassBuilder& builder) {
 }
 
 void Tint::plan(PassPlan& plan) {
-    desc_.extent = {plan.frame.width, plan.frame.height, 1};
-    plan.reserve("tinted image", imageBytes(desc_));
+    ImageDesc desc;
+    desc.extent = {plan.frame.width, plan.frame.height, 1};
+    plan.image(plan.get(final_).image, "tinted image", desc);
 }
 
 void Tint::prepare(PassSetup& setup) {
-    setup.get(final_).image = Image(setup.device, "tint.final", desc_);
     program_ = makeComputeProgram(setup.device, setup.compiler.compile("tests/house/template/tint.comp"));
 }
 
 void Tint::record(PassContext& context) {
-    context.stream.dispatch(program_,
-                            {{"source", context.get(source_).image}, {"target", context.get(final_).image}},
-                            params_.color, {(desc_.extent.x + 7) / 8, (desc_.extent.y + 7) / 8, 1});
+    const Image& target = context.get(final_).image;
+    const glm::uvec3 pixels = target.desc().extent;
+    context.stream.dispatch(program_, {{"source", context.get(source_).image}, {"target", target}},
+                            params_.color, {(pixels.x + 7) / 8, (pixels.y + 7) / 8, 1});
 }
 
 }  // namespace voxray

@@ -26,7 +26,6 @@ class Tint final : public Pass {
 
     explicit Tint(const Params& params) : params_(params) {}
 
-    Phase phase() const override { return Phase::Frame; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;
@@ -34,9 +33,8 @@ class Tint final : public Pass {
 
  private:
     Params params_;
-    Port<FrameImage> source_;
+    Port<const FrameImage> source_;
     Port<FrameImage> final_;
-    ImageDesc desc_;
     Program program_;
 };
 

@@ -21,17 +21,18 @@ class KnownImage final : public Pass {
     void declare(PassBuilder& builder) override {
         source_ = builder.write<FrameImage>("source", "The image.");
     }
-    void plan(PassPlan& plan) override { desc_.extent = {plan.frame.width, plan.frame.height, 1}; }
-    void prepare(PassSetup& setup) override {
-        setup.get(source_).image = Image(setup.device, "known", desc_);
+    void plan(PassPlan& plan) override {
+        ImageDesc desc;
+        desc.extent = {plan.frame.width, plan.frame.height, 1};
+        plan.image(plan.get(source_).image, "known", desc);
     }
+    void prepare(PassSetup&) override {}
     void record(PassContext& context) override {
         context.stream.clear(context.get(source_).image, VkClearColorValue{{1.0f, 2.0f, 3.0f, 1.0f}});
     }
 
  private:
     Port<FrameImage> source_;
-    ImageDesc desc_;
 };
 
 Registry registryWithTint() {

@@ -1,0 +1,107 @@
+#include "passes/inject_gather_hits/inject_gather_hits.h"
+
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/random_seed.h"
+#include "passes/common/view/frame_image.h"
+
+namespace voxray {
+namespace {
+
+struct MarkPush {
+    gpu::VoxelGrid grid;
+    gpu::GatherLayout layout;
+    uint32_t firstBlock;
+    uint32_t rays;
+};
+
+uint64_t faceBytes(const SurfaceVoxels& voxels) {
+    return uint64_t(voxels.voxelCount) * sizeof(uint32_t);
+}
+
+}  // namespace
+
+void InjectGatherHits::declare(PassBuilder& builder) {
+    voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels to light");
+    surfels_ = builder.read<Surfels>("surfels", "points where irradiance is measured");
+    gbuffer_ = builder.read<GBuffer>("gbuffer", "where the gather rays start");
+    hits_ = builder.read<GatherHits>("gather_hits", "where the gather rays hit");
+    irradiance_ = builder.write<VoxelIrradiance>("irradiance", "light that arrives at the voxels' surfaces");
+}
+
+void InjectGatherHits::plan(PassPlan& plan) {
+    sources_ = requireLightSources(*plan.frame.scene, kName);
+    const SurfaceVoxels& voxels = plan.get(voxels_);
+    plan.reserve("voxel samples (estimated)", 2 * VoxelAccumulator::plan(plan, kName, params_, voxels));
+    plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
+    plan.reserve("faces to light (estimated)", faceBytes(voxels));
+    plan.buffer(count_, "number of surfels to light", sizeof(uint32_t));
+    paths_.plan(plan, {params_.write, Surfels::kChunk, params_.bounces, params_.lightSamples, false});
+}
+
+void InjectGatherHits::prepare(PassSetup& setup) {
+    const auto program = [&](const char* file) {
+        return makeComputeProgram(setup.device, setup.compiler.compile(file));
+    };
+    mark_ = program("passes/inject_gather_hits/mark.comp");
+    select_ = program("passes/inject_gather_hits/select.comp");
+    direct_ = VoxelAccumulator(setup.device, setup.compiler, params_);
+    indirect_ = VoxelAccumulator(setup.device, setup.compiler, params_);
+    paths_.prepare(setup);
+    sampler_ = texelSampler(setup.device);
+}
+
+void InjectGatherHits::record(PassContext& context) {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    VoxelIrradiance& irradiance = context.get(irradiance_);
+    CommandStream& stream = context.stream;
+    irradiance.allocate(context.device, voxels.voxelCount);
+    stream.fill(irradiance.area, 0);
+    const float typical = meanIrradiance(sources_, context.frame.scene->geometry);
+    direct_.begin(context.device, stream, voxels, typical);
+    indirect_.begin(context.device, stream, voxels, typical);
+    markFaces(context);
+    lightFaces(context);
+    direct_.resolve(stream, voxels, irradiance.direct, irradiance.area);
+    indirect_.resolve(stream, voxels, irradiance.indirect, irradiance.area);
+    stream.finish();
+}
+
+void InjectGatherHits::markFaces(PassContext& context) {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    const GatherHits& hits = context.get(hits_);
+    if (!faces_ || faces_.bytes() != faceBytes(voxels)) {
+        faces_ = {};
+        faces_ = Buffer(context.device, "faces to light", faceBytes(voxels));
+    }
+    context.stream.fill(faces_, 0);
+    for (uint32_t b = 0; b < hits.batches.size(); ++b) {
+        const uint32_t rays = hits.batchBlocks(b) * hits.layout.raysPerBlock;
+        context.stream.dispatch(
+            mark_,
+            context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
+                                    {"voxelRank", voxels.rank},
+                                    {"VoxelMaterialsAt", voxels.materials.at()},
+                                    {"hits", hits.batches[b]},
+                                    {"position", context.get(gbuffer_).position, sampler_},
+                                    {"asked", faces_}}),
+            MarkPush{voxels.grid, hits.layout, b * hits.blocksPerBatch, rays}, linearGroups(rays));
+    }
+}
+
+void InjectGatherHits::lightFaces(PassContext& context) {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    const uint32_t seed = randomSeed(context.frame, context.frameIndex);
+    CommandStream& stream = context.stream;
+    for (const Surfels::Chunk& chunk : context.get(surfels_).chunks) {
+        stream.fill(count_, 0);
+        stream.dispatch(
+            select_,
+            {{"surfels", chunk.surfels}, {"asked", faces_}, {"selected", paths_.first()}, {"count", count_}},
+            chunk.count, linearGroups(chunk.count));
+        const uint32_t count = stream.readAs<uint32_t>(count_, 1)[0];
+        for (uint32_t ray = 0; ray < params_.rays && count > 0; ++ray)
+            paths_.run(context, sources_, count, seed + ray * 0xc2b2ae35u, {voxels, direct_, indirect_});
+    }
+}
+
+}  // namespace voxray

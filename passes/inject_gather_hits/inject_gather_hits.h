@@ -1,0 +1,62 @@
+#pragma once
+
+#include "passes/common/surfels/surfel_paths.h"
+#include "passes/common/surfels/surfels.h"
+#include "passes/common/view/gather_hits.h"
+#include "passes/common/view/gbuffer.h"
+
+namespace voxray {
+
+/// Lights only the faces of voxels that the frame's gather rays will read, each by short paths from points on
+/// it: shadow rays to the lights, a diffuse ray on, and so on. Source: Magalhães 2020, section 6.1 (light
+/// only what the view needs).
+class InjectGatherHits final : public Pass {
+ public:
+    static constexpr const char* kName = "inject_gather_hits";
+    static constexpr const char* kHelp =
+        "Lights the voxel faces that the rays of trace_gather_rays hit, in each frame, by paths from points "
+        "on "
+        "them (place_surfels). Biased by: voxel size. Noisy by: points, rays. Leaves unlit: all that "
+        "trace_gather_rays (which must come before) does not hit.";
+    struct Params : WriteParams {
+        uint32_t rays = 1;
+        uint32_t bounces = 8;
+        uint32_t lightSamples = 1;
+        static constexpr auto schema() {
+            return std::tuple_cat(
+                WriteParams::schema(),
+                std::tuple{
+                    field("rays", &Params::rays, "Paths from each point.", 1u, 1024u),
+                    field("bounces", &Params::bounces, "Bounces of light.", 0u, 32u),
+                    field("light_samples", &Params::lightSamples,
+                          "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u,
+                          256u)});
+        }
+    };
+
+    explicit InjectGatherHits(const Params& params) : params_(params) {}
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    void markFaces(PassContext& context);
+    void lightFaces(PassContext& context);
+
+    Params params_;
+    Port<const SurfaceVoxels> voxels_;
+    Port<const Surfels> surfels_;
+    Port<const GBuffer> gbuffer_;
+    Port<const GatherHits> hits_;
+    Port<VoxelIrradiance> irradiance_;
+    std::vector<LightSource> sources_;
+    VoxelAccumulator direct_, indirect_;
+    SurfelPaths paths_;
+    Program mark_, select_;
+    Buffer count_;
+    Buffer faces_;  ///< A bit for each face that is read, in a word for each voxel.
+    Sampler sampler_;
+};
+
+}  // namespace voxray

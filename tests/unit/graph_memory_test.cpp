@@ -1,0 +1,138 @@
+// Graphs hold passes to the memory that they plan.
+#include <gtest/gtest.h>
+
+#include "config/yaml.h"
+#include "graph/graph.h"
+#include "scene/load.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint64_t kKiB = 1024;
+
+struct Nothing : Resource {};
+
+/// Describes a kept and a scratch buffer of 256 KiB, and makes others itself.
+struct Hoard final : Pass {
+    static constexpr const char* kName = "hoard";
+    static constexpr const char* kHelp = "Takes memory.";
+    struct Params {
+        uint32_t reserveKept = 0;
+        uint32_t reserveScratch = 0;
+        uint32_t prepareKept = 0;
+        uint32_t recordKept = 0;
+        uint32_t recordScratch = 0;
+        static constexpr auto schema() {
+            return std::tuple{field("reserve_kept", &Params::reserveKept, "KiB.", 0u, 1u << 20),
+                              field("reserve_scratch", &Params::reserveScratch, "KiB.", 0u, 1u << 20),
+                              field("prepare_kept", &Params::prepareKept, "KiB.", 0u, 1u << 20),
+                              field("record_kept", &Params::recordKept, "KiB.", 0u, 1u << 20),
+                              field("record_scratch", &Params::recordScratch, "KiB.", 0u, 1u << 20)};
+        }
+    };
+    explicit Hoard(const Params& params) : params_(params) {}
+    void declare(PassBuilder& builder) override { builder.write<Nothing>("nothing", "nothing"); }
+    void plan(PassPlan& plan) override {
+        plan.buffer(described_, "described", 256 * kKiB);
+        plan.scratchBuffer(scratch_, "described scratch", 256 * kKiB);
+        plan.reserve("kept", params_.reserveKept * kKiB);
+        plan.reserveScratch("scratch", params_.reserveScratch * kKiB);
+    }
+    void prepare(PassSetup& setup) override {
+        EXPECT_EQ(described_.bytes(), 256 * kKiB);
+        EXPECT_FALSE(scratch_);
+        if (params_.prepareKept > 0) atPrepare_ = Buffer(setup.device, "kept", params_.prepareKept * kKiB);
+    }
+    void record(PassContext& context) override {
+        EXPECT_EQ(scratch_.bytes(), 256 * kKiB);
+        context.stream.fill(scratch_, 1);
+        context.stream.upload(described_, std::vector<uint32_t>(64 * kKiB, 2));
+        if (params_.recordKept > 0 && !atRecord_)
+            atRecord_ = Buffer(context.device, "more", params_.recordKept * kKiB);
+        if (params_.recordScratch > 0) Buffer(context.device, "sums", params_.recordScratch * kKiB);
+    }
+
+ private:
+    Params params_;
+    Buffer described_, scratch_, atPrepare_, atRecord_;
+};
+
+class GraphMemory : public testing::Test {
+ protected:
+    /// Plans, prepares and runs a Hoard twice. @return what it has taken.
+    PassMemory run(const std::string& parameters) {
+        Registry registry;
+        registry.add<Hoard>();
+        Graph graph(registry, parseYaml("[{pass: hoard, id: greedy, " + parameters + "}]", "g.yaml"));
+        Frame frame;
+        frame.scene = &state_;
+        planned_ = graph.plan(frame, device_.info(), device_.memoryLimitBytes()).at(0);
+        graph.prepare(frame, device_, compiler_, stream_);
+        const uint64_t before = device_.memoryUsedBytes();
+        for (int i = 0; i < 2; ++i)
+            graph.run(Phase::Build, frame, device_, stream_, *tracer_, scene_, 0, false);
+        keptByRecording_ = device_.memoryUsedBytes() - before;
+        return graph.memory().at(0);
+    }
+    std::string errorOf(const std::string& parameters) {
+        try {
+            run(parameters);
+        } catch (const Error& error) {
+            stream_.discard();
+            return error.what();
+        }
+        return "no error";
+    }
+
+    Device device_{{.name = "", .validation = true}};
+    ShaderCompiler compiler_{VOXRAY_SOURCE_DIR, {}};
+    CommandStream stream_{device_};
+    const SceneState state_ = evaluate(makeBuiltinScene("cornell", Value()), 0.0);
+    const GpuScene scene_ = makeGpuScene(device_, stream_, state_);
+    const std::unique_ptr<RayTracer> tracer_ = makeRayTracer(TracerKind::Embree, device_, compiler_, state_);
+    PassMemory planned_;
+    uint64_t keptByRecording_ = 0;
+};
+
+TEST_F(GraphMemory, DescribedBuffersArePlannedMadeAndFreed) {
+    const uint64_t before = device_.memoryUsedBytes();
+    const PassMemory taken = run("reserve_kept: 0");
+    EXPECT_EQ(planned_.bytes, 256 * kKiB);
+    EXPECT_EQ(planned_.scratchBytes, 256 * kKiB);
+    EXPECT_EQ(taken.bytes, 256 * kKiB);
+    EXPECT_EQ(taken.scratchBytes, 512 * kKiB);  // With what the stream stages for the upload.
+    EXPECT_EQ(keptByRecording_, 0u);
+    EXPECT_EQ(device_.memoryUsedBytes(), before);  // The graph is gone.
+    EXPECT_TRUE(device_.validationMessages().empty());
+}
+
+TEST_F(GraphMemory, ReservationsHold) {
+    const PassMemory taken = run(
+        "reserve_kept: 3072, reserve_scratch: 1024, prepare_kept: 1024, record_kept: 2048, record_scratch: "
+        "1024");
+    EXPECT_EQ(taken.bytes, (256 + 3072) * kKiB);
+    EXPECT_EQ(taken.scratchBytes, (512 + 1024) * kKiB);
+    EXPECT_EQ(keptByRecording_, 2048 * kKiB);
+    run("prepare_kept: 60");  // Less than alignment may take.
+    run("record_scratch: 60");
+}
+
+TEST_F(GraphMemory, WhatIsTakenBeyondThemNamesThePass) {
+    const auto expectError = [&](const std::string& parameters, uint64_t taken, const char* kind,
+                                 uint64_t reserved) {
+        const std::string error = errorOf(parameters);
+        EXPECT_NE(error.find(fmt::format("pass 'greedy' takes {} bytes of {} memory", taken * kKiB, kind)),
+                  std::string::npos)
+            << error;
+        EXPECT_NE(error.find(fmt::format("reserves {};", reserved * kKiB)), std::string::npos) << error;
+    };
+    expectError("prepare_kept: 128", 128, "kept", 0);
+    expectError("record_kept: 128", 128, "kept", 0);
+    expectError("record_scratch: 512", 512, "scratch", 0);
+    expectError("reserve_kept: 1024, prepare_kept: 512, record_kept: 1024", 1536, "kept", 1024);
+    expectError("reserve_scratch: 1024, record_scratch: 2048", 2048, "scratch", 1024);
+    expectError("reserve_scratch: 1024, record_kept: 1024", 1024, "kept", 0);
+}
+
+}  // namespace
+}  // namespace voxray
