@@ -5,7 +5,7 @@
 layout(local_size_x = 64) in;
 
 layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Words { uint data[]; };
-layout(set = 0, binding = 1) buffer Count { uint bad; } count;
+buffer Count { uint bad; } count;
 layout(push_constant) uniform Push {
     Words words;
     uint64_t floatCount;

@@ -6,8 +6,8 @@ namespace voxray {
 namespace {
 
 struct BufferPush {
-    uint64_t address;
-    uint64_t count;
+    uint64_t words;  ///< Address.
+    uint64_t floatCount;
 };
 
 constexpr uint32_t kGroupSize = 64;

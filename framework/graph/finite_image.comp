@@ -3,11 +3,11 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #ifdef IMAGE_3D
-layout(set = 0, binding = 0) uniform sampler3D image;
+uniform sampler3D image;
 #else
-layout(set = 0, binding = 0) uniform sampler2D image;
+uniform sampler2D image;
 #endif
-layout(set = 0, binding = 1) buffer Count { uint bad; } count;
+buffer Count { uint bad; } count;
 
 void main() {
     const ivec3 p = ivec3(gl_GlobalInvocationID);

@@ -104,13 +104,31 @@ class Writes {
     std::vector<VkWriteDescriptorSet> writes_;
 };
 
+/// Names and places of members in C++ and GLSL agree. A single value given is the block's only member. A
+/// trailing underscore does not count: in GLSL it tells a name from a keyword.
+void checkPushConstants(const Program& program, const PushConstants& push) {
+    if (push.bytes != program.pushConstantBytes())
+        throw Error("{}: {} bytes of push constants given, the shader declares {}", program.name(),
+                    push.bytes, program.pushConstantBytes());
+    const std::vector<ShaderPushMember>& declared = program.pushMembers();
+    if (declared.size() == 1) return;
+    const auto plain = [](std::string_view name) { return name.substr(0, name.find_last_not_of('_') + 1); };
+    for (size_t i = 0; i < std::max(declared.size(), push.members.size()); ++i) {
+        const PushMember given = i < push.members.size() ? push.members[i] : PushMember{"nothing"};
+        const ShaderPushMember wanted = i < declared.size() ? declared[i] : ShaderPushMember{"nothing"};
+        if (given.name != plain(wanted.name) || given.offset != wanted.offset || given.bytes != wanted.bytes)
+            throw Error(
+                "{}: push constant {} is '{}' ({} bytes at {}), the shader declares '{}' ({} bytes at {})",
+                program.name(), i, given.name, given.bytes, given.offset, wanted.name, wanted.bytes,
+                wanted.offset);
+    }
+}
+
 }  // namespace
 
 void CommandStream::Impl::bind(VkCommandBuffer buffer, const Program& program, std::span<const Binding> given,
                                PushConstants push) {
-    if (push.bytes != program.pushConstantBytes())
-        throw Error("{}: {} bytes of push constants given, the shader declares {}", program.name(),
-                    push.bytes, program.pushConstantBytes());
+    checkPushConstants(program, push);
     vkCmdBindPipeline(buffer, program.bindPoint(), program.pipeline());
     if (push.bytes > 0)
         vkCmdPushConstants(buffer, program.layout(), program.stages(), 0, push.bytes, push.data);

@@ -19,6 +19,7 @@
 #include "vulkan/device.h"
 #include "vulkan/memory.h"
 #include "vulkan/program.h"
+#include "vulkan/push_layout.h"
 
 namespace voxray {
 
@@ -50,9 +51,10 @@ inline Binding ifUsed(Binding binding) {
 struct PushConstants {
     const void* data = nullptr;
     uint32_t bytes = 0;
+    std::span<const PushMember> members;  ///< Of a struct; none for a single number or vector.
     PushConstants() = default;
     template <typename T>
-    PushConstants(const T& value) : data(&value), bytes(sizeof(T)) {
+    PushConstants(const T& value) : data(&value), bytes(sizeof(T)), members(pushMembers<T>()) {
         static_assert(std::is_trivially_copyable_v<T>);
     }
 };

@@ -23,8 +23,17 @@ using Defines = std::map<std::string, std::string>;
 struct ShaderBinding {
     std::string name;  ///< The block's instance or variable name in GLSL.
     uint32_t set = 0;
-    uint32_t binding = 0;
+    uint32_t binding = 0;  ///< Of a module: as the compiler numbered it. Of a program: by its name.
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    uint32_t bindingWord = 0;  ///< Index of the SPIR-V word that holds the number.
+};
+
+/// A member of a shader's block of push constants.
+struct ShaderPushMember {
+    std::string name;
+    uint32_t offset = 0;  ///< Bytes from the block's start.
+    uint32_t bytes = 0;
+    bool operator==(const ShaderPushMember&) const = default;
 };
 
 /// A compiled shader stage with what reflection found in it. Only what the code uses is listed.
@@ -34,6 +43,7 @@ struct ShaderModule {
     std::vector<uint32_t> spirv;
     std::vector<ShaderBinding> bindings;
     uint32_t pushConstantBytes = 0;  ///< Of the block as C++ lays it out: padded to its largest scalar.
+    std::vector<ShaderPushMember> pushMembers;
     std::vector<uint32_t> specializationIds;
 };
 
@@ -71,6 +81,7 @@ class Program {
     VkShaderStageFlags stages() const { return stages_; }
     const std::vector<ShaderBinding>& bindings() const { return bindings_; }
     uint32_t pushConstantBytes() const { return pushConstantBytes_; }
+    const std::vector<ShaderPushMember>& pushMembers() const { return pushMembers_; }
     const std::string& name() const { return name_; }
 
  private:
@@ -84,6 +95,7 @@ class Program {
     VkShaderStageFlags stages_ = 0;
     std::vector<ShaderBinding> bindings_;
     uint32_t pushConstantBytes_ = 0;
+    std::vector<ShaderPushMember> pushMembers_;
 };
 
 /// Specialization constants by constant_id.

@@ -29,6 +29,7 @@ Program& Program::operator=(Program&& other) noexcept {
     std::swap(stages_, other.stages_);
     std::swap(bindings_, other.bindings_);
     std::swap(pushConstantBytes_, other.pushConstantBytes_);
+    std::swap(pushMembers_, other.pushMembers_);
     return *this;
 }
 
@@ -41,8 +42,14 @@ ProgramBuilder::ProgramBuilder(Device& device, std::span<const ShaderModule> mod
         program_.name_ += (program_.name_.empty() ? "" : " + ") + module.file;
         program_.stages_ |= module.stage;
         program_.pushConstantBytes_ = std::max(program_.pushConstantBytes_, module.pushConstantBytes);
+        if (module.pushMembers.size() > program_.pushMembers_.size())
+            program_.pushMembers_ = module.pushMembers;
         mergeBindings(module);
     }
+    for (const ShaderModule& module : modules)
+        if (!std::ranges::equal(module.pushMembers,
+                                std::span(program_.pushMembers_).first(module.pushMembers.size())))
+            throw Error("{}: stages declare different push constants", program_.name_);
     checkConstants(modules, constants);
     makeLayout();
     makeStages(modules, constants);
@@ -54,21 +61,25 @@ ProgramBuilder::~ProgramBuilder() {
 
 void ProgramBuilder::mergeBindings(const ShaderModule& module) {
     for (const ShaderBinding& binding : module.bindings) {
-        bool known = false;
-        for (const ShaderBinding& other : program_.bindings_) {
-            const bool sameSlot = binding.set == other.set && binding.binding == other.binding;
-            if (binding.name == other.name && sameSlot && binding.type == other.type) {
-                known = true;
-            } else if (sameSlot) {
-                throw Error("{}: set {}, binding {} is both '{}' and '{}'", program_.name_, binding.set,
-                            binding.binding, other.name, binding.name);
-            } else if (binding.name == other.name) {
-                throw Error("{}: '{}' is at binding {} and at binding {}", program_.name_, binding.name,
-                            other.binding, binding.binding);
-            }
+        const auto known = std::ranges::find(program_.bindings_, binding.name, &ShaderBinding::name);
+        if (known == program_.bindings_.end()) {
+            program_.bindings_.push_back(binding);
+            // Set 1 has the textures alone.
+            program_.bindings_.back().binding =
+                binding.set == 0 ? uint32_t(program_.bindings_.size() - 1) : 0;
+        } else if (known->set != binding.set || known->type != binding.type) {
+            throw Error("{}: stages disagree on what '{}' is", program_.name_, binding.name);
         }
-        if (!known) program_.bindings_.push_back(binding);
     }
+}
+
+std::vector<uint32_t> ProgramBuilder::numbered(const ShaderModule& module) const {
+    std::vector<uint32_t> spirv = module.spirv;
+    for (const ShaderBinding& binding : module.bindings) {
+        const auto merged = std::ranges::find(program_.bindings_, binding.name, &ShaderBinding::name);
+        spirv[binding.bindingWord] = merged->binding;
+    }
+    return spirv;
 }
 
 void ProgramBuilder::checkConstants(std::span<const ShaderModule> modules,
@@ -133,8 +144,9 @@ void ProgramBuilder::makeStages(std::span<const ShaderModule> modules,
                        values_.data()};
     for (const ShaderModule& module : modules) {
         auto create = structure<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
-        create.codeSize = module.spirv.size() * sizeof(uint32_t);
-        create.pCode = module.spirv.data();
+        const std::vector<uint32_t> spirv = numbered(module);
+        create.codeSize = spirv.size() * sizeof(uint32_t);
+        create.pCode = spirv.data();
         VkShaderModule handle = VK_NULL_HANDLE;
         check(vkCreateShaderModule(device_.handle(), &create, nullptr, &handle), "vkCreateShaderModule");
         modules_.push_back(handle);

@@ -26,7 +26,10 @@ class ProgramBuilder {
     Program finish(VkPipeline pipeline);
 
  private:
+    /// Gives each name a number of its own: stages and files share names, not numbers.
     void mergeBindings(const ShaderModule& module);
+    /// The module's SPIR-V with the program's binding numbers.
+    std::vector<uint32_t> numbered(const ShaderModule& module) const;
     void checkConstants(std::span<const ShaderModule> modules,
                         const SpecializationConstants& constants) const;
     void makeLayout();

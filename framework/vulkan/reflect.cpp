@@ -41,17 +41,20 @@ class Reflection {
             if (name.empty()) name = spvc_compiler_get_name(compiler_, resource.base_type_id);
             ShaderBinding binding{name, decoration(resource, SpvDecorationDescriptorSet),
                                   decoration(resource, SpvDecorationBinding), type};
+            if (!spvc_compiler_get_binary_offset_for_decoration(compiler_, resource.id, SpvDecorationBinding,
+                                                                &binding.bindingWord))
+                throw Error("{}: '{}' has no binding", file_, name);
 
             // Set 0 has single descriptors, set 1 the scene's textures.
             const spvc_type handle = spvc_compiler_get_type_handle(compiler_, resource.type_id);
             const bool isArray = spvc_type_get_num_array_dimensions(handle) > 0;
-            const bool isTextureArray = binding.set == 1 && binding.binding == 0 && isArray &&
-                                        type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+            const bool isTextureArray =
+                binding.set == 1 && isArray && type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
             if (!isTextureArray && (binding.set != 0 || isArray))
                 throw Error(
-                    "{}: '{}' (set {}, binding {}) is not supported: use single bindings in set 0, and "
-                    "'sampler2D textures[]' in set 1, binding 0",
-                    file_, name, binding.set, binding.binding);
+                    "{}: '{}' (set {}) is not supported: use single bindings in set 0, and "
+                    "'sampler2D textures[]' in set 1",
+                    file_, name, binding.set);
             bindings.push_back(std::move(binding));
         }
     }
@@ -70,6 +73,22 @@ class Reflection {
         check(spvc_compiler_get_declared_struct_size(compiler_, type, &bytes));
         const size_t alignment = has64BitMember(type) ? 8 : 4;
         return uint32_t((bytes + alignment - 1) / alignment * alignment);
+    }
+
+    std::vector<ShaderPushMember> pushMembers() const {
+        const auto blocks = list(SPVC_RESOURCE_TYPE_PUSH_CONSTANT);
+        if (blocks.empty()) return {};
+        const spvc_type_id id = blocks[0].base_type_id;
+        const spvc_type type = spvc_compiler_get_type_handle(compiler_, id);
+        std::vector<ShaderPushMember> members(spvc_type_get_num_member_types(type));
+        for (unsigned i = 0; i < members.size(); ++i) {
+            size_t bytes = 0;
+            members[i].name = spvc_compiler_get_member_name(compiler_, id, i);
+            check(spvc_compiler_type_struct_member_offset(compiler_, type, i, &members[i].offset));
+            check(spvc_compiler_get_declared_struct_member_size(compiler_, type, i, &bytes));
+            members[i].bytes = uint32_t(bytes);
+        }
+        return members;
     }
 
     std::vector<uint32_t> specializationIds() const {
@@ -132,6 +151,7 @@ void reflect(ShaderModule& module) {
                       "a separate sampler (use sampler2D or sampler3D)");
     reflection.refuse(SPVC_RESOURCE_TYPE_SUBPASS_INPUT, "a subpass input");
     module.pushConstantBytes = reflection.pushConstantBytes();
+    module.pushMembers = reflection.pushMembers();
     module.specializationIds = reflection.specializationIds();
 }
 

@@ -97,6 +97,7 @@ std::vector<uint32_t> compileGlsl(const std::string& file, const Stage& stage, c
     shader.setEnvInput(glslang::EShSourceGlsl, stage.language, glslang::EShClientVulkan, 100);
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
+    shader.setAutoMapBindings(true);
 
     // One stage a program: stages meet only in the pipeline.
     const auto messages = EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
@@ -105,7 +106,7 @@ std::vector<uint32_t> compileGlsl(const std::string& file, const Stage& stage, c
         throw Error("{}", formatLog(name, shader.getInfoLog()));
     glslang::TProgram program;
     program.addShader(&shader);
-    if (!program.link(messages)) throw Error("{}", formatLog(name, program.getInfoLog()));
+    if (!program.link(messages) || !program.mapIO()) throw Error("{}", formatLog(name, program.getInfoLog()));
     std::vector<uint32_t> spirv;
     glslang::SpvOptions options;
     options.disableOptimizer = true;
@@ -116,7 +117,9 @@ std::vector<uint32_t> compileGlsl(const std::string& file, const Stage& stage, c
 /// Key of a compiled shader: everything that the SPIR-V depends on.
 std::string cacheKey(const std::string& file, const ShaderSources& sources, const Defines& defines) {
     Hasher hash;
-    hash.add("voxray SPIR-V 1.6").addPlain(GLSLANG_VERSION_MAJOR).addPlain(GLSLANG_VERSION_MINOR);
+    hash.add("voxray SPIR-V 1.6, bindings assigned")
+        .addPlain(GLSLANG_VERSION_MAJOR)
+        .addPlain(GLSLANG_VERSION_MINOR);
     hash.addPlain(GLSLANG_VERSION_PATCH).addPlain(glslang::GetSpirvGeneratorVersion()).add(file);
     hash.addPlain(sources.files().size());
     for (const auto& [name, text] : sources.files()) hash.add(name).add(text);

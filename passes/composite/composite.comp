@@ -3,10 +3,10 @@
 // final = emission + direct + indirect. A part that no pass writes is bound as one black texel.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 0) uniform sampler2D emission;
-layout(set = 0, binding = 1) uniform sampler2D direct;
-layout(set = 0, binding = 2) uniform sampler2D indirect;
-layout(set = 0, binding = 3, rgba32f) writeonly uniform image2D result;
+uniform sampler2D emission;
+uniform sampler2D direct;
+uniform sampler2D indirect;
+layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant, scalar) uniform Push {
     int samples;  // Texels of the g-buffer along each side of a pixel.
 } push;

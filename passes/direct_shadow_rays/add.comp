@@ -5,9 +5,9 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0, scalar) readonly buffer Carried { vec4 data[]; } carried;
-layout(set = 0, binding = 1, scalar) readonly buffer Occluded { uint data[]; } occluded;
-layout(set = 0, binding = 2, rgba32f) uniform image2D direct;
+layout(scalar) readonly buffer Carried { vec4 data[]; } carried;
+layout(scalar) readonly buffer Occluded { uint data[]; } occluded;
+layout(rgba32f) uniform image2D direct;
 layout(push_constant, scalar) uniform Push {
     uint width;  // Pixels of a row.
     uint firstPixel;

@@ -10,14 +10,14 @@
 #include "shaders/scene/specular.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16) uniform sampler2D position;
-layout(set = 0, binding = 17) uniform sampler2D normal;
-layout(set = 0, binding = 18) uniform sampler2D geometricNormal;
-layout(set = 0, binding = 19) uniform sampler2D albedo;
-layout(set = 0, binding = 20, scalar) writeonly buffer Rays { Ray data[]; } rays;
-layout(set = 0, binding = 21, scalar) writeonly buffer Carried { vec4 data[]; } carried;
-layout(set = 0, binding = 22) uniform sampler2D specular;
-layout(set = 0, binding = 23) uniform sampler2D fresnel;
+uniform sampler2D position;
+uniform sampler2D normal;
+uniform sampler2D geometricNormal;
+uniform sampler2D albedo;
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(scalar) writeonly buffer Carried { vec4 data[]; } carried;
+uniform sampler2D specular;
+uniform sampler2D fresnel;
 layout(push_constant, scalar) uniform Push {
     uint kind;
     uint light;

@@ -10,7 +10,8 @@ namespace {
 struct FillPush {
     gpu::VoxelGrid grid;
     float emission;
-    VoxelBox box;
+    glm::ivec3 boxFirst;
+    glm::uvec3 boxSize;
     uint32_t level;
     uint32_t source;
 };
@@ -50,7 +51,7 @@ class ClipmapStorage final : public RadianceStorage {
             // A level is made of the one below where that is held whole, else of the surfaces.
             const uint32_t source = level > clipmap_.windows().firstWhole() ? level - 1 : 0;
             for (const VoxelBox& box : boxes) {
-                context.stream.dispatch(fill_, bindings, FillPush{voxels.grid, emission, box, level, source},
+                context.stream.dispatch(fill_, bindings, FillPush{voxels.grid, emission, box.first, box.size, level, source},
                                         linearGroups(box.count()));
                 context.voxelSteps += box.count();
             }

@@ -8,7 +8,7 @@
 #include "shaders/scene/specular.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0, scalar) writeonly buffer Cells { LobeStratum data[]; } cells;
+layout(scalar) writeonly buffer Cells { LobeStratum data[]; } cells;
 layout(push_constant) uniform Push {
     uint cells;
     uint points;  // For each cell.

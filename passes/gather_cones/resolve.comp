@@ -7,13 +7,13 @@
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 16) uniform sampler2D irradiance;
-layout(set = 0, binding = 17) uniform sampler2D albedo;
-layout(set = 0, binding = 18) uniform sampler2D position;
-layout(set = 0, binding = 19) uniform sampler2D normal;
-layout(set = 0, binding = 20, rgba32f) writeonly uniform image2D result;
+uniform sampler2D irradiance;
+uniform sampler2D albedo;
+uniform sampler2D position;
+uniform sampler2D normal;
+layout(rgba32f) writeonly uniform image2D result;
 #ifdef SPECULAR
-layout(set = 0, binding = 21) uniform sampler2D reflected;
+uniform sampler2D reflected;
 #endif
 layout(push_constant, scalar) uniform Push {
     int samples;

@@ -7,13 +7,13 @@
 #include "shaders/scene/specular.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 16) uniform sampler2D position;
-layout(set = 0, binding = 17) uniform sampler2D normal;
-layout(set = 0, binding = 18) uniform sampler2D geometricNormal;
-layout(set = 0, binding = 19) uniform sampler2D specular;
-layout(set = 0, binding = 20) uniform sampler2D fresnel;
-layout(set = 0, binding = 21, scalar) readonly buffer Cells { LobeStratum data[]; } cells;
-layout(set = 0, binding = 22, rgba32f) writeonly uniform image2D reflected;
+uniform sampler2D position;
+uniform sampler2D normal;
+uniform sampler2D geometricNormal;
+uniform sampler2D specular;
+uniform sampler2D fresnel;
+layout(scalar) readonly buffer Cells { LobeStratum data[]; } cells;
+layout(rgba32f) writeonly uniform image2D reflected;
 layout(push_constant, scalar) uniform Push {
     vec3 camera;
     uint cells;

@@ -5,10 +5,10 @@
 #include "shaders/radiance/cone_set.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 16) uniform sampler2D position;
-layout(set = 0, binding = 17) uniform sampler2D normal;
-layout(set = 0, binding = 18) uniform sampler2D geometricNormal;
-layout(set = 0, binding = 19, rgba32f) writeonly uniform image2D irradiance;
+uniform sampler2D position;
+uniform sampler2D normal;
+uniform sampler2D geometricNormal;
+layout(rgba32f) writeonly uniform image2D irradiance;
 layout(push_constant) uniform Push {
     uint cones;
     int sparse;

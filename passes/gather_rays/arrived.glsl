@@ -5,10 +5,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/surfels/surfel_types.h"
 
-layout(set = 0, binding = 16, scalar) readonly buffer Light { vec4 data[]; } light;
+layout(scalar) readonly buffer Light { vec4 data[]; } light;
 #ifdef SHADOW_RAYS
-layout(set = 0, binding = 17, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(set = 0, binding = 18, scalar) readonly buffer Direct { vec4 data[]; } direct;
+layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(scalar) readonly buffer Direct { vec4 data[]; } direct;
 #endif
 
 vec4 arrived(uint ray) {

@@ -11,8 +11,8 @@
 #include "shaders/filter/gather_filter.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Moments { GatherMoments data[]; } moments;
-layout(set = 0, binding = 17, scalar) writeonly buffer Blocks { vec2 data[]; } blocks;  // Change, 1/m; variance.
+layout(scalar) readonly buffer Moments { GatherMoments data[]; } moments;
+layout(scalar) writeonly buffer Blocks { vec2 data[]; } blocks;  // Change, 1/m; variance.
 layout(push_constant) uniform Push { uvec2 count; } push;
 
 void main() {

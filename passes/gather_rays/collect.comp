@@ -6,7 +6,7 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 19, scalar) writeonly buffer Gathered { vec4 data[]; } gathered;  // Irradiance, number of rays.
+layout(scalar) writeonly buffer Gathered { vec4 data[]; } gathered;  // Irradiance, number of rays.
 layout(push_constant, scalar) uniform Push {
     GatherLayout layout_;
     uint firstBlock;

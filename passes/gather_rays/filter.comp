@@ -13,9 +13,9 @@
 #include "shaders/filter/gather_filter.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Guide { FilterTexel data[]; } guide;
-layout(set = 0, binding = 17, scalar) readonly buffer Source { vec4 data[]; } source;  // Irradiance, rays that it stands for.
-layout(set = 0, binding = 18, scalar) writeonly buffer Result { vec4 data[]; } result;
+layout(scalar) readonly buffer Guide { FilterTexel data[]; } guide;
+layout(scalar) readonly buffer Source { vec4 data[]; } source;  // Irradiance, rays that it stands for.
+layout(scalar) writeonly buffer Result { vec4 data[]; } result;
 layout(push_constant, scalar) uniform Push {
     uvec2 texels;
     int step_;

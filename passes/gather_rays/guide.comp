@@ -8,10 +8,10 @@
 #include "shaders/view/gather_types.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 16) uniform sampler2D position;
-layout(set = 0, binding = 17) uniform sampler2D normal;
-layout(set = 0, binding = 18, scalar) readonly buffer Blocks { vec2 data[]; } blocks;  // Change, 1/m; variance.
-layout(set = 0, binding = 19, scalar) writeonly buffer Guide { FilterTexel data[]; } guide;
+uniform sampler2D position;
+uniform sampler2D normal;
+layout(scalar) readonly buffer Blocks { vec2 data[]; } blocks;  // Change, 1/m; variance.
+layout(scalar) writeonly buffer Guide { FilterTexel data[]; } guide;
 layout(push_constant, scalar) uniform Push {
     GatherLayout layout_;
     vec3 camera;       // m

@@ -7,7 +7,7 @@
 #include "shaders/filter/gather_filter.h"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 19, scalar) writeonly buffer Moments { GatherMoments data[]; } moments;
+layout(scalar) writeonly buffer Moments { GatherMoments data[]; } moments;
 layout(push_constant) uniform Push {
     uint firstBlock;
     uint batchBlocks;

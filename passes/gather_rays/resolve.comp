@@ -3,9 +3,9 @@
 // Radiance that each pixel reflects: albedo / pi times irradiance, averaged over its sub-pixels.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Irradiance { vec4 data[]; } irradiance;
-layout(set = 0, binding = 17) uniform sampler2D albedo;
-layout(set = 0, binding = 18, rgba32f) writeonly uniform image2D result;
+layout(scalar) readonly buffer Irradiance { vec4 data[]; } irradiance;
+uniform sampler2D albedo;
+layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant) uniform Push { int samples; } push;
 
 void main() {

@@ -11,12 +11,12 @@
 #include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Hits { Hit data[]; } hits;
-layout(set = 0, binding = 17) uniform sampler2D position;
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+uniform sampler2D position;
 // Radiance times pi; distance of the hit in m, infinite for a miss, negative for a ray that starts from no surface.
-layout(set = 0, binding = 18, scalar) writeonly buffer Light { vec4 data[]; } light;
+layout(scalar) writeonly buffer Light { vec4 data[]; } light;
 #ifdef SHADOW_RAYS
-layout(set = 0, binding = 19, scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
+layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
 #endif
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;

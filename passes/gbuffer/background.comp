@@ -5,7 +5,7 @@
 #include "shaders/scene/scene.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 16, rgba32f) writeonly uniform image2D background;
+layout(rgba32f) writeonly uniform image2D background;
 layout(push_constant, scalar) uniform Push { View view; } push;
 
 void main() {

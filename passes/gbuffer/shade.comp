@@ -6,14 +6,14 @@
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Hits { Hit data[]; } hits;
-layout(set = 0, binding = 17, rgba32f) writeonly uniform image2D position;
-layout(set = 0, binding = 18, rgba16f) writeonly uniform image2D normal;
-layout(set = 0, binding = 19, rgba16f) writeonly uniform image2D geometricNormal;
-layout(set = 0, binding = 20, rgba16f) writeonly uniform image2D albedo;
-layout(set = 0, binding = 21, rgba32f) writeonly uniform image2D emitted;
-layout(set = 0, binding = 22, rgba16f) writeonly uniform image2D specular;
-layout(set = 0, binding = 23, rgba8) writeonly uniform image2D fresnel;
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+layout(rgba32f) writeonly uniform image2D position;
+layout(rgba16f) writeonly uniform image2D normal;
+layout(rgba16f) writeonly uniform image2D geometricNormal;
+layout(rgba16f) writeonly uniform image2D albedo;
+layout(rgba32f) writeonly uniform image2D emitted;
+layout(rgba16f) writeonly uniform image2D specular;
+layout(rgba8) writeonly uniform image2D fresnel;
 layout(push_constant, scalar) uniform Push {
     View view;
     uint firstTexel;

@@ -7,7 +7,7 @@
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(push_constant, scalar) uniform Push {
     vec3 origin;
     uint firstRay;

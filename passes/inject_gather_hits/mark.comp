@@ -9,9 +9,9 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Hits { Hit data[]; } hits;
-layout(set = 0, binding = 17) uniform sampler2D position;
-layout(set = 0, binding = 18) buffer Asked { uint data[]; } asked;
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+uniform sampler2D position;
+buffer Asked { uint data[]; } asked;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     GatherLayout layout_;

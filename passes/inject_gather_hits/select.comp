@@ -7,10 +7,10 @@
 #include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(set = 0, binding = 17) readonly buffer Asked { uint data[]; } asked;  // A bit a face, by voxel.
-layout(set = 0, binding = 18, scalar) writeonly buffer Selected { Surfel data[]; } selected;
-layout(set = 0, binding = 19) buffer Count { uint value; } count;
+layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+readonly buffer Asked { uint data[]; } asked;  // A bit a face, by voxel.
+layout(scalar) writeonly buffer Selected { Surfel data[]; } selected;
+buffer Count { uint value; } count;
 layout(push_constant) uniform Push { uint count; } push;
 
 void main() {

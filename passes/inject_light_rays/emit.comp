@@ -9,8 +9,8 @@
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) writeonly buffer Rays { Ray data[]; } rays;
-layout(set = 0, binding = 17, scalar) writeonly buffer Paths { LightPath data[]; } paths;
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(scalar) writeonly buffer Paths { LightPath data[]; } paths;
 layout(push_constant, scalar) uniform Push {
     uint kind;
     uint light;

@@ -8,10 +8,10 @@
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) writeonly buffer Rays { Ray data[]; } rays;
-layout(set = 0, binding = 17, scalar) writeonly buffer Hits { Hit data[]; } hits;
-layout(set = 0, binding = 18, scalar) writeonly buffer Paths { LightPath data[]; } paths;
-layout(set = 0, binding = 19, rgba32ui) readonly uniform uimage2D seen;
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(scalar) writeonly buffer Hits { Hit data[]; } hits;
+layout(scalar) writeonly buffer Paths { LightPath data[]; } paths;
+layout(rgba32ui) readonly uniform uimage2D seen;
 layout(push_constant, scalar) uniform Push {
     LightView view;
     uint light;

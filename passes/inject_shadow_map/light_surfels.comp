@@ -8,9 +8,9 @@
 #include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(set = 0, binding = 17, scalar) buffer Direct { vec4 data[]; } direct;
-layout(set = 0, binding = 18) uniform sampler2D shadowMap;
+layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(scalar) buffer Direct { vec4 data[]; } direct;
+uniform sampler2D shadowMap;
 layout(push_constant, scalar) uniform Push {
     LightView view;
     uint light;

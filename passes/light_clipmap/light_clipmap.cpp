@@ -12,7 +12,8 @@ constexpr uint64_t kLitAreaBytes = kAreaFloats * sizeof(uint32_t);
 
 struct WindowPush {
     gpu::VoxelGrid grid;
-    VoxelBox box;
+    glm::ivec3 boxFirst;
+    glm::uvec3 boxSize;
     uint32_t level;
 };
 
@@ -154,7 +155,7 @@ void LightClipmap::reflect(PassContext& context, uint32_t level, const SurfaceVo
         {"IndirectFluxAt", indirect.at()},           {"voxelArea", light.area}};
     for (const Binding& binding : context.get(radiance_).bindings()) surfaces.push_back(binding);
     for (const VoxelBox& box : boxes) {
-        context.stream.dispatch(window_, surfaces, WindowPush{voxels.grid, box, level},
+        context.stream.dispatch(window_, surfaces, WindowPush{voxels.grid, box.first, box.size, level},
                                 linearGroups(box.count()));
         context.voxelSteps += box.count();
     }

@@ -20,7 +20,7 @@
 #include "shaders/voxels/flux_accumulator.glsl"
 #include "shaders/voxels/voxels.glsl"
 
-layout(set = 0, binding = 18) buffer LitArea { uint data[]; } litArea;  // By voxel and face.
+buffer LitArea { uint data[]; } litArea;  // By voxel and face.
 
 void visitFragment(TriangleFragment f) {
     const uint voxel = voxelNumber(walk.grid, f.voxel);

@@ -7,8 +7,8 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16) readonly buffer LitArea { uint data[]; } litArea;
-layout(set = 0, binding = 17, scalar) writeonly buffer Area { float data[]; } area;
+readonly buffer LitArea { uint data[]; } litArea;
+layout(scalar) writeonly buffer Area { float data[]; } area;
 layout(push_constant) uniform Push { uint voxelCount; } push;
 
 void main() {

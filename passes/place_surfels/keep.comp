@@ -7,11 +7,11 @@
 #include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Rays { Ray data[]; } rays;
-layout(set = 0, binding = 17) readonly buffer Occluded { uint data[]; } occluded;
-layout(set = 0, binding = 18, scalar) readonly buffer Candidates { Surfel data[]; } candidates;
-layout(set = 0, binding = 19, scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
-layout(set = 0, binding = 20) buffer Count { uint value; } count;
+layout(scalar) readonly buffer Rays { Ray data[]; } rays;
+readonly buffer Occluded { uint data[]; } occluded;
+layout(scalar) readonly buffer Candidates { Surfel data[]; } candidates;
+layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
+buffer Count { uint value; } count;
 layout(push_constant) uniform Push { uint candidates; } push;
 
 void main() {

@@ -10,9 +10,9 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16) readonly buffer PointTriangles { uint data[]; } pointTriangles;
-layout(set = 0, binding = 17, scalar) writeonly buffer Rays { Ray data[]; } rays;
-layout(set = 0, binding = 18, scalar) writeonly buffer Candidates { Surfel data[]; } candidates;
+readonly buffer PointTriangles { uint data[]; } pointTriangles;
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(scalar) writeonly buffer Candidates { Surfel data[]; } candidates;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint firstPoint;

@@ -6,8 +6,8 @@
 #include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(set = 0, binding = 17, scalar) writeonly buffer Irradiance { vec4 data[]; } irradiance;  // W/m²; 1 where a point is.
+layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(scalar) writeonly buffer Irradiance { vec4 data[]; } irradiance;  // W/m²; 1 where a point is.
 layout(push_constant) uniform Push {
     uint surfels;
     uint stride;

@@ -7,10 +7,10 @@
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16) uniform sampler2D position;
-layout(set = 0, binding = 17) uniform sampler2D normal;
-layout(set = 0, binding = 18) uniform sampler2D geometricNormal;
-layout(set = 0, binding = 19, scalar) writeonly buffer Rays { Ray data[]; } rays;
+uniform sampler2D position;
+uniform sampler2D normal;
+uniform sampler2D geometricNormal;
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(push_constant, scalar) uniform Push {
     GatherLayout layout_;
     uint firstBlock;

@@ -1,4 +1,4 @@
-// Shadow maps of all punctual lights (host: passes/common/lights/shadow_map.h). Bindings 20 to 22 of set 0.
+// Shadow maps of all punctual lights (host: passes/common/lights/shadow_map.h).
 #ifndef VOXRAY_SHADOW_MAPS_GLSL
 #define VOXRAY_SHADOW_MAPS_GLSL
 
@@ -10,14 +10,14 @@ struct ShadowLight {
     uint firstView;
     uint views;  // 6: a cube's sides.
 };
-layout(set = 0, binding = 20, scalar) readonly buffer ShadowLights {
+layout(scalar) readonly buffer ShadowLights {
     uint resolution;  // Texels a side.
     uint count;
     ShadowLight data[];
 } shadowLights;
-layout(set = 0, binding = 21, scalar) readonly buffer ShadowViews { LightView data[]; } shadowViews;
+layout(scalar) readonly buffer ShadowViews { LightView data[]; } shadowViews;
 // By view and texel: depth relative to the view's farthest.
-layout(set = 0, binding = 22, scalar) readonly buffer ShadowDepthsAt { LargeFloats shadowDepths; };
+layout(scalar) readonly buffer ShadowDepthsAt { LargeFloats shadowDepths; };
 
 // Whether a light sees a surface's point, by the texel that it falls into. @param normal of the side that faces the light.
 bool lightSees(ShadowLight l, vec3 position, vec3 normal) {

@@ -6,7 +6,7 @@
 // From one level on up the words also stand in a table, by voxel: a full grid for each level with a border of one voxel, up to
 // one level above the root.
 //
-// Binding 26 of set 0; the arrays stand behind addresses, since they outgrow what devices bind.
+// The arrays stand behind addresses, since they outgrow what devices bind.
 #ifndef VOXRAY_OCTREE_GLSL
 #define VOXRAY_OCTREE_GLSL
 
@@ -20,7 +20,7 @@
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer OctreeWords { uint data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer OctreeValues { uvec2 data[]; };
 
-layout(set = 0, binding = 26, scalar) readonly buffer RadianceVoxels {
+layout(scalar) readonly buffer RadianceVoxels {
     RadianceGrid grid;
     OctreeWords table;
     OctreeWords nodes;    // By number, those above level 0.

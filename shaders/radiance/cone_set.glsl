@@ -1,4 +1,4 @@
-// Irradiance of a surface by a set of cones (passes/common/radiance/cone_sets.h). Binding 14 of set 0 and those of shaders/radiance/radiance_cone.glsl.
+// Irradiance of a surface by a set of cones (passes/common/radiance/cone_sets.h). Needs those of shaders/radiance/radiance_cone.glsl.
 #ifndef VOXRAY_CONE_SET_GLSL
 #define VOXRAY_CONE_SET_GLSL
 
@@ -6,7 +6,7 @@
 #include "shaders/scene/sampling.glsl"
 #include "shaders/radiance/cone_types.h"
 
-layout(set = 0, binding = 14, scalar) readonly buffer Cones { Cone data[]; } cones;
+layout(scalar) readonly buffer Cones { Cone data[]; } cones;
 
 // W/m² at `position` on a surface with unit normal `side` and unit shading normal `normal`. `dither`, three numbers in [0, 1): where
 // in their cells the first `count` cones stand (azimuth, then angle from the normal), and how their levels are shifted, the first one included.

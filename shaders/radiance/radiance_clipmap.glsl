@@ -8,7 +8,7 @@
 #include "shaders/radiance/radiance_clipmap_types.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ClipmapValues { uvec2 data[]; };
-layout(set = 0, binding = 26, scalar) readonly buffer RadianceVoxels {
+layout(scalar) readonly buffer RadianceVoxels {
     RadianceGrid grid;
     ClipmapValues values;  // By window, slot and direction: shaders/radiance/radiance_texel.glsl.
     uint side;             // Voxels along an axis that a window holds at most; a power of two.

@@ -8,7 +8,7 @@
 
 // By address: a grid outgrows what devices bind as one buffer.
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RadianceValues { uvec2 data[]; };
-layout(set = 0, binding = 26, scalar) readonly buffer RadianceVoxels {
+layout(scalar) readonly buffer RadianceVoxels {
     RadianceGrid grid;
     RadianceValues values;
     DenseLevel level[RADIANCE_DENSE_LEVELS];

@@ -1,5 +1,5 @@
 // Prefiltered radiance and cover of surfaces at all scales: one accessor for all layouts. The including shader is compiled with
-// RadianceVoxels::defines() and given RadianceVoxels::bindings() (passes/common/radiance/radiance_voxels.h). Bindings 24 to 27 of set 0.
+// RadianceVoxels::defines() and given RadianceVoxels::bindings() (passes/common/radiance/radiance_voxels.h).
 //
 // What a voxel stores, for each side that surfaces face: their cover, the area that they show along that axis in units of the
 // voxel's face, at most 1; and the radiance that they send that way times the cover. A ray meets the sides that face it, those

@@ -1,14 +1,14 @@
-// Radiance and cover of the surfaces in a voxel: level 0 of every layout of radiance voxels. Bindings 12 and 24 to 25 of set 0 and
-// those of shaders/voxels/voxels.glsl.
+// Radiance and cover of the surfaces in a voxel: level 0 of every layout of radiance voxels. Needs the bindings of
+// shaders/voxels/voxels.glsl.
 #ifndef VOXRAY_SURFACE_RADIANCE_GLSL
 #define VOXRAY_SURFACE_RADIANCE_GLSL
 
 #include "shaders/voxels/voxels.glsl"
 
 // By voxel and facing direction +x -x +y -y +z -z: W, 3 floats each; area that the flux fell on, in units of a voxel's face.
-layout(set = 0, binding = 12, scalar) readonly buffer VoxelArea { float data[]; } voxelArea;
-layout(set = 0, binding = 24, scalar) readonly buffer DirectFluxAt { LargeFloats directFlux; };
-layout(set = 0, binding = 25, scalar) readonly buffer IndirectFluxAt { LargeFloats indirectFlux; };
+layout(scalar) readonly buffer VoxelArea { float data[]; } voxelArea;
+layout(scalar) readonly buffer DirectFluxAt { LargeFloats directFlux; };
+layout(scalar) readonly buffer IndirectFluxAt { LargeFloats indirectFlux; };
 
 vec3 faceFlux(uint face) {
     const uint at = 3u * face;

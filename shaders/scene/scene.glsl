@@ -1,4 +1,4 @@
-// Access to the scene's triangles, materials, textures and lights. Bindings 0 to 7 of set 0 and set 1.
+// Access to the scene's triangles, materials, textures and lights.
 #ifndef VOXRAY_SCENE_GLSL
 #define VOXRAY_SCENE_GLSL
 
@@ -7,15 +7,15 @@
 
 #include "shaders/scene/scene_types.h"
 
-layout(set = 0, binding = 0, scalar) readonly buffer ScenePositions { float data[]; } scenePositions;
-layout(set = 0, binding = 1, scalar) readonly buffer SceneAttributes { GpuVertexAttributes data[]; } sceneAttributes;
-layout(set = 0, binding = 2, scalar) readonly buffer SceneTriangles { uint data[]; } sceneTriangles;
-layout(set = 0, binding = 3, scalar) readonly buffer SceneTriangleMaterials { uint data[]; } sceneTriangleMaterials;
-layout(set = 0, binding = 4, scalar) readonly buffer SceneMaterials { GpuMaterial data[]; } sceneMaterials;
-layout(set = 0, binding = 5, scalar) readonly buffer SceneLights { GpuLight data[]; } sceneLights;
-layout(set = 0, binding = 6, scalar) readonly buffer SceneEmitters { GpuEmitter data[]; } sceneEmitters;
-layout(set = 0, binding = 7) uniform sampler2D sceneEnvironment;
-layout(set = 1, binding = 0) uniform sampler2D sceneTextures[];
+layout(scalar) readonly buffer ScenePositions { float data[]; } scenePositions;
+layout(scalar) readonly buffer SceneAttributes { GpuVertexAttributes data[]; } sceneAttributes;
+layout(scalar) readonly buffer SceneTriangles { uint data[]; } sceneTriangles;
+layout(scalar) readonly buffer SceneTriangleMaterials { uint data[]; } sceneTriangleMaterials;
+layout(scalar) readonly buffer SceneMaterials { GpuMaterial data[]; } sceneMaterials;
+layout(scalar) readonly buffer SceneLights { GpuLight data[]; } sceneLights;
+layout(scalar) readonly buffer SceneEmitters { GpuEmitter data[]; } sceneEmitters;
+uniform sampler2D sceneEnvironment;
+layout(set = 1) uniform sampler2D sceneTextures[];
 
 uvec3 triangleVertices(uint triangle) {
     return uvec3(sceneTriangles.data[3 * triangle], sceneTriangles.data[3 * triangle + 1],

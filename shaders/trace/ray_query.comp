@@ -6,7 +6,7 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kOccluded = false;
-layout(set = 0, binding = 0) uniform accelerationStructureEXT structure;
+uniform accelerationStructureEXT structure;
 
 Hit trace(Ray ray) {
     Hit hit = Hit(ray.tMax, NO_HIT, 0.0, 0.0);

@@ -1,5 +1,5 @@
 // Light that voxels hold for the six directions that their surfaces face, direct and indirect together, for lookups by many
-// rays: the mean of the voxel itself, without interpolation. Binding 15 of set 0.
+// rays: the mean of the voxel itself, without interpolation.
 #ifndef VOXRAY_FACE_IRRADIANCE_GLSL
 #define VOXRAY_FACE_IRRADIANCE_GLSL
 
@@ -8,7 +8,7 @@
 
 // By voxel and facing direction +x -x +y -y +z -z: irradiance in W/m² and the area in units of a voxel's face that it is the
 // mean over; 0 where nothing is known.
-layout(set = 0, binding = 15, scalar) readonly buffer FaceIrradiance { vec4 data[]; } faceIrradiance;
+layout(scalar) readonly buffer FaceIrradiance { vec4 data[]; } faceIrradiance;
 
 // Adds a voxel's irradiance times area for a normal, by the squared components of the normal. In a grid of one direction all
 // six faces of a voxel count alike.

@@ -1,4 +1,4 @@
-// Flux into voxels, summed by face in fixed point. Binding 13 of set 0; host: passes/common/voxels/flux_accumulator.h.
+// Flux into voxels, summed by face in fixed point. Host: passes/common/voxels/flux_accumulator.h.
 // With RACY the sums are plain reads and writes that lose what meets.
 #ifndef VOXRAY_FLUX_ACCUMULATOR_GLSL
 #define VOXRAY_FLUX_ACCUMULATOR_GLSL
@@ -14,7 +14,7 @@
 #define FLUX_POWER_BITS 56.0
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer FluxAccumulator { uint64_t data[]; };
-layout(set = 0, binding = 13, scalar) readonly buffer FluxAccumulatorAt { FluxAccumulator fluxAccumulator; };  // 3 a face
+layout(scalar) readonly buffer FluxAccumulatorAt { FluxAccumulator fluxAccumulator; };  // 3 a face
 
 // A surface's flux goes to the three directions that it faces, by the squares of its normal's components.
 void addFlux(uint voxel, vec3 normal, vec3 watts, float unitsPerWatt) {

@@ -1,4 +1,4 @@
-// Irradiance samples into voxels, merged by face. Bindings 13 and 14 of set 0; host: passes/common/voxels/voxel_accumulator.h,
+// Irradiance samples into voxels, merged by face. Host: passes/common/voxels/voxel_accumulator.h,
 // which defines WRITE.
 #ifndef VOXRAY_VOXEL_ACCUMULATOR_GLSL
 #define VOXRAY_VOXEL_ACCUMULATOR_GLSL
@@ -17,16 +17,16 @@
 #extension GL_EXT_shader_atomic_int64 : require
 #define WEIGHT_UNITS 16777216.0
 #define LARGEST_SAMPLE 1099511627776.0  // 2^40 units: 2^16 times the typical irradiance.
-layout(set = 0, binding = 13, scalar) buffer VoxelSums { uint64_t data[]; } voxelSums;        // 3 a face
-layout(set = 0, binding = 14, scalar) buffer VoxelWeights { uint64_t data[]; } voxelWeights;  // 1 a face
+layout(scalar) buffer VoxelSums { uint64_t data[]; } voxelSums;        // 3 a face
+layout(scalar) buffer VoxelWeights { uint64_t data[]; } voxelWeights;  // 1 a face
 #elif WRITE == WRITE_MAX
-layout(set = 0, binding = 13, scalar) buffer VoxelSums { uint data[]; } voxelSums;        // 3 a face, bits of floats
-layout(set = 0, binding = 14, scalar) buffer VoxelWeights { uint data[]; } voxelWeights;  // 1 where a sample fell
+layout(scalar) buffer VoxelSums { uint data[]; } voxelSums;        // 3 a face, bits of floats
+layout(scalar) buffer VoxelWeights { uint data[]; } voxelWeights;  // 1 where a sample fell
 #elif WRITE == WRITE_MOVING_AVERAGE
-layout(set = 0, binding = 13, scalar) coherent buffer VoxelSums { uint data[]; } voxelSums;  // RGBA8, count in A
+layout(scalar) coherent buffer VoxelSums { uint data[]; } voxelSums;  // RGBA8, count in A
 #else
-layout(set = 0, binding = 13, scalar) buffer VoxelSums { float data[]; } voxelSums;        // 3 a face: means
-layout(set = 0, binding = 14, scalar) buffer VoxelWeights { float data[]; } voxelWeights;  // 1 a face
+layout(scalar) buffer VoxelSums { float data[]; } voxelSums;        // 3 a face: means
+layout(scalar) buffer VoxelWeights { float data[]; } voxelWeights;  // 1 a face
 #endif
 
 // Below this part of a sample, max and moving_average, which have no weights, leave it out.

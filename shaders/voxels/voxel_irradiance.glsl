@@ -1,13 +1,13 @@
-// Mean irradiance of surfaces near a point from the flux that their voxels hold. Bindings 11 and 12 of set 0.
+// Mean irradiance of surfaces near a point from the flux that their voxels hold.
 #ifndef VOXRAY_VOXEL_IRRADIANCE_GLSL
 #define VOXRAY_VOXEL_IRRADIANCE_GLSL
 
 #include "shaders/voxels/voxels.glsl"
 
 // W, by voxel and facing direction +x -x +y -y +z -z, 3 floats each.
-layout(set = 0, binding = 11, scalar) readonly buffer VoxelFluxAt { LargeFloats voxelFlux; };
+layout(scalar) readonly buffer VoxelFluxAt { LargeFloats voxelFlux; };
 // In units of a voxel's face, by voxel and facing direction.
-layout(set = 0, binding = 12, scalar) readonly buffer VoxelArea { float data[]; } voxelArea;
+layout(scalar) readonly buffer VoxelArea { float data[]; } voxelArea;
 
 // Adds up the flux and the area of surfaces that face a normal, with tent weights of `radius` voxels about a point.
 // `weightByAxis` and `face`: shares of the three directions that the normal faces, and their numbers.

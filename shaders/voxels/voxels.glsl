@@ -1,6 +1,6 @@
 // Access to surface voxels: an occupancy bit for each voxel of the grid and, where it is set, the voxel's number
 // among the occupied ones (its rank), which indexes all per-voxel data. Empty space costs two bits a voxel, nothing else.
-// Bindings 8 to 10 of set 0. The including shader has a VoxelGrid named `grid` in its push constants.
+// The including shader has a VoxelGrid named `grid` in its push constants.
 #ifndef VOXRAY_VOXELS_GLSL
 #define VOXRAY_VOXELS_GLSL
 
@@ -11,10 +11,10 @@
 
 #define NO_VOXEL 0xffffffffu
 
-layout(set = 0, binding = 8, scalar) readonly buffer VoxelOccupancy { uint words[]; } voxelOccupancy;
-layout(set = 0, binding = 9, scalar) readonly buffer VoxelRank { uint before[]; } voxelRank;
+layout(scalar) readonly buffer VoxelOccupancy { uint words[]; } voxelOccupancy;
+layout(scalar) readonly buffer VoxelRank { uint before[]; } voxelRank;
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelMaterials { VoxelMaterial data[]; };
-layout(set = 0, binding = 10, scalar) readonly buffer VoxelMaterialsAt { VoxelMaterials voxelMaterials; };
+layout(scalar) readonly buffer VoxelMaterialsAt { VoxelMaterials voxelMaterials; };
 
 // Voxels that are held along each axis.
 uvec3 heldVoxels(VoxelGrid g) { return min(g.resolution, uvec3(g.side)); }

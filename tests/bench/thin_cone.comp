@@ -6,7 +6,7 @@
 #include "shaders/radiance/radiance_voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0, scalar) writeonly buffer Met { vec4 data[]; } met;
+layout(scalar) writeonly buffer Met { vec4 data[]; } met;
 layout(push_constant, scalar) uniform Push {
     vec3 origin;
     float reach;

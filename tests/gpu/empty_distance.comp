@@ -11,8 +11,8 @@ struct Query {
     vec3 direction;
     float reserved;
 };
-layout(set = 0, binding = 0, scalar) readonly buffer Queries { Query data[]; } queries;
-layout(set = 0, binding = 1, scalar) writeonly buffer Answers { vec2 data[]; } answers;
+layout(scalar) readonly buffer Queries { Query data[]; } queries;
+layout(scalar) writeonly buffer Answers { vec2 data[]; } answers;
 layout(push_constant) uniform Push { uint count; } push;
 
 void main() {

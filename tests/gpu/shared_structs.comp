@@ -23,8 +23,8 @@ layout(local_size_x = 1) in;
 #else
 #define STRUCT Hit
 #endif
-layout(set = 0, binding = 0, scalar) readonly buffer Source { STRUCT data[]; } source;
-layout(set = 0, binding = 1) writeonly buffer Result { uint words[]; } result;
+layout(scalar) readonly buffer Source { STRUCT data[]; } source;
+writeonly buffer Result { uint words[]; } result;
 
 uint next = 0u;
 void put(float word) { result.words[next++] = floatBitsToUint(word); }

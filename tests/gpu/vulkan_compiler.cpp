@@ -23,7 +23,7 @@ class ShaderCompile : public testing::Test {
               "#version 460\n"
               "#include \"shaders/common.glsl\"\n"
               "layout(local_size_x = 1) in;\n"
-              "layout(set = 0, binding = 0) buffer Target { float value; } target;\n"
+              "buffer Target { float value; } target;\n"
               "void main() { target.value = twice(SCALE); }\n");
     }
     void TearDown() override { std::filesystem::remove_all(root_); }
@@ -78,12 +78,12 @@ TEST_F(ShaderCompile, MissingFileAndUnknownStageAreNamed) {
 
 TEST_F(ShaderCompile, UnsupportedBindingsAreNamed) {
     write("passes/one/one.comp",
-          "#version 460\nlayout(set = 0, binding = 0) uniform Numbers { vec4 a; } numbers;\n"
-          "layout(set = 0, binding = 1) buffer Target { vec4 value; } target;\n"
+          "#version 460\nuniform Numbers { vec4 a; } numbers;\n"
+          "buffer Target { vec4 value; } target;\n"
           "void main() { target.value = numbers.a; }\n");
     expectContains(errorOf([&] { compile(); }), "uniform buffer");
     write("passes/one/one.comp",
-          "#version 460\nlayout(set = 2, binding = 0) buffer Target { vec4 value; } target;\n"
+          "#version 460\nlayout(set = 2) buffer Target { vec4 value; } target;\n"
           "void main() { target.value = vec4(1); }\n");
     expectContains(errorOf([&] { compile(); }), "'target' (set 2");
 }

@@ -35,6 +35,29 @@ TEST_F(VulkanCompute, DispatchWritesABuffer) {
     EXPECT_EQ(result[kCount - 1], 7u);
 }
 
+TEST_F(VulkanCompute, PushConstantsOfOtherNamesOrPlacesAreRefused) {
+    const Program program = computeProgram("vulkan_scale.comp");
+    const Buffer source(device(), "source", 4), target(device(), "target", 4);
+    CommandStream stream(device());
+    const auto errorWith = [&](const auto& push) {
+        return errorOf([&] {
+            stream.dispatch(program, {{"source", source}, {"Target", target}}, push, {1, 1, 1});
+        });
+    };
+    struct Swapped {
+        uint32_t bias, count;
+    };
+    struct OneLarge {
+        uint64_t count;
+    };
+    expectContains(errorWith(Swapped{0, 1}),
+                   "push constant 0 is 'bias' (4 bytes at 0), the shader declares 'count'");
+    expectContains(errorWith(OneLarge{1}), "'count' (8 bytes at 0)");
+    expectContains(errorWith(uint64_t(1)), "is 'nothing'");
+    expectContains(errorWith(uint32_t(1)), "4 bytes of push constants given, the shader declares 8");
+    stream.dispatch(program, {{"source", source}, {"Target", target}}, Push{1, 0}, {1, 1, 1});
+}
+
 TEST_F(VulkanCompute, DiscardedCommandsLeaveNoTrace) {
     const Program program = computeProgram("vulkan_scale.comp");
     const Buffer source(device(), "source", kCount * 4), target(device(), "target", kCount * 4);

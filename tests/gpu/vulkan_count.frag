@@ -1,6 +1,6 @@
 #version 460
 
-layout(set = 0, binding = 0) buffer Counter {
+buffer Counter {
     uint count;
 }
 counter;

@@ -2,11 +2,11 @@
 #extension GL_EXT_nonuniform_qualifier : require
 
 layout(local_size_x = 1) in;
-layout(set = 0, binding = 0) uniform sampler2D picture;
-layout(set = 0, binding = 1) writeonly buffer Target {
+uniform sampler2D picture;
+writeonly buffer Target {
     vec4 target[];
 };
-layout(set = 1, binding = 0) uniform sampler2D textures[];
+layout(set = 1) uniform sampler2D textures[];
 
 layout(push_constant) uniform Push {
     vec2 uv;

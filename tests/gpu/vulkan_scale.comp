@@ -9,14 +9,14 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kFactor = 1;
 
-layout(set = 0, binding = 0, scalar) readonly buffer Source {
+layout(scalar) readonly buffer Source {
     uint values[];
 }
 source;
-layout(set = 0, binding = 1, scalar) writeonly buffer Target {
+layout(scalar) writeonly buffer Target {
     uint target[];
 };
-layout(set = 0, binding = 2, scalar) writeonly buffer Unused {
+layout(scalar) writeonly buffer Unused {
     uint never[];
 }
 unused;

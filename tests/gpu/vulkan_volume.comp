@@ -1,7 +1,7 @@
 #version 460
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
-layout(set = 0, binding = 0, rgba32f) uniform writeonly image3D volume;
+layout(rgba32f) uniform writeonly image3D volume;
 
 void main() {
     const ivec3 p = ivec3(gl_GlobalInvocationID);

@@ -3,9 +3,9 @@
 // by one work group (SCAN_BLOCKS), and the scan within each block (SCAN_WORDS).
 layout(local_size_x = 256) in;
 
-layout(set = 0, binding = 0) readonly buffer Source { uint words[]; } source;
-layout(set = 0, binding = 1) writeonly buffer Result { uint before[]; } result;
-layout(set = 0, binding = 2) buffer BlockSums { uint sums[]; } blockSums;
+readonly buffer Source { uint words[]; } source;
+writeonly buffer Result { uint before[]; } result;
+buffer BlockSums { uint sums[]; } blockSums;
 layout(push_constant) uniform Push {
     uint count;
     uint blocks;

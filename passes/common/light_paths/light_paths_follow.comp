@@ -16,10 +16,10 @@ layout(local_size_x = 64) in;
 
 layout(constant_id = 0) const bool mirror = false;
 
-layout(set = 0, binding = 16, scalar) buffer Rays { Ray data[]; } rays;
-layout(set = 0, binding = 17, scalar) buffer Paths { LightPath data[]; } paths;
-layout(set = 0, binding = 18, scalar) readonly buffer Hits { Hit data[]; } hits;
-layout(set = 0, binding = 19) readonly buffer Hidden { uint data[]; } hidden;
+layout(scalar) buffer Rays { Ray data[]; } rays;
+layout(scalar) buffer Paths { LightPath data[]; } paths;
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+readonly buffer Hidden { uint data[]; } hidden;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint firstRay;

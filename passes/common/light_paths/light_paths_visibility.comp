@@ -7,9 +7,9 @@
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Rays { Ray data[]; } rays;
-layout(set = 0, binding = 17, scalar) readonly buffer Hits { Hit data[]; } hits;
-layout(set = 0, binding = 18, scalar) writeonly buffer VisibilityRays { Ray data[]; } visibilityRays;
+layout(scalar) readonly buffer Rays { Ray data[]; } rays;
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+layout(scalar) writeonly buffer VisibilityRays { Ray data[]; } visibilityRays;
 layout(push_constant, scalar) uniform Push {
     uint batchRays;
     float voxelSize;

@@ -1,7 +1,7 @@
-// Which nodes of an octree have a new value: a bit each. What has none need not be filtered again. Binding 7 of set 0.
+// Which nodes of an octree have a new value: a bit each. What has none need not be filtered again.
 #include "shaders/octree/octree.glsl"
 
-layout(set = 0, binding = 7) buffer Changed { uint bits[]; } changed;
+buffer Changed { uint bits[]; } changed;
 
 // Stores a node's value; the node has changed where its bits have.
 void replaceOctreeValue(uint node, uint face, vec4 value) {

@@ -8,12 +8,12 @@
 #include "shaders/octree/octree.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0) readonly buffer Nodes { uvec2 data[]; } nodes;
-layout(set = 0, binding = 1) readonly buffer Uniform { uint bits[]; } uniform_;
-layout(set = 0, binding = 2) buffer Masks { uint words[]; } masks;
-layout(set = 0, binding = 3) readonly buffer Before { uint bits[]; } before;
-layout(set = 0, binding = 4) writeonly buffer Children { uvec2 data[]; } children;
-layout(set = 0, binding = 5, scalar) readonly buffer Collapsed {
+readonly buffer Nodes { uvec2 data[]; } nodes;
+readonly buffer Uniform { uint bits[]; } uniform_;
+buffer Masks { uint words[]; } masks;
+readonly buffer Before { uint bits[]; } before;
+writeonly buffer Children { uvec2 data[]; } children;
+layout(scalar) readonly buffer Collapsed {
     RadianceGrid grid;
     OctreeWords table;
     OctreeWords nodes;

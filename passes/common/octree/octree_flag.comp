@@ -6,9 +6,9 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0) readonly buffer Finer { uint words[]; } finer;
-layout(set = 0, binding = 1) writeonly buffer Coarser { uint words[]; } coarser;
-layout(set = 0, binding = 2) buffer Counts { uint cells[]; } counts;
+readonly buffer Finer { uint words[]; } finer;
+writeonly buffer Coarser { uint words[]; } coarser;
+buffer Counts { uint cells[]; } counts;
 layout(push_constant, scalar) uniform Push {
     uvec3 finerSize;
     uvec3 coarserSize;

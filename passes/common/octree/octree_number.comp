@@ -7,10 +7,10 @@
 #include "shaders/octree/octree.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0) readonly buffer Cells { uint data[]; } cells;
-layout(set = 0, binding = 1) readonly buffer Masks { uint words[]; } masks;
-layout(set = 0, binding = 2) readonly buffer Before { uint bits[]; } before;
-layout(set = 0, binding = 3) writeonly buffer ChildCells { uint data[]; } childCells;
+readonly buffer Cells { uint data[]; } cells;
+readonly buffer Masks { uint words[]; } masks;
+readonly buffer Before { uint bits[]; } before;
+writeonly buffer ChildCells { uint data[]; } childCells;
 layout(push_constant) uniform Push {
     uint level;
     uint count;

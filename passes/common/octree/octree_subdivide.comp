@@ -6,9 +6,9 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0) readonly buffer Flags { uint words[]; } flags;
-layout(set = 0, binding = 1) readonly buffer Cells { uint data[]; } cells;
-layout(set = 0, binding = 2) writeonly buffer Masks { uint words[]; } masks;
+readonly buffer Flags { uint words[]; } flags;
+readonly buffer Cells { uint data[]; } cells;
+writeonly buffer Masks { uint words[]; } masks;
 layout(push_constant, scalar) uniform Push {
     uvec3 finerSize;
     uint count;  // Nodes of the level.

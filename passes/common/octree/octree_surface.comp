@@ -7,7 +7,7 @@
 #include "shaders/radiance/surface_radiance.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0) readonly buffer Leaves { uint cell[]; } leaves;
+readonly buffer Leaves { uint cell[]; } leaves;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     float emission;

@@ -6,8 +6,8 @@
 #include "shaders/octree/octree.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0) buffer Uniform { uint bits[]; } uniform_;
-layout(set = 0, binding = 1) buffer Counts { uint nodes[]; } counts;
+buffer Uniform { uint bits[]; } uniform_;
+buffer Counts { uint nodes[]; } counts;
 layout(push_constant) uniform Push {
     uint level;
     uint count;

@@ -7,8 +7,8 @@
 #include "shaders/radiance/surface_radiance.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer VoxelCells { uvec3 data[]; } voxelCells;
-layout(set = 0, binding = 17, scalar) readonly buffer FluxAt { LargeFloats flux; };
+layout(scalar) readonly buffer VoxelCells { uvec3 data[]; } voxelCells;
+layout(scalar) readonly buffer FluxAt { LargeFloats flux; };
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint voxels;

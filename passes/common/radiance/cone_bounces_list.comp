@@ -5,7 +5,7 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) writeonly buffer VoxelCells { uvec3 data[]; } voxelCells;
+layout(scalar) writeonly buffer VoxelCells { uvec3 data[]; } voxelCells;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint words;

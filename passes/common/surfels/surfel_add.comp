@@ -5,9 +5,9 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Carried { vec4 data[]; } carried;
-layout(set = 0, binding = 17) readonly buffer Occluded { uint data[]; } occluded;
-layout(set = 0, binding = 18, scalar) buffer Direct { vec4 data[]; } direct;
+layout(scalar) readonly buffer Carried { vec4 data[]; } carried;
+readonly buffer Occluded { uint data[]; } occluded;
+layout(scalar) buffer Direct { vec4 data[]; } direct;
 layout(push_constant) uniform Push { uint count; } push;
 
 void main() {

@@ -7,9 +7,9 @@
 #include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(set = 0, binding = 17, scalar) writeonly buffer Rays { Ray data[]; } rays;
-layout(set = 0, binding = 18, scalar) writeonly buffer Carried { vec4 data[]; } carried;
+layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(scalar) writeonly buffer Carried { vec4 data[]; } carried;
 layout(push_constant, scalar) uniform Push {
     uint count;
     uint kind;

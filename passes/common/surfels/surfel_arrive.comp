@@ -14,11 +14,11 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Rays { Ray data[]; } rays;
-layout(set = 0, binding = 17, scalar) readonly buffer Hits { Hit data[]; } hits;
-layout(set = 0, binding = 18, scalar) readonly buffer Parents { Surfel data[]; } parents;
-layout(set = 0, binding = 19, scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
-layout(set = 0, binding = 20) buffer Count { uint value; } count;
+layout(scalar) readonly buffer Rays { Ray data[]; } rays;
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+layout(scalar) readonly buffer Parents { Surfel data[]; } parents;
+layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
+buffer Count { uint value; } count;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint rayCount;

@@ -9,8 +9,8 @@
 #include "shaders/voxels/voxel_accumulator.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(set = 0, binding = 17, scalar) readonly buffer Hits { Hit data[]; } hits;
+layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint count;

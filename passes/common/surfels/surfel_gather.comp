@@ -8,8 +8,8 @@
 #include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(set = 0, binding = 17, scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(push_constant) uniform Push {
     uint count;
     uint ray;   // Number of this ray among the `rays` of each surfel.

@@ -20,7 +20,9 @@ struct ArrivePush {
     uint32_t firstId;
     uint32_t fromSurfels;
     uint32_t seed;
-    SurfelPaths::CameraFootprint camera;
+    glm::vec3 forward;  ///< This and what follows: SurfelPaths::CameraFootprint.
+    float imageArea;
+    float maxArea;
 };
 
 struct WritePush {
@@ -69,7 +71,8 @@ uint32_t SurfelPaths::makeSurfels(PassContext& context, const SurfaceVoxels& vox
                                                     {"parents", parents},
                                                     {"surfels", surfels},
                                                     {"count", count_}}),
-                            ArrivePush{voxels.grid, count, firstId, fromSurfels, seed, camera},
+                            ArrivePush{voxels.grid, count, firstId, fromSurfels, seed, camera.forward,
+                                       camera.imageArea, camera.maxArea},
                             linearGroups(count));
     return context.stream.readAs<uint32_t>(count_, 1)[0];
 }

@@ -7,10 +7,10 @@
 #include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(set = 0, binding = 17, scalar) readonly buffer Direct { vec4 data[]; } direct;
-layout(set = 0, binding = 18, scalar) readonly buffer Indirect { vec4 data[]; } indirect;
-layout(set = 0, binding = 19, scalar) buffer ParentIndirect { vec4 data[]; } parentIndirect;
+layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(scalar) readonly buffer Direct { vec4 data[]; } direct;
+layout(scalar) readonly buffer Indirect { vec4 data[]; } indirect;
+layout(scalar) buffer ParentIndirect { vec4 data[]; } parentIndirect;
 layout(push_constant) uniform Push { uint count; } push;
 
 void main() {

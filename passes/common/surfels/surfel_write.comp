@@ -6,8 +6,8 @@
 #include "shaders/voxels/voxel_accumulator.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(set = 0, binding = 17, scalar) readonly buffer Irradiance { vec4 data[]; } irradiance;
+layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(scalar) readonly buffer Irradiance { vec4 data[]; } irradiance;
 layout(push_constant) uniform Push {
     uint count;
     float scale;

@@ -1,6 +1,6 @@
 #version 460
 // Numbers the triangles' corners; the geometry shader reads what belongs to them.
-layout(set = 0, binding = 17) readonly buffer DrawnTriangles { uint data[]; } drawnTriangles;
+readonly buffer DrawnTriangles { uint data[]; } drawnTriangles;
 
 layout(location = 0) flat out uint triangle;
 

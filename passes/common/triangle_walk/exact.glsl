@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 
 // Triangle; its first column (10 bits each) and, from bit 20, the axis that columns run along.
-layout(set = 0, binding = 17, scalar) readonly buffer Tiles { uvec2 data[]; } tiles;
+layout(scalar) readonly buffer Tiles { uvec2 data[]; } tiles;
 
 float measureFragment(GridTriangle t, ivec3 permutedVoxel, uint subSamples, out vec2 center) {
     return clippedArea(t, permutedVoxel, center);

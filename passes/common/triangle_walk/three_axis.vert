@@ -4,7 +4,7 @@
 #include "passes/common/triangle_walk/grid_triangle.glsl"
 #include "passes/common/triangle_walk/walk_push.glsl"
 
-layout(set = 0, binding = 17) readonly buffer DrawnTriangles { uint data[]; } drawnTriangles;
+readonly buffer DrawnTriangles { uint data[]; } drawnTriangles;
 
 layout(location = 0) out vec3 gridPosition;
 layout(location = 1) out vec2 barycentrics;

@@ -7,7 +7,7 @@
 #include "shaders/scene/scene.glsl"
 #include "shaders/voxels/voxels.glsl"
 
-layout(set = 0, binding = 16, scalar) readonly buffer SurfaceAccumulatorAt { LargeUints surfaceAccumulator; };
+layout(scalar) readonly buffer SurfaceAccumulatorAt { LargeUints surfaceAccumulator; };
 
 void add(uint at, float units) {
     const int rounded = int(round(units));

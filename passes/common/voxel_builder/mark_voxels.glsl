@@ -4,7 +4,7 @@
 
 #include "shaders/voxels/voxels.glsl"
 
-layout(set = 0, binding = 16) buffer Occupancy { uint words[]; } occupancy;
+buffer Occupancy { uint words[]; } occupancy;
 
 void visitFragment(TriangleFragment f) {
     if (!insideGrid(walk.grid, f.voxel) || !passesAlphaMask(f)) return;

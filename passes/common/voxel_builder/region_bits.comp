@@ -9,8 +9,8 @@ struct VoxelBox {
     ivec3 first;
     uvec3 size;
 };
-layout(set = 0, binding = 0, scalar) readonly buffer Boxes { VoxelBox data[]; } boxes;
-layout(set = 0, binding = 1) buffer Region { uint words[]; } region;
+layout(scalar) readonly buffer Boxes { VoxelBox data[]; } boxes;
+buffer Region { uint words[]; } region;
 layout(push_constant, scalar) uniform Push {
     uint rows;  // Along y.
     uint wordsPerRow;

@@ -6,12 +6,12 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0) readonly buffer Rebuilt { uint words[]; } rebuilt;
-layout(set = 0, binding = 1) readonly buffer RebuiltRank { uint before[]; } rebuiltRank;
-layout(set = 0, binding = 2, scalar) readonly buffer RebuiltMaterialsAt { VoxelMaterials rebuiltMaterials; };
-layout(set = 0, binding = 3) readonly buffer Previous { uint words[]; } previous;
-layout(set = 0, binding = 4) readonly buffer PreviousRank { uint before[]; } previousRank;
-layout(set = 0, binding = 5, scalar) readonly buffer PreviousMaterialsAt { VoxelMaterials previousMaterials; };
+readonly buffer Rebuilt { uint words[]; } rebuilt;
+readonly buffer RebuiltRank { uint before[]; } rebuiltRank;
+layout(scalar) readonly buffer RebuiltMaterialsAt { VoxelMaterials rebuiltMaterials; };
+readonly buffer Previous { uint words[]; } previous;
+readonly buffer PreviousRank { uint before[]; } previousRank;
+layout(scalar) readonly buffer PreviousMaterialsAt { VoxelMaterials previousMaterials; };
 layout(push_constant) uniform Push { uint words; } push;
 
 void main() {

@@ -5,10 +5,10 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0) readonly buffer Region { uint words[]; } region;
-layout(set = 0, binding = 1) buffer Rebuilt { uint words[]; } rebuilt;
-layout(set = 0, binding = 2) readonly buffer Previous { uint words[]; } previous;
-layout(set = 0, binding = 3) writeonly buffer Merged { uint words[]; } merged;
+readonly buffer Region { uint words[]; } region;
+buffer Rebuilt { uint words[]; } rebuilt;
+readonly buffer Previous { uint words[]; } previous;
+writeonly buffer Merged { uint words[]; } merged;
 layout(push_constant) uniform Push { uint words; } push;
 
 void main() {

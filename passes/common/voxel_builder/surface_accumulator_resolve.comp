@@ -6,9 +6,9 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0, scalar) readonly buffer SurfaceAccumulatorAt { LargeUints surfaceAccumulator; };
+layout(scalar) readonly buffer SurfaceAccumulatorAt { LargeUints surfaceAccumulator; };
 // Nine a voxel, as visibility_count.comp adds them up: visible points by face +x -x +y -y +z -z, then all points by axis.
-layout(set = 0, binding = 2) readonly buffer Visibility { uint data[]; } visibility;
+readonly buffer Visibility { uint data[]; } visibility;
 layout(push_constant) uniform Push {
     uint voxelCount;
     float largestEmission;

@@ -8,9 +8,9 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer Rays { Ray data[]; } rays;
-layout(set = 0, binding = 17) readonly buffer Occluded { uint data[]; } occluded;
-layout(set = 0, binding = 18) buffer Counts { uint data[]; } counts;
+layout(scalar) readonly buffer Rays { Ray data[]; } rays;
+readonly buffer Occluded { uint data[]; } occluded;
+buffer Counts { uint data[]; } counts;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint points;

@@ -8,9 +8,9 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16) readonly buffer Points { uvec2 data[]; } points;  // Triangle, and number of the point on it.
-layout(set = 0, binding = 17, scalar) writeonly buffer Rays { Ray data[]; } rays;
-layout(set = 0, binding = 18) buffer Kept { uint count; } kept;
+readonly buffer Points { uvec2 data[]; } points;  // Triangle, and number of the point on it.
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+buffer Kept { uint count; } kept;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint points;

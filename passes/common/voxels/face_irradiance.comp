@@ -6,10 +6,10 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0, scalar) readonly buffer DirectAt { LargeFloats direct; };
-layout(set = 0, binding = 1, scalar) readonly buffer IndirectAt { LargeFloats indirect; };
-layout(set = 0, binding = 2, scalar) readonly buffer Area { float data[]; } area;
-layout(set = 0, binding = 3, scalar) writeonly buffer Faces { vec4 data[]; } faces;
+layout(scalar) readonly buffer DirectAt { LargeFloats direct; };
+layout(scalar) readonly buffer IndirectAt { LargeFloats indirect; };
+layout(scalar) readonly buffer Area { float data[]; } area;
+layout(scalar) writeonly buffer Faces { vec4 data[]; } faces;
 layout(push_constant) uniform Push {
     uint count;           // Faces.
     float voxelFaceArea;  // m²

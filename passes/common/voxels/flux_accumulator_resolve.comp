@@ -5,7 +5,7 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer FluxAt { LargeFloats flux; };
+layout(scalar) readonly buffer FluxAt { LargeFloats flux; };
 layout(push_constant) uniform Push {
     uint count;
     float wattsPerUnit;

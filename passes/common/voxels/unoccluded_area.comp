@@ -5,7 +5,7 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) writeonly buffer Area { float data[]; } area;
+layout(scalar) writeonly buffer Area { float data[]; } area;
 layout(push_constant) uniform Push { uint voxelCount; } push;
 
 void main() {

@@ -6,8 +6,8 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 16, scalar) readonly buffer FluxAt { LargeFloats flux; };
-layout(set = 0, binding = 17, scalar) buffer Area { float data[]; } area;
+layout(scalar) readonly buffer FluxAt { LargeFloats flux; };
+layout(scalar) buffer Area { float data[]; } area;
 layout(push_constant) uniform Push {
     uint voxelCount;
     float voxelSize;

@@ -4,10 +4,10 @@
 #include "shaders/voxels/voxel_irradiance.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 16) uniform sampler2D position;
-layout(set = 0, binding = 17) uniform sampler2D normal;
-layout(set = 0, binding = 18) uniform sampler2D albedo;
-layout(set = 0, binding = 19, rgba32f) writeonly uniform image2D result;
+uniform sampler2D position;
+uniform sampler2D normal;
+uniform sampler2D albedo;
+layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     float radius;

@@ -3,8 +3,8 @@
 // Multiplies each pixel by a colour.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 0, rgba32f) uniform readonly image2D source;
-layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D target;
+layout(rgba32f) uniform readonly image2D source;
+layout(rgba32f) uniform writeonly image2D target;
 layout(push_constant, scalar) uniform Push { vec3 color; } push;
 
 void main() {
