@@ -9,20 +9,20 @@ namespace {
 
 struct TracePush {
     uint32_t cones;
-    uint32_t sparse;
+    uint32_t stride;
 };
 
 struct ResolvePush {
     uint32_t samples;
-    uint32_t sparse;
+    uint32_t stride;
     float voxelSize;
 };
 
 /// One texel for each traced texel of the g-buffer, row by row.
-ImageDesc tracedImage(const Frame& frame, uint32_t samples, uint32_t sparse) {
+ImageDesc tracedImage(const Frame& frame, uint32_t samples, uint32_t stride) {
     ImageDesc desc = frameImageDesc(frame);
     const glm::uvec2 extent = gbufferExtent(frame, samples);
-    desc.extent = {(extent.x + sparse - 1) / sparse, extent.y, 1};
+    desc.extent = {(extent.x + stride - 1) / stride, extent.y, 1};
     return desc;
 }
 
@@ -38,7 +38,7 @@ void GatherCones::plan(PassPlan& plan) {
     plan.buffer(cones_, "cones", coneSet(kName, params_.cones).size() * sizeof(gpu::Cone));
     plan.image(plan.get(indirect_).image, "indirect", frameImageDesc(plan.frame));
     plan.image(irradiance_, "gathered irradiance",
-               tracedImage(plan.frame, plan.get(gbuffer_).samples, params_.sparse));
+               tracedImage(plan.frame, plan.get(gbuffer_).samples, params_.stride));
     if (params_.specular > 0) specular_.plan(plan, kName, plan.get(gbuffer_), params_.specular);
 }
 
@@ -65,7 +65,7 @@ void GatherCones::record(PassContext& context) {
     bindings.emplace_back("geometricNormal", gbuffer.geometricNormal, sampler_);
     bindings.emplace_back("irradiance", irradiance_);
     const glm::uvec3 texels = irradiance_.desc().extent;
-    context.stream.dispatch(trace_, bindings, TracePush{params_.cones, params_.sparse},
+    context.stream.dispatch(trace_, bindings, TracePush{params_.cones, params_.stride},
                             pixelGroups(texels.x, texels.y));
     std::vector<Binding> seen{{"irradiance", irradiance_, sampler_},
                               {"albedo", gbuffer.albedo, sampler_},
@@ -77,7 +77,7 @@ void GatherCones::record(PassContext& context) {
         seen.emplace_back("reflected", specular_.reflected(), sampler_);
     }
     context.stream.dispatch(resolve_, seen,
-                            ResolvePush{gbuffer.samples, params_.sparse, radiance.grid.voxelSize},
+                            ResolvePush{gbuffer.samples, params_.stride, radiance.grid.voxelSize},
                             pixelGroups(context.frame.width, context.frame.height));
 }
 

@@ -18,13 +18,13 @@ class GatherCones final : public Pass {
         "Source: Crassin et al. 2011; Arnebäck 2017, section 3.1.5.";
     struct Params {
         uint32_t cones = 16;
-        uint32_t sparse = 1;
+        uint32_t stride = 1;
         uint32_t specular = 7;
         static constexpr auto schema() {
             return std::tuple{
                 field("cones", &Params::cones,
                       "Cones that share out the hemisphere: 5, 6 (Arnebäck 2017), 16 or 36.", 5u, 36u),
-                field("sparse", &Params::sparse,
+                field("stride", &Params::stride,
                       "Traces every n-th texel of the g-buffer; the others take what those round them "
                       "see that lie on the same surface.",
                       1u, 64u),

@@ -1,17 +1,17 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
-// What the cells of a lobe reflect, for each cosine to the viewer and each roughness: integrals by importance sampling. A thread
-// takes a cell. Cells hold equal parts of the visible half vectors: one in the center, 6, 12 and so on round it.
+// What the strata of a lobe reflect, for each cosine to the viewer and each roughness: integrals by importance sampling. A thread
+// takes a stratum. Strata hold equal parts of the visible half vectors: one in the center, 6, 12 and so on round it.
 #include "passes/gather_cones/lobe_types.h"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/specular.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) writeonly buffer Cells { LobeStratum data[]; } cells;
+layout(scalar) writeonly buffer Strata { LobeStratum data[]; } strata;
 layout(push_constant) uniform Push {
-    uint cells;
-    uint points;  // For each cell.
+    uint strata;
+    uint points;  // For each stratum.
 } push;
 
 // Half vector drawn from those visible from `out_` (+z the normal). Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with
@@ -24,22 +24,22 @@ vec3 visibleNormal(vec3 out_, float alpha, vec2 u) {
     return normalize(vec3(h.xy * alpha, max(h.z, 1e-7)));
 }
 
-// The corner and the size of a cell in the unit square that half vectors are drawn by.
-vec4 cellSquare(uint cell) {
+// The corner and the size of a stratum in the unit square that half vectors are drawn by.
+vec4 stratumSquare(uint stratum) {
     uint before = 0u, ring = 1u;
-    while (cell >= before + ring) {
+    while (stratum >= before + ring) {
         before += ring;
         ring = before == 1u ? 6u : ring + 6u;
     }
-    return vec4(float(cell - before) / float(ring), float(before) / float(push.cells), 1.0 / float(ring),
-                float(ring) / float(push.cells));
+    return vec4(float(stratum - before) / float(ring), float(before) / float(push.strata), 1.0 / float(ring),
+                float(ring) / float(push.strata));
 }
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
-    if (i >= LOBES * push.cells) return;
-    const uint lobe = i / push.cells;
-    const vec4 square = cellSquare(i % push.cells);
+    if (i >= LOBES * push.strata) return;
+    const uint lobe = i / push.strata;
+    const vec4 square = stratumSquare(i % push.strata);
     const float root = float(lobe % LOBE_COSINES) / float(LOBE_COSINES - 1);
     const float roughness = float(lobe / LOBE_COSINES) / float(LOBE_ROUGHNESSES - 1), alpha = roughness * roughness;
     const float cosOut = max(root * root, 1e-4);
@@ -65,5 +65,5 @@ void main() {
         const vec3 diffuse = cosineDirection(u.yx, vec3(0.0, 0.0, 1.0));
         grazing += schlickWeight(dot(out_, normalize(out_ + diffuse)));
     }
-    cells.data[i] = LobeStratum(sum / max(weights, 1e-6), albedo / float(push.points * push.cells), grazing / float(push.points));
+    strata.data[i] = LobeStratum(sum / max(weights, 1e-6), albedo / float(push.points * push.strata), grazing / float(push.points));
 }

@@ -1,5 +1,5 @@
 // The table of specular lobes, shared by C++ and GLSL: for each cosine to the viewer and each roughness the
-// lobe's cells.
+// lobe's strata.
 #ifndef VOXRAY_LOBE_TYPES_H
 #define VOXRAY_LOBE_TYPES_H
 
@@ -18,7 +18,7 @@ struct LobeStratum {
                   // that, along the normal.
     vec2 albedo;  // Part of an even surrounding that it reflects, by F0 and by F90.
     float
-        grazing;  // Mean of Schlick's weight over what a Lambert lobe below reflects, the same in all cells.
+        grazing;  // Mean of Schlick's weight over what a Lambert lobe below reflects, the same in all strata.
 };
 
 VOXRAY_SHARED_END

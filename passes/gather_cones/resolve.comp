@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Radiance that each pixel reflects: albedo / pi times the irradiance of the traced texels around it that see much the same,
 // averaged over its sub-pixels. With SPECULAR what specular lobes reflect comes on top of what they leave to the diffuse ones.
-#include "passes/gather_cones/sparse.glsl"
+#include "passes/gather_cones/texel_stride.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -17,31 +17,31 @@ uniform sampler2D reflected;
 #endif
 layout(push_constant, scalar) uniform Push {
     int samples;
-    int sparse;
+    int stride;
     float voxelSize;  // m
 } push;
 
-// Mean over the traced texels within reach, some 25 of them, so that the turns of their cones even out. A texel counts as far as
-// its irradiance can be taken to be the same: less the farther it lies off the tangent plane, in voxels, below which cones know
-// no detail, and the more its normal is turned (the error bound of Ward et al. 1988).
+// Mean over the some 25 traced texels within reach, so that their cones' different directions average out. A texel's weight falls
+// with its distance from the tangent plane, in voxels, since cones know no finer detail, and with the angle between the normals (the
+// error bound of Ward et al. 1988).
 vec3 gathered(ivec2 texel) {
     const vec4 p = texelFetch(position, texel, 0);
     if (p.w == 0.0) return vec3(0.0);
     const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
     const ivec2 size = textureSize(position, 0);
-    const int reach = int(ceil(2.5 * sqrt(float(push.sparse)) - 0.5));
+    const int reach = int(ceil(2.5 * sqrt(float(push.stride)) - 0.5));
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (int y = max(texel.y - reach, 0); y <= min(texel.y + reach, size.y - 1); ++y) {
-        const int shift = rowShift(y, push.sparse);
-        const int first = (max(texel.x - reach, 0) - shift + push.sparse - 1) / push.sparse;
-        const int last = (min(texel.x + reach, size.x - 1) - shift + push.sparse) / push.sparse - 1;
+        const int shift = rowShift(y, push.stride);
+        const int first = (max(texel.x - reach, 0) - shift + push.stride - 1) / push.stride;
+        const int last = (min(texel.x + reach, size.x - 1) - shift + push.stride) / push.stride - 1;
         for (int i = first; i <= last; ++i) {
-            const ivec2 other = ivec2(i * push.sparse + shift, y);
+            const ivec2 other = ivec2(i * push.stride + shift, y);
             const vec4 q = texelFetch(position, other, 0);
             if (q.w == 0.0) continue;
-            const float turned = sqrt(max(1.0 - dot(n, normalize(texelFetch(normal, other, 0).xyz)), 0.0));
-            const float weight = max(1.0 - abs(dot(n, q.xyz - p.xyz)) / push.voxelSize - turned, 0.0);
+            const float angle = sqrt(max(1.0 - dot(n, normalize(texelFetch(normal, other, 0).xyz)), 0.0));
+            const float weight = max(1.0 - abs(dot(n, q.xyz - p.xyz)) / push.voxelSize - angle, 0.0);
             sum += weight * texelFetch(irradiance, ivec2(i, y), 0).rgb;
             weights += weight;
         }

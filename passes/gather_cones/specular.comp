@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Radiance that the specular lobe of each g-buffer texel reflects, by a cone for each of its cells, and what it leaves to the
+// Radiance that the specular lobe of each g-buffer texel reflects, by a cone for each of its strata, and what it leaves to the
 // diffuse lobe below.
 #include "passes/gather_cones/lobe_types.h"
 #include "shaders/radiance/radiance_cone.glsl"
@@ -12,29 +12,29 @@ uniform sampler2D normal;
 uniform sampler2D geometricNormal;
 uniform sampler2D specular;
 uniform sampler2D fresnel;
-layout(scalar) readonly buffer Cells { LobeStratum data[]; } cells;
+layout(scalar) readonly buffer Strata { LobeStratum data[]; } strata;
 layout(rgba32f) writeonly uniform image2D reflected;
 layout(push_constant, scalar) uniform Push {
     vec3 camera;
-    uint cells;
+    uint strata;
 } push;
 
-LobeStratum mixCells(LobeStratum a, LobeStratum b, float t) {
+LobeStratum mixStrata(LobeStratum a, LobeStratum b, float t) {
     return LobeStratum(mix(a.mean, b.mean, t), mix(a.albedo, b.albedo, t), mix(a.grazing, b.grazing, t));
 }
 
 // The table's, linear between its places.
-LobeStratum cellAt(float cosOut, float roughness, uint cell) {
+LobeStratum stratumAt(float cosOut, float roughness, uint stratum) {
     const vec2 most = vec2(LOBE_COSINES - 1, LOBE_ROUGHNESSES - 1);
     const vec2 at = clamp(vec2(sqrt(cosOut), roughness), 0.0, 1.0) * most;
     const uvec2 corner = uvec2(min(at, most - 1.0));
     const vec2 part = at - vec2(corner);
-    const uint n = push.cells, first = (corner.y * LOBE_COSINES + corner.x) * n + cell, next = first + LOBE_COSINES * n;
-    return mixCells(mixCells(cells.data[first], cells.data[first + n], part.x),
-                    mixCells(cells.data[next], cells.data[next + n], part.x), part.y);
+    const uint n = push.strata, first = (corner.y * LOBE_COSINES + corner.x) * n + stratum, next = first + LOBE_COSINES * n;
+    return mixStrata(mixStrata(strata.data[first], strata.data[first + n], part.x),
+                    mixStrata(strata.data[next], strata.data[next + n], part.x), part.y);
 }
 
-// The cone that has a cell's mean direction and its spread: over a circular cone of half angle a the mean of unit directions has
+// The cone that has a stratum's mean direction and its spread: over a circular cone of half angle a the mean of unit directions has
 // the length (1 + cos a) / 2. Twice the tangent of a.
 float coneWidth(float meanLength) {
     const float cosine = clamp(2.0 * meanLength - 1.0, 0.1, 1.0);
@@ -55,7 +55,7 @@ void main() {
     const vec3 n = specularNormal(normalize(texelFetch(normal, texel, 0).xyz), out_);
     const float cosOut = min(dot(n, out_), 1.0);
     const ConeBase base = coneBase(p.xyz, side, 0.5);
-    const float left = diffuseShare(s, cellAt(cosOut, s.roughness, 0u).grazing);
+    const float left = diffuseShare(s, stratumAt(cosOut, s.roughness, 0u).grazing);
 
     // A mirror: one thin cone. Directions that a shading normal sends below the surface are lost, as in the reference.
     vec3 sum = vec3(0.0);
@@ -70,13 +70,13 @@ void main() {
     const vec3 away = cosOut * n - out_;
     const vec3 along = dot(away, away) > 1e-12 ? normalize(away) : normalize(cross(n, abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
     const vec3 across = cross(n, along);
-    for (uint i = 0u; i < push.cells; ++i) {
-        const LobeStratum cell = cellAt(cosOut, s.roughness, i);
-        const float meanLength = length(cell.mean);
+    for (uint i = 0u; i < push.strata; ++i) {
+        const LobeStratum stratum = stratumAt(cosOut, s.roughness, i);
+        const float meanLength = length(stratum.mean);
         if (meanLength == 0.0) continue;
-        const vec3 direction = (cell.mean.x * along + cell.mean.y * across + cell.mean.z * n) / meanLength;
+        const vec3 direction = (stratum.mean.x * along + stratum.mean.y * across + stratum.mean.z * n) / meanLength;
         if (dot(direction, side) <= 0.0) continue;
-        sum += (cell.albedo.x * s.f0 + cell.albedo.y * s.f90) * coneRadiance(base, direction, coneWidth(meanLength), 0.0);
+        sum += (stratum.albedo.x * s.f0 + stratum.albedo.y * s.f90) * coneRadiance(base, direction, coneWidth(meanLength), 0.0);
     }
     imageStore(reflected, texel, vec4(sum, left));
 }

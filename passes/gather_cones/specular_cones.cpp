@@ -11,13 +11,13 @@ namespace {
 constexpr uint32_t kPoints = 1024;  // Of all integrals of a lobe together: their error is below 0.002.
 
 struct TablePush {
-    uint32_t cells;
+    uint32_t strata;
     uint32_t points;
 };
 
 struct TracePush {
     glm::vec3 camera;
-    uint32_t cells;
+    uint32_t strata;
 };
 
 ImageDesc reflectedImage(const Frame& frame, const GBuffer& gbuffer) {
@@ -28,12 +28,12 @@ ImageDesc reflectedImage(const Frame& frame, const GBuffer& gbuffer) {
 
 }  // namespace
 
-void SpecularCones::plan(PassPlan& plan, const char* pass, const GBuffer& gbuffer, uint32_t cells) {
-    if (cells != 1 && cells != 7 && cells != 19)
+void SpecularCones::plan(PassPlan& plan, const char* pass, const GBuffer& gbuffer, uint32_t strata) {
+    if (strata != 1 && strata != 7 && strata != 19)
         throw Error("{}: specular is {}; lobes are shared out between 1, 7 or 19 cones, 0 leaves them out",
-                    pass, cells);
-    cells_ = cells;
-    plan.buffer(table_, "specular lobes", uint64_t(LOBES) * cells * sizeof(gpu::LobeStratum));
+                    pass, strata);
+    strata_ = strata;
+    plan.buffer(table_, "specular lobes", uint64_t(LOBES) * strata * sizeof(gpu::LobeStratum));
     plan.image(reflected_, "specular reflection", reflectedImage(plan.frame, gbuffer));
 }
 
@@ -46,8 +46,8 @@ void SpecularCones::prepare(PassSetup& setup, const RadianceVoxels& radiance) {
 
     // The table depends on nothing but its size.
     const Program fill = program("passes/gather_cones/lobe_table.comp", {});
-    setup.stream.dispatch(fill, {{"cells", table_}}, TablePush{cells_, kPoints / cells_},
-                          linearGroups(uint64_t(LOBES) * cells_));
+    setup.stream.dispatch(fill, {{"strata", table_}}, TablePush{strata_, kPoints / strata_},
+                          linearGroups(uint64_t(LOBES) * strata_));
     setup.stream.finish();
 }
 
@@ -59,10 +59,10 @@ void SpecularCones::record(PassContext& context, const GBuffer& gbuffer,
                                      {"geometricNormal", gbuffer.geometricNormal, sampler_},
                                      {"specular", gbuffer.specular, sampler_},
                                      {"fresnel", gbuffer.fresnel, sampler_},
-                                     {"cells", table_},
+                                     {"strata", table_},
                                      {"reflected", reflected_}});
     const glm::uvec3 texels = reflected_.desc().extent;
-    context.stream.dispatch(trace_, bindings, TracePush{context.frame.camera.position, cells_},
+    context.stream.dispatch(trace_, bindings, TracePush{context.frame.camera.position, strata_},
                             pixelGroups(texels.x, texels.y));
 }
 

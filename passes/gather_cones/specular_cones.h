@@ -5,19 +5,19 @@
 
 namespace voxray {
 
-/// Light that specular lobes reflect: from each texel of the g-buffer a cone for each cell of its lobe.
+/// Light that specular lobes reflect: from each texel of the g-buffer a cone for each stratum of its lobe.
 /// Docs: docs/cone-tracing.md.
 class SpecularCones {
  public:
-    /// @param cells of a lobe: 1, 7 or 19. @throws Error for any other, naming `pass` and these.
-    void plan(PassPlan& plan, const char* pass, const GBuffer& gbuffer, uint32_t cells);
+    /// @param strata of a lobe: 1, 7 or 19. @throws Error for any other, naming `pass` and these.
+    void plan(PassPlan& plan, const char* pass, const GBuffer& gbuffer, uint32_t strata);
     void prepare(PassSetup& setup, const RadianceVoxels& radiance);
     void record(PassContext& context, const GBuffer& gbuffer, const RadianceVoxels& radiance) const;
     /// RGBA32F: radiance reflected, W/(m² sr); the share of light that is left to the diffuse lobe below.
     const Image& reflected() const { return reflected_; }
 
  private:
-    uint32_t cells_ = 0;
+    uint32_t strata_ = 0;
     Program trace_;
     Sampler sampler_;
     Buffer table_;

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Irradiance from a set of cones, for every n-th texel of the G-buffer.
-#include "passes/gather_cones/sparse.glsl"
+#include "passes/gather_cones/texel_stride.glsl"
 #include "shaders/radiance/cone_set.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -11,12 +11,12 @@ uniform sampler2D geometricNormal;
 layout(rgba32f) writeonly uniform image2D irradiance;
 layout(push_constant) uniform Push {
     uint cones;
-    int sparse;
+    int stride;
 } push;
 
 void main() {
     const ivec2 place = ivec2(gl_GlobalInvocationID.xy);
-    const ivec2 texel = tracedTexel(place, push.sparse);
+    const ivec2 texel = tracedTexel(place, push.stride);
     if (any(greaterThanEqual(texel, textureSize(position, 0)))) return;
     const vec4 p = texelFetch(position, texel, 0);
     vec3 irradiance_ = vec3(0.0);

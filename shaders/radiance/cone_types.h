@@ -7,8 +7,8 @@
 VOXRAY_SHARED_BEGIN
 
 struct Cone {
-    vec2 sineSquared;  // Of the angles from the normal between which its cell lies.
-    float azimuth;     // Of the cell's center.
+    vec2 sineSquared;  // Of the angles from the normal between which its stratum lies.
+    float azimuth;     // Of the stratum's center.
     float weight;  // Part of the irradiance of an even hemisphere that comes through it; a set's add up to 1.
     float width;   // Of the cone at unit distance: twice the tangent of half its angle.
 };

@@ -29,18 +29,18 @@ uint clipmapSlot(ClipmapWindow w, ivec3 voxel) {
     return w.begin + (slot.z * w.size.y + slot.y) * w.size.x + slot.x;
 }
 
-// `side`: 0 to 5 by facing direction, 0 where all share one.
-vec4 radianceValue(uint slot, uint side) {
-    return unpackRadiance(radianceVoxels.values.data[slot * radianceVoxels.grid.directions + side]);
+// `face`: 0 to 5 for +x -x +y -y +z -z, 0 with one value for all.
+vec4 radianceValue(uint slot, uint face) {
+    return unpackRadiance(radianceVoxels.values.data[slot * radianceVoxels.grid.directions + face]);
 }
 
-void storeRadiance(uint slot, uint side, vec4 value) {
-    radianceVoxels.values.data[slot * radianceVoxels.grid.directions + side] = packRadiance(value);
+void storeRadiance(uint slot, uint face, vec4 value) {
+    radianceVoxels.values.data[slot * radianceVoxels.grid.directions + face] = packRadiance(value);
 }
 
-// How far a position is from where a level's reach ends, along the nearest axis, in widths of the zone where the next level takes
-// over: 1 and more, the level alone counts; 0 and less, it doesn't.
-float windowShare(uint level, vec3 position) {
+// The weight of a level at a position, against that of the next coarser one: 1 or more, the level alone counts; 0 or less, it does
+// not. It falls linearly over a transition zone before the window's border, by the distance along the nearest axis.
+float windowWeight(uint level, vec3 position) {
     const RadianceGrid g = radianceVoxels.grid;
     // Outside of the grid there is nothing: its border decides.
     const vec3 inGrid = clamp(position, g.origin, g.origin + g.voxelSize * vec3(g.resolution));
@@ -48,12 +48,12 @@ float windowShare(uint level, vec3 position) {
     return min(left.x, min(left.y, left.z)) * radianceVoxels.window[level].fall;
 }
 
-// The finest level that has a say at a position. Between two levels the part after the point is the coarser one's share: it grows
-// to 1 before the window ends, by the distance to the camera itself. So nothing jumps when the window follows in whole voxels.
+// The finest level that counts at a position. Between two levels the fractional part is the coarser one's weight. It follows the
+// camera itself and is 1 before the window ends: so nothing jumps when the window follows the camera in whole voxels.
 float minimumLevel(vec3 position) {
     for (uint level = 0u; level < radianceVoxels.firstWhole; ++level) {
-        const float share = windowShare(level, position);
-        if (share > 0.0) return float(level) + max(1.0 - share, 0.0);
+        const float weight = windowWeight(level, position);
+        if (weight > 0.0) return float(level) + max(1.0 - weight, 0.0);
     }
     return float(radianceVoxels.firstWhole);
 }
@@ -66,15 +66,15 @@ vec4 sampleWindow(uint level, vec3 position, vec3 direction) {
     vec3 at;
     const ivec3 corner = cornerVoxel(level, position, at);
     uint place[8];
-    for (uint cell = 0u; cell < 8u; ++cell) {
-        const ivec3 voxel = blockVoxel(corner, cell);
-        place[cell] = inWindow(w, voxel) && cellWeight(cell, at) > 0.0 ? clipmapSlot(w, voxel) : NO_PLACE;
+    for (uint octant = 0u; octant < 8u; ++octant) {
+        const ivec3 voxel = blockVoxel(corner, octant);
+        place[octant] = inWindow(w, voxel) && octantWeight(octant, at) > 0.0 ? clipmapSlot(w, voxel) : NO_PLACE;
     }
     return interpolateBlock(place, at, direction);
 }
 
-// Where the level isn't held, the finest ones that are stand for it: for a layer of the level's voxels, the share of theirs that is
-// as thick, so that a surface covers the same in all.
+// Where the window of a level ends, coarser levels stand in for it. A layer of a coarser level is thicker: its values are scaled by
+// the ratio of the thicknesses, so that a surface has the same opacity on all levels.
 vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     const float finest = minimumLevel(position);
     if (float(level) >= finest) return sampleWindow(level, position, direction);
@@ -89,12 +89,12 @@ vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
 // that tells.
 float emptyDistance(vec3 position, float footprint, vec3 direction) { return 0.0; }
 
-// The next level has a say from where a window's share is 1 on. A cone has to be clear of its voxels there; before that, over as
-// wide a zone, more and more cones are, so that light doesn't jump where the level changes.
+// The next level counts from where a window's weight falls below 1. A cone has to keep clear of its voxels there. In a zone as wide
+// before that a growing part of the cones does so already, chosen by dithering, so that light doesn't jump where the level changes.
 uint startLevel(vec3 position, float dither) {
     for (uint level = 0u; level < radianceVoxels.firstWhole; ++level) {
-        const float share = windowShare(level, position);
-        if (share > 0.0) return share - 1.0 < dither ? level + 1u : level;
+        const float weight = windowWeight(level, position);
+        if (weight > 0.0) return weight - 1.0 < dither ? level + 1u : level;
     }
     return radianceVoxels.firstWhole;
 }

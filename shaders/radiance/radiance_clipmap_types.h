@@ -15,8 +15,8 @@ struct ClipmapWindow {
     uvec3 size;   // Voxels along each axis.
     uint begin;   // Voxels of the levels before.
     vec3 center;  // m
-    vec3 reach;   // m from the center on, where its share in samples has fallen to 0; endless along axes that it holds whole.
-    float fall;   // By how much that share falls for each metre that is left before the reach ends.
+    vec3 reach;   // m from the center to where its weight in samples has fallen to 0; endless along axes that it holds whole.
+    float fall;   // By how much that weight falls for each metre before the reach ends.
 };
 
 VOXRAY_SHARED_END

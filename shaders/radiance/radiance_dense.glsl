@@ -1,4 +1,4 @@
-// Radiance voxels in full grids, one for each level (layout: dense). A voxel's values stand side by side, four half floats each.
+// Radiance voxels in full grids, one for each level (layout: dense). A voxel's values are adjacent, four half floats each.
 #ifndef VOXRAY_RADIANCE_DENSE_GLSL
 #define VOXRAY_RADIANCE_DENSE_GLSL
 
@@ -20,16 +20,16 @@ uint radianceIndex(DenseLevel level, ivec3 voxel) {
     return level.first + (v.z * level.resolution.y + v.y) * level.resolution.x + v.x;
 }
 
-// `side`: 0 to 5 by facing direction, 0 where all share one.
-vec4 radianceValue(uint index, uint side) {
-    const uvec2 packed = radianceVoxels.values.data[index * radianceVoxels.grid.directions + side];
+// `face`: 0 to 5 for +x -x +y -y +z -z, 0 with one value for all.
+vec4 radianceValue(uint index, uint face) {
+    const uvec2 packed = radianceVoxels.values.data[index * radianceVoxels.grid.directions + face];
     return vec4(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y));
 }
 
 // Bounded to what half floats hold: 65504 units of radiance.
-void storeRadiance(uint index, uint side, vec4 value) {
+void storeRadiance(uint index, uint face, vec4 value) {
     const vec4 bounded = min(value, vec4(65504.0));
-    radianceVoxels.values.data[index * radianceVoxels.grid.directions + side] =
+    radianceVoxels.values.data[index * radianceVoxels.grid.directions + face] =
         uvec2(packHalf2x16(bounded.rg), packHalf2x16(bounded.ba));
 }
 
@@ -40,10 +40,10 @@ vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     vec3 at;
     const ivec3 corner = cornerVoxel(level, position, at);
     uint place[8];
-    for (uint cell = 0u; cell < 8u; ++cell) {
-        const ivec3 voxel = blockVoxel(corner, cell);
+    for (uint octant = 0u; octant < 8u; ++octant) {
+        const ivec3 voxel = blockVoxel(corner, octant);
         const bool inside = all(greaterThanEqual(voxel, ivec3(0))) && all(lessThan(voxel, ivec3(d.resolution)));
-        place[cell] = inside && cellWeight(cell, at) > 0.0 ? radianceIndex(d, voxel) : NO_PLACE;
+        place[octant] = inside && octantWeight(octant, at) > 0.0 ? radianceIndex(d, voxel) : NO_PLACE;
     }
     const vec4 met = interpolateBlock(place, at, direction);
     return vec4(radianceVoxels.grid.unit * met.rgb, met.a);

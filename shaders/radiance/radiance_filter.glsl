@@ -1,59 +1,59 @@
-// How the values of several radiance voxels make one: for larger voxels and for interpolation. Values are radiance times cover,
-// and cover, as shaders/radiance/radiance_voxels.glsl says. `cell` numbers the eight voxels of a 2x2x2 block: x in bit 0, y in 1, z in 2.
+// How the values of several radiance voxels make one, for coarser levels and for interpolation. Values are radiance times opacity,
+// and opacity (shaders/radiance/radiance_voxels.glsl). `octant` numbers the eight voxels of a 2x2x2 block: x in bit 0, y in bit 1,
+// z in bit 2.
 #ifndef VOXRAY_RADIANCE_FILTER_GLSL
 #define VOXRAY_RADIANCE_FILTER_GLSL
 
-// What a ray meets of two voxels in a row. Their surfaces lie beside each other as far as there is room: they are pieces of one
-// surface that runs through both, more often than not. What has no room is hidden.
+// What a ray meets in two voxels in a row. Their surfaces are parts of one surface that runs through both, more often than not, so
+// their opacities add up; only what goes beyond 1 is hidden.
 vec4 inARow(vec4 front, vec4 rear) {
     return front + rear * (rear.a > 0.0 ? clamp((1.0 - front.a) / rear.a, 0.0, 1.0) : 0.0);
 }
 
-// Whether the sides `face` (+x -x +y -y +z -z) of a block's cell are the front layer: they are met by rays that come from where
-// they face.
-bool isFront(uint face, uint cell) { return ((cell >> (face >> 1)) & 1u) == 1u - (face & 1u); }
+// Whether an octant is in the layer that a ray against `face` (+x -x +y -y +z -z) enters first.
+bool isFront(uint face, uint octant) { return ((octant >> (face >> 1)) & 1u) == 1u - (face & 1u); }
 
-// The value of a voxel twice as large from those of its eight children, for the sides `face`: in a row along the axis, the mean
-// across it.
+// The value of a voxel twice as large from those of its eight children, for one face: the two in a row along the axis composited,
+// then the mean of the four pairs across it.
 vec4 combineFaces(vec4 child[8], uint face) {
     const uint step_ = 1u << (face >> 1);
     vec4 sum = vec4(0.0);
-    for (uint cell = 0u; cell < 8u; ++cell)
-        if (isFront(face, cell)) sum += inARow(child[cell], child[cell ^ step_]);
+    for (uint octant = 0u; octant < 8u; ++octant)
+        if (isFront(face, octant)) sum += inARow(child[octant], child[octant ^ step_]);
     return 0.25 * sum;
 }
 
-// The same where all sides share one value: nothing tells front from rear, so the mean.
+// The same with one value for all faces: nothing tells front from rear, so the mean.
 vec4 combineAll(vec4 child[8]) {
     vec4 sum = vec4(0.0);
-    for (uint cell = 0u; cell < 8u; ++cell) sum += child[cell];
+    for (uint octant = 0u; octant < 8u; ++octant) sum += child[octant];
     return 0.125 * sum;
 }
 
-// Weight of a cell in interpolation, `at` from 0 to 1 between the centers of the block's cells.
-float cellWeight(uint cell, vec3 at) {
-    const vec3 upper = vec3(cell & 1u, (cell >> 1) & 1u, cell >> 2);
+// Weight of an octant in linear interpolation, `at` from 0 to 1 between the centers of the block's voxels.
+float octantWeight(uint octant, vec3 at) {
+    const vec3 upper = vec3(octant & 1u, (octant >> 1) & 1u, octant >> 2);
     const vec3 weight = mix(1.0 - at, at, upper);
     return weight.x * weight.y * weight.z;
 }
 
-// Interpolated value of the sides `face`. Of each pair in a row the rear one counts as far as the front one leaves it free: so a
-// surface hides the one behind it, though both are within the filter's reach.
+// Interpolated value of one face. Of each pair in a row the rear voxel counts only as far as the front one lets through: so a surface
+// hides the one behind it, though both lie within the filter's support.
 vec4 interpolateFaces(vec4 value[8], uint face, vec3 at) {
     const uint step_ = 1u << (face >> 1);
     vec4 sum = vec4(0.0);
-    for (uint cell = 0u; cell < 8u; ++cell) {
-        if (!isFront(face, cell)) continue;
-        const vec4 front = value[cell];
-        const vec4 rear = inARow(front, value[cell ^ step_]) - front;
-        sum += cellWeight(cell, at) * front + cellWeight(cell ^ step_, at) * rear;
+    for (uint octant = 0u; octant < 8u; ++octant) {
+        if (!isFront(face, octant)) continue;
+        const vec4 front = value[octant];
+        const vec4 rear = inARow(front, value[octant ^ step_]) - front;
+        sum += octantWeight(octant, at) * front + octantWeight(octant ^ step_, at) * rear;
     }
     return sum;
 }
 
 vec4 interpolateAll(vec4 value[8], vec3 at) {
     vec4 sum = vec4(0.0);
-    for (uint cell = 0u; cell < 8u; ++cell) sum += cellWeight(cell, at) * value[cell];
+    for (uint octant = 0u; octant < 8u; ++octant) sum += octantWeight(octant, at) * value[octant];
     return sum;
 }
 

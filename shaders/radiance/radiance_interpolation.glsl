@@ -1,7 +1,7 @@
 // Linear interpolation between the voxels of one level, the same for every layout. The including layout has declared
 //  - radianceVoxels;
 //  - NO_PLACE: the place of a voxel that is empty or outside;
-//  - vec4 radianceValue(uint place, uint side): what a voxel stores. `side`: 0 to 5 by facing direction, 0 where all share one.
+//  - vec4 radianceValue(uint place, uint face): what a voxel stores. `face`: 0 to 5 for +x -x +y -y +z -z, 0 with one value for all.
 #ifndef VOXRAY_RADIANCE_INTERPOLATION_GLSL
 #define VOXRAY_RADIANCE_INTERPOLATION_GLSL
 
@@ -18,19 +18,19 @@ ivec3 cornerVoxel(uint level, vec3 position, out vec3 at) {
 }
 
 // One of the eight voxels from `corner` on.
-ivec3 blockVoxel(ivec3 corner, uint cell) { return corner + ivec3(cell & 1u, (cell >> 1) & 1u, cell >> 2); }
+ivec3 blockVoxel(ivec3 corner, uint octant) { return corner + ivec3(octant & 1u, (octant >> 1) & 1u, octant >> 2); }
 
 // What a ray along `direction` meets between the eight voxels of a block, which stand at `place`.
 vec4 interpolateBlock(uint place[8], vec3 at, vec3 direction) {
     vec4 value[8];
     vec4 sum = vec4(0.0);
-    const bool sides = radianceVoxels.grid.directions == 6u;
-    for (uint axis = 0u; axis < (sides ? 3u : 1u); ++axis) {
+    const bool faces = radianceVoxels.grid.directions == 6u;
+    for (uint axis = 0u; axis < (faces ? 3u : 1u); ++axis) {
         const uint face = 2u * axis + (direction[axis] > 0.0 ? 1u : 0u);
-        if (sides && direction[axis] == 0.0) continue;
-        for (uint cell = 0u; cell < 8u; ++cell)
-            value[cell] = place[cell] == NO_PLACE ? vec4(0.0) : radianceValue(place[cell], sides ? face : 0u);
-        sum += sides ? abs(direction[axis]) * interpolateFaces(value, face, at) : interpolateAll(value, at);
+        if (faces && direction[axis] == 0.0) continue;
+        for (uint octant = 0u; octant < 8u; ++octant)
+            value[octant] = place[octant] == NO_PLACE ? vec4(0.0) : radianceValue(place[octant], faces ? face : 0u);
+        sum += faces ? abs(direction[axis]) * interpolateFaces(value, face, at) : interpolateAll(value, at);
     }
     return sum;
 }

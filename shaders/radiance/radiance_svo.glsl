@@ -12,8 +12,8 @@ vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     if (!inOctreeBorder(corner, level) || !inOctreeBorder(corner + 1, level)) return vec4(0.0);
     uint node[8];
     if (!octreeNodes(corner, level, node)) return vec4(0.0);
-    for (uint cell = 0u; cell < 8u; ++cell)
-        if (cellWeight(cell, at) == 0.0) node[cell] = NO_NODE;
+    for (uint octant = 0u; octant < 8u; ++octant)
+        if (octantWeight(octant, at) == 0.0) node[octant] = NO_NODE;
 
     return interpolateBlock(node, at, direction);
 }

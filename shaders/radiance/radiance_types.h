@@ -15,7 +15,7 @@ struct RadianceGrid {
     float voxelSize;  // m, of level 0.
     uvec3 resolution;  // Of level 0.
     uint levels;
-    uint directions;  // Values a voxel: 6, by the side that surfaces face (+x -x +y -y +z -z), or 1 for all.
+    uint directions;  // Values a voxel: 6, by face (+x -x +y -y +z -z), or 1 for all.
     float unit;       // Radiance, W/(m² sr), that the stored number 1 stands for; a power of two.
 };
 

@@ -1,10 +1,10 @@
-// Prefiltered radiance and cover of surfaces at all scales: one accessor for all layouts. The including shader is compiled with
+// Prefiltered radiance and opacity of surfaces at all scales: one accessor for all layouts. The including shader is compiled with
 // RadianceVoxels::defines() and given RadianceVoxels::bindings() (passes/common/radiance/radiance_voxels.h).
 //
-// What a voxel stores, for each side that surfaces face: their cover, the area that they show along that axis in units of the
-// voxel's face, at most 1; and the radiance that they send that way times the cover. A ray meets the sides that face it, those
-// of axis k once for each layer of voxels across k that it passes: in |direction_k| layers for each voxel's width of its way. So
-// the covers that a ray collects in passing a closed surface add up to 1, whatever the angle, however values are interpolated.
+// What a voxel stores, for each of its six faces: opacity, the area that its surfaces project onto the face over the face's area, at
+// most 1; and the radiance that they send that way, times the opacity. A ray meets the faces that look against it, those of axis k
+// once for each layer of voxels across k that it passes: |direction_k| layers for each voxel's width of its way. So the opacities
+// that a ray collects in passing a closed surface add up to 1, whatever the angle and however values are interpolated.
 #ifndef VOXRAY_RADIANCE_VOXELS_GLSL
 #define VOXRAY_RADIANCE_VOXELS_GLSL
 

@@ -1,11 +1,11 @@
-// Radiance and cover of the surfaces in a voxel: level 0 of every layout of radiance voxels. Needs the bindings of
+// Radiance and opacity of the surfaces in a voxel, by face: level 0 of every layout of radiance voxels. Needs the bindings of
 // shaders/voxels/voxels.glsl.
 #ifndef VOXRAY_SURFACE_RADIANCE_GLSL
 #define VOXRAY_SURFACE_RADIANCE_GLSL
 
 #include "shaders/voxels/voxels.glsl"
 
-// By voxel and facing direction +x -x +y -y +z -z: W, 3 floats each; area that the flux fell on, in units of a voxel's face.
+// By voxel and face +x -x +y -y +z -z: flux, W, 3 floats each; the area that it fell on, in units of a voxel's face.
 layout(scalar) readonly buffer VoxelArea { float data[]; } voxelArea;
 layout(scalar) readonly buffer DirectFluxAt { LargeFloats directFlux; };
 layout(scalar) readonly buffer IndirectFluxAt { LargeFloats indirectFlux; };
@@ -16,28 +16,40 @@ vec3 faceFlux(uint face) {
            vec3(indirectFlux.data[at], indirectFlux.data[at + 1u], indirectFlux.data[at + 2u]);
 }
 
-float exposed(VoxelMaterial m, uint face) {
+float unoccluded(VoxelMaterial m, uint face) {
     return (face & 1u) == 0u ? m.unoccludedPositive[face >> 1] : m.unoccludedNegative[face >> 1];
 }
 
-// Area that a voxel's surfaces show along the axis of `face`, by the side that they face, in units of the voxel's face. The exposed
-// area of a facet is shared out by the squares of its normal's components, and along an axis it shows its area times the component
-// itself: so the share is divided by the component. Of several facets the root of the mean square stands for it, which is exact
-// where they are parallel or lie across the axes. What shows more than the voxel's face hides itself.
-float faceCover(VoxelMaterial m, uint face) {
+// Opacity of a voxel towards one of its faces: the area that its surfaces project onto that face, over the face's area.
+//
+//        n = (nx, ny)          A facet of area A and unit normal n stores A nx² for the faces across x and A ny² for those across
+//           \  ____            y: these add up to A, whatever the axes. Seen along x it projects the area A nx. So the stored part
+//            \/                is divided by nx = sqrt(A nx² / (A nx² + A ny²)).
+//            /\
+//           /  A
+//
+// With several facets in the voxel the root of the mean square stands for nx: exact where they are parallel, or each lies across an
+// axis. Surfaces that project more than the whole face hide each other: the opacity is clamped to 1.
+float faceOpacity(VoxelMaterial m, uint face) {
     const vec3 squares = max(m.unoccludedPositive, m.unoccludedNegative);
     const float own = squares[face >> 1];
     if (own <= 0.0) return 0.0;
-    return min(exposed(m, face) * sqrt((squares.x + squares.y + squares.z) / own), 1.0);
+    return min(unoccluded(m, face) * sqrt((squares.x + squares.y + squares.z) / own), 1.0);
 }
 
-// Emission is of the front sides alone, and these face as the mean normal does.
+// Surfaces emit from their front sides alone. Those look the way of the mean normal.
 bool emits(VoxelMaterial m, uint face) {
     return (face & 1u) == 0u ? m.normal[face >> 1] > 0.0 : m.normal[face >> 1] < 0.0;
 }
 
-// A sheet at a slant to the axes faces a ray with parts of both of its sides: with the true one, and with less of the other, which it
-// does not show. So where one side of it is dark and the other lit, as within a solid, the dark one is left out.
+// Whether a dark face is the back of a lit surface. A surface at a slant to the axes has area for both faces of an axis, though a ray
+// along that axis sees just one of them:
+//
+//        lit   /  dark       A ray that comes from the left meets the lit side, with its full opacity. The dark side, inside of a
+//      ---->  /              solid, belongs to the opposite face: counted as well, it would darken the voxel.
+//            /
+//
+// So of a slanted surface that is lit on one side and dark on the other the dark face has no opacity.
 bool isBackOfLit(VoxelMaterial m, uint voxel, uint face, float emission) {
     const vec3 squares = max(m.unoccludedPositive, m.unoccludedNegative);
     if (squares[face >> 1] > 0.9 * (squares.x + squares.y + squares.z)) return false;
@@ -45,30 +57,30 @@ bool isBackOfLit(VoxelMaterial m, uint voxel, uint face, float emission) {
     return faceFlux(6u * voxel + other) != vec3(0.0) || (emits(m, other) && emission * m.emission != vec3(0.0));
 }
 
-// Radiance times cover, W/(m² sr), and cover. `emission`: 1 to add what the surfaces emit, 0 to leave it out.
+// Radiance times opacity, W/(m² sr), and opacity. `emission`: 1 to add what the surfaces emit, 0 to leave it out.
 vec4 faceRadiance(VoxelGrid g, uint voxel, uint face, float emission) {
     const VoxelMaterial m = voxelMaterials.data[voxel];
-    const float cover = faceCover(m, face);
+    const float opacity = faceOpacity(m, face);
     const float area = voxelArea.data[6u * voxel + face] * g.voxelSize * g.voxelSize;
     vec3 radiance = emits(m, face) ? emission * m.emission : vec3(0.0);
     if (area > 0.0) radiance += m.albedo / 3.14159265358979 * faceFlux(6u * voxel + face) / area;
     if (radiance == vec3(0.0) && isBackOfLit(m, voxel, face, emission)) return vec4(0.0);
-    return vec4(cover * radiance, cover);
+    return vec4(opacity * radiance, opacity);
 }
 
-// The same for all sides together: the mean radiance over exposed area, and the cover of the side that shows most.
+// The same with one value for all faces: the mean radiance over the unoccluded area, and the opacity of the most opaque face.
 vec4 meanRadiance(VoxelGrid g, uint voxel, float emission) {
     const VoxelMaterial m = voxelMaterials.data[voxel];
     vec3 radiance = vec3(0.0);
-    float area = 0.0, cover = 0.0;
+    float area = 0.0, opacity = 0.0;
     for (uint face = 0u; face < 6u; ++face) {
         const vec4 value = faceRadiance(g, voxel, face, emission);
         if (value.a == 0.0) continue;
-        radiance += exposed(m, face) / value.a * value.rgb;
-        area += exposed(m, face);
-        cover = max(cover, value.a);
+        radiance += unoccluded(m, face) / value.a * value.rgb;
+        area += unoccluded(m, face);
+        opacity = max(opacity, value.a);
     }
-    return area > 0.0 ? vec4(cover / area * radiance, cover) : vec4(0.0);
+    return area > 0.0 ? vec4(opacity / area * radiance, opacity) : vec4(0.0);
 }
 
 #endif

@@ -13,7 +13,7 @@ struct Setting {
     std::string resolution = "32";
     std::string inject = "rays_per_light: 131072, bounces: 0";
     std::string filter = "bounces: 3";
-    std::string gather = "cones: 16, sparse: 4";
+    std::string gather = "cones: 16, stride: 4";
 };
 
 std::string coneGraph(const Setting& s) {
@@ -60,7 +60,7 @@ TEST(ConeBounces, AgreeWithTheReferenceOnCornell) {
     const ImageF expected = reference.image("indirect");
     Setting s;
     s.gbuffer = "samples: 3";
-    s.gather = "cones: 16, sparse: 16";
+    s.gather = "cones: 16, stride: 16";
     s.resolution = "48";
     s.inject = "rays_per_light: 524288, bounces: 0";
     const ImageF image = indirect("cornell", "{lights: point}", s);

@@ -95,13 +95,13 @@ TEST(ConeTracing, IsDeterministic) {
 }
 
 TEST(ConeTracing, FewerTracedPixelsKeepTheEnergy) {
-    const auto run = [](const std::string& sparse) {
+    const auto run = [](const std::string& stride) {
         Setting s;
-        s.gather = "cones: 16, sparse: " + sparse;
+        s.gather = "cones: 16, stride: " + stride;
         return indirect("cornell", "{lights: point}", s);
     };
     const double all = run("1");
-    for (const std::string sparse : {"3", "4", "16"}) EXPECT_NEAR(run(sparse) / all, 1.0, 0.03) << sparse;
+    for (const std::string stride : {"3", "4", "16"}) EXPECT_NEAR(run(stride) / all, 1.0, 0.03) << stride;
 }
 
 TEST(ConeTracing, ConvergesToTheReferenceOnCornell) {
@@ -112,7 +112,7 @@ TEST(ConeTracing, ConvergesToTheReferenceOnCornell) {
         s.gbuffer = "samples: 3";
         s.voxelize = "resolution: " + resolution;
         s.inject = "rays_per_light: 524288, bounces: 3";
-        s.gather = "cones: " + cones + ", sparse: 3";
+        s.gather = "cones: " + cones + ", stride: 3";
         Chain chain("cornell", "{lights: point}", coneGraph(s));
         const ImageF image = chain.image("indirect");
         EXPECT_NEAR(mean(image) / mean(expected), 1.0, 0.1) << resolution << ' ' << cones;

@@ -94,7 +94,7 @@ std::pair<double, double> mirrorError(float roughness, const std::string& cones,
                                       const ImageF& expected) {
     Chain chain(mirrorRoom(roughness),
                 coneGraph("samples: 2", resolution, "rays_per_light: 524288, bounces: 0", "layout: " + layout,
-                          "cones: 5, sparse: 16, specular: " + cones),
+                          "cones: 5, stride: 16, specular: " + cones),
                 32, 32, 1);
     const ImageF image = chain.image("indirect");
     const auto positions = chain.readImage<glm::vec4>(chain.graph().resource<GBuffer>("gbuffer")->position);

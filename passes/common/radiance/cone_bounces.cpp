@@ -24,7 +24,7 @@ struct GatherPush {
     uint32_t cones;
 };
 
-uint64_t cellBytes(uint64_t voxels) {
+uint64_t coordinateBytes(uint64_t voxels) {
     return voxels * sizeof(glm::uvec3);
 }
 
@@ -36,7 +36,7 @@ uint64_t fluxBytes(uint64_t voxels) {
 
 void ConeBounces::plan(PassPlan& plan, uint64_t voxels, bool keeps) {
     plan.buffer(coneSet_, "cones", coneSet(pass_, cones_).size() * sizeof(gpu::Cone));
-    const uint64_t light = cellBytes(voxels) + fluxBytes(voxels);
+    const uint64_t light = coordinateBytes(voxels) + fluxBytes(voxels);
     if (keeps)
         plan.reserve("bounced light (estimated)", light);
     else
@@ -54,17 +54,19 @@ void ConeBounces::prepare(PassSetup& setup, const RadianceVoxels& radiance) {
 
 void ConeBounces::list(PassContext& context, const SurfaceVoxels& voxels) {
     const uint64_t count = voxels.voxelCount;
-    if (!cells_ || cells_.bytes() != cellBytes(count)) {
-        cells_ = {};
-        cells_ = Buffer(context.device, "cells of surface voxels", cellBytes(count));
+    if (!voxelCoordinates_ || voxelCoordinates_.bytes() != coordinateBytes(count)) {
+        voxelCoordinates_ = {};
+        voxelCoordinates_ = Buffer(context.device, "coordinates of surface voxels", coordinateBytes(count));
     }
     if (!flux_ || flux_.bytes() != fluxBytes(count)) {
         flux_ = {};
         flux_ = LargeBuffer(context.device, "bounced flux", fluxBytes(count));
     }
-    context.stream.dispatch(
-        list_, {{"voxelOccupancy", voxels.occupancy}, {"voxelRank", voxels.rank}, {"voxelCells", cells_}},
-        ListPush{voxels.grid, uint32_t(voxels.words())}, linearGroups(voxels.words()));
+    context.stream.dispatch(list_,
+                            {{"voxelOccupancy", voxels.occupancy},
+                             {"voxelRank", voxels.rank},
+                             {"voxelCoordinates", voxelCoordinates_}},
+                            ListPush{voxels.grid, uint32_t(voxels.words())}, linearGroups(voxels.words()));
 }
 
 void ConeBounces::gather(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& injected,
@@ -73,7 +75,7 @@ void ConeBounces::gather(PassContext& context, const SurfaceVoxels& voxels, cons
     std::vector<Binding> bindings = radiance.bindings();
     bindings.insert(bindings.end(), {{"cones", coneSet_},
                                      {"VoxelMaterialsAt", voxels.materials.at()},
-                                     {"voxelCells", cells_},
+                                     {"voxelCoordinates", voxelCoordinates_},
                                      {"DirectFluxAt", injected.direct.at()},
                                      {"IndirectFluxAt", injected.indirect.at()},
                                      {"voxelArea", injected.area},
@@ -90,7 +92,7 @@ void ConeBounces::gather(PassContext& context, const SurfaceVoxels& voxels, cons
 
 void ConeBounces::release(CommandStream& stream) {
     stream.finish();
-    cells_ = {};
+    voxelCoordinates_ = {};
     flux_ = {};
 }
 

@@ -51,7 +51,7 @@ class ConeBounces {
     const char* pass_;
     uint32_t cones_;
     Program list_, gather_;
-    Buffer coneSet_, cells_;
+    Buffer coneSet_, voxelCoordinates_;
     LargeBuffer flux_;
 };
 

@@ -7,7 +7,7 @@
 #include "shaders/radiance/surface_radiance.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer VoxelCells { uvec3 data[]; } voxelCells;
+layout(scalar) readonly buffer VoxelCoordinates { uvec3 data[]; } voxelCoordinates;
 layout(scalar) readonly buffer FluxAt { LargeFloats flux; };
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
@@ -35,13 +35,13 @@ void main() {
     // What counts as the inside of a solid by the injected light, whose rays know what is hidden, stays dark.
     const bool inside = faceFlux(face) == vec3(0.0) && isBackOfLit(m, voxel, side, 0.0);
     if (area > 0.0 && !inside) {
-        const uvec3 cell = voxelCells.data[voxel];
+        const uvec3 coordinates = voxelCoordinates.data[voxel];
         const vec3 normal = sideNormal(m.normal, faceNormal(side));
-        const vec3 center = push.grid.origin + (vec3(cell) + 0.5) * push.grid.voxelSize;
+        const vec3 center = push.grid.origin + (vec3(coordinates) + 0.5) * push.grid.voxelSize;
         // Where cones stand in their cells wanders from voxel to voxel: the additive recurrence of Roberts 2018, along each axis.
-        const vec3 dither = fract(vec3(0.5) + float(cell.x) * vec3(0.754877666, 0.569840296, 0.819172513) +
-                                  float(cell.y) * vec3(0.569840296, 0.754877666, 0.671043607) +
-                                  float(cell.z) * vec3(0.671043607, 0.819172513, 0.549700478));
+        const vec3 dither = fract(vec3(0.5) + float(coordinates.x) * vec3(0.754877666, 0.569840296, 0.819172513) +
+                                  float(coordinates.y) * vec3(0.569840296, 0.754877666, 0.671043607) +
+                                  float(coordinates.z) * vec3(0.671043607, 0.819172513, 0.549700478));
         arrives = area * coneIrradiance(center, normal, normal, push.cones, dither);
     }
     for (uint channel = 0u; channel < 3u; ++channel) flux.data[3u * face + channel] = arrives[channel];

@@ -1,11 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The cell of each surface voxel, by the voxel's number. A thread takes a word of the occupancy bits.
+// The coordinates of each surface voxel, by the voxel's number. A thread takes a word of the occupancy bits.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) writeonly buffer VoxelCells { uvec3 data[]; } voxelCells;
+layout(scalar) writeonly buffer VoxelCoordinates { uvec3 data[]; } voxelCoordinates;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint words;
@@ -18,5 +18,5 @@ void main() {
     const uvec3 slot = uvec3(32u * (word % push.grid.wordsPerRow), row % rows, row / rows);
     uint voxel = voxelRank.before[word];
     for (uint bits = voxelOccupancy.words[word]; bits != 0u; bits &= bits - 1u)
-        voxelCells.data[voxel++] = voxelInSlot(push.grid, slot + uvec3(findLSB(bits), 0u, 0u));
+        voxelCoordinates.data[voxel++] = voxelInSlot(push.grid, slot + uvec3(findLSB(bits), 0u, 0u));
 }

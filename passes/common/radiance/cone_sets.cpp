@@ -36,8 +36,8 @@ std::vector<gpu::Cone> coneSet(const char* pass, uint32_t count) {
     std::vector<gpu::Cone> cones;
     double inner = 0;
     for (const Ring& ring : found->second) {
-        // Half as wide as a circular cone of the cell's solid angle, 2 pi (1 - cosine): directions wander
-        // through the whole cell, and what a cone blurs comes on top of that.
+        // Half as wide as a circular cone of the stratum's solid angle, 2 pi (1 - cosine): directions wander
+        // through the whole stratum, and what a cone blurs comes on top of that.
         const double cosine = 1 - (std::sqrt(1 - inner) - std::sqrt(1 - ring.within)) / ring.cones;
         const double width = std::sqrt(1 - cosine * cosine) / cosine;
         for (uint32_t i = 0; i < ring.cones; ++i)

@@ -1,13 +1,13 @@
 // The texels that cones start from: every n-th, in a lattice turned against rows and columns (Pantelev 2014's rotated grid). Row by
 // row, each is shifted against the last so that a texel's nearest traced neighbours lie all round it.
-#ifndef VOXRAY_SPARSE_GLSL
-#define VOXRAY_SPARSE_GLSL
+#ifndef VOXRAY_TEXEL_STRIDE_GLSL
+#define VOXRAY_TEXEL_STRIDE_GLSL
 
 // Shift of each row: close to n / golden ratio, which spreads any number of rows evenly.
-int rowShift(int y, int sparse) { return (y * max(int(round(float(sparse) * 0.38196601)), 1)) % sparse; }
+int rowShift(int y, int stride) { return (y * max(int(round(float(stride) * 0.38196601)), 1)) % stride; }
 
 // The traced texel number `place.x` of row `place.y`.
-ivec2 tracedTexel(ivec2 place, int sparse) { return ivec2(place.x * sparse + rowShift(place.y, sparse), place.y); }
+ivec2 tracedTexel(ivec2 place, int stride) { return ivec2(place.x * stride + rowShift(place.y, stride), place.y); }
 
 // Three numbers in [0, 1) for a texel that complement those of the texels round it: the additive recurrence of Roberts 2018, along
 // rows and columns.
