@@ -3,7 +3,7 @@ voxray_tests(graph
   SOURCES unit/graph_memory_test.cpp unit/graph_wiring_test.cpp
   DEPENDS voxray_experiment)
 voxray_tests(chain SHARDS 12
-  SOURCES gpu/shared_structs_test.cpp physics/awkward_views_test.cpp physics/camera_rays_test.cpp
+  SOURCES gpu/compute_test.cpp gpu/shared_structs_test.cpp physics/awkward_views_test.cpp physics/camera_rays_test.cpp
            physics/clipmap_test.cpp physics/clipmap_voxels_test.cpp physics/compare_voxels_test.cpp
            physics/cone_bounces_test.cpp physics/cone_tracing_test.cpp physics/final_gather_test.cpp
            physics/gbuffer_test.cpp physics/injection_test.cpp physics/light_paths_test.cpp

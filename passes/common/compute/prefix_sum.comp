@@ -1,9 +1,9 @@
 #version 460
-// Exclusive prefix sum of population counts in three dispatches: sums of blocks of 1024 words (SUM_BLOCKS), their scan
-// by one work group (SCAN_BLOCKS), and the scan within each block (SCAN_WORDS).
+// Exclusive prefix sum in three dispatches: sums of blocks of 1024 values (SUM_BLOCKS), their scan by one work group
+// (SCAN_BLOCKS), and the scan within each block (SCAN_VALUES). With SET_BITS a value is the number of bits set in a word.
 layout(local_size_x = 256) in;
 
-readonly buffer Source { uint words[]; } source;
+readonly buffer Source { uint values[]; } source;
 writeonly buffer Result { uint before[]; } result;
 buffer BlockSums { uint sums[]; } blockSums;
 layout(push_constant) uniform Push {
@@ -27,7 +27,14 @@ uint scanGroup(uint value) {
     return partial[i];
 }
 
-uint bitsOf(uint word) { return word < push.count ? uint(bitCount(source.words[word])) : 0u; }
+uint valueAt(uint i) {
+    if (i >= push.count) return 0u;
+#ifdef SET_BITS
+    return uint(bitCount(source.values[i]));
+#else
+    return source.values[i];
+#endif
+}
 
 void main() {
     const uint i = gl_LocalInvocationID.x;
@@ -44,17 +51,19 @@ void main() {
     }
     if (i == 0u) blockSums.sums[push.blocks] = carried;
 #else
-    const uint first = gl_WorkGroupID.x * 1024u + i * 4u;
-    const uvec4 bits = uvec4(bitsOf(first), bitsOf(first + 1u), bitsOf(first + 2u), bitsOf(first + 3u));
-    const uint own = bits.x + bits.y + bits.z + bits.w;
+    const uint block = gl_WorkGroupID.y * 32768u + gl_WorkGroupID.x;
+    const uint first = block * 1024u + i * 4u;
+    const uvec4 values = uvec4(valueAt(first), valueAt(first + 1u), valueAt(first + 2u), valueAt(first + 3u));
+    const uint own = values.x + values.y + values.z + values.w;
     const uint inclusive = scanGroup(own);
+    if (block >= push.blocks) return;
 #ifdef SUM_BLOCKS
-    if (i == 255u) blockSums.sums[gl_WorkGroupID.x] = inclusive;
+    if (i == 255u) blockSums.sums[block] = inclusive;
 #else
-    uint running = blockSums.sums[gl_WorkGroupID.x] + inclusive - own;
+    uint running = blockSums.sums[block] + inclusive - own;
     for (uint k = 0u; k < 4u; ++k) {
         if (first + k < push.count) result.before[first + k] = running;
-        running += bits[k];
+        running += values[k];
     }
 #endif
 #endif

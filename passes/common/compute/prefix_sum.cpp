@@ -3,36 +3,52 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBlockWords = 1024;  // As in prefix_sum.comp.
+constexpr uint32_t kBlockValues = 1024;  // As in prefix_sum.comp.
+constexpr uint32_t kRow = 32768;         // Work groups along x; devices allow 65535.
 
 struct Push {
     uint32_t count;
     uint32_t blocks;
 };
 
-Program stage(Device& device, const ShaderCompiler& compiler, const char* name) {
-    return makeComputeProgram(device,
-                              compiler.compile("passes/common/compute/prefix_sum.comp", {{name, "1"}}));
+uint32_t blocksOf(uint32_t count) {
+    return count / kBlockValues + (count % kBlockValues > 0 ? 1 : 0);
+}
+
+Program stage(Device& device, const ShaderCompiler& compiler, const char* name, PrefixSum::Of of) {
+    const Defines defines = of == PrefixSum::Of::SetBits ? Defines{{name, "1"}, {"SET_BITS", "1"}}
+                                                         : Defines{{name, "1"}};
+    return makeComputeProgram(device, compiler.compile("passes/common/compute/prefix_sum.comp", defines));
 }
 
 }  // namespace
 
-PopulationPrefixSum::PopulationPrefixSum(Device& device, const ShaderCompiler& compiler)
-    : sumBlocks_(stage(device, compiler, "SUM_BLOCKS")),
-      scanBlocks_(stage(device, compiler, "SCAN_BLOCKS")),
-      scanWords_(stage(device, compiler, "SCAN_WORDS")) {}
+PrefixSum::PrefixSum(Device& device, const ShaderCompiler& compiler, Of of)
+    : sumBlocks_(stage(device, compiler, "SUM_BLOCKS", of)),
+      scanBlocks_(stage(device, compiler, "SCAN_BLOCKS", of)),
+      scanValues_(stage(device, compiler, "SCAN_VALUES", of)) {}
 
-uint32_t PopulationPrefixSum::run(CommandStream& stream, const Buffer& words, const Buffer& before,
-                                  uint32_t count) const {
-    const uint32_t blocks = (count + kBlockWords - 1) / kBlockWords;
-    // One sum a block and, after them, the total.
-    const Buffer sums(stream.device(), "prefix sum blocks", (uint64_t(blocks) + 1) * sizeof(uint32_t));
-    const Push push{count, blocks};
-    const auto bindings = {ifUsed({"source", words}), ifUsed({"result", before}), Binding{"blockSums", sums}};
-    stream.dispatch(sumBlocks_, bindings, push, {blocks, 1, 1});
+uint64_t PrefixSum::scratchBytes(uint32_t count) {
+    return (uint64_t(blocksOf(count)) + 1) * sizeof(uint32_t);
+}
+
+void PrefixSum::record(CommandStream& stream, const Buffer& source, const Buffer& before,
+                       const Buffer& blockSums, uint32_t count) const {
+    const Push push{count, blocksOf(count)};
+    const glm::uvec3 groups = push.blocks <= kRow ? glm::uvec3(push.blocks, 1, 1)
+                                                  : glm::uvec3(kRow, (push.blocks + kRow - 1) / kRow, 1);
+    const auto bindings = {ifUsed({"source", source}), ifUsed({"result", before}),
+                           Binding{"blockSums", blockSums}};
+    stream.dispatch(sumBlocks_, bindings, push, groups);
     stream.dispatch(scanBlocks_, bindings, push, {1, 1, 1});
-    stream.dispatch(scanWords_, bindings, push, {blocks, 1, 1});
-    return stream.readAs<uint32_t>(sums, size_t(blocks) + 1).back();
+    stream.dispatch(scanValues_, bindings, push, groups);
+}
+
+uint32_t PrefixSum::run(CommandStream& stream, const Buffer& source, const Buffer& before,
+                        uint32_t count) const {
+    const Buffer sums(stream.device(), "prefix sum blocks", scratchBytes(count));
+    record(stream, source, before, sums, count);
+    return stream.readAs<uint32_t>(sums, scratchBytes(count) / sizeof(uint32_t)).back();
 }
 
 }  // namespace voxray

@@ -39,7 +39,7 @@ OctreeBuilder::OctreeBuilder(Device& device, const ShaderCompiler& compiler)
       subdivide_(makeComputeProgram(device, compiler.compile("passes/common/octree/octree_subdivide.comp"))),
       number_(makeComputeProgram(device, compiler.compile("passes/common/octree/octree_number.comp"))),
       filter_(makeComputeProgram(device, compiler.compile("passes/common/octree/octree_filter.comp"))),
-      prefixSum_(device, compiler) {}
+      prefixSum_(device, compiler, PrefixSum::Of::SetBits) {}
 
 OctreeBuilder::Built OctreeBuilder::build(CommandStream& stream, const SurfaceVoxels& voxels,
                                           RadianceVoxels& radiance) const {

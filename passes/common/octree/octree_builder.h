@@ -39,7 +39,7 @@ class OctreeBuilder {
     std::vector<Buffer> flag(CommandStream& stream, const SurfaceVoxels& voxels, OctreeSize& size) const;
 
     Program flag_, subdivide_, number_, filter_;
-    PopulationPrefixSum prefixSum_;
+    PrefixSum prefixSum_;
 };
 
 }  // namespace voxray

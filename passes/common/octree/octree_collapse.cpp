@@ -23,7 +23,7 @@ struct LevelPush {
 }  // namespace
 
 OctreeCollapse::OctreeCollapse(Device& device, const ShaderCompiler& compiler)
-    : prefixSum_(device, compiler) {
+    : prefixSum_(device, compiler, PrefixSum::Of::SetBits) {
     const auto program = [&](const char* file, const Defines& defines) {
         return makeComputeProgram(device,
                                   compiler.compile(std::string("passes/common/octree/") + file, defines));

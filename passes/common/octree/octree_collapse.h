@@ -24,7 +24,7 @@ class OctreeCollapse {
                           const Buffer& uniform, const OctreeSize& smaller) const;
 
     Program uniform_, masks_, words_, table_;
-    PopulationPrefixSum prefixSum_;
+    PrefixSum prefixSum_;
 };
 
 }  // namespace voxray

@@ -50,8 +50,8 @@ void RegionMerge::occupancy(CommandStream& stream, const VoxelRegion& region, co
     stream.finish();
 }
 
-void RegionMerge::materials(CommandStream& stream, const PopulationPrefixSum& prefixSum,
-                            const SurfaceVoxels& rebuilt, SurfaceVoxels& previous) {
+void RegionMerge::materials(CommandStream& stream, const PrefixSum& prefixSum, const SurfaceVoxels& rebuilt,
+                            SurfaceVoxels& previous) {
     Device& device = stream.device();
     const uint32_t words = uint32_t(previous.words());
     Buffer rank(device, "voxel ranks", previous.rank.bytes());

@@ -18,7 +18,7 @@ class RegionMerge {
                    SurfaceVoxels& rebuilt);
     /// Then ranks and materials, once `rebuilt` has them; `previous` becomes the result. Waits for the
     /// device.
-    void materials(CommandStream& stream, const PopulationPrefixSum& prefixSum, const SurfaceVoxels& rebuilt,
+    void materials(CommandStream& stream, const PrefixSum& prefixSum, const SurfaceVoxels& rebuilt,
                    SurfaceVoxels& previous);
 
     /// Bytes of scratch memory, besides the materials of the voxels: five words for every two of theirs.

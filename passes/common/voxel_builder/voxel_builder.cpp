@@ -46,7 +46,7 @@ void VoxelBuilder::prepare(PassSetup& setup) {
     addSurfaces_ = walk_->compileVisitor(setup, "passes/common/voxel_builder/add_surfaces");
     resolve_ = makeComputeProgram(
         setup.device, setup.compiler.compile("passes/common/voxel_builder/surface_accumulator_resolve.comp"));
-    prefixSum_.emplace(setup.device, setup.compiler);
+    prefixSum_.emplace(setup.device, setup.compiler, PrefixSum::Of::SetBits);
     visibilityProbe_ = VisibilityProbe(setup.device, setup.compiler);
     merge_ = RegionMerge(setup.device, setup.compiler);
 }

@@ -67,7 +67,7 @@ class VoxelBuilder {
     std::unique_ptr<TriangleWalk> walk_;
     uint32_t visibilityRays_;
     Program markVoxels_, addSurfaces_, resolve_;
-    std::optional<PopulationPrefixSum> prefixSum_;
+    std::optional<PrefixSum> prefixSum_;
     VisibilityProbe visibilityProbe_;
     RegionMerge merge_;
     float largestEmission_ = 0;

@@ -1,0 +1,17 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// How often each value occurs. A thread takes a value.
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+readonly buffer Values { uint data[]; } values;
+buffer Counts { uint data[]; } counts;
+layout(push_constant) uniform Push {
+    uint count;
+    uint bins;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i < push.count && values.data[i] < push.bins) atomicAdd(counts.data[values.data[i]], 1u);
+}

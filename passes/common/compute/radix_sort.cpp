@@ -1,0 +1,76 @@
+#include "passes/common/compute/radix_sort.h"
+
+#include <utility>
+
+#include "base/error.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kBlockPairs = 4096, kDigits = 16, kDigitBits = 4;  // As in radix_sort.comp.
+constexpr uint32_t kMaxBlocks = 65535;
+
+struct Push {
+    uint32_t count;
+    uint32_t shift;
+    uint32_t blocks;
+};
+
+uint32_t blocksOf(uint32_t count) {
+    return count / kBlockPairs + (count % kBlockPairs > 0 ? 1 : 0);
+}
+
+uint64_t bytesOf(uint32_t count) {
+    return uint64_t(count) * sizeof(uint32_t);
+}
+
+}  // namespace
+
+RadixSort::RadixSort(Device& device, const ShaderCompiler& compiler)
+    : prefixSum_(device, compiler, PrefixSum::Of::Values) {
+    const auto stage = [&](const char* name) {
+        return makeComputeProgram(device,
+                                  compiler.compile("passes/common/compute/radix_sort.comp", {{name, "1"}}));
+    };
+    count_ = stage("COUNT_DIGITS");
+    scatter_ = stage("SCATTER");
+}
+
+uint64_t RadixSort::scratchBytes(uint32_t count) {
+    const uint32_t counts = blocksOf(count) * kDigits;
+    return 2 * bytesOf(count) + bytesOf(counts) + PrefixSum::scratchBytes(counts);
+}
+
+void RadixSort::record(CommandStream& stream, Buffer& keys, Buffer& values, uint32_t count,
+                       uint32_t keyBits) {
+    if (count == 0) return;
+    const uint32_t blocks = blocksOf(count), counts = blocks * kDigits;
+    if (blocks > kMaxBlocks)
+        throw Error("a radix sort takes at most {} pairs; these are {}", uint64_t(kMaxBlocks) * kBlockPairs,
+                    count);
+    Device& device = stream.device();
+    const auto require = [&](Buffer& buffer, const char* name, uint64_t bytes) {
+        if (!buffer || buffer.bytes() != bytes) buffer = Buffer(device, name, bytes);
+    };
+    require(otherKeys_, "radix sort keys", keys.bytes());
+    require(otherValues_, "radix sort values", values.bytes());
+    require(counts_, "radix sort counts", bytesOf(counts));
+    require(blockSums_, "radix sort sums", PrefixSum::scratchBytes(counts));
+
+    for (uint32_t shift = 0; shift < keyBits; shift += kDigitBits) {
+        const Push push{count, shift, blocks};
+        stream.dispatch(count_, {{"keys", keys}, {"counts", counts_}}, push, {blocks, 1, 1});
+        prefixSum_.record(stream, counts_, counts_, blockSums_, counts);
+        stream.dispatch(scatter_,
+                        {{"keys", keys},
+                         {"values", values},
+                         {"sortedKeys", otherKeys_},
+                         {"sortedValues", otherValues_},
+                         {"counts", counts_}},
+                        push, {blocks, 1, 1});
+        std::swap(keys, otherKeys_);
+        std::swap(values, otherValues_);
+    }
+}
+
+}  // namespace voxray

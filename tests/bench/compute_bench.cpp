@@ -1,0 +1,121 @@
+// The device's building blocks beside the standard library on the host, 2^24 keys.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <bit>
+#include <functional>
+#include <numeric>
+#include <random>
+
+#include "passes/common/compute/compaction.h"
+#include "passes/common/compute/radix_sort.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kCount = 1u << 24;
+
+std::vector<uint32_t> randomKeys() {
+    std::mt19937 random(1);
+    std::vector<uint32_t> keys(kCount);
+    for (uint32_t& key : keys) key = random();
+    return keys;
+}
+
+/// A device with the keys on it.
+struct OnDevice {
+    Device device{DeviceOptions{}};
+    ShaderCompiler compiler{VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE};
+    CommandStream stream{device};
+    std::vector<uint32_t> keys = randomKeys();
+    Buffer buffer{device, "keys", uint64_t(kCount) * sizeof(uint32_t)};
+    OnDevice() { stream.upload(buffer, keys); }
+};
+
+void report(benchmark::State& state) {
+    state.counters["Mkey/s"] =
+        benchmark::Counter(double(state.iterations()) * kCount * 1e-6, benchmark::Counter::kIsRate);
+}
+
+void computeScanOnDevice(benchmark::State& state) {
+    OnDevice d;
+    const PrefixSum prefixSum(d.device, d.compiler, PrefixSum::Of::SetBits);
+    const Buffer before(d.device, "before", d.buffer.bytes());
+    for (auto _ : state) benchmark::DoNotOptimize(prefixSum.run(d.stream, d.buffer, before, kCount));
+    report(state);
+}
+BENCHMARK(computeScanOnDevice)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void computeScanOnHost(benchmark::State& state) {
+    const std::vector<uint32_t> keys = randomKeys();
+    std::vector<uint32_t> before(kCount);
+    for (auto _ : state) {
+        std::transform_exclusive_scan(keys.begin(), keys.end(), before.begin(), 0u, std::plus<>(),
+                                      [](uint32_t word) { return uint32_t(std::popcount(word)); });
+        benchmark::DoNotOptimize(before.back());
+    }
+    report(state);
+}
+BENCHMARK(computeScanOnHost)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void computeCompactOnDevice(benchmark::State& state) {
+    OnDevice d;
+    const Compaction compaction(d.device, d.compiler);
+    const Buffer indices(d.device, "indices", d.buffer.bytes());
+    // Random words have half of their bits set: as many items as keys.
+    for (auto _ : state) benchmark::DoNotOptimize(compaction.run(d.stream, d.buffer, indices, kCount / 32));
+    report(state);
+}
+BENCHMARK(computeCompactOnDevice)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void computeCompactOnHost(benchmark::State& state) {
+    const std::vector<uint32_t> words = randomKeys();
+    std::vector<uint32_t> indices(kCount);
+    for (auto _ : state) {
+        size_t count = 0;
+        for (uint32_t i = 0; i < kCount; ++i)
+            if (words[i / 32] >> (i % 32) & 1u) indices[count++] = i;
+        benchmark::DoNotOptimize(count);
+    }
+    report(state);
+}
+BENCHMARK(computeCompactOnHost)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void computeSortOnDevice(benchmark::State& state) {
+    OnDevice d;
+    RadixSort sort(d.device, d.compiler);
+    std::vector<uint32_t> order(kCount);
+    std::iota(order.begin(), order.end(), 0u);
+    Buffer values(d.device, "values", d.buffer.bytes());
+    for (auto _ : state) {
+        state.PauseTiming();
+        d.stream.upload(d.buffer, d.keys);
+        d.stream.upload(values, order);
+        d.stream.finish();
+        state.ResumeTiming();
+        sort.record(d.stream, d.buffer, values, kCount);
+        d.stream.finish();
+    }
+    if (std::vector<uint32_t> sorted = d.keys;
+        std::ranges::sort(sorted), d.stream.readAs<uint32_t>(d.buffer, kCount) != sorted)
+        state.SkipWithError("the keys are not sorted");
+    report(state);
+}
+BENCHMARK(computeSortOnDevice)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Pairs of key and value, as on the device.
+void computeSortOnHost(benchmark::State& state) {
+    const std::vector<uint32_t> keys = randomKeys();
+    std::vector<std::pair<uint32_t, uint32_t>> pairs(kCount);
+    for (auto _ : state) {
+        state.PauseTiming();
+        for (uint32_t i = 0; i < kCount; ++i) pairs[i] = {keys[i], i};
+        state.ResumeTiming();
+        std::ranges::stable_sort(pairs, {}, [](const auto& pair) { return pair.first; });
+    }
+    report(state);
+}
+BENCHMARK(computeSortOnHost)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace voxray
