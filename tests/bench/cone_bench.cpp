@@ -57,8 +57,8 @@ void coneGather(benchmark::State& state) {
     scene->lights = {sun};
     test::Chain chain(
         scene,
-        "[{pass: gbuffer}, {pass: voxelize, resolution: 128}, {pass: inject_light_rays, rays_per_light: "
-        "65536, bounces: 1}, {pass: filter_voxels}, {pass: gather_cones, cones: 6}]",
+        test::graphYaml({"gbuffer", "voxelize, resolution: 128", "inject_light_rays, bounces: 1",
+                         "filter_voxels", "gather_cones, cones: 6"}),
         96, 54, 1);
     for (auto _ : state) {
         chain.runFrameFrom(camera.position);

@@ -29,9 +29,9 @@ std::unique_ptr<test::Chain> sponza(uint32_t width, uint32_t height) {
     scene->lights = {spot};
     return std::make_unique<test::Chain>(
         scene,
-        "[{pass: gbuffer}, {pass: voxelize, resolution: 128},"
-        " {pass: inject_light_rays, rays_per_light: 1048576, secondary: none},"
-        " {pass: direct_voxels}, {pass: composite}]",
+        test::graphYaml({"gbuffer", "voxelize, resolution: 128",
+                         "inject_light_rays, rays_per_light: 1048576, secondary: none", "direct_voxels",
+                         "composite"}),
         width, height, 1);
 }
 

@@ -10,14 +10,10 @@
 #include "graph/graph.h"
 #include "passes/register_passes.h"
 #include "scene/load.h"
+#include "tests/support/device.h"
+#include "tests/support/graph_yaml.h"
 
 namespace voxray::test {
-
-/// One device for all tests of a program, with validation on.
-inline Device& device() {
-    static Device shared({"", true});
-    return shared;
-}
 
 /// A graph run once on a built-in scene, for looking at what its passes wrote.
 class Chain {

@@ -1,3 +1,4 @@
+#include "gpu/trace_kinds.h"
 #include "gpu/trace_scenes.h"
 #include "gpu/vulkan_fixture.h"
 #include "trace/ray_pipeline_tracer.h"
@@ -175,7 +176,7 @@ TEST_F(TraceBackends, RaysThatAreNotFiniteMissOnTheGpuAndAreNamedByEmbree) {
     for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
         if (kind == TracerKind::Embree) {
-            expectContains(errorOf([&] { closestHits(*tracer, rays); }), "ray 0 of a stream of 6");
+            EXPECT_CONTAINS(errorOf([&] { closestHits(*tracer, rays); }), "ray 0 of a stream of 6");
             continue;
         }
         for (const Hit& hit : closestHits(*tracer, rays)) EXPECT_EQ(hit.triangle, Hit::kMiss);
@@ -253,8 +254,8 @@ TEST_F(TraceBackends, SmallBuffersAreNamed) {
     CommandStream stream(device());
     for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
-        expectContains(errorOf([&] { tracer->closestHit(stream, rays, hits, 4); }), "'few rays'");
-        expectContains(errorOf([&] { tracer->closestHit(stream, more, hits, 4); }), "'few hits'");
+        EXPECT_CONTAINS(errorOf([&] { tracer->closestHit(stream, rays, hits, 4); }), "'few rays'");
+        EXPECT_CONTAINS(errorOf([&] { tracer->closestHit(stream, more, hits, 4); }), "'few hits'");
         tracer->closestHit(stream, rays, hits, 0);
         stream.finish();
     }

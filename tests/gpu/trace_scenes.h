@@ -118,12 +118,4 @@ inline std::vector<Ray> randomRays(uint32_t count, uint32_t seed) {
     return rays;
 }
 
-/// The backends that a device has.
-inline std::vector<TracerKind> tracerKinds(const Device& device) {
-    std::vector<TracerKind> kinds{TracerKind::Embree};
-    if (device.info().rayQuery) kinds.push_back(TracerKind::RayQuery);
-    if (device.info().rayPipeline) kinds.push_back(TracerKind::RayPipeline);
-    return kinds;
-}
-
 }  // namespace voxray

@@ -1,5 +1,6 @@
 #include <cstring>
 
+#include "gpu/trace_kinds.h"
 #include "gpu/trace_scenes.h"
 #include "gpu/vulkan_fixture.h"
 #include "shaders/scene/scene_types.h"

@@ -55,25 +55,25 @@ TEST_F(ShaderCompile, ErrorNamesFileAndLine) {
     write("passes/one/one.comp", "#version 460\nvoid main() {\n    int x = missing;\n}\n");
     const std::string error = errorOf([&] { compile(); });
     EXPECT_EQ(error.rfind("passes/one/one.comp:3: ", 0), 0u) << error;
-    expectContains(error, "missing");
+    EXPECT_CONTAINS(error, "missing");
 }
 
 TEST_F(ShaderCompile, ErrorInAnIncludeNamesTheInclude) {
     write("shaders/detail.glsl", "// A comment.\nfloat detail(float x) { return y; }\n");
-    expectContains(errorOf([&] { compile(); }), "shaders/detail.glsl:2: ");
+    EXPECT_CONTAINS(errorOf([&] { compile(); }), "shaders/detail.glsl:2: ");
 }
 
 TEST_F(ShaderCompile, MissingIncludeIsNamed) {
     write("shaders/common.glsl", "\n#include \"nowhere.glsl\"\n");
     const std::string error = errorOf([&] { compile(); });
-    expectContains(error, "shaders/common.glsl:2: ");
-    expectContains(error, "nowhere.glsl");
+    EXPECT_CONTAINS(error, "shaders/common.glsl:2: ");
+    EXPECT_CONTAINS(error, "nowhere.glsl");
 }
 
 TEST_F(ShaderCompile, MissingFileAndUnknownStageAreNamed) {
     const ShaderCompiler compiler(root_, {});
-    expectContains(errorOf([&] { compiler.compile("passes/two.comp"); }), "two.comp");
-    expectContains(errorOf([&] { compiler.compile("passes/one/one.txt"); }), "one.txt");
+    EXPECT_CONTAINS(errorOf([&] { compiler.compile("passes/two.comp"); }), "two.comp");
+    EXPECT_CONTAINS(errorOf([&] { compiler.compile("passes/one/one.txt"); }), "one.txt");
 }
 
 TEST_F(ShaderCompile, UnsupportedBindingsAreNamed) {
@@ -81,11 +81,11 @@ TEST_F(ShaderCompile, UnsupportedBindingsAreNamed) {
           "#version 460\nuniform Numbers { vec4 a; } numbers;\n"
           "buffer Target { vec4 value; } target;\n"
           "void main() { target.value = numbers.a; }\n");
-    expectContains(errorOf([&] { compile(); }), "uniform buffer");
+    EXPECT_CONTAINS(errorOf([&] { compile(); }), "uniform buffer");
     write("passes/one/one.comp",
           "#version 460\nlayout(set = 2) buffer Target { vec4 value; } target;\n"
           "void main() { target.value = vec4(1); }\n");
-    expectContains(errorOf([&] { compile(); }), "'target' (set 2");
+    EXPECT_CONTAINS(errorOf([&] { compile(); }), "'target' (set 2");
 }
 
 TEST_F(ShaderCompile, CacheIsKeyedByContentIncludesAndDefines) {
@@ -126,7 +126,7 @@ TEST_F(ShaderCompile, CorruptCacheFileIsMadeAgain) {
 
 TEST_F(ShaderCompile, UnwritableCacheSaysWhatToDo) {
     std::ofstream(root_ / "cache") << "a file, not a folder";
-    expectContains(errorOf([&] { compile(); }), "VOXRAY_CACHE");
+    EXPECT_CONTAINS(errorOf([&] { compile(); }), "VOXRAY_CACHE");
 }
 
 }  // namespace

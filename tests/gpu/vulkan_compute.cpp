@@ -90,7 +90,7 @@ TEST_F(VulkanCompute, DefinesAndSpecializationConstantsReachTheShader) {
 }
 
 TEST_F(VulkanCompute, UnknownSpecializationConstantIsNamed) {
-    expectContains(errorOf([] { computeProgram("vulkan_scale.comp", {}, {{9, 1}}); }), "constant 9");
+    EXPECT_CONTAINS(errorOf([] { computeProgram("vulkan_scale.comp", {}, {{9, 1}}); }), "constant 9");
 }
 
 TEST_F(VulkanCompute, ReflectsWhatTheCodeUses) {
@@ -109,11 +109,11 @@ TEST_F(VulkanCompute, WrongBindingsAreNamed) {
         return errorOf([&] { stream.dispatch(program, bindings, Push{kCount, 0}, {1, 1, 1}); });
     };
     const std::string missing = dispatch({{"source", buffer}});
-    expectContains(missing, "vulkan_scale.comp");
-    expectContains(missing, "'Target'");
-    expectContains(dispatch({{"source", buffer}, {"Target", buffer}, {"sauce", buffer}}), "'sauce'");
-    expectContains(dispatch({{"source", buffer}, {"Target", buffer}, {"Target", buffer}}), "twice");
-    expectContains(dispatch({{"source", image}, {"Target", buffer}}), "'source' takes a buffer");
+    EXPECT_CONTAINS(missing, "vulkan_scale.comp");
+    EXPECT_CONTAINS(missing, "'Target'");
+    EXPECT_CONTAINS(dispatch({{"source", buffer}, {"Target", buffer}, {"sauce", buffer}}), "'sauce'");
+    EXPECT_CONTAINS(dispatch({{"source", buffer}, {"Target", buffer}, {"Target", buffer}}), "twice");
+    EXPECT_CONTAINS(dispatch({{"source", image}, {"Target", buffer}}), "'source' takes a buffer");
 }
 
 TEST_F(VulkanCompute, WrongPushConstantSizeIsNamed) {
@@ -123,7 +123,7 @@ TEST_F(VulkanCompute, WrongPushConstantSizeIsNamed) {
     const std::string error = errorOf([&] {
         stream.dispatch(program, {{"source", buffer}, {"Target", buffer}}, uint32_t(1), {1, 1, 1});
     });
-    expectContains(error, "4 bytes of push constants given, the shader declares 8");
+    EXPECT_CONTAINS(error, "4 bytes of push constants given, the shader declares 8");
 }
 
 TEST_F(VulkanCompute, NoGroupsRecordNothingAndTooManyAreRefused) {
@@ -131,7 +131,7 @@ TEST_F(VulkanCompute, NoGroupsRecordNothingAndTooManyAreRefused) {
     CommandStream stream(device());
     stream.dispatch(program, {}, {}, {0, 1, 1});
     const uint32_t limit = device().properties().limits.maxComputeWorkGroupCount[1];
-    expectContains(errorOf([&] { stream.dispatch(program, {}, {}, {1, limit + 1, 1}); }), "work groups");
+    EXPECT_CONTAINS(errorOf([&] { stream.dispatch(program, {}, {}, {1, limit + 1, 1}); }), "work groups");
 }
 
 TEST_F(VulkanCompute, SamplesATextureAndATextureArray) {
@@ -166,11 +166,11 @@ TEST_F(VulkanCompute, SamplesATextureAndATextureArray) {
                         {{"picture", redGreen, linear}, {"Target", target}, {"textures", blue, linear}},
                         glm::vec2(0), {3, 1, 1});
     });
-    expectContains(error, "'textures' takes");
+    EXPECT_CONTAINS(error, "'textures' takes");
 }
 
 TEST_F(VulkanCompute, EmptyTextureArrayIsRefused) {
-    expectContains(errorOf([] { TextureArray(device(), {}); }), "at least one");
+    EXPECT_CONTAINS(errorOf([] { TextureArray(device(), {}); }), "at least one");
 }
 
 TEST_F(VulkanCompute, WritesAVolume) {

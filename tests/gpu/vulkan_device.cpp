@@ -25,8 +25,8 @@ TEST_F(VulkanDevice, IsChosenByAPartOfItsNameInAnyCase) {
 
 TEST_F(VulkanDevice, UnknownNameNamesTheDevicesThereAre) {
     const std::string error = errorOf([] { Device(DeviceOptions{.name = "no such device"}); });
-    expectContains(error, "no such device");
-    expectContains(error, device().info().name);
+    EXPECT_CONTAINS(error, "no such device");
+    EXPECT_CONTAINS(error, device().info().name);
 }
 
 TEST_F(VulkanDevice, RayTracingLimitsAreThereWithTheFeature) {
@@ -56,8 +56,8 @@ TEST_F(VulkanDevice, ValidationReportsAWrongCall) {
 }
 
 TEST_F(VulkanDevice, MissingEntryPointIsNamed) {
-    expectContains(errorOf([] { device().function<PFN_vkVoidFunction>("vkNoSuchFunction"); }),
-                   "vkNoSuchFunction");
+    EXPECT_CONTAINS(errorOf([] { device().function<PFN_vkVoidFunction>("vkNoSuchFunction"); }),
+                    "vkNoSuchFunction");
 }
 
 }  // namespace

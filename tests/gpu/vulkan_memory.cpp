@@ -35,8 +35,8 @@ TEST_F(VulkanMemory, LimitRefusesBeforeAllocating) {
     {
         const Buffer small(device(), "small", 2 * kMiB);
         const std::string error = errorOf([] { Buffer(device(), "voxels", 2 * kMiB); });
-        expectContains(error, "'voxels' needs 2.0 MiB");
-        expectContains(error, "2.0 MiB of at most 3.0 MiB");
+        EXPECT_CONTAINS(error, "'voxels' needs 2.0 MiB");
+        EXPECT_CONTAINS(error, "2.0 MiB of at most 3.0 MiB");
         EXPECT_FALSE(device().memoryByResource().contains("voxels"));
         EXPECT_THROW(Image(device(), "image", {.extent = {512, 512, 1}}), Error);
     }
@@ -45,10 +45,10 @@ TEST_F(VulkanMemory, LimitRefusesBeforeAllocating) {
 }
 
 TEST_F(VulkanMemory, ImpossibleSizesAreRefused) {
-    expectContains(errorOf([] { Buffer(device(), "nothing", 0); }), "'nothing'");
-    expectContains(errorOf([] { Buffer(device(), "huge", 1ull << 50); }), "'huge'");
-    expectContains(errorOf([] { Image(device(), "flat", {.extent = {1 << 20, 1, 1}}); }), "'flat'");
-    expectContains(errorOf([] { Image(device(), "empty", {.extent = {0, 4, 1}}); }), "'empty'");
+    EXPECT_CONTAINS(errorOf([] { Buffer(device(), "nothing", 0); }), "'nothing'");
+    EXPECT_CONTAINS(errorOf([] { Buffer(device(), "huge", 1ull << 50); }), "'huge'");
+    EXPECT_CONTAINS(errorOf([] { Image(device(), "flat", {.extent = {1 << 20, 1, 1}}); }), "'flat'");
+    EXPECT_CONTAINS(errorOf([] { Image(device(), "empty", {.extent = {0, 4, 1}}); }), "'empty'");
     EXPECT_EQ(device().memoryUsedBytes(), 0u);
 }
 
@@ -74,8 +74,8 @@ TEST_F(VulkanMemory, LargeBufferIsReachedByItsAddressOnly) {
     const std::string error = errorOf([&] {
         stream.dispatch(scale, {{"source", large}, {"Target", small}}, Push{1, 0}, {1, 1, 1});
     });
-    expectContains(error, "'large'");
-    expectContains(error, "address");
+    EXPECT_CONTAINS(error, "'large'");
+    EXPECT_CONTAINS(error, "address");
 
     struct AddressPush {
         VkDeviceAddress words;
@@ -102,11 +102,11 @@ TEST_F(VulkanMemory, TransfersOutOfRangeAreRefused) {
     const Buffer buffer(device(), "buffer", 64);
     const Image image(device(), "image", {.format = VK_FORMAT_R8_UNORM, .extent = {4, 4, 1}});
     CommandStream stream(device());
-    expectContains(errorOf([&] { stream.upload(buffer, std::vector<uint32_t>(17)); }), "'buffer'");
-    expectContains(errorOf([&] { stream.read(buffer, 8, 60); }), "'buffer'");
-    expectContains(errorOf([&] { stream.copy(buffer, buffer, 8, ~0ull, 0); }), "'buffer'");
-    expectContains(errorOf([&] { stream.copy(buffer, image, 1); }), "'image' has 1 levels");
-    expectContains(errorOf([&] { stream.upload(image, std::as_bytes(std::span("abc"))); }), "16 needed");
+    EXPECT_CONTAINS(errorOf([&] { stream.upload(buffer, std::vector<uint32_t>(17)); }), "'buffer'");
+    EXPECT_CONTAINS(errorOf([&] { stream.read(buffer, 8, 60); }), "'buffer'");
+    EXPECT_CONTAINS(errorOf([&] { stream.copy(buffer, buffer, 8, ~0ull, 0); }), "'buffer'");
+    EXPECT_CONTAINS(errorOf([&] { stream.copy(buffer, image, 1); }), "'image' has 1 levels");
+    EXPECT_CONTAINS(errorOf([&] { stream.upload(image, std::as_bytes(std::span("abc"))); }), "16 needed");
 }
 
 TEST_F(VulkanMemory, CopiesBetweenBuffersWithOffsets) {
@@ -181,7 +181,7 @@ TEST_F(VulkanImages, MipLevelsAreBoxFiltered3D) {
 TEST_F(VulkanImages, IntegerFormatHasNoMipLevels) {
     const Image image(device(), "image", {.format = VK_FORMAT_R32_UINT, .extent = {4, 4, 1}, .mipLevels = 2});
     CommandStream stream(device());
-    expectContains(errorOf([&] { stream.makeMipLevels(image); }), "'image'");
+    EXPECT_CONTAINS(errorOf([&] { stream.makeMipLevels(image); }), "'image'");
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ TEST_F(VulkanRaster, TargetSmallerThanTheViewportIsRefused) {
     targets.colors = {{&color, std::nullopt}};
     targets.extent = {8, 4, 1};
     CommandStream stream(device());
-    expectContains(errorOf([&] { stream.draw(draw, {}, glm::vec4(1), targets, 3); }), "'color' is smaller");
+    EXPECT_CONTAINS(errorOf([&] { stream.draw(draw, {}, glm::vec4(1), targets, 3); }), "'color' is smaller");
 }
 
 TEST_F(VulkanRaster, LabelsAndTimestampsSpanSubmissions) {

@@ -31,11 +31,10 @@ double seenAtAGrazingAngle(const std::string& write) {
     camera.forward = glm::normalize(glm::vec3(1, -0.2f, 0));
     camera.up = glm::normalize(glm::vec3(0.2f, 1, 0));
     camera.verticalFovRadians = 1.9f;
-    Chain chain(
-        std::make_shared<SceneState>(state),
-        "[{pass: voxelize, resolution: 4}, {pass: inject_camera_rays, rays: 262144, bounces: 0, write: " +
-            write + "}]",
-        32, 32, 1);
+    Chain chain(std::make_shared<SceneState>(state),
+                graphYaml({"voxelize, resolution: 4",
+                           "inject_camera_rays, rays: 262144, bounces: 0, write: " + write}),
+                32, 32, 1);
     const Voxels voxels(chain);
     const glm::ivec3 cell(
         glm::floor((glm::vec3(0.1f, 0, 0.1f) - voxels.grid.origin) / voxels.grid.voxelSize));

@@ -7,6 +7,7 @@
 
 #include "passes/common/clipmap/clipmap_windows.h"
 #include "tests/gpu/radiance_samples.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -16,11 +17,8 @@ const RadianceVoxels& radiance(const Chain& chain) {
 }
 
 std::string litVoxels(uint32_t resolution, const std::string& filter, uint32_t directions = 6) {
-    return fmt::format(
-        "[{{pass: voxelize, resolution: {}, directions: {}}}, {{pass: inject_light_rays, rays_per_light: "
-        "65536, "
-        "bounces: 1}}, {{pass: filter_voxels, {}}}]",
-        resolution, directions, filter);
+    return graphYaml({fmt::format("voxelize, resolution: {}, directions: {}", resolution, directions),
+                      "inject_light_rays, bounces: 1", "filter_voxels, " + filter});
 }
 
 /// The Cornell box, 2 m wide, seen from `camera`.
@@ -219,22 +217,20 @@ TEST(Clipmap, ConesKeepTheEnergyOfAFurnace) {
     // Every surface emits 1 and reflects 0.5: after two bounces in the voxels cones see 1 + 0.5 + 0.25 +
     // 0.125. Windows of 0.5 m and 1 m: what the camera sees 1 m away and more is described by levels 1 to 3.
     Chain chain("furnace", "{shape: box, albedo: 0.5, emission: 1}",
-                "[{pass: gbuffer}, {pass: voxelize, resolution: 64}, "
-                "{pass: inject_light_rays, rays_per_light: 131072, bounces: 2}, "
-                "{pass: filter_voxels, emission: true, layout: clipmap, clipmap_resolution: 16}, "
-                "{pass: gather_cones, cones: 6}]",
+                graphYaml({"gbuffer", "voxelize, resolution: 64",
+                           "inject_light_rays, rays_per_light: 131072, bounces: 2",
+                           "filter_voxels, emission: true, layout: clipmap, clipmap_resolution: 16",
+                           "gather_cones, cones: 6"}),
                 16, 16);
     EXPECT_NEAR(mean(chain.image("indirect")) / (0.5 * 1.875), 1.0, 0.03);
 }
 
 TEST(Clipmap, BadSidesAreNamed) {
-    try {
-        Chain(cornellFrom({0, 0, 0}), litVoxels(16, "layout: clipmap, clipmap_resolution: 48"), 8, 8, 1);
-        FAIL() << "no error";
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("power of two, such as 32"), std::string::npos)
-            << error.what();
-    }
+    EXPECT_CONTAINS(
+        errorOf([&] {
+            Chain(cornellFrom({0, 0, 0}), litVoxels(16, "layout: clipmap, clipmap_resolution: 48"), 8, 8, 1);
+        }),
+        "power of two, such as 32");
 }
 
 }  // namespace

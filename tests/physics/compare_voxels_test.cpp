@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/physics/voxels_read.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -15,15 +16,16 @@ std::map<std::string, double> reported(const Chain& chain) {
 TEST(CompareVoxels, CountsWhatIsMissedAndAdded) {
     // A sphere: three_axis misses voxels that it cuts near a corner, dominant_axis adds some. Swapped, what
     // was missed is added.
-    const std::string graph =
-        "[{pass: voxelize, id: a, resolution: 32, visibility_rays: 0, method: exact},"
-        " {pass: voxelize, id: b, resolution: 32, visibility_rays: 0, method: three_axis, samples: 1},"
-        " {pass: compare_voxels, inputs: {truth: ";
-    Chain chain("furnace", "{}", graph + "a.voxels, voxels: b.voxels}}]");
+    const auto graph = [](const std::string& truth, const std::string& voxels) {
+        return graphYaml(
+            {"voxelize, id: a, visibility_rays: 0, method: exact",
+             "voxelize, id: b, visibility_rays: 0, method: three_axis, samples: 1",
+             "compare_voxels, inputs: {truth: " + truth + ".voxels, voxels: " + voxels + ".voxels}"});
+    };
+    Chain chain("furnace", "{}", graph("a", "b"));
     std::map<std::string, double> counted = reported(chain);
-    Chain exact("furnace", "{}", "[{pass: voxelize, resolution: 32, visibility_rays: 0, method: exact}]");
-    Chain other("furnace", "{}",
-                "[{pass: voxelize, resolution: 32, visibility_rays: 0, method: three_axis, samples: 1}]");
+    Chain exact("furnace", "{}", graphYaml({"voxelize, visibility_rays: 0, method: exact"}));
+    Chain other("furnace", "{}", graphYaml({"voxelize, visibility_rays: 0, method: three_axis, samples: 1"}));
     const Voxels truth(exact), found(other);
     int missed = 0, added = 0;
     truth.forEach([&](glm::ivec3 v) {
@@ -36,22 +38,19 @@ TEST(CompareVoxels, CountsWhatIsMissedAndAdded) {
     EXPECT_EQ(counted["voxels"], truth.count);
     EXPECT_NEAR(counted["area ratio"], found.area() / truth.area(), 1e-6);
 
-    std::map<std::string, double> swapped =
-        reported(Chain("furnace", "{}", graph + "b.voxels, voxels: a.voxels}}]"));
+    std::map<std::string, double> swapped = reported(Chain("furnace", "{}", graph("b", "a")));
     EXPECT_EQ(swapped["missed"], added);
     EXPECT_EQ(swapped["added"], missed);
     EXPECT_NEAR(swapped["area ratio"] * counted["area ratio"], 1.0, 1e-6);
 }
 
 TEST(CompareVoxels, RefusesDifferentGrids) {
-    try {
-        Chain("cornell", "{}",
-              "[{pass: voxelize, id: a, resolution: 8}, {pass: voxelize, id: b, resolution: 9},"
-              " {pass: compare_voxels, inputs: {truth: a.voxels}}]");
-        ADD_FAILURE() << "accepted";
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("'resolution'"), std::string::npos) << error.what();
-    }
+    EXPECT_CONTAINS(errorOf([&] {
+                        Chain("cornell", "{}",
+                              graphYaml({"voxelize, id: a, resolution: 8", "voxelize, id: b, resolution: 9",
+                                         "compare_voxels, inputs: {truth: a.voxels}"}));
+                    }),
+                    "'resolution'");
 }
 
 }  // namespace

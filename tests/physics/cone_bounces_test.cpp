@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/gpu/chain.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -17,9 +18,9 @@ struct Setting {
 };
 
 std::string coneGraph(const Setting& s) {
-    return "[{pass: gbuffer, " + s.gbuffer + "}, {pass: voxelize, resolution: " + s.resolution +
-           "}, {pass: inject_light_rays, " + s.inject + "}, {pass: filter_voxels, " + s.filter +
-           "}, {pass: gather_cones, " + s.gather + "}]";
+    return graphYaml({"gbuffer, " + s.gbuffer, "voxelize, resolution: " + s.resolution,
+                      "inject_light_rays, " + s.inject, "filter_voxels, " + s.filter,
+                      "gather_cones, " + s.gather});
 }
 
 ImageF indirect(const std::string& scene, const std::string& parameters, const Setting& setting) {
@@ -56,7 +57,7 @@ TEST(ConeBounces, TakeTheInjectionsOn) {
 }
 
 TEST(ConeBounces, AgreeWithTheReferenceOnCornell) {
-    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 512, bounces: 4}]");
+    Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 512, bounces: 4"}));
     const ImageF expected = reference.image("indirect");
     Setting s;
     s.gbuffer = "samples: 3";
@@ -81,14 +82,10 @@ TEST(ConeBounces, AreLinearInLight) {
 }
 
 TEST(ConeBounces, AClipmapIsRefused) {
-    try {
-        Setting s;
-        s.filter = "layout: clipmap, bounces: 1";
-        indirect("cornell", "{lights: point}", s);
-        FAIL() << "no error";
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("set 'layout' to dense or svo"), std::string::npos);
-    }
+    Setting s;
+    s.filter = "layout: clipmap, bounces: 1";
+    EXPECT_CONTAINS(errorOf([&] { indirect("cornell", "{lights: point}", s); }),
+                    "set 'layout' to dense or svo");
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ bool isSmooth(const std::vector<glm::vec4>& normals, int x, int y, int width, in
 
 void expectSameView(const std::string& scene, const std::string& parameters, float sceneSize) {
     constexpr int kWidth = 96, kHeight = 64;
-    Chain rays(scene, parameters, "[{pass: gbuffer, method: rays}]", kWidth, kHeight);
-    Chain raster(scene, parameters, "[{pass: gbuffer, method: raster}]", kWidth, kHeight);
+    Chain rays(scene, parameters, graphYaml({"gbuffer, method: rays"}), kWidth, kHeight);
+    Chain raster(scene, parameters, graphYaml({"gbuffer, method: raster"}), kWidth, kHeight);
     const GBuffer &a = gbuffer(rays), &b = gbuffer(raster);
     const auto normalA = texels(rays, a.geometricNormal), normalB = texels(raster, b.geometricNormal);
     const auto shadingA = texels(rays, a.normal), shadingB = texels(raster, b.normal);
@@ -91,7 +91,8 @@ TEST(GBuffer, SpecularReflectanceFollowsTheMaterial) {
     m.ior = 3.0f;
     builder.quad("pane", {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material(m));
     builder.camera({0, 0, 1}, {0, 0, 0}, 40);
-    Chain chain(std::make_shared<SceneState>(evaluate(builder.finish(), 0.0)), "[{pass: gbuffer}]", 4, 4, 1);
+    Chain chain(std::make_shared<SceneState>(evaluate(builder.finish(), 0.0)), graphYaml({"gbuffer"}), 4, 4,
+                1);
     for (const glm::vec4& s : texels(chain, gbuffer(chain).specular))
         EXPECT_LT(glm::length(s - glm::vec4(0.2f, 0.1f, 0, 0.25f)), 1e-3f);
     for (const glm::vec4& f : texels(chain, gbuffer(chain).fresnel))
@@ -108,7 +109,7 @@ TEST(GBuffer, NoTexelSeesABodyFromInside) {
             builder.box("box", {0, 0, 0}, {1, 1, 1}, 0.1f + 0.25f * float(turn), glowing);
             builder.camera({0, 2, 4}, {0, 0.5f, 0}, 25);
             Chain chain(std::make_shared<SceneState>(evaluate(builder.finish(), 0.0)),
-                        "[{pass: gbuffer, samples: 4, method: " + method + "}]", 96, 96, 1);
+                        graphYaml({"gbuffer, samples: 4, method: " + method}), 96, 96, 1);
             const auto emission = texels(chain, gbuffer(chain).emission);
             const auto positions = chain.readImage<glm::vec4>(gbuffer(chain).position);
             for (size_t i = 0; i < positions.size(); ++i) {
@@ -139,11 +140,11 @@ std::shared_ptr<const SceneState> stripes(uint32_t columns, const glm::vec3& eye
 TEST(GBuffer, TexturesAreSeenAtTheFootprintOfAPixel) {
     // 32 pixels over about 0.54 m: 1024 columns on a metre are 17 a pixel and blur to grey, 16 stay black and
     // white.
-    const std::string graph = "[{pass: gbuffer, method: ";
+    const auto graph = [](const std::string& method) { return graphYaml({"gbuffer, method: " + method}); };
     for (const std::string method : {"rays", "raster"}) {
-        Chain fine(stripes(1024, {0, 0, 1}), graph + method + "}]", 32, 32, 1);
+        Chain fine(stripes(1024, {0, 0, 1}), graph(method), 32, 32, 1);
         for (const glm::vec4& albedo : texels(fine, gbuffer(fine).albedo)) EXPECT_NEAR(albedo.x, 0.5f, 0.01f);
-        Chain coarse(stripes(16, {0, 0, 1}), graph + method + "}]", 32, 32, 1);
+        Chain coarse(stripes(16, {0, 0, 1}), graph(method), 32, 32, 1);
         const auto albedos = texels(coarse, gbuffer(coarse).albedo);
         const auto [low, high] = std::minmax_element(
             albedos.begin(), albedos.end(), [](const glm::vec3& a, const glm::vec3& b) { return a.x < b.x; });
@@ -155,12 +156,12 @@ TEST(GBuffer, TexturesAreSeenAtTheFootprintOfAPixel) {
 TEST(GBuffer, SubPixelsApproachPixelMeans) {
     const auto direct = [](const std::string& samples, const std::string& method) {
         Chain chain("cornell", "{lights: point}",
-                    "[{pass: gbuffer, samples: " + samples + ", method: " + method +
-                        "}, {pass: direct_shadow_rays}, {pass: composite}]",
+                    graphYaml({"gbuffer, samples: " + samples + ", method: " + method, "direct_shadow_rays",
+                               "composite"}),
                     48, 48);
         return chain.image("final");
     };
-    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 256, bounces: 0}]", 48, 48);
+    Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 256, bounces: 0"}), 48, 48);
     const ImageF truth = reference.image("final");
     const ImageF one = direct("1", "rays"), four = direct("4", "rays"), raster = direct("4", "raster");
     EXPECT_LT(nRmse(four, truth), 0.15 * nRmse(one, truth));

@@ -27,9 +27,8 @@ const VoxelIrradiance& irradiance(const Chain& chain) {
 
 TEST(Injection, ClosedRoomCatchesAllLight) {
     // A point light of I W/sr in a closed room: 4 pi I arrives at its walls.
-    Chain chain(
-        "white_room", "{albedo: 0.5, intensity: 2}",
-        "[{pass: voxelize, resolution: 24}, {pass: inject_light_rays, rays_per_light: 65536, bounces: 0}]");
+    Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
+                graphYaml({"voxelize, resolution: 24", "inject_light_rays, bounces: 0"}));
     EXPECT_NEAR(totalFlux(chain, irradiance(chain).direct) / (4 * kPi * 2), 1.0, 1e-4);
     EXPECT_EQ(totalFlux(chain, irradiance(chain).indirect), 0.0);
 }
@@ -38,7 +37,7 @@ TEST(Injection, BouncesSumToTheGeometricSeries) {
     // Walls of albedo a reflect a of all that arrives: indirect flux = direct * (a + a² + ... + a^bounces).
     Chain chain(
         "white_room", "{albedo: 0.5, intensity: 2}",
-        "[{pass: voxelize, resolution: 24}, {pass: inject_light_rays, rays_per_light: 262144, bounces: 3}]");
+        graphYaml({"voxelize, resolution: 24", "inject_light_rays, rays_per_light: 262144, bounces: 3"}));
     const double expected = 4 * kPi * 2 * (0.5 + 0.25 + 0.125);
     EXPECT_NEAR(totalFlux(chain, irradiance(chain).indirect) / expected, 1.0, 0.01);
 }
@@ -47,17 +46,16 @@ TEST(Injection, EmissiveFurnaceReachesItsClosedForm) {
     // Every surface emits e and reflects a: the irradiance is pi e / (1 - a) everywhere, of which pi e is
     // direct.
     Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
-                "[{pass: gbuffer}, {pass: voxelize, resolution: 16, samples: 4}, "
-                "{pass: inject_light_rays, rays_per_light: 1048576, bounces: 24}, {pass: gather_irradiance, "
-                "radius: 2}, "
-                "{pass: direct_voxels, radius: 2}, {pass: composite}]");
+                graphYaml({"gbuffer", "voxelize, resolution: 16, samples: 4",
+                           "inject_light_rays, rays_per_light: 1048576, bounces: 24",
+                           "gather_irradiance, radius: 2", "direct_voxels, radius: 2", "composite"}));
     EXPECT_NEAR(mean(chain.image("direct")), 0.6, 0.02 * 0.6);
     EXPECT_NEAR(mean(chain.image("final")), 1 / (1 - 0.6), 0.02 / (1 - 0.6));
 }
 
 TEST(Injection, IsLinearInLight) {
     const std::string graph =
-        "[{pass: voxelize, resolution: 16}, {pass: inject_light_rays, rays_per_light: 16384, bounces: 2}]";
+        graphYaml({"voxelize, resolution: 16", "inject_light_rays, rays_per_light: 16384, bounces: 2"});
     Chain one("white_room", "{intensity: 1}", graph), seven("white_room", "{intensity: 7}", graph);
     EXPECT_NEAR(totalFlux(seven, irradiance(seven).indirect) / totalFlux(one, irradiance(one).indirect), 7.0,
                 1e-4);
@@ -65,8 +63,7 @@ TEST(Injection, IsLinearInLight) {
 
 TEST(Injection, IsDeterministic) {
     const auto run = [] {
-        Chain chain("cornell", "{lights: point}",
-                    "[{pass: voxelize, resolution: 32}, {pass: inject_light_rays, rays_per_light: 65536}]");
+        Chain chain("cornell", "{lights: point}", graphYaml({"voxelize", "inject_light_rays"}));
         return chain.read<uint32_t>(irradiance(chain).indirect);
     };
     EXPECT_EQ(run(), run());
@@ -77,8 +74,8 @@ TEST(DirectShadowRays, MatchClosedFormsOnAPlane) {
     // with rays through pixel centers instead of pixel means.
     for (const std::string light : {"point", "spot", "directional"}) {
         Chain chain("plane", "{light: " + light + "}",
-                    "[{pass: gbuffer}, {pass: direct_shadow_rays}, {pass: composite}]", 64, 64);
-        Chain reference("plane", "{light: " + light + "}", "[{pass: path_trace, spp: 64, bounces: 0}]", 64,
+                    graphYaml({"gbuffer", "direct_shadow_rays", "composite"}), 64, 64);
+        Chain reference("plane", "{light: " + light + "}", graphYaml({"path_trace, spp: 64, bounces: 0"}), 64,
                         64);
         EXPECT_NEAR(mean(chain.image("final")) / mean(reference.image("final")), 1.0, 0.003) << light;
     }
@@ -86,9 +83,9 @@ TEST(DirectShadowRays, MatchClosedFormsOnAPlane) {
 
 TEST(DirectShadowRays, AreaLightConvergesToTheReference) {
     // Pixel centers against pixel means: edges of the light weigh less the more pixels there are.
-    Chain chain("quad_light", "{}",
-                "[{pass: gbuffer}, {pass: direct_shadow_rays, samples: 64}, {pass: composite}]", 96, 96);
-    Chain reference("quad_light", "{}", "[{pass: path_trace, spp: 64, bounces: 0}]", 96, 96);
+    Chain chain("quad_light", "{}", graphYaml({"gbuffer", "direct_shadow_rays, samples: 64", "composite"}),
+                96, 96);
+    Chain reference("quad_light", "{}", graphYaml({"path_trace, spp: 64, bounces: 0"}), 96, 96);
     EXPECT_NEAR(mean(chain.image("final")) / mean(reference.image("final")), 1.0, 0.01);
 }
 
@@ -98,10 +95,9 @@ TEST(DirectShadowRays, EnvironmentConvergesToTheReference) {
     scene.lights.clear();
     scene.environment.radiance = glm::vec3(1.0f);
     const auto state = std::make_shared<SceneState>(evaluate(std::make_shared<Scene>(scene), 0.0));
-    Chain chain(state,
-                "[{pass: gbuffer, samples: 2}, {pass: direct_shadow_rays, samples: 32}, {pass: composite}]",
-                64, 48, 1);
-    Chain reference(state, "[{pass: path_trace, spp: 128, bounces: 0}]", 64, 48, 1);
+    Chain chain(state, graphYaml({"gbuffer, samples: 2", "direct_shadow_rays, samples: 32", "composite"}), 64,
+                48, 1);
+    Chain reference(state, graphYaml({"path_trace, spp: 128, bounces: 0"}), 64, 48, 1);
     const ImageF image = chain.image("final"), truth = reference.image("final");
     EXPECT_NEAR(mean(image) / mean(truth), 1.0, 0.003);
     EXPECT_LT(nRmse(image, truth), 0.06);
@@ -110,13 +106,11 @@ TEST(DirectShadowRays, EnvironmentConvergesToTheReference) {
 
 TEST(DirectVoxels, ApproachShadowRaysAsVoxelsShrink) {
     const auto error = [](uint32_t resolution) {
-        Chain chain(
-            "plane", "{light: point}",
-            "[{pass: gbuffer}, {pass: voxelize, samples: 4, resolution: " + std::to_string(resolution) +
-                "}, {pass: inject_light_rays, rays_per_light: 1048576, bounces: 0}, "
-                "{pass: direct_voxels}, {pass: composite}]");
-        Chain exact("plane", "{light: point}",
-                    "[{pass: gbuffer}, {pass: direct_shadow_rays}, {pass: composite}]");
+        Chain chain("plane", "{light: point}",
+                    graphYaml({"gbuffer", "voxelize, samples: 4, resolution: " + std::to_string(resolution),
+                               "inject_light_rays, rays_per_light: 1048576, bounces: 0", "direct_voxels",
+                               "composite"}));
+        Chain exact("plane", "{light: point}", graphYaml({"gbuffer", "direct_shadow_rays", "composite"}));
         const ImageF a = chain.image("final"), b = exact.image("final");
         double sum = 0;
         for (size_t i = 0; i < a.data.size(); ++i) sum += std::abs(a.data[i] - b.data[i]);
@@ -131,10 +125,9 @@ TEST(VoxelLookup, SevenTapKeepsAConstantAndBlursAnEdge) {
     const auto direct = [](const std::string& scene, const std::string& parameters,
                            const std::string& lookup) {
         Chain chain(scene, parameters,
-                    "[{pass: gbuffer}, {pass: voxelize, resolution: 16, samples: 4}, "
-                    "{pass: inject_light_rays, rays_per_light: 1048576, bounces: 0}, "
-                    "{pass: direct_voxels, lookup: " +
-                        lookup + "}]",
+                    graphYaml({"gbuffer", "voxelize, resolution: 16, samples: 4",
+                               "inject_light_rays, rays_per_light: 1048576, bounces: 0",
+                               "direct_voxels, lookup: " + lookup}),
                     48, 48);
         return chain.image("direct");
     };
@@ -164,11 +157,11 @@ TEST(VoxelLookup, SevenTapKeepsAConstantAndBlursAnEdge) {
 
 TEST(Chain, CornellIndirectMatchesTheReference) {
     Chain chain("cornell", "{lights: point}",
-                "[{pass: gbuffer}, {pass: voxelize, resolution: 64}, "
-                "{pass: inject_light_rays, rays_per_light: 1048576, bounces: 8}, {pass: gather_irradiance}, "
-                "{pass: direct_shadow_rays}, {pass: composite}]",
+                graphYaml({"gbuffer", "voxelize, resolution: 64",
+                           "inject_light_rays, rays_per_light: 1048576, bounces: 8", "gather_irradiance",
+                           "direct_shadow_rays", "composite"}),
                 64, 64);
-    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 256, bounces: 8}]", 64, 64);
+    Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 256, bounces: 8"}), 64, 64);
     EXPECT_NEAR(mean(chain.image("final")) / mean(reference.image("final")), 1.0, 0.02);
     EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.03);
 }

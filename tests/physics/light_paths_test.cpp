@@ -6,6 +6,7 @@
 
 #include "passes/common/voxels/voxels.h"
 #include "tests/gpu/chain.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -16,11 +17,11 @@ constexpr double kPi = std::numbers::pi;
 struct Lit {
     Lit(const std::string& scene, const std::string& parameters, const std::string& voxelize,
         const std::string& inject)
-        : chain(scene, parameters, "[{pass: voxelize, " + voxelize + "}, {" + inject + "}]") {
+        : chain(scene, parameters, graphYaml({"voxelize, " + voxelize, inject})) {
         take();
     }
     Lit(std::shared_ptr<const SceneState> state, const std::string& voxelize, const std::string& inject)
-        : chain(std::move(state), "[{pass: voxelize, " + voxelize + "}, {" + inject + "}]", 32, 32, 1) {
+        : chain(std::move(state), graphYaml({"voxelize, " + voxelize, inject}), 32, 32, 1) {
         take();
     }
     void take() {
@@ -70,24 +71,19 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 std::string messageOf(const std::string& scene, const std::string& parameters, const std::string& inject) {
-    try {
-        Lit(scene, parameters, "resolution: 8", inject);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
+    return errorOf([&] { Lit(scene, parameters, "resolution: 8", inject); });
 }
 
 TEST(LightPaths, MirrorBouncesSumToTheGeometricSeries) {
     // A closed room keeps all light: each bounce leaves the albedo's part of it, whichever way it goes.
     Lit lit("white_room", "{albedo: 0.5, intensity: 2}", "resolution: 24",
-            "pass: inject_light_rays, rays_per_light: 65536, secondary: mirror, bounces: 3");
+            "inject_light_rays, secondary: mirror, bounces: 3");
     EXPECT_NEAR(sum(lit.indirect) / (4 * kPi * 2 * (0.5 + 0.25 + 0.125)), 1.0, 1e-3);
 }
 
 TEST(LightPaths, WithoutSecondaryRaysThereIsDirectLightOnly) {
     Lit lit("white_room", "{intensity: 2}", "resolution: 16",
-            "pass: inject_light_rays, rays_per_light: 16384, secondary: none, bounces: 3");
+            "inject_light_rays, rays_per_light: 16384, secondary: none, bounces: 3");
     EXPECT_NEAR(sum(lit.direct) / (4 * kPi * 2), 1.0, 1e-3);
     EXPECT_EQ(sum(lit.indirect), 0.0);
 }
@@ -96,7 +92,7 @@ TEST(LightPaths, EveryWriteGivesTheClosedFormBeforeAWall) {
     // A point light of 2 W/sr at 1 m from each wall of a room: 2 W/m² in the wall's center.
     for (const std::string write : {"average", "max", "moving_average, white: 4", "none"}) {
         Lit lit("white_room", "{intensity: 2}", "resolution: 25",
-                "pass: inject_light_rays, rays_per_light: 1048576, secondary: none, write: " + write);
+                "inject_light_rays, rays_per_light: 1048576, secondary: none, write: " + write);
         const double center = lit.mean(lit.direct, lit.face({0.999f, 0, 0}, 1));
         EXPECT_NEAR(center, 2.0, write == "none" ? 0.2 : 0.05) << write;
     }
@@ -106,13 +102,13 @@ TEST(LightPaths, BeamsWidenOverMirrorBounces) {
     // One mirror bounce in a room of albedo 0.5: the light's image behind the far wall is 3 m from a wall's
     // center, its four images beside it are further off the normal; the largest is 0.5 * 2 / 9 W/m².
     Lit lit("white_room", "{albedo: 0.5, intensity: 2}", "resolution: 25",
-            "pass: inject_light_rays, rays_per_light: 1048576, secondary: mirror, bounces: 1, write: max");
+            "inject_light_rays, rays_per_light: 1048576, secondary: mirror, bounces: 1, write: max");
     EXPECT_NEAR(lit.mean(lit.indirect, lit.face({0, -0.999f, 0}, 2)), 1.0 / 9, 0.02 / 9);
 }
 
 TEST(LightPaths, MaxIsTheIrradianceAtTheNearestPoint) {
     // Over the plane, 1 m below the light: 1 / d³ at the point of each voxel that is nearest to the light.
-    const std::string inject = "pass: inject_light_rays, rays_per_light: 1048576, secondary: none, write: ";
+    const std::string inject = "inject_light_rays, rays_per_light: 1048576, secondary: none, write: ";
     Lit average("plane", "{}", "resolution: 24, samples: 4", inject + "average");
     Lit max("plane", "{}", "resolution: 24, samples: 4", inject + "max");
     const float half = 0.5f * max.voxels->grid.voxelSize;
@@ -132,43 +128,36 @@ TEST(LightPaths, MaxIsTheIrradianceAtTheNearestPoint) {
 TEST(LightPaths, LightOutsideTheGridShinesIntoIt) {
     // The grid holds the ground alone, 10 m square; the light hangs 1 m above, and sends it I * solid angle.
     for (const std::string pass : {"inject_light_rays", "inject_rsm"}) {
-        Lit lit("plane", "{intensity: 3}", "resolution: 16", "pass: " + pass + ", secondary: none");
+        Lit lit("plane", "{intensity: 3}", "resolution: 16", pass + ", secondary: none");
         EXPECT_NEAR(sum(lit.direct) / (3 * 4 * std::asin(25.0 / 26)), 1.0, 0.005) << pass;
     }
 }
 
 TEST(LightPaths, ScenesWithoutLightsAreRefused) {
     for (const std::string pass : {"inject_light_rays", "inject_rsm"})
-        EXPECT_NE(messageOf("white_room", "{intensity: 0}", "pass: " + pass)
-                      .find(pass + ": the scene has no lights"),
-                  std::string::npos);
+        EXPECT_CONTAINS(messageOf("white_room", "{intensity: 0}", pass), pass + ": the scene has no lights");
 }
 
 TEST(LightPaths, OneVoxelIsRefusedUnlessExposureIsOff) {
-    try {
-        Lit("white_room", "{}", "resolution: 1", "pass: inject_light_rays, rays_per_light: 4096");
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("visibility_rays"), std::string::npos) << error.what();
-    }
+    const auto make = [] {
+        Lit("white_room", "{}", "resolution: 1", "inject_light_rays, rays_per_light: 4096");
+    };
+    EXPECT_CONTAINS(errorOf(make), "visibility_rays");
     Lit lit("white_room", "{}", "resolution: 1, visibility_rays: 0",
-            "pass: inject_light_rays, rays_per_light: 4096, secondary: none");
+            "inject_light_rays, rays_per_light: 4096, secondary: none");
     EXPECT_NEAR(sum(lit.direct) / (4 * kPi), 1.0, 1e-3);
 }
 
 TEST(LightPaths, WhatHasNoIrradianceIsRefused) {
-    const std::string max = "pass: inject_light_rays, write: max";
-    EXPECT_NE(messageOf("white_room", "{}", max).find("diffusely"), std::string::npos);
-    EXPECT_NE(messageOf("furnace", "{}", max + ", secondary: none").find("emissive surface"),
-              std::string::npos);
-    EXPECT_NE(
-        messageOf("white_room", "{}", "pass: inject_light_rays, rays_per_light: 0").find("out of range"),
-        std::string::npos);
+    const std::string max = "inject_light_rays, write: max";
+    EXPECT_CONTAINS(messageOf("white_room", "{}", max), "diffusely");
+    EXPECT_CONTAINS(messageOf("furnace", "{}", max + ", secondary: none"), "emissive surface");
+    EXPECT_CONTAINS(messageOf("white_room", "{}", "inject_light_rays, rays_per_light: 0"), "out of range");
 }
 
 TEST(InjectRsm, ClosedRoomCatchesAllLight) {
     Lit lit("white_room", "{albedo: 0.5, intensity: 2}", "resolution: 24",
-            "pass: inject_rsm, resolution: 128, bounces: 2");
+            "inject_rsm, resolution: 128, bounces: 2");
     EXPECT_NEAR(sum(lit.direct) / (4 * kPi * 2), 1.0, 0.005);
     EXPECT_NEAR(sum(lit.indirect) / (4 * kPi * 2 * 0.75), 1.0, 0.01);
 }
@@ -177,15 +166,15 @@ TEST(InjectRsm, AgreesWithLightRays) {
     // Totals agree closely; voxel by voxel some twenty rows of texels, one more or less, make the difference.
     for (const std::string light : {"point", "spot", "directional"}) {
         const std::string scene = "{light: " + light + "}";
-        Lit rsm("plane", scene, "resolution: 16", "pass: inject_rsm, secondary: none, resolution: 512");
+        Lit rsm("plane", scene, "resolution: 16", "inject_rsm, secondary: none, resolution: 512");
         Lit rays("plane", scene, "resolution: 16",
-                 "pass: inject_light_rays, secondary: none, rays_per_light: 262144");
+                 "inject_light_rays, secondary: none, rays_per_light: 262144");
         EXPECT_NEAR(sum(rsm.direct) / sum(rays.direct), 1.0, 0.005) << light;
         EXPECT_LT(difference(rsm.direct, rays.direct), 0.03) << light;
     }
-    Lit rsm("cornell", "{lights: point}", "resolution: 16", "pass: inject_rsm, resolution: 256, bounces: 3");
+    Lit rsm("cornell", "{lights: point}", "resolution: 16", "inject_rsm, resolution: 256, bounces: 3");
     Lit rays("cornell", "{lights: point}", "resolution: 16",
-             "pass: inject_light_rays, rays_per_light: 524288, bounces: 3");
+             "inject_light_rays, rays_per_light: 524288, bounces: 3");
     EXPECT_NEAR(sum(rsm.direct) / sum(rays.direct), 1.0, 0.005);
     EXPECT_NEAR(sum(rsm.indirect) / sum(rays.indirect), 1.0, 0.01);
     EXPECT_LT(difference(rsm.direct, rays.direct), 0.03);
@@ -200,14 +189,12 @@ TEST(InjectRsm, WideSpotsTakeTheCube) {
     light.direction = glm::normalize(glm::vec3(1, 2, 0.5f));
     light.outerConeAngle = float(80 * kPi / 180);
     light.innerConeAngle = light.outerConeAngle - 0.01f;
-    Lit lit(std::make_shared<SceneState>(state), "resolution: 16", "pass: inject_rsm, secondary: none");
+    Lit lit(std::make_shared<SceneState>(state), "resolution: 16", "inject_rsm, secondary: none");
     EXPECT_NEAR(sum(lit.direct) / (2 * kPi * (1 - std::cos(light.outerConeAngle - 0.005))), 1.0, 0.005);
 }
 
 TEST(InjectRsm, LightsWithoutAViewpointAreRefused) {
-    EXPECT_NE(
-        messageOf("cornell", "{lights: area}", "pass: inject_rsm").find("emissive surfaces have no single"),
-        std::string::npos);
+    EXPECT_CONTAINS(messageOf("cornell", "{lights: area}", "inject_rsm"), "emissive surfaces have no single");
 }
 
 }  // namespace

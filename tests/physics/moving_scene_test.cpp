@@ -28,9 +28,8 @@ bool sameImage(const ImageF& a, const ImageF& b) {
 }
 
 std::string graphOf(const std::string& inject, const std::string& filter) {
-    return "[{pass: gbuffer}, {pass: voxelize, resolution: 8}, {pass: place_surfels, points: 1}, {pass: " +
-           inject + "}, {pass: filter_voxels, " + filter +
-           "}, {pass: gather_cones}, {pass: direct_shadow_rays}, {pass: composite}]";
+    return graphYaml({"gbuffer", "voxelize, resolution: 8", "place_surfels, points: 1", inject,
+                      "filter_voxels, " + filter, "gather_cones", "direct_shadow_rays", "composite"});
 }
 
 /// A chain that came to a time from another one is one that was made there, bit for bit.
@@ -61,7 +60,7 @@ TEST(MovingScene, EveryInjectionIsAsMadeThere) {
 }
 
 TEST(MovingScene, PathTracerFollows) {
-    const std::string graph = "[{pass: path_trace, spp: 4, bounces: 1}]";
+    const std::string graph = graphYaml({"path_trace, spp: 4, bounces: 1"});
     const auto scene = swingingBall();
     Chain moving(at(scene, 0), graph, 16, 16, 1);
     moving.goTo(0.7);

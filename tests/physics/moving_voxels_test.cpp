@@ -69,7 +69,7 @@ void followWalk(const std::string& graph, size_t stride, const Compare& compare)
 TEST(MovingVoxels, AreThoseThatAreMadeAnew) {
     for (const char* method : {"exact", "dominant_axis", "three_axis"}) {
         SCOPED_TRACE(method);
-        const std::string graph = std::string("[{pass: voxelize, resolution: 40, method: ") + method + "}]";
+        const std::string graph = graphYaml({std::string("voxelize, resolution: 40, method: ") + method});
         followWalk(graph, 1, [](Chain& moved, Chain& made) {
             const Voxels a(moved), b(made);
             EXPECT_EQ(a.count, b.count);
@@ -85,14 +85,14 @@ TEST(MovingVoxels, AreThoseThatAreMadeAnew) {
 
 TEST(MovingVoxels, CarryTheSameLightInEachLayout) {
     // The octree also where it is kept for light of each frame.
-    const std::string once = "{pass: inject_light_rays, rays_per_light: 8192, bounces: 1}";
-    const std::string eachFrame = "{pass: inject_camera_rays, rays: 8192, bounces: 1}";
+    const std::string once = "inject_light_rays, rays_per_light: 8192, bounces: 1";
+    const std::string eachFrame = "inject_camera_rays, rays: 8192, bounces: 1";
     const std::vector<std::pair<std::string, std::string>> cases{
         {once, "dense"}, {once, "svo"}, {eachFrame, "svo"}, {once, "clipmap, clipmap_resolution: 16"}};
     for (const auto& [light, layout] : cases) {
         SCOPED_TRACE(light + " " + layout);
-        followWalk("[{pass: voxelize, resolution: 24}, " + light +
-                       ", {pass: filter_voxels, emission: true, layout: " + layout + "}]",
+        followWalk(graphYaml({"voxelize, resolution: 24", light,
+                              "filter_voxels, emission: true, layout: " + layout}),
                    2, [](Chain& moved, Chain& made) {
                        const auto samples = [](Chain& chain) {
                            const auto& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
@@ -109,7 +109,7 @@ TEST(MovingVoxels, ArePlannedForWhereverTheyGo) {
     const auto scene = roomWithSpheres();
     std::vector<uint32_t> planned, plannedStill, counts;
     for (size_t second = 0; second < kWalk.size(); ++second) {
-        const auto chain = chainAt(scene, double(second), "[{pass: voxelize, resolution: 40}]");
+        const auto chain = chainAt(scene, double(second), graphYaml({"voxelize, resolution: 40"}));
         const Voxels voxels(*chain);
         counts.push_back(voxels.count);
         planned.push_back(countSurfaceVoxels(chain->state().geometry, voxels.grid).front());
@@ -122,7 +122,7 @@ TEST(MovingVoxels, ArePlannedForWhereverTheyGo) {
 
 TEST(MovingVoxels, StayWhereNothingMoves) {
     // Boxes without a surface, beyond the grid, overlapping; and none at all, which costs nothing.
-    const auto made = chainAt(roomWithSpheres(), 0, "[{pass: voxelize, resolution: 40}]");
+    const auto made = chainAt(roomWithSpheres(), 0, graphYaml({"voxelize, resolution: 40"}));
     Chain& chain = *made;
     const Voxels before(chain);
     const std::vector<std::vector<Box>> lists{

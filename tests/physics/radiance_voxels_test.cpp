@@ -13,9 +13,7 @@ const RadianceVoxels& radiance(const Chain& chain) {
 }
 
 std::string filterGraph(const std::string& voxelize, const std::string& filter = "emission: false") {
-    return "[{pass: voxelize, " + voxelize +
-           "}, {pass: inject_light_rays, rays_per_light: 65536, bounces: 0}, {pass: filter_voxels, " +
-           filter + "}]";
+    return graphYaml({"voxelize, " + voxelize, "inject_light_rays, bounces: 0", "filter_voxels, " + filter});
 }
 
 /// Covers that a ray collects from `from` on, in steps of half a footprint.
@@ -70,7 +68,7 @@ TEST(RadianceVoxels, MemoryIsPredicted) {
 TEST(RadianceVoxels, AreFilteredInThePhaseOfTheirLight) {
     const auto phaseWith = [](const std::string& inject) {
         const Chain chain("cornell", "{lights: point}",
-                          "[{pass: voxelize, resolution: 8}, {pass: " + inject + "}, {pass: filter_voxels}]");
+                          graphYaml({"voxelize, resolution: 8", inject, "filter_voxels"}));
         return chain.graph().passes().back().phase;
     };
     EXPECT_EQ(phaseWith("inject_camera_rays, rays: 64"), Phase::Frame);

@@ -7,6 +7,7 @@
 
 #include "passes/common/voxels/voxels.h"
 #include "tests/gpu/chain.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -14,8 +15,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 std::string injectGraph(const std::string& inject, const std::string& resolution = "24") {
-    return "[{pass: voxelize, resolution: " + resolution +
-           "}, {pass: place_surfels, points: 16}, {pass: " + inject + "}]";
+    return graphYaml({"voxelize, resolution: " + resolution, "place_surfels, points: 16", inject});
 }
 
 /// Flux of each face, W, green channel.
@@ -76,9 +76,8 @@ TEST(ShadowMap, FlatSurfacesDoNotShadeThemselves) {
     // at up to 82°, with texels of up to half a metre.
     for (const std::string resolution : {"64", "1024"}) {
         Chain chain("plane", "{}",
-                    "[{pass: voxelize, resolution: 24}, {pass: place_surfels, points: 256}, "
-                    "{pass: inject_shadow_map, bounces: 0, resolution: " +
-                        resolution + "}]");
+                    graphYaml({"voxelize, resolution: 24", "place_surfels, points: 256",
+                               "inject_shadow_map, bounces: 0, resolution: " + resolution}));
         const auto& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
         const std::vector<float> area =
             chain.read<float>(chain.graph().resource<VoxelIrradiance>("irradiance")->area);
@@ -140,9 +139,8 @@ TEST(ShadowMap, WhatAMaskCutsCastsNoShadow) {
 TEST(ShadowMap, IndirectLightOfCornellIsThatOfVoxelRays) {
     const auto indirect = [](const std::string& inject) {
         Chain chain("cornell", "{lights: point}",
-                    "[{pass: gbuffer}, {pass: voxelize, resolution: 32}, {pass: place_surfels, points: 8}, "
-                    "{pass: " +
-                        inject + ", bounces: 4}, {pass: gather_irradiance}]");
+                    graphYaml({"gbuffer", "voxelize", "place_surfels, points: 8", inject + ", bounces: 4",
+                               "gather_irradiance"}));
         return mean(chain.image("indirect"));
     };
     EXPECT_NEAR(indirect("inject_shadow_map") / indirect("inject_voxel_rays"), 1.0, 0.02);
@@ -153,14 +151,10 @@ TEST(ShadowMap, BadInputIsNamed) {
         return std::make_shared<SceneState>(
             evaluate(makeBuiltinScene(scene, parseYaml(parameters, "scene")), 0.0));
     };
-    const auto expectError = [](std::shared_ptr<const SceneState> scene, const std::string& parameters,
+    const auto expectError = [](const std::shared_ptr<const SceneState>& scene, const std::string& parameters,
                                 const std::string& text) {
-        try {
-            Chain(std::move(scene), injectGraph("inject_shadow_map" + parameters, "8"), 8, 8, 1);
-            FAIL() << "no error";
-        } catch (const Error& error) {
-            EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
-        }
+        const std::string graph = injectGraph("inject_shadow_map" + parameters, "8");
+        EXPECT_CONTAINS(errorOf([&] { Chain(scene, graph, 8, 8, 1); }), text);
     };
     expectError(state("cornell", "{lights: area}"), "",
                 "inject_shadow_map: emissive surfaces have no single viewpoint");

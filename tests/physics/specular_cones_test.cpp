@@ -7,6 +7,7 @@
 #include "passes/common/view/gbuffer.h"
 #include "scene/shapes.h"
 #include "tests/gpu/chain.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -22,16 +23,15 @@ std::shared_ptr<const SceneState> changed(const std::string& scene, const std::s
 
 std::string coneGraph(const std::string& gbuffer, const std::string& resolution, const std::string& inject,
                       const std::string& filter, const std::string& gather) {
-    return "[{pass: gbuffer, " + gbuffer + "}, {pass: voxelize, resolution: " + resolution +
-           "}, {pass: inject_light_rays, " + inject + "}, {pass: filter_voxels, " + filter +
-           "}, {pass: gather_cones, " + gather + "}]";
+    return graphYaml({"gbuffer, " + gbuffer, "voxelize, resolution: " + resolution,
+                      "inject_light_rays, " + inject, "filter_voxels, " + filter, "gather_cones, " + gather});
 }
 
 /// Mean of what surfaces reflect where all of them emit 1, by cones and by the reference. Voxels hold what
 /// light of that does to Lambert surfaces, too: 1 + the diffuse albedo.
 void expectFurnace(const std::string& name, const std::function<void(Material&)>& change) {
     const auto state = changed("furnace", "{shape: box, albedo: 1, emission: 1}", change);
-    Chain reference(state, "[{pass: path_trace, spp: 1024, bounces: 0}]", 16, 16, 1);
+    Chain reference(state, graphYaml({"path_trace, spp: 1024, bounces: 0"}), 16, 16, 1);
     const double expected = mean(reference.image("final")) - 1.0;
     Chain cones(
         state,
@@ -112,7 +112,7 @@ std::pair<double, double> mirrorError(float roughness, const std::string& cones,
 }
 
 TEST(SpecularCones, MirrorsConvergeToTheReference) {
-    Chain reference(mirrorRoom(0), "[{pass: path_trace, spp: 256, bounces: 1}]", 32, 32, 1);
+    Chain reference(mirrorRoom(0), graphYaml({"path_trace, spp: 256, bounces: 1"}), 32, 32, 1);
     const ImageF expected = reference.image("indirect");
     const double coarse = mirrorError(0, "1", "16", "dense", expected).first;
     for (const std::string layout : {"dense", "svo"}) {
@@ -124,7 +124,7 @@ TEST(SpecularCones, MirrorsConvergeToTheReference) {
 }
 
 TEST(SpecularCones, MoreConesDescribeARoughLobeBetter) {
-    Chain reference(mirrorRoom(0.6f), "[{pass: path_trace, spp: 256, bounces: 1}]", 32, 32, 1);
+    Chain reference(mirrorRoom(0.6f), graphYaml({"path_trace, spp: 256, bounces: 1"}), 32, 32, 1);
     const ImageF expected = reference.image("indirect");
     const auto [one, oneRatio] = mirrorError(0.6f, "1", "64", "dense", expected);
     const auto [many, manyRatio] = mirrorError(0.6f, "19", "64", "dense", expected);
@@ -136,8 +136,8 @@ TEST(SpecularCones, MoreConesDescribeARoughLobeBetter) {
 TEST(SpecularCones, DirectLightHasHighlights) {
     for (const float roughness : {0.3f, 0.7f}) {
         const auto state = mirrorRoom(roughness);
-        Chain reference(state, "[{pass: path_trace, spp: 256, bounces: 0}]", 32, 32, 1);
-        Chain chain(state, "[{pass: gbuffer, samples: 8}, {pass: direct_shadow_rays}]", 32, 32, 1);
+        Chain reference(state, graphYaml({"path_trace, spp: 256, bounces: 0"}), 32, 32, 1);
+        Chain chain(state, graphYaml({"gbuffer, samples: 8", "direct_shadow_rays"}), 32, 32, 1);
         const ImageF expected = reference.image("final"), direct = chain.image("direct");
         double difference = 0;
         for (size_t i = 0; i < direct.data.size(); ++i)
@@ -147,14 +147,12 @@ TEST(SpecularCones, DirectLightHasHighlights) {
 }
 
 TEST(SpecularCones, AnUnknownSetIsNamed) {
-    try {
-        Chain("cornell", "{lights: point}",
-              coneGraph("samples: 1", "16", "rays_per_light: 16", "emission: false", "specular: 3"));
-        FAIL() << "no error";
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("specular is 3; lobes are shared out between 1, 7 or 19"),
-                  std::string::npos);
-    }
+    EXPECT_CONTAINS(
+        errorOf([&] {
+            Chain("cornell", "{lights: point}",
+                  coneGraph("samples: 1", "16", "rays_per_light: 16", "emission: false", "specular: 3"));
+        }),
+        "specular is 3; lobes are shared out between 1, 7 or 19");
 }
 
 }  // namespace

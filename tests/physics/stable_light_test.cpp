@@ -21,12 +21,9 @@ Values reported(const Chain& chain) {
 
 std::string probeGraph(uint32_t resolution, const std::string& filter, uint32_t points = 1000,
                        uint32_t samples = 4) {
-    return fmt::format(
-        "[{{pass: voxelize, resolution: {}}}, {{pass: inject_light_rays, rays_per_light: 65536, bounces: "
-        "3}}, "
-        "{{pass: place_surfels, points: 1}}, {{pass: filter_voxels, {}}}, "
-        "{{pass: probe_irradiance, points: {}, samples: {}}}]",
-        resolution, filter, points, samples);
+    return graphYaml({fmt::format("voxelize, resolution: {}", resolution), "inject_light_rays, bounces: 3",
+                      "place_surfels, points: 1", "filter_voxels, " + filter,
+                      fmt::format("probe_irradiance, points: {}, samples: {}", points, samples)});
 }
 
 TEST(StableLight, ProbesMeasureTheIrradianceOfAFurnace) {

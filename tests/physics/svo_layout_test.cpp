@@ -8,6 +8,7 @@
 #include "passes/common/octree/octree.h"
 #include "passes/common/voxels/voxel_count.h"
 #include "passes/common/voxels/voxels.h"
+#include "scene/shapes.h"
 #include "tests/gpu/radiance_samples.h"
 
 namespace voxray::test {
@@ -20,10 +21,8 @@ TEST(SvoLayout, AgreesWithTheDenseLayout) {
         const auto chain = [&](const std::string& layout) {
             return std::make_unique<Chain>(
                 "cornell", "{lights: point}",
-                "[{pass: voxelize, resolution: 32, directions: " + directions +
-                    "}, {pass: inject_light_rays, rays_per_light: 65536, bounces: 2},"
-                    " {pass: filter_voxels, layout: " +
-                    layout + "}]");
+                graphYaml({"voxelize, directions: " + directions, "inject_light_rays, bounces: 2",
+                           "filter_voxels, layout: " + layout}));
         };
         const auto dense = chain("dense"), svo = chain("svo");
         const RadianceVoxels& denseVoxels = *dense->graph().resource<RadianceVoxels>("radiance");
@@ -57,10 +56,8 @@ TEST(SvoLayout, ConesGatherWhatTheyGatherInFullGrids) {
     // which all but the direct part comes through cones.
     const auto indirect = [](const std::string& layout) {
         Chain chain("white_room", "{albedo: 0.5}",
-                    "[{pass: gbuffer}, {pass: voxelize, resolution: 32}, {pass: inject_light_rays, "
-                    "rays_per_light: 131072,"
-                    " bounces: 6}, {pass: filter_voxels, layout: " +
-                        layout + "}, {pass: gather_cones}]",
+                    graphYaml({"gbuffer", "voxelize", "inject_light_rays, rays_per_light: 131072, bounces: 6",
+                               "filter_voxels, layout: " + layout, "gather_cones"}),
                     16, 16);
         return chain.image("indirect");
     };
@@ -75,9 +72,10 @@ TEST(SvoLayout, ConesGatherWhatTheyGatherInFullGrids) {
 TEST(SvoLayout, TakesWhatIsPredicted) {
     // What the plan counts on the host: within a hundredth or two of the voxels, so of the bytes.
     for (const std::string scene : {"cornell", "thin_wall", "spheres", "furnace"}) {
-        const Chain chain(scene, "{}",
-                          "[{pass: voxelize, resolution: 64}, {pass: inject_light_rays, rays_per_light: 1024,"
-                          " bounces: 0}, {pass: filter_voxels, layout: svo}]");
+        const Chain chain(
+            scene, "{}",
+            graphYaml({"voxelize, resolution: 64", "inject_light_rays, rays_per_light: 1024, bounces: 0",
+                       "filter_voxels, layout: svo"}));
         const RadianceVoxels& octree = *chain.graph().resource<RadianceVoxels>("radiance");
         const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
         const OctreeSize size{voxels.grid.resolution, 6,
@@ -88,6 +86,35 @@ TEST(SvoLayout, TakesWhatIsPredicted) {
         EXPECT_NEAR(double(size.bytes()) / double(held), 1.0, 0.03) << scene;
         std::printf("%s: %u voxels, %u counted; %.2f MB\n", scene.c_str(), voxels.voxelCount, size.nodes[0],
                     double(held) / 1e6);
+    }
+}
+
+TEST(SvoLayout, GrowsWithItsSurfaceAlone) {
+    // A flat floor under 2 m of empty space. Per leaf: 4/3 nodes with a value of 8 bytes, 1/3 of them with 4
+    // bytes that lead to children, and a table of at most 2 words, whose coarser levels add a seventh. A full
+    // grid would take twice as much per surface voxel with each step.
+    SceneBuilder b("floor");
+    const uint32_t grey = b.lambert("grey", glm::vec3(0.5f));
+    b.quad("floor", {-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, grey);
+    b.box("speck", {0, 1.99f, 0}, glm::vec3(0.01f), 0, grey);  // Makes the grid a cube.
+    b.pointLight({0, 1, 0}, glm::vec3(1.0f));
+    b.camera({0, 1, 0.5f}, {0, 0, 0}, 60);
+    const auto state = std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
+    for (const uint32_t resolution : {32u, 64u, 128u, 256u}) {
+        const Chain chain(
+            state,
+            graphYaml({fmt::format("voxelize, resolution: {}, directions: 1, visibility_rays: 0", resolution),
+                       "inject_light_rays, rays_per_light: 1024, bounces: 0", "filter_voxels, layout: svo"}),
+            8, 8, 1);
+        const uint32_t voxels = chain.graph().resource<SurfaceVoxels>("voxels")->voxelCount;
+        uint64_t held = 0;
+        for (const Buffer& buffer : chain.graph().resource<RadianceVoxels>("radiance")->storage)
+            held += buffer.bytes();
+        const double bytes = double(held) / voxels;
+        std::printf("%u: %.2f bytes a surface voxel\n", resolution, bytes);
+        // A few nodes more where the floor ends within one, and the path to the speck.
+        EXPECT_GT(bytes, 12.0) << resolution;
+        EXPECT_LT(bytes, 1.05 * (12.0 + 2 * 4 * 8 / 7.0)) << resolution;
     }
 }
 

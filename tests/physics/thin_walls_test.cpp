@@ -25,10 +25,8 @@ std::shared_ptr<const SceneState> redAndGreenWall() {
 Chain wall(const std::string& voxelize, const std::string& filter) {
     return Chain(
         redAndGreenWall(),
-        "[{pass: voxelize, " + voxelize +
-            "}, {pass: inject_light_rays, rays_per_light: 65536, bounces: 0}, {pass: filter_voxels, " +
-            filter + "}]",
-        16, 16, 1);
+        graphYaml({"voxelize, " + voxelize, "inject_light_rays, bounces: 0", "filter_voxels, " + filter}), 16,
+        16, 1);
 }
 
 /// What a ray along ±x (`towards`) meets in the wall, in steps of half a footprint of so many voxels.
@@ -74,8 +72,8 @@ double leakOfGatherRays(const std::string& inject) {
     const auto seen = [&](const std::string& view) {
         Chain chain(
             "thin_wall", "{thickness: 0.05, view: " + view + "}",
-            "[{pass: gbuffer}, {pass: voxelize, resolution: 64}, {pass: place_surfels}, {pass: " + inject +
-                ", bounces: 3}, {pass: trace_gather_rays, rays: 64}, {pass: gather_rays, filter: 0}]");
+            graphYaml({"gbuffer", "voxelize, resolution: 64", "place_surfels", inject + ", bounces: 3",
+                       "trace_gather_rays, rays: 64", "gather_rays, filter: 0"}));
         return mean(chain.image("indirect"));
     };
     return seen("dark") / seen("lit");

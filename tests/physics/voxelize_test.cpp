@@ -10,7 +10,7 @@ namespace {
 
 TEST(Voxelize, SumsToTheSurfaceArea) {
     // A sphere has every orientation: the pieces must add up to its area all the same.
-    Chain chain("furnace", "{shape: sphere, albedo: 0.5}", "[{pass: voxelize, resolution: 48}]");
+    Chain chain("furnace", "{shape: sphere, albedo: 0.5}", graphYaml({"voxelize, resolution: 48"}));
     const Voxels voxels(chain);
     double area = 0;
     glm::dvec3 exposed(0.0);
@@ -29,7 +29,7 @@ TEST(Voxelize, InnerSidesOfThinWallsAreNotExposed) {
     // Cornell's boxes are closed shells; at 4 voxels along the room each side faces another within a voxel,
     // so that the shells' inner sides drop out. At 64 voxels they are wider than a voxel and count.
     const auto unoccludedFraction = [](uint32_t resolution) {
-        Chain chain("cornell", "{}", "[{pass: voxelize, resolution: " + std::to_string(resolution) + "}]");
+        Chain chain("cornell", "{}", graphYaml({"voxelize, resolution: " + std::to_string(resolution)}));
         const Voxels voxels(chain);
         double area = 0, exposed = 0;
         for (const gpu::VoxelMaterial& m : voxels.materials) {
@@ -44,7 +44,7 @@ TEST(Voxelize, InnerSidesOfThinWallsAreNotExposed) {
 }
 
 TEST(Voxelize, RanksCountOccupiedVoxels) {
-    Chain chain("cornell", "{}", "[{pass: voxelize, resolution: 40}]");
+    Chain chain("cornell", "{}", graphYaml({"voxelize, resolution: 40"}));
     const Voxels voxels(chain);
     uint32_t before = 0;
     for (size_t word = 0; word < voxels.occupancy.size(); ++word) {
@@ -56,7 +56,8 @@ TEST(Voxelize, RanksCountOccupiedVoxels) {
 }
 
 TEST(Voxelize, AveragesMaterials) {
-    Chain chain("furnace", "{shape: box, albedo: 0.25, emission: 3}", "[{pass: voxelize, resolution: 16}]");
+    Chain chain("furnace", "{shape: box, albedo: 0.25, emission: 3}",
+                graphYaml({"voxelize, resolution: 16"}));
     const Voxels voxels(chain);
     for (const gpu::VoxelMaterial& m : voxels.materials) {
         ASSERT_NEAR(m.albedo.x, 0.25, 1e-3);
@@ -69,7 +70,7 @@ TEST(Voxelize, AveragesMaterials) {
 
 TEST(Voxelize, IsDeterministic) {
     const auto run = [] {
-        Chain chain("cornell", "{}", "[{pass: voxelize, resolution: 32}]");
+        Chain chain("cornell", "{}", graphYaml({"voxelize"}));
         return Voxels(chain).materials;
     };
     const auto a = run(), b = run();

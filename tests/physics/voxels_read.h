@@ -60,7 +60,7 @@ struct Voxels {
 
 /// The voxels of a scene; `parameters` are those of the pass, as "method: exact, resolution: 16".
 inline Voxels voxelize(const std::shared_ptr<const Scene>& scene, const std::string& parameters) {
-    Chain chain(std::make_shared<SceneState>(evaluate(scene, 0.0)), "[{pass: voxelize, " + parameters + "}]",
+    Chain chain(std::make_shared<SceneState>(evaluate(scene, 0.0)), graphYaml({"voxelize, " + parameters}),
                 16, 16, 1);
     return Voxels(chain);
 }

@@ -10,6 +10,7 @@
 #include "base/interrupt.h"
 #include "base/schema.h"
 #include "base/suggest.h"
+#include "tests/support/errors.h"
 
 using namespace voxray;
 namespace fs = std::filesystem;
@@ -47,13 +48,8 @@ Value mapOf(std::initializer_list<std::pair<const char*, const char*>> entries) 
     return map;
 }
 
-std::string errorOf(const Value& map) {
-    try {
-        readParams<Params>(map, "demo");
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return {};
+std::string paramsError(const Value& map) {
+    return errorOf<UsageError>([&] { readParams<Params>(map, "demo"); });
 }
 
 class Folder : public testing::Test {
@@ -151,16 +147,17 @@ TEST(Schema, ReadsEveryType) {
 }
 
 TEST(Schema, ErrorsNamePlaceKeyAndNearestWord) {
-    EXPECT_EQ(errorOf(mapOf({{"cuont", "3"}})),
+    EXPECT_EQ(paramsError(mapOf({{"cuont", "3"}})),
               "f.yaml:3: demo: unknown parameter 'cuont'; did you mean 'count'?");
-    EXPECT_EQ(errorOf(mapOf({{"count", "11"}})), "f.yaml:3: demo.count: 11 is out of range [1, 10]");
-    EXPECT_EQ(errorOf(mapOf({{"count", "-1"}})), "f.yaml:3: demo.count: -1 is out of range");
-    EXPECT_EQ(errorOf(mapOf({{"count", "4294967297"}})), "f.yaml:3: demo.count: 4294967297 is out of range");
-    EXPECT_EQ(errorOf(mapOf({{"fruit", "peer"}})),
+    EXPECT_EQ(paramsError(mapOf({{"count", "11"}})), "f.yaml:3: demo.count: 11 is out of range [1, 10]");
+    EXPECT_EQ(paramsError(mapOf({{"count", "-1"}})), "f.yaml:3: demo.count: -1 is out of range");
+    EXPECT_EQ(paramsError(mapOf({{"count", "4294967297"}})),
+              "f.yaml:3: demo.count: 4294967297 is out of range");
+    EXPECT_EQ(paramsError(mapOf({{"fruit", "peer"}})),
               "f.yaml:3: demo.fruit: unknown value 'peer'; did you mean 'pear'?");
-    EXPECT_EQ(errorOf(mapOf({{"flag", "maybe"}})),
+    EXPECT_EQ(paramsError(mapOf({{"flag", "maybe"}})),
               "f.yaml:3: demo.flag: expected true or false, not 'maybe'");
-    EXPECT_NE(errorOf(mapOf({{"color", "10"}})).find("out of range"), std::string::npos);
+    EXPECT_CONTAINS(paramsError(mapOf({{"color", "10"}})), "out of range");
 }
 
 TEST(Schema, DescribesItself) {
@@ -209,14 +206,10 @@ TEST_F(Folder, FullDiskIsOneErrorAndLeavesNothing) {
     std::signal(SIGXFSZ, SIG_IGN);
     const rlimit small{4096, before.rlim_max};
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-    std::string message;
-    try {
-        writeFileAtomically(folder_ / "a.txt", std::string(1 << 20, 'x'));
-    } catch (const Error& error) {
-        message = error.what();
-    }
+    const std::string message =
+        errorOf([&] { writeFileAtomically(folder_ / "a.txt", std::string(1 << 20, 'x')); });
     setrlimit(RLIMIT_FSIZE, &before);
-    EXPECT_NE(message.find("a.txt: "), std::string::npos) << message;
+    EXPECT_CONTAINS(message, "a.txt: ");
     EXPECT_EQ(readTextFile(folder_ / "a.txt"), "old");
     EXPECT_EQ(entries(), 1u);
 }

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "config/sweep.h"
+#include "tests/support/errors.h"
 
 using namespace voxray;
 
@@ -20,13 +21,8 @@ std::vector<Variant> expand(const std::string& sweep) {
                         "demo.yaml"));
 }
 
-std::string errorOf(const std::string& sweep) {
-    try {
-        expand(sweep);
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return {};
+std::string sweepError(const std::string& sweep) {
+    return errorOf<UsageError>([&] { expand(sweep); });
 }
 
 }  // namespace
@@ -86,16 +82,14 @@ TEST(Sweep, NamesAreSafeAndUnique) {
 }
 
 TEST(Sweep, Errors) {
-    EXPECT_NE(errorOf("  reference.spp: [1, 2]\n").find("demo.yaml:7: sweep: 'reference.spp' is the same"),
-              std::string::npos);
-    EXPECT_NE(errorOf("  voxelise.resolution: [1]\n").find("did you mean 'voxelize'?"), std::string::npos);
-    EXPECT_NE(
-        errorOf("  image.widht: [1]\n").find("demo.yaml:7: image: unknown parameter 'widht'; did you mean"),
-        std::string::npos);
-    EXPECT_NE(errorOf("  voxelize.resolution: [64, 64]\n").find("appears twice"), std::string::npos);
+    EXPECT_CONTAINS(sweepError("  reference.spp: [1, 2]\n"),
+                    "demo.yaml:7: sweep: 'reference.spp' is the same");
+    EXPECT_CONTAINS(sweepError("  voxelise.resolution: [1]\n"), "did you mean 'voxelize'?");
+    EXPECT_CONTAINS(sweepError("  image.widht: [1]\n"),
+                    "demo.yaml:7: image: unknown parameter 'widht'; did you mean");
+    EXPECT_CONTAINS(sweepError("  voxelize.resolution: [64, 64]\n"), "appears twice");
     std::string many = "[0";
     for (int i = 1; i < 200; ++i) many += ", " + std::to_string(i);
     many += "]\n";
-    EXPECT_NE(errorOf("  inject.a: " + many + "  inject.b: " + many).find("more than 10000"),
-              std::string::npos);
+    EXPECT_CONTAINS(sweepError("  inject.a: " + many + "  inject.b: " + many), "more than 10000");
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "tests/support/errors.h"
 #include "trace/texture_lookup.h"
 
 namespace voxray {
@@ -173,14 +174,11 @@ TEST(EmbreeScene, StreamsNameTheFirstBadRay) {
         std::vector<uint32_t> occluded(rays.size());
         for (const Coherence coherence : {Coherence::Incoherent, Coherence::Coherent})
             for (const bool closest : {true, false}) {
-                try {
+                const std::string error = errorOf([&] {
                     closest ? scene.closestHit(rays, hits, coherence)
                             : scene.occluded(rays, occluded, coherence);
-                    FAIL() << "a bad ray was traced";
-                } catch (const Error& error) {
-                    EXPECT_NE(std::string(error.what()).find("ray 12345 "), std::string::npos)
-                        << error.what();
-                }
+                });
+                EXPECT_CONTAINS(error, "ray 12345 ");
             }
     }
 }

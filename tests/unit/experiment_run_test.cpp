@@ -3,6 +3,7 @@
 #include "experiment_fakes.h"
 #include "image/image.h"
 #include "image/score.h"
+#include "tests/support/errors.h"
 
 using namespace voxray;
 using namespace voxray::fakes;
@@ -32,7 +33,7 @@ TEST_F(RunTest, WritesResultsWithTheScoresOfClosedForms) {
     for (const char* name : {"final.exr", "indirect.exr", "final.png", "indirect.png"})
         EXPECT_TRUE(fs::exists(out / "images" / "reference" / name)) << name;
     EXPECT_EQ(readImage(out / "images" / "value-0.5" / "final.exr").data[0], 0.5f);
-    EXPECT_NE(readTextFile(out / "passes.csv").find("value-0.5,constant,frame,"), std::string::npos);
+    EXPECT_CONTAINS(readTextFile(out / "passes.csv"), "value-0.5,constant,frame,");
 
     // The reference's own noise: sqrt(0.01), 0.01 / 1.01
     const auto manifest = nlohmann::json::parse(readTextFile(out / "manifest.json"));
@@ -67,7 +68,7 @@ TEST_F(RunTest, NanFailsItsVariantAndNamesThePass) {
     EXPECT_EQ(summary.failed, 1u);
     EXPECT_EQ(summary.exitStatus(), 1);
     EXPECT_EQ(cell("nan-true", "status"), "failed");
-    EXPECT_NE(readTextFile(root_ / "out" / "results.csv").find("pass 'constant'"), std::string::npos);
+    EXPECT_CONTAINS(readTextFile(root_ / "out" / "results.csv"), "pass 'constant'");
     EXPECT_EQ(cell("nan-false", "status"), "ok");
     EXPECT_FALSE(fs::exists(root_ / "out" / "images" / "nan-true"));
 }
@@ -86,8 +87,8 @@ TEST_F(RunTest, MessagesOfTheValidationLayerFailTheRunAndArePrinted) {
     EXPECT_EQ(summary.failed, 1u);
     EXPECT_GE(summary.validationMessages, 1u);
     EXPECT_EQ(summary.exitStatus(), 1);
-    EXPECT_NE(errors.find("Vulkan validation: "), std::string::npos) << errors;
-    EXPECT_NE(cell("misuse-true", "error").find("Vulkan validation"), std::string::npos);
+    EXPECT_CONTAINS(errors, "Vulkan validation: ");
+    EXPECT_CONTAINS(cell("misuse-true", "error"), "Vulkan validation");
     EXPECT_EQ(cell("misuse-false", "status"), "ok");
 }
 
@@ -101,7 +102,7 @@ TEST_F(RunTest, MemoryAboveTheConfigsLimitIsRefused) {
     const Experiment limited = parseExperiment(config("sweep: {constant.megabytes: [0, 64]}\n"), "fake.yaml",
                                                {"", {"measure.memory_limit_mb=32"}});
     EXPECT_EQ(runExperiment(limited, options(), registry()).failed, 1u);
-    EXPECT_NE(readTextFile(root_ / "out" / "results.csv").find("the limit is 32.0 MiB"), std::string::npos);
+    EXPECT_CONTAINS(readTextFile(root_ / "out" / "results.csv"), "the limit is 32.0 MiB");
 }
 
 TEST_F(RunTest, WithoutReferenceThereAreNoScores) {
@@ -219,8 +220,7 @@ TEST_F(RunTest, LightThatLosesItsDirectionIsNamed) {
                                       {"", {"scene.lights=[{directional: [0, -1, 0], move: [0, 1, 0]}]"}}),
                       options(), registry());
     EXPECT_EQ(summary.exitStatus(), 1);
-    EXPECT_NE(cell("default", "error").find("config light 0: 'move' leaves it without a direction"),
-              std::string::npos);
+    EXPECT_CONTAINS(cell("default", "error"), "config light 0: 'move' leaves it without a direction");
 }
 
 TEST_F(RunTest, SeveralReferencesGetTheirOwnFolders) {
@@ -258,18 +258,15 @@ TEST_F(RunTest, ResumeRefusesAnotherExperimentAndNamesTheDifference) {
     run("");
     RunOptions o = options();
     o.resume = true;
-    const auto errorOf = [&](const std::string& assignment) -> std::string {
-        try {
+    const auto errorWith = [&](const std::string& assignment) {
+        return errorOf([&] {
             runExperiment(parseExperiment(config(""), "fake.yaml", {"", {assignment}}), o, registry());
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return {};
+        });
     };
-    EXPECT_NE(errorOf("seed=2").find("another seed (0, now 2)"), std::string::npos);
-    EXPECT_NE(errorOf("constant.value=2").find("another graph"), std::string::npos);
-    EXPECT_NE(errorOf("image.width=9").find("another image"), std::string::npos);
-    EXPECT_NE(errorOf("name=other").find("another experiment, 'fake'"), std::string::npos);
+    EXPECT_CONTAINS(errorWith("seed=2"), "another seed (0, now 2)");
+    EXPECT_CONTAINS(errorWith("constant.value=2"), "another graph");
+    EXPECT_CONTAINS(errorWith("image.width=9"), "another image");
+    EXPECT_CONTAINS(errorWith("name=other"), "another experiment, 'fake'");
 }
 
 TEST_F(RunTest, InterruptKeepsWhatWasFinished) {
@@ -309,8 +306,8 @@ TEST_F(RunTest, DryRunRendersNothing) {
     testing::internal::CaptureStdout();
     EXPECT_EQ(run("sweep: {constant.megabytes: [0, 64]}\n", o).exitStatus(), 0);
     const std::string text = testing::internal::GetCapturedStdout();
-    EXPECT_NE(text.find("megabytes-64"), std::string::npos);
-    EXPECT_NE(text.find("64.0 MiB"), std::string::npos);
+    EXPECT_CONTAINS(text, "megabytes-64");
+    EXPECT_CONTAINS(text, "64.0 MiB");
     EXPECT_EQ(Constant::runs, 0);
     EXPECT_FALSE(fs::exists(root_ / "out"));
 }
@@ -318,31 +315,21 @@ TEST_F(RunTest, DryRunRendersNothing) {
 TEST_F(RunTest, MissingSceneFileSaysWhereItLooked) {
     const Experiment e = parseExperiment("name: x\nscene: {file: absent.glb}\ngraph: [{pass: constant}]\n",
                                          (root_ / "x.yaml").string());
-    try {
-        RunOptions o = options();
-        o.scenes = root_ / "scenes";
-        runExperiment(e, o, registry());
-        FAIL();
-    } catch (const UsageError& error) {
-        const std::string message = error.what();
-        EXPECT_NE(message.find("x.yaml:2: no file 'absent.glb' in " + (root_ / "scenes").string()),
-                  std::string::npos)
-            << message;
-    }
+    RunOptions o = options();
+    o.scenes = root_ / "scenes";
+    EXPECT_CONTAINS(errorOf<UsageError>([&] { runExperiment(e, o, registry()); }),
+                    "x.yaml:2: no file 'absent.glb' in " + (root_ / "scenes").string());
 }
 
 TEST_F(RunTest, CameraAndBuiltinErrorsNameTheNearestWord) {
-    const auto errorOf = [&](const std::string& assignment) -> std::string {
-        try {
-            RunOptions o = options();
-            runExperiment(parseExperiment(config(""), "fake.yaml", {"", {assignment}}), o, registry());
-        } catch (const UsageError& error) {
-            return error.what();
-        }
-        return {};
+    const auto errorWith = [&](const std::string& assignment) {
+        return errorOf<UsageError>([&] {
+            runExperiment(parseExperiment(config(""), "fake.yaml", {"", {assignment}}), options(),
+                          registry());
+        });
     };
-    EXPECT_NE(errorOf("scene.builtin=cornel").find("did you mean 'cornell'?"), std::string::npos);
-    EXPECT_NE(errorOf("scene.camra=x").find("did you mean 'camera'?"), std::string::npos);
-    EXPECT_NE(errorOf("scene.environment=absent.exr").find("no file 'absent.exr'"), std::string::npos);
+    EXPECT_CONTAINS(errorWith("scene.builtin=cornel"), "did you mean 'cornell'?");
+    EXPECT_CONTAINS(errorWith("scene.camra=x"), "did you mean 'camera'?");
+    EXPECT_CONTAINS(errorWith("scene.environment=absent.exr"), "no file 'absent.exr'");
     EXPECT_FALSE(fs::exists(root_ / "out"));
 }

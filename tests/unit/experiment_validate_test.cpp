@@ -9,6 +9,7 @@
 #include "experiment/progress.h"
 #include "experiment/results.h"
 #include "experiment_fakes.h"
+#include "tests/support/errors.h"
 
 using namespace voxray;
 
@@ -16,13 +17,9 @@ namespace {
 
 void expectError(const std::string& graph, std::initializer_list<const char*> parts) {
     const std::string text = "name: x\nscene: {builtin: cornell}\n" + graph;
-    try {
-        wireExperiment(parseExperiment(text, "x.yaml"), fakes::registry());
-        ADD_FAILURE() << "no error for " << text;
-    } catch (const UsageError& error) {
-        const std::string message = error.what();
-        for (const char* part : parts) EXPECT_NE(message.find(part), std::string::npos) << message;
-    }
+    const std::string message =
+        errorOf<UsageError>([&] { wireExperiment(parseExperiment(text, "x.yaml"), fakes::registry()); });
+    for (const char* part : parts) EXPECT_CONTAINS(message, part);
 }
 
 }  // namespace
@@ -85,7 +82,7 @@ TEST(Results, CsvQuotesByRfc4180) {
     failed.error = "x, \"y\"";
     failed.sweepValues = {"[1, 2]"};
     const std::string text = resultsCsv({failed}, {"a.b"}, metricNames());
-    EXPECT_NE(text.find("v,failed,\"x, \"\"y\"\"\",,,\"[1, 2]\",,,,,,,"), std::string::npos) << text;
+    EXPECT_CONTAINS(text, "v,failed,\"x, \"\"y\"\"\",,,\"[1, 2]\",,,,,,,");
 }
 
 TEST(Results, NumbersKeepNineDigits) {
@@ -101,7 +98,7 @@ TEST(Results, MetricsThatWereNotAskedForStayEmpty) {
     r.ok = true;
     r.scores = {{"flip", 0.25}, {"nrmse", 0.5}, {"indirect_nrmse", 0.75}};
     const std::string text = resultsCsv({r}, {}, {"nrmse"});
-    EXPECT_NE(text.find("v,ok,,,,0,0,0,0,0,0,0,0.5,,,,,,,0.75,,,,,,\n"), std::string::npos) << text;
+    EXPECT_CONTAINS(text, "v,ok,,,,0,0,0,0,0,0,0,0.5,,,,,,,0.75,,,,,,\n");
 }
 
 TEST(Results, JsonSurvivesTheRoundTrip) {
@@ -129,8 +126,8 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     EXPECT_EQ(back.scores, r.scores);
     EXPECT_EQ(back.passes.at(0).voxelSteps, 5u);
     EXPECT_EQ(valuesCsv({back}), valuesCsv({r}));
-    EXPECT_NE(valuesCsv({back}).find(",p,\"voxels, missed\",,7\n"), std::string::npos);
-    EXPECT_NE(valuesCsv({back}).find(",p,change,3,0.1\n"), std::string::npos);
+    EXPECT_CONTAINS(valuesCsv({back}), ",p,\"voxels, missed\",,7\n");
+    EXPECT_CONTAINS(valuesCsv({back}), ",p,change,3,0.1\n");
     EXPECT_EQ(backInputs, inputs);
     EXPECT_THROW(parseResultJson("{\"variant\": 3}"), Error);
     EXPECT_THROW(parseResultJson(""), Error);

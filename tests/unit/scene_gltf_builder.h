@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scene/load.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 
@@ -132,16 +133,10 @@ struct GltfBuilder {
     }
     /// What the loader says of a file that it must refuse; checks that it is one line that names the file.
     std::string error() const {
-        try {
-            load();
-        } catch (const Error& error) {
-            const std::string text = error.what();
-            EXPECT_NE(text.find("scene.glb"), std::string::npos) << text;
-            EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-            return text;
-        }
-        ADD_FAILURE() << "it was loaded";
-        return {};
+        const std::string text = errorOf([&] { load(); });
+        EXPECT_CONTAINS(text, "scene.glb");
+        EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+        return text;
     }
 };
 
@@ -150,8 +145,6 @@ inline bool warns(const Scene& scene, const std::string& text) {
         if (warning.find(text) != std::string::npos) return true;
     return false;
 }
-
-#define EXPECT_CONTAINS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 inline void expectNear(const glm::vec3& a, const glm::vec3& b, float tolerance) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << "component " << i;

@@ -23,7 +23,7 @@ struct WriterPush {
 struct Merged {
     Merged(Write write, uint32_t samples, float firstValue, float slope, bool reversed = false,
            float white = 8) {
-        static Chain room("white_room", "{}", "[{pass: voxelize, resolution: 12}]");
+        static Chain room("white_room", "{}", graphYaml({"voxelize, resolution: 12"}));
         const SurfaceVoxels& voxels = *room.graph().resource<SurfaceVoxels>("voxels");
         const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, {});
         VoxelAccumulator writes(device(), compiler, {write, white});

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+namespace voxray::test {
+
+/// A strategy of injection, with parameters for small scenes, after place_surfels and trace_gather_rays.
+struct Injection {
+    std::string pass;  ///< And its parameters but for `bounces`.
+    bool
+        takesEmission;  ///< Whether emissive surfaces may be sources; point, spot and directional lights may.
+    bool fromCamera = false;  ///< Lights only voxels that the camera's rays or their reflections meet.
+
+    std::string withBounces(int bounces) const { return pass + ", bounces: " + std::to_string(bounces); }
+};
+
+inline const Injection kInjections[] = {
+    {"inject_light_rays, rays_per_light: 131072", true},
+    {"inject_voxel_rays, rays: 2", true},
+    {"inject_gather_hits", true, true},
+    {"inject_camera_rays, rays: 65536", true, true},
+    {"inject_rsm, resolution: 128", false},
+    {"inject_shadow_map, resolution: 256, rays: 2", false},
+};
+
+}  // namespace voxray::test
