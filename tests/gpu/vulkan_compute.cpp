@@ -50,11 +50,11 @@ TEST_F(VulkanCompute, PushConstantsOfOtherNamesOrPlacesAreRefused) {
     struct OneLarge {
         uint64_t count;
     };
-    expectContains(errorWith(Swapped{0, 1}),
-                   "push constant 0 is 'bias' (4 bytes at 0), the shader declares 'count'");
-    expectContains(errorWith(OneLarge{1}), "'count' (8 bytes at 0)");
-    expectContains(errorWith(uint64_t(1)), "is 'nothing'");
-    expectContains(errorWith(uint32_t(1)), "4 bytes of push constants given, the shader declares 8");
+    EXPECT_CONTAINS(errorWith(Swapped{0, 1}),
+                    "push constant 0 is 'bias' (4 bytes at 0), the shader declares 'count'");
+    EXPECT_CONTAINS(errorWith(OneLarge{1}), "'count' (8 bytes at 0)");
+    EXPECT_CONTAINS(errorWith(uint64_t(1)), "is 'nothing'");
+    EXPECT_CONTAINS(errorWith(uint32_t(1)), "4 bytes of push constants given, the shader declares 8");
     stream.dispatch(program, {{"source", source}, {"Target", target}}, Push{1, 0}, {1, 1, 1});
 }
 
