@@ -51,7 +51,8 @@ class ClipmapStorage final : public RadianceStorage {
             // A level is made of the one below where that is held whole, else of the surfaces.
             const uint32_t source = level > clipmap_.windows().firstWhole() ? level - 1 : 0;
             for (const VoxelBox& box : boxes) {
-                context.stream.dispatch(fill_, bindings, FillPush{voxels.grid, emission, box.first, box.size, level, source},
+                context.stream.dispatch(fill_, bindings,
+                                        FillPush{voxels.grid, emission, box.first, box.size, level, source},
                                         linearGroups(box.count()));
                 context.voxelSteps += box.count();
             }

@@ -4,10 +4,10 @@
 #include <numeric>
 #include <random>
 
-#include "tests/gpu/vulkan_fixture.h"
 #include "passes/common/compute/compaction.h"
 #include "passes/common/compute/histogram.h"
 #include "passes/common/compute/radix_sort.h"
+#include "tests/gpu/vulkan_fixture.h"
 
 namespace voxray {
 namespace {
@@ -63,8 +63,9 @@ TEST_F(Compute, CompactionListsFlaggedItems) {
         CommandStream stream(device());
         const Buffer indices(device(), "indices", 32ull * words * sizeof(uint32_t));
         EXPECT_EQ(compaction.run(stream, upload(stream, flags), indices, words), expected.size()) << words;
-        if (!expected.empty())
+        if (!expected.empty()) {
             EXPECT_EQ(stream.readAs<uint32_t>(indices, expected.size()), expected) << words;
+        }
     }
 }
 

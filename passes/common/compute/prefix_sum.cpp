@@ -16,8 +16,8 @@ uint32_t blocksOf(uint32_t count) {
 }
 
 Program stage(Device& device, const ShaderCompiler& compiler, const char* name, PrefixSum::Of of) {
-    const Defines defines = of == PrefixSum::Of::SetBits ? Defines{{name, "1"}, {"SET_BITS", "1"}}
-                                                         : Defines{{name, "1"}};
+    const Defines defines =
+        of == PrefixSum::Of::SetBits ? Defines{{name, "1"}, {"SET_BITS", "1"}} : Defines{{name, "1"}};
     return makeComputeProgram(device, compiler.compile("passes/common/compute/prefix_sum.comp", defines));
 }
 
