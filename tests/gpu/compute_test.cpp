@@ -78,7 +78,8 @@ TEST_F(Compute, HistogramCountsWhatIsInRange) {
         if (value < kBins) ++expected[value];
     CommandStream stream(device());
     const Buffer counts(device(), "counts", kBins * sizeof(uint32_t));
-    histogram.record(stream, upload(stream, values), counts, uint32_t(values.size()), kBins);
+    const Buffer source = upload(stream, values);
+    histogram.record(stream, source, counts, uint32_t(values.size()), kBins);
     EXPECT_EQ(stream.readAs<uint32_t>(counts, kBins), expected);
 }
 
