@@ -114,14 +114,16 @@ def compare_images(path_a, path_b):
     if shapes[0] != shapes[1]:
         return f"{shapes[0][1]} x {shapes[0][0]} and {shapes[1][1]} x {shapes[1][0]} pixels"
     differing = numpy.zeros(shapes[0], bool)
-    largest = mean = 0.0
+    largest = average = mean = 0.0
     for name in a:
         differing |= a[name].view(f"u{a[name].itemsize}") != b[name].view(f"u{b[name].itemsize}")
-        largest = max(largest, float(numpy.nanmax(numpy.abs(a[name].astype(float) - b[name].astype(float)))))
+        difference = numpy.abs(a[name].astype(float) - b[name].astype(float))
+        largest = max(largest, float(numpy.nanmax(difference)))
+        average += float(numpy.nanmean(difference)) / len(a)
         mean += float(numpy.nanmean(numpy.abs(a[name].astype(float)))) / len(a)
     if not differing.any():
         return None
-    return f"{differing.sum()} of {differing.size} pixels, by at most {largest:.3g} (mean {mean:.3g})"
+    return f"{differing.sum()} of {differing.size} pixels, by at most {largest:.3g}, on average {average:.3g} (mean {mean:.3g})"
 
 
 def exr_files(folder):

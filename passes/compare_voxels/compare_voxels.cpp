@@ -14,8 +14,9 @@ std::vector<uint32_t> occupancyOf(CommandStream& stream, const SurfaceVoxels& vo
 /// In units of a voxel's face.
 double areaOf(CommandStream& stream, const SurfaceVoxels& voxels) {
     double area = 0;
-    for (const gpu::VoxelMaterial& m : stream.readAs<gpu::VoxelMaterial>(voxels.materials, voxels.voxelCount))
-        area += m.area;
+    for (const gpu::PackedVoxelMaterial& packed :
+         stream.readAs<gpu::PackedVoxelMaterial>(voxels.materials, voxels.voxelCount))
+        area += gpu::unpackMaterial(packed).area;
     return area;
 }
 

@@ -20,7 +20,7 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 float faceArea(uint voxel, vec3 normal) {
-    const VoxelMaterial m = voxelMaterials.data[voxel];
+    const VoxelMaterial m = voxelMaterial(voxel);
     if (push.grid.directions == 1u) return dot(m.unoccludedPositive + m.unoccludedNegative, vec3(1.0));
     return dot(normal * normal, mix(m.unoccludedPositive, m.unoccludedNegative, lessThan(normal, vec3(0.0))));
 }

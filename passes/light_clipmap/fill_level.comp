@@ -13,13 +13,13 @@ void main() {
     const uvec3 size = own.size;
     if (i >= size.x * size.y * size.z) return;
     const ivec3 voxel = ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
-    for (uint side = 0u; side < radianceVoxels.grid.directions; ++side) {
+    for (uint face = 0u; face < radianceVoxels.grid.directions; ++face) {
         vec4 child[8];
         for (uint cell = 0u; cell < 8u; ++cell) {
             const ivec3 at = blockVoxel(2 * voxel, cell);
-            child[cell] = inWindow(below, at) ? radianceValue(clipmapSlot(below, at), side) : vec4(0.0);
+            child[cell] = inWindow(below, at) ? radianceValue(clipmapSlot(below, at), face) : vec4(0.0);
         }
-        storeRadiance(clipmapSlot(own, voxel), side,
-                      radianceVoxels.grid.directions == 6u ? combineFaces(child, side) : combineAll(child));
+        storeRadiance(clipmapSlot(own, voxel), face,
+                      radianceVoxels.grid.directions == 6u ? combineFaces(child, face) : combineAll(child));
     }
 }

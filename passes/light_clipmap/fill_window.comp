@@ -20,11 +20,11 @@ void main() {
     const ivec3 voxel = push.boxFirst + ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
     const uint slot = clipmapSlot(radianceVoxels.window[push.level], voxel), number = voxelNumber(push.grid, voxel);
     const uint directions = radianceVoxels.grid.directions;
-    for (uint side = 0u; side < directions; ++side) {
+    for (uint face = 0u; face < directions; ++face) {
         vec4 value = vec4(0.0);
         if (number != NO_VOXEL)
-            value = directions == 6u ? faceRadiance(push.grid, number, side, 0.0)
+            value = directions == 6u ? faceRadiance(push.grid, number, face, 0.0)
                                      : meanRadiance(push.grid, number, 0.0);
-        storeRadiance(slot, side, value);
+        storeRadiance(slot, face, value);
     }
 }

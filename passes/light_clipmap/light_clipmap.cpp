@@ -8,7 +8,7 @@
 namespace voxray {
 namespace {
 
-constexpr uint64_t kLitAreaBytes = kAreaFloats * sizeof(uint32_t);
+constexpr uint64_t kLitAreaBytes = kFaces * sizeof(uint32_t);
 
 struct WindowPush {
     gpu::VoxelGrid grid;
@@ -38,15 +38,15 @@ void LightClipmap::plan(PassPlan& plan) {
     shadowMaps_.plan(plan, sources_, params_.shadowResolution);
 
     // One level at a time; with bounces all of them
-    uint64_t most = 0, sum = 0;
+    uint64_t largest = 0, sum = 0;
     for (const ClipmapVoxels::Level& level : clipmap.levels) {
-        most = std::max<uint64_t>(most, level.voxels.voxelCount);
+        largest = std::max<uint64_t>(largest, level.voxels.voxelCount);
         sum += level.voxels.voxelCount;
     }
     plan.reserveScratch("light of a level (estimated)",
-                        most * (FluxAccumulator::kBytesPerVoxel + kLitAreaBytes));
+                        largest * (FluxAccumulator::kBytesPerVoxel + kLitAreaBytes));
     plan.reserveScratch("irradiance (estimated)",
-                        VoxelIrradiance::bytes(uint32_t(params_.bounces > 0 ? sum : most)));
+                        VoxelIrradiance::bytes(uint32_t(params_.bounces > 0 ? sum : largest)));
     if (params_.bounces > 0) bounces_.plan(plan, sum, false);
     walk_->plan(plan, clipmap.levels[0].voxels.grid);
 }

@@ -43,7 +43,7 @@ class LightClipmap final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Direct light of the voxels in boxes of a level. @param voxels those, or more.
+    /// Direct light of the voxels in boxes of a level. @param voxels these, or others besides.
     VoxelIrradiance light(PassContext& context, const SurfaceVoxels& voxels,
                           const std::vector<VoxelBox>& boxes);
     /// Fills boxes of a level with what the voxels in them reflect.

@@ -4,19 +4,21 @@
 // reaches is visible, whatever the visibility probes found: so the area is at least the lit one.
 #include "passes/common/voxel_builder/surface_accumulator.h"
 #include "shaders/compute/linear_index.glsl"
+#include "shaders/voxels/packed_flux.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
 readonly buffer LitArea { uint data[]; } litArea;
-layout(scalar) writeonly buffer Area { float data[]; } area;
+layout(scalar) writeonly buffer Area { uint data[]; } area;
 layout(push_constant) uniform Push { uint voxelCount; } push;
 
 void main() {
     const uint voxel = linearIndex();
     if (voxel >= push.voxelCount) return;
-    const VoxelMaterial m = voxelMaterials.data[voxel];
-    for (uint face = 0u; face < 6u; ++face) {
-        const float unoccluded = (face & 1u) == 0u ? m.unoccludedPositive[face >> 1] : m.unoccludedNegative[face >> 1];
-        area.data[6u * voxel + face] = max(unoccluded, float(litArea.data[6u * voxel + face]) / UNITS_PER_FACE);
+    const VoxelMaterial m = voxelMaterial(voxel);
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        const uint pair = 3u * voxel + axis;
+        const vec2 lit = vec2(litArea.data[2u * pair], litArea.data[2u * pair + 1u]) / UNITS_PER_FACE;
+        area.data[pair] = packAreas(max(m.unoccludedPositive[axis], lit.x), max(m.unoccludedNegative[axis], lit.y));
     }
 }

@@ -3,22 +3,17 @@
 #ifndef VOXRAY_SURFACE_RADIANCE_GLSL
 #define VOXRAY_SURFACE_RADIANCE_GLSL
 
+#include "shaders/voxels/packed_flux.glsl"
 #include "shaders/voxels/voxels.glsl"
 
-// By voxel and face +x -x +y -y +z -z: flux, W, 3 floats each; the area that it fell on, in units of a voxel's face.
-layout(scalar) readonly buffer VoxelArea { float data[]; } voxelArea;
-layout(scalar) readonly buffer DirectFluxAt { LargeFloats directFlux; };
-layout(scalar) readonly buffer IndirectFluxAt { LargeFloats indirectFlux; };
+// By voxel and face +x -x +y -y +z -z: the area that flux fell on, and the flux (packed_flux.glsl).
+layout(scalar) readonly buffer VoxelArea { uint data[]; } voxelArea;
+layout(scalar) readonly buffer DirectFluxAt { LargeUints directFlux; };
+layout(scalar) readonly buffer IndirectFluxAt { LargeUints indirectFlux; };
 
-vec3 faceFlux(uint face) {
-    const uint at = 3u * face;
-    return vec3(directFlux.data[at], directFlux.data[at + 1u], directFlux.data[at + 2u]) +
-           vec3(indirectFlux.data[at], indirectFlux.data[at + 1u], indirectFlux.data[at + 2u]);
-}
+vec3 faceFlux(uint face) { return loadFlux(directFlux, face) + loadFlux(indirectFlux, face); }
 
-float unoccluded(VoxelMaterial m, uint face) {
-    return (face & 1u) == 0u ? m.unoccludedPositive[face >> 1] : m.unoccludedNegative[face >> 1];
-}
+float faceArea(uint face) { return areaOf(voxelArea.data[face / 2u], face); }
 
 // Opacity of a voxel towards one of its faces: the area that its surfaces project onto that face, over the face's area.
 //
@@ -59,9 +54,9 @@ bool isBackOfLit(VoxelMaterial m, uint voxel, uint face, float emission) {
 
 // Radiance times opacity, W/(m² sr), and opacity. `emission`: 1 to add what the surfaces emit, 0 to leave it out.
 vec4 faceRadiance(VoxelGrid g, uint voxel, uint face, float emission) {
-    const VoxelMaterial m = voxelMaterials.data[voxel];
+    const VoxelMaterial m = voxelMaterial(voxel);
     const float opacity = faceOpacity(m, face);
-    const float area = voxelArea.data[6u * voxel + face] * g.voxelSize * g.voxelSize;
+    const float area = faceArea(6u * voxel + face) * g.voxelSize * g.voxelSize;
     vec3 radiance = emits(m, face) ? emission * m.emission : vec3(0.0);
     if (area > 0.0) radiance += m.albedo / 3.14159265358979 * faceFlux(6u * voxel + face) / area;
     if (radiance == vec3(0.0) && isBackOfLit(m, voxel, face, emission)) return vec4(0.0);
@@ -70,7 +65,7 @@ vec4 faceRadiance(VoxelGrid g, uint voxel, uint face, float emission) {
 
 // The same with one value for all faces: the mean radiance over the unoccluded area, and the opacity of the most opaque face.
 vec4 meanRadiance(VoxelGrid g, uint voxel, float emission) {
-    const VoxelMaterial m = voxelMaterials.data[voxel];
+    const VoxelMaterial m = voxelMaterial(voxel);
     vec3 radiance = vec3(0.0);
     float area = 0.0, opacity = 0.0;
     for (uint face = 0u; face < 6u; ++face) {

@@ -1,11 +1,11 @@
-// The six directions that surfaces face, in the order +x -x +y -y +z -z.
+// The six faces of a voxel, in the order +x -x +y -y +z -z.
 #ifndef VOXRAY_FACE_GLSL
 #define VOXRAY_FACE_GLSL
 
-// The direction along an axis that a normal faces.
+// The face across an axis that a surface with this normal turns to.
 uint faceOf(vec3 normal, uint axis) { return 2u * axis + (normal[axis] < 0.0 ? 1u : 0u); }
 
-// A bit for each direction that a surface counts in, by a hundredth or more of its area.
+// A bit for each face at which a hundredth or more of a surface's area counts.
 uint faceBits(vec3 normal) {
     uint bits = 0u;
     for (uint axis = 0u; axis < 3u; ++axis)

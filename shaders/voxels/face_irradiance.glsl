@@ -1,12 +1,12 @@
-// Light that voxels hold for the six directions that their surfaces face, direct and indirect together, for lookups by many
-// rays: the mean of the voxel itself, without interpolation.
+// Light that voxels hold by face, direct and indirect together, for lookups by many rays: the mean of the voxel itself, without
+// interpolation.
 #ifndef VOXRAY_FACE_IRRADIANCE_GLSL
 #define VOXRAY_FACE_IRRADIANCE_GLSL
 
 #include "shaders/voxels/face.glsl"
 #include "shaders/voxels/voxels.glsl"
 
-// By voxel and facing direction +x -x +y -y +z -z: irradiance in W/m² and the area in units of a voxel's face that it is the
+// By voxel and face +x -x +y -y +z -z: irradiance in W/m² and the area in units of a voxel's face that it is the
 // mean over; 0 where nothing is known.
 layout(scalar) readonly buffer FaceIrradiance { vec4 data[]; } faceIrradiance;
 

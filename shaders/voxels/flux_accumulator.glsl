@@ -16,13 +16,13 @@
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer FluxAccumulator { uint64_t data[]; };
 layout(scalar) readonly buffer FluxAccumulatorAt { FluxAccumulator fluxAccumulator; };  // 3 a face
 
-// A surface's flux goes to the three directions that it faces, by the squares of its normal's components.
+// A surface's flux goes to the three faces that it turns to, by the squares of its normal's components.
 void addFlux(uint voxel, vec3 normal, vec3 watts, float unitsPerWatt) {
     for (uint axis = 0u; axis < 3u; ++axis) {
-        const float share = normal[axis] * normal[axis] * unitsPerWatt;
+        const float unitsPerSurfaceWatt = normal[axis] * normal[axis] * unitsPerWatt;
         const uint face = voxel * 6u + faceOf(normal, axis);
         for (uint c = 0u; c < 3u; ++c) {
-            const uint64_t units = uint64_t(watts[c] * share);
+            const uint64_t units = uint64_t(watts[c] * unitsPerSurfaceWatt);
             if (units == 0ul) continue;
 #ifdef RACY
             fluxAccumulator.data[face * 3u + c] += units;

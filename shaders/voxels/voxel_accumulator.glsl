@@ -69,12 +69,12 @@ void writeFace(uint face, vec3 irradiance, float weight, float scale) {
 #endif
 }
 
-// The irradiance of a surface with unit normal `normal`: a sample of the three directions that it faces, which weigh
-// the squares of the normal's components, as its area does.
+// The irradiance of a surface with unit normal `normal`: a sample of the three faces that it turns to, weighted by the squares of
+// the normal's components, as its area is.
 void writeIrradiance(uint voxel, vec3 normal, vec3 irradiance, float weight, float scale) {
     for (uint axis = 0u; axis < 3u; ++axis) {
-        const float share = weight * normal[axis] * normal[axis];
-        if (share > 0.0) writeFace(voxel * 6u + faceOf(normal, axis), irradiance, share, scale);
+        const float faceWeight = weight * normal[axis] * normal[axis];
+        if (faceWeight > 0.0) writeFace(voxel * 6u + faceOf(normal, axis), irradiance, faceWeight, scale);
     }
 }
 

@@ -2,15 +2,14 @@
 #ifndef VOXRAY_VOXEL_IRRADIANCE_GLSL
 #define VOXRAY_VOXEL_IRRADIANCE_GLSL
 
+#include "shaders/voxels/packed_flux.glsl"
 #include "shaders/voxels/voxels.glsl"
 
-// W, by voxel and facing direction +x -x +y -y +z -z, 3 floats each.
-layout(scalar) readonly buffer VoxelFluxAt { LargeFloats voxelFlux; };
-// In units of a voxel's face, by voxel and facing direction.
-layout(scalar) readonly buffer VoxelArea { float data[]; } voxelArea;
+layout(scalar) readonly buffer VoxelFluxAt { LargeUints voxelFlux; };
+layout(scalar) readonly buffer VoxelArea { uint data[]; } voxelArea;
 
 // Adds up the flux and the area of surfaces that face a normal, with tent weights of `radius` voxels about a point.
-// `weightByAxis` and `face`: shares of the three directions that the normal faces, and their numbers.
+// `weightByAxis` and `face`: weights of the three faces that the normal turns to, and their numbers.
 void addVoxels(VoxelGrid g, vec3 position, vec3 weightByAxis, uvec3 face, float radius, inout vec3 flux, inout float area) {
     const vec3 center = (position - g.origin) / g.voxelSize - 0.5;
     const ivec3 first = max(ivec3(ceil(center - radius)), ivec3(0));
@@ -24,17 +23,17 @@ void addVoxels(VoxelGrid g, vec3 position, vec3 weightByAxis, uvec3 face, float 
                 const vec3 weight = weightByAxis * (tent.x * tent.y * tent.z);
                 const uint faces = g.directions == 1u ? 6u : 3u;
                 for (uint k = 0u; k < faces; ++k) {
-                    const float share = faces == 6u ? tent.x * tent.y * tent.z : weight[k];
-                    const uint at = (voxel * 6u + (faces == 6u ? k : face[k])) * 3u;
-                    area += share * voxelArea.data[at / 3u];
-                    flux += share * vec3(voxelFlux.data[at], voxelFlux.data[at + 1u], voxelFlux.data[at + 2u]);
+                    const float faceWeight = faces == 6u ? tent.x * tent.y * tent.z : weight[k];
+                    const uint at = voxel * 6u + (faces == 6u ? k : face[k]);
+                    area += faceWeight * areaOf(voxelArea.data[at / 2u], at);
+                    flux += faceWeight * loadFlux(voxelFlux, at);
                 }
             }
 }
 
 // Irradiance (W/m²) on a surface at `position` with unit normal `normal`.
 //
-// A voxel knows the flux that its surfaces catch and their area, both split by facing direction. Both are interpolated
+// A voxel knows the flux that its surfaces catch and their area, both split by face. Both are interpolated
 // with tent weights of `radius` voxels, and their ratio taken last: a voxel that a surface only grazes weighs little, and
 // a half-lit one is half bright. The ratio is only as good as the area below it, which was sampled: under a tenth of a
 // voxel's face the reach doubles, up to twice. In a grid of one direction all six faces of a voxel count alike.

@@ -19,20 +19,19 @@ struct VoxelGrid {
     ivec3 first;       // 0 along axes that are held whole.
 };
 
-// What a surface voxel holds of the surfaces in it. Averages are weighted by area.
+// What a surface voxel holds of the surfaces in it; packed: voxel_packing.h. Averages are weighted by area.
 struct VoxelMaterial {
     vec3 albedo;     // Diffuse reflectance.
-    float opacity;   // Share of 4x4 sub-samples covered, seen along the best-covered axis.
+    float opacity;   // Fraction of 4x4 sub-samples that surfaces meet, along the axis where it is largest.
     vec3 normal;     // Mean of the front-side shading normals, not normalised: a length below 1 tells of spread.
     float area;      // Surface area in units of a voxel's face.
     vec3 emission;   // W/(m² sr)
     float metallic;  // 0 to 1; what it takes is already off the albedo.
-    // The part of the area that open space lies before, by the direction that it faces: area * (normal component)²,
-    // times the share of sides that are exposed. A surface has two sides, so a bare sheet counts in both directions.
-    vec3 unoccludedPositive;  // Facing +x, +y, +z.
-    vec3 unoccludedNegative;  // Facing -x, -y, -z.
+    // The part of the area that open space lies in front of, by face: area * (normal component)², times the fraction of
+    // visible sides. A surface has two sides, so a bare sheet counts at both faces across an axis.
+    vec3 unoccludedPositive;  // At the faces +x, +y, +z.
+    vec3 unoccludedNegative;  // At the faces -x, -y, -z.
     float roughness;  // 0 to 1, as glTF's: perceptual.
-    float reserved;
 };
 
 VOXRAY_SHARED_END

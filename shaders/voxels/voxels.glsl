@@ -7,14 +7,21 @@
 #extension GL_EXT_scalar_block_layout : require
 
 #include "shaders/compute/large_buffer.glsl"
-#include "shaders/voxels/voxel_types.h"
+#include "shaders/voxels/voxel_packing.h"
 
 #define NO_VOXEL 0xffffffffu
 
 layout(scalar) readonly buffer VoxelOccupancy { uint words[]; } voxelOccupancy;
 layout(scalar) readonly buffer VoxelRank { uint before[]; } voxelRank;
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelMaterials { VoxelMaterial data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelMaterials { PackedVoxelMaterial data[]; };
 layout(scalar) readonly buffer VoxelMaterialsAt { VoxelMaterials voxelMaterials; };
+
+VoxelMaterial voxelMaterial(uint voxel) { return unpackMaterial(voxelMaterials.data[voxel]); }
+
+// Area of a voxel's surfaces that open space lies in front of, at a face +x -x +y -y +z -z, in units of a voxel's face.
+float unoccluded(VoxelMaterial m, uint face) {
+    return (face & 1u) == 0u ? m.unoccludedPositive[face >> 1] : m.unoccludedNegative[face >> 1];
+}
 
 // Voxels that are held along each axis.
 uvec3 heldVoxels(VoxelGrid g) { return min(g.resolution, uvec3(g.side)); }

@@ -43,9 +43,9 @@ double seenAtAGrazingAngle(const std::string& write) {
     const glm::dvec3 high = low + double(voxels.grid.voxelSize);
 
     const auto& light = *chain.graph().resource<VoxelIrradiance>("irradiance");
-    const size_t face = voxel * kAreaFloats + 2;  // +y
-    const double area = chain.read<float>(light.area)[face] * voxels.grid.voxelSize * voxels.grid.voxelSize;
-    const double flux = chain.read<float>(light.direct)[3 * face];
+    const size_t face = voxel * kFaces + 2;  // +y
+    const double area = readAreas(chain, light.area)[face] * voxels.grid.voxelSize * voxels.grid.voxelSize;
+    const double flux = readFlux(chain, light.direct)[3 * face];
     return flux / area / meanIrradianceOf({low.x, low.z}, {high.x, high.z});
 }
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "passes/common/voxels/voxels.h"
-#include "tests/gpu/chain.h"
+#include "tests/physics/voxels_read.h"
 #include "tests/support/errors.h"
 #include "tests/support/injections.h"
 
@@ -21,7 +21,7 @@ const VoxelIrradiance& irradiance(const Chain& chain) {
 
 // Sum over all voxels and directions, green channel.
 double total(Chain& chain, const Buffer& flux) {
-    const std::vector<float> values = chain.read<float>(flux);
+    const std::vector<float> values = readFlux(chain, flux);
     double sum = 0;
     for (size_t i = 1; i < values.size(); i += 3) sum += values[i];
     return sum;

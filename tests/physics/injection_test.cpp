@@ -6,7 +6,7 @@
 
 #include "image/metrics.h"
 #include "passes/common/voxels/voxels.h"
-#include "tests/gpu/chain.h"
+#include "tests/physics/voxels_read.h"
 
 namespace voxray::test {
 namespace {
@@ -15,7 +15,7 @@ constexpr double kPi = std::numbers::pi;
 
 // Flux over all voxels and directions, green channel, W.
 double totalFlux(Chain& chain, const Buffer& flux) {
-    const std::vector<float> values = chain.read<float>(flux);
+    const std::vector<float> values = readFlux(chain, flux);
     double sum = 0;
     for (size_t i = 1; i < values.size(); i += 3) sum += values[i];
     return sum;

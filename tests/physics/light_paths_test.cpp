@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "passes/common/voxels/voxels.h"
-#include "tests/gpu/chain.h"
+#include "tests/physics/voxels_read.h"
 #include "tests/support/errors.h"
 
 namespace voxray::test {
@@ -29,10 +29,10 @@ struct Lit {
         const auto* irradiance = chain.graph().resource<VoxelIrradiance>("irradiance");
         direct = green(irradiance->direct);
         indirect = green(irradiance->indirect);
-        area = chain.read<float>(irradiance->area);
+        area = readAreas(chain, irradiance->area);
     }
     std::vector<double> green(const Buffer& flux) {
-        const std::vector<float> values = chain.read<float>(flux);
+        const std::vector<float> values = readFlux(chain, flux);
         std::vector<double> out(values.size() / 3);
         for (size_t i = 0; i < out.size(); ++i) out[i] = values[3 * i + 1];
         return out;

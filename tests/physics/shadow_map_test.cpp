@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "passes/common/voxels/voxels.h"
-#include "tests/gpu/chain.h"
+#include "tests/physics/voxels_read.h"
 #include "tests/support/errors.h"
 
 namespace voxray::test {
@@ -21,7 +21,7 @@ std::string injectGraph(const std::string& inject, const std::string& resolution
 /// Flux of each face, W, green channel.
 std::vector<double> directFlux(Chain& chain) {
     const std::vector<float> values =
-        chain.read<float>(chain.graph().resource<VoxelIrradiance>("irradiance")->direct);
+        readFlux(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->direct);
     std::vector<double> flux(values.size() / 3);
     for (size_t i = 0; i < flux.size(); ++i) flux[i] = values[3 * i + 1];
     return flux;
@@ -58,7 +58,7 @@ TEST(ShadowMap, ClosedRoomCatchesAllLight) {
     EXPECT_NEAR(sum(directFlux(chain)) / (8 * kPi), 1.0, 0.01);
     const auto* irradiance = chain.graph().resource<VoxelIrradiance>("irradiance");
     double indirect = 0;
-    for (const float watts : chain.read<float>(irradiance->indirect)) indirect += watts / 3;
+    for (const float watts : readFlux(chain, irradiance->indirect)) indirect += watts / 3;
     EXPECT_NEAR(indirect / (8 * kPi * 0.75), 1.0, 0.02);
 }
 
@@ -80,7 +80,7 @@ TEST(ShadowMap, FlatSurfacesDoNotShadeThemselves) {
                                "inject_shadow_map, bounces: 0, resolution: " + resolution}));
         const auto& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
         const std::vector<float> area =
-            chain.read<float>(chain.graph().resource<VoxelIrradiance>("irradiance")->area);
+            readAreas(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->area);
         const std::vector<double> flux = directFlux(chain);
         ASSERT_EQ(voxels.voxelCount, 24u * 24u);
         // Voxels are numbered by z, then x; direction 2 faces up.

@@ -9,35 +9,35 @@ namespace voxray::test {
 namespace {
 
 TEST(Voxelize, SumsToTheSurfaceArea) {
-    // A sphere has every orientation: the pieces must add up to its area all the same.
+    // A sphere has every orientation: the clipped fragments must add up to its area all the same.
     Chain chain("furnace", "{shape: sphere, albedo: 0.5}", graphYaml({"voxelize, resolution: 48"}));
     const Voxels voxels(chain);
     double area = 0;
-    glm::dvec3 exposed(0.0);
+    glm::dvec3 unoccluded(0.0);
     for (const gpu::VoxelMaterial& m : voxels.materials) {
         area += m.area;
-        exposed += glm::dvec3(m.unoccludedPositive + m.unoccludedNegative);
+        unoccluded += glm::dvec3(m.unoccludedPositive + m.unoccludedNegative);
     }
     const double face = double(voxels.grid.voxelSize) * voxels.grid.voxelSize;
     const double expected = surfaceArea(chain.state().geometry);
     EXPECT_NEAR(area * face / expected, 1.0, 0.005);
-    // Nothing is near either side of a large sphere: both are exposed.
-    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(exposed[axis] * face / (2 * expected / 3), 1.0, 0.01);
+    // Nothing is near either side of a large sphere: both are visible.
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(unoccluded[axis] * face / (2 * expected / 3), 1.0, 0.01);
 }
 
-TEST(Voxelize, InnerSidesOfThinWallsAreNotExposed) {
+TEST(Voxelize, InnerSidesOfThinWallsAreNotVisible) {
     // Cornell's boxes are closed shells; at 4 voxels along the room each side faces another within a voxel,
     // so that the shells' inner sides drop out. At 64 voxels they are wider than a voxel and count.
     const auto unoccludedFraction = [](uint32_t resolution) {
         Chain chain("cornell", "{}", graphYaml({"voxelize, resolution: " + std::to_string(resolution)}));
         const Voxels voxels(chain);
-        double area = 0, exposed = 0;
+        double area = 0, unoccluded = 0;
         for (const gpu::VoxelMaterial& m : voxels.materials) {
             area += 2 * m.area;
             for (int axis = 0; axis < 3; ++axis)
-                exposed += m.unoccludedPositive[axis] + m.unoccludedNegative[axis];
+                unoccluded += m.unoccludedPositive[axis] + m.unoccludedNegative[axis];
         }
-        return exposed / area;
+        return unoccluded / area;
     };
     EXPECT_GT(unoccludedFraction(64), 0.95);
     EXPECT_LT(unoccludedFraction(3), unoccludedFraction(64) - 0.05);

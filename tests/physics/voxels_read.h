@@ -18,13 +18,45 @@ inline double surfaceArea(const Geometry& g) {
     return area;
 }
 
+inline std::vector<gpu::VoxelMaterial> readMaterials(Chain& chain, const SurfaceVoxels& voxels) {
+    std::vector<gpu::VoxelMaterial> materials;
+    for (const auto& packed : chain.read<gpu::PackedVoxelMaterial>(voxels.materials))
+        materials.push_back(gpu::unpackMaterial(packed));
+    return materials;
+}
+
+/// Flux of a buffer of VoxelIrradiance, W: by voxel and face 3 floats each.
+inline std::vector<float> unpackFlux(const std::vector<uint32_t>& words) {
+    std::vector<float> flux;
+    for (size_t at = 0; at < words.size(); at += FLUX_WORDS_PER_AXIS)
+        for (const bool negative : {false, true}) {
+            const glm::vec3 rgb = gpu::unpackFlux(words[at + (negative ? 1 : 0)], words[at + 2], negative);
+            flux.insert(flux.end(), {rgb.x, rgb.y, rgb.z});
+        }
+    return flux;
+}
+inline std::vector<float> readFlux(Chain& chain, const Buffer& flux) {
+    return unpackFlux(chain.read<uint32_t>(flux));
+}
+
+/// Areas of VoxelIrradiance, in units of a voxel's face: 6 floats a voxel.
+inline std::vector<float> unpackAreas(const std::vector<uint32_t>& words) {
+    std::vector<float> areas;
+    for (const uint32_t word : words)
+        areas.insert(areas.end(), {gpu::unpackArea(gpu::lowerOf(word)), gpu::unpackArea(gpu::upperOf(word))});
+    return areas;
+}
+inline std::vector<float> readAreas(Chain& chain, const Buffer& area) {
+    return unpackAreas(chain.read<uint32_t>(area));
+}
+
 /// Surface voxels of a chain, read back.
 struct Voxels {
     explicit Voxels(Chain& chain) {
         const auto* resource = chain.graph().resource<SurfaceVoxels>("voxels");
         grid = resource->grid;
         count = resource->voxelCount;
-        materials = chain.read<gpu::VoxelMaterial>(resource->materials);
+        materials = readMaterials(chain, *resource);
         occupancy = chain.read<uint32_t>(resource->occupancy);
         rank = chain.read<uint32_t>(resource->rank);
     }

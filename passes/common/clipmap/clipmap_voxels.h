@@ -14,7 +14,7 @@ namespace voxray {
 struct ClipmapVoxels : Resource {
     struct Level {
         SurfaceVoxels voxels;         ///< All that the window holds; about their number is planned.
-        std::vector<VoxelBox> boxes;  ///< What was made anew in this frame.
+        std::vector<VoxelBox> boxes;  ///< What was built again in this frame.
         SurfaceVoxels updated;  ///< The voxels of `boxes` alone; without content where these are the window.
     };
     gpu::RadianceGrid grid{};  ///< Of the whole scene, with all levels.

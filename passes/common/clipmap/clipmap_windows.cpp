@@ -11,7 +11,7 @@
 namespace voxray {
 namespace {
 
-/// Voxels by which a window's reach ends before the window does: half a voxel that interpolation needs, and
+/// Voxels by which a window's reach ends short of the window: half a voxel that interpolation needs, and
 /// half a voxel by which the window, in whole voxels, may lag behind the camera.
 constexpr float kMargin = 1;
 

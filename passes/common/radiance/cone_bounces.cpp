@@ -8,8 +8,7 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kFaces = 6;
-constexpr uint32_t kBatchFaces = 1u << 19;  // Bounds the time of a dispatch.
+constexpr uint32_t kBatchPairs = 1u << 18;  // Bounds the time of a dispatch.
 
 struct ListPush {
     gpu::VoxelGrid grid;
@@ -19,8 +18,8 @@ struct ListPush {
 struct GatherPush {
     gpu::VoxelGrid grid;
     uint32_t voxels;
-    uint32_t firstFace;
-    uint32_t faces;
+    uint32_t firstPair;
+    uint32_t pairs;
     uint32_t cones;
 };
 
@@ -29,7 +28,7 @@ uint64_t coordinateBytes(uint64_t voxels) {
 }
 
 uint64_t fluxBytes(uint64_t voxels) {
-    return voxels * kFluxFloats * sizeof(float);
+    return voxels * kFluxWords * sizeof(uint32_t);
 }
 
 }  // namespace
@@ -80,9 +79,9 @@ void ConeBounces::gather(PassContext& context, const SurfaceVoxels& voxels, cons
                                      {"IndirectFluxAt", injected.indirect.at()},
                                      {"voxelArea", injected.area},
                                      {"FluxAt", flux_.at()}});
-    const uint32_t faces = kFaces * voxels.voxelCount;
-    for (uint32_t first = 0; first < faces; first += kBatchFaces) {
-        const uint32_t batch = std::min(kBatchFaces, faces - first);
+    const uint32_t pairs = 3 * voxels.voxelCount;
+    for (uint32_t first = 0; first < pairs; first += kBatchPairs) {
+        const uint32_t batch = std::min(kBatchPairs, pairs - first);
         context.stream.dispatch(gather_, bindings,
                                 GatherPush{voxels.grid, voxels.voxelCount, first, batch, cones_},
                                 linearGroups(batch));

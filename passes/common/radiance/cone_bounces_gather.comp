@@ -1,19 +1,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Flux that arrives at the sides of surface voxels from what radiance voxels hold, by a set of cones from the voxel's center. A
-// thread takes a side.
+// Flux that arrives at the faces of surface voxels from what radiance voxels hold, by a set of cones from the voxel's center. A
+// thread takes the two faces across an axis.
 #include "shaders/radiance/cone_set.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance/surface_radiance.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer VoxelCoordinates { uvec3 data[]; } voxelCoordinates;
-layout(scalar) readonly buffer FluxAt { LargeFloats flux; };
+layout(scalar) buffer FluxAt { LargeUints flux; };
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint voxels;
-    uint firstFace;  // In the order of this pass: by side, then by voxel, so that threads side by side have alike work.
-    uint faces;
+    uint firstPair;  // By axis, then by voxel, so that neighbouring threads have alike work.
+    uint pairs;
     uint cones;
 } push;
 
@@ -25,24 +25,28 @@ vec3 sideNormal(vec3 mean, vec3 axis) {
     return flatness > 0.0 ? normalize(mix(axis, normalize(dot(mean, axis) < 0.0 ? -mean : mean), flatness)) : axis;
 }
 
-void main() {
-    const uint i = linearIndex();
-    if (i >= push.faces) return;
-    const uint voxel = (push.firstFace + i) % push.voxels, side = (push.firstFace + i) / push.voxels, face = 6u * voxel + side;
-    const float area = voxelArea.data[face] * push.grid.voxelSize * push.grid.voxelSize;
-    vec3 arrives = vec3(0.0);
-    const VoxelMaterial m = voxelMaterials.data[voxel];
+// W
+vec3 gather(uint voxel, uint side) {
+    const uint face = 6u * voxel + side;
+    const float area = faceArea(face) * push.grid.voxelSize * push.grid.voxelSize;
+    const VoxelMaterial m = voxelMaterial(voxel);
     // What counts as the inside of a solid by the injected light, whose rays know what is hidden, stays dark.
     const bool inside = faceFlux(face) == vec3(0.0) && isBackOfLit(m, voxel, side, 0.0);
-    if (area > 0.0 && !inside) {
-        const uvec3 coordinates = voxelCoordinates.data[voxel];
-        const vec3 normal = sideNormal(m.normal, faceNormal(side));
-        const vec3 center = push.grid.origin + (vec3(coordinates) + 0.5) * push.grid.voxelSize;
-        // Where cones stand in their cells wanders from voxel to voxel: the additive recurrence of Roberts 2018, along each axis.
-        const vec3 dither = fract(vec3(0.5) + float(coordinates.x) * vec3(0.754877666, 0.569840296, 0.819172513) +
-                                  float(coordinates.y) * vec3(0.569840296, 0.754877666, 0.671043607) +
-                                  float(coordinates.z) * vec3(0.671043607, 0.819172513, 0.549700478));
-        arrives = area * coneIrradiance(center, normal, normal, push.cones, dither);
-    }
-    for (uint channel = 0u; channel < 3u; ++channel) flux.data[3u * face + channel] = arrives[channel];
+    if (area == 0.0 || inside) return vec3(0.0);
+    const uvec3 coordinates = voxelCoordinates.data[voxel];
+    const vec3 normal = sideNormal(m.normal, faceNormal(side));
+    const vec3 center = push.grid.origin + (vec3(coordinates) + 0.5) * push.grid.voxelSize;
+    // Where cones stand in their cells wanders from voxel to voxel: the additive recurrence of Roberts 2018, along each axis.
+    const vec3 dither = fract(vec3(0.5) + float(coordinates.x) * vec3(0.754877666, 0.569840296, 0.819172513) +
+                              float(coordinates.y) * vec3(0.569840296, 0.754877666, 0.671043607) +
+                              float(coordinates.z) * vec3(0.671043607, 0.819172513, 0.549700478));
+    return area * coneIrradiance(center, normal, normal, push.cones, dither);
+}
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.pairs) return;
+    const uint voxel = (push.firstPair + i) % push.voxels, axis = (push.firstPair + i) / push.voxels;
+    const vec3 positive = gather(voxel, 2u * axis), negative = gather(voxel, 2u * axis + 1u);
+    storeFlux(flux, 3u * voxel + axis, positive, negative);
 }

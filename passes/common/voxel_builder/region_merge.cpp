@@ -57,7 +57,7 @@ void RegionMerge::materials(CommandStream& stream, const PrefixSum& prefixSum, c
     Buffer rank(device, "voxel ranks", previous.rank.bytes());
     previous.voxelCount = prefixSum.run(stream, merged_, rank, words);
     LargeBuffer materials(device, "voxel materials",
-                          std::max<uint64_t>(previous.voxelCount, 1) * sizeof(gpu::VoxelMaterial));
+                          std::max<uint64_t>(previous.voxelCount, 1) * sizeof(gpu::PackedVoxelMaterial));
     if (previous.voxelCount == 0) stream.fill(materials, 0);
     stream.dispatch(materials_,
                     {{"rebuilt", rebuilt.occupancy},

@@ -41,6 +41,5 @@ void main() {
     m.metallic = float(sum(at + SUM_METALLIC)) / weight;
     m.roughness = float(sum(at + SUM_ROUGHNESS)) / weight;
     m.opacity = max(opacity(sum(at + SUB_SAMPLES)), max(opacity(sum(at + SUB_SAMPLES + 1u)), opacity(sum(at + SUB_SAMPLES + 2u))));
-    m.reserved = 0.0;
-    voxelMaterials.data[voxel] = m;
+    voxelMaterials.data[voxel] = packMaterial(m);
 }

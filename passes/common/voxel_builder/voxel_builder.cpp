@@ -23,7 +23,7 @@ void VoxelBuildParams::check(const std::string& pass) const {
 
 void VoxelBuilder::planVoxels(PassPlan& plan, const SurfaceVoxels& voxels) {
     plan.reserve("occupancy and ranks", voxels.words() * 2 * sizeof(uint32_t));
-    plan.reserve("surface voxels (estimated)", voxels.voxelCount * sizeof(gpu::VoxelMaterial));
+    plan.reserve("surface voxels (estimated)", voxels.voxelCount * sizeof(gpu::PackedVoxelMaterial));
 }
 
 void VoxelBuilder::planWork(PassPlan& plan, const SurfaceVoxels& voxels, bool updates) {
@@ -34,7 +34,7 @@ void VoxelBuilder::planWork(PassPlan& plan, const SurfaceVoxels& voxels, bool up
     // A region's voxels are held together with the previous ones: at worst all of them twice.
     if (updates)
         plan.reserveScratch("update of a region (at most)",
-                            RegionMerge::scratchBytes(voxels) + count * sizeof(gpu::VoxelMaterial));
+                            RegionMerge::scratchBytes(voxels) + count * sizeof(gpu::PackedVoxelMaterial));
     walk_->plan(plan, voxels.grid);
     for (const Material& material : plan.frame.scene->scene->materials)
         for (int c = 0; c < 3; ++c) largestEmission_ = std::max(largestEmission_, material.emission[c]);
@@ -82,7 +82,8 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
     if (previous) merge_.occupancy(stream, region, *previous, target);
     target.voxelCount = prefixSum_->run(stream, target.occupancy, target.rank, uint32_t(target.words()));
     const uint64_t count = std::max(target.voxelCount, 1u);
-    target.materials = LargeBuffer(context.device, "voxel materials", count * sizeof(gpu::VoxelMaterial));
+    target.materials =
+        LargeBuffer(context.device, "voxel materials", count * sizeof(gpu::PackedVoxelMaterial));
     if (target.voxelCount == 0) stream.fill(target.materials, 0);
 
     // Accumulate the surfaces' materials in fixed point, probe their visibility, and turn sums into averages.

@@ -8,7 +8,7 @@ namespace {
 struct Push {
     uint32_t count;
     float voxelFaceArea;
-    float directShare;
+    float directWeight;
 };
 
 }  // namespace
@@ -22,7 +22,7 @@ void FaceIrradiance::update(CommandStream& stream, const SurfaceVoxels& voxels,
         faces_ = {};
         faces_ = Buffer(stream.device(), "face irradiance", bytes(voxels.voxelCount));
     }
-    const uint32_t faces = voxels.voxelCount * kAreaFloats;
+    const uint32_t faces = voxels.voxelCount * kFaces;
     stream.dispatch(
         program_,
         {{"DirectAt", irradiance.direct.at()},

@@ -12,9 +12,7 @@ class FaceIrradiance {
     FaceIrradiance(Device& device, const ShaderCompiler& compiler);
 
     /// Bytes that update() allocates.
-    static uint64_t bytes(uint32_t voxelCount) {
-        return uint64_t(voxelCount) * 4 * kAreaFloats * sizeof(float);
-    }
+    static uint64_t bytes(uint32_t voxelCount) { return uint64_t(voxelCount) * 4 * kFaces * sizeof(float); }
     /// Which of the voxels' light to hold.
     enum class Light { Indirect, Total };
     /// Divides flux by area; allocates on the first call and where the number of voxels has changed.

@@ -9,7 +9,7 @@ namespace voxray {
 namespace {
 
 struct ResolvePush {
-    uint32_t count;
+    uint32_t pairs;
     float wattsPerUnit;
 };
 
@@ -32,9 +32,9 @@ std::vector<Binding> FluxAccumulator::bindings() const {
 
 void FluxAccumulator::resolve(CommandStream& stream, const SurfaceVoxels& voxels,
                               const LargeBuffer& flux) const {
-    const uint32_t values = voxels.voxelCount * kFluxFloats;
+    const uint32_t pairs = voxels.voxelCount * 3;
     stream.dispatch(resolve_, {{"FluxAccumulatorAt", sums_.at()}, {"FluxAt", flux.at()}},
-                    ResolvePush{values, 1.0f / unitsPerWatt_}, linearGroups(values));
+                    ResolvePush{pairs, 1.0f / unitsPerWatt_}, linearGroups(pairs));
 }
 
 }  // namespace voxray

@@ -6,12 +6,12 @@
 
 namespace voxray {
 
-/// Flux that rays leave in voxels, summed in 64-bit fixed point for each facing direction: exact to float
-/// rounding, and bit-identical in any order. A shader adds with shaders/voxels/flux_accumulator.glsl and
+/// Flux that rays bring to voxels, summed in 64-bit fixed point for each face: exact to float rounding, and
+/// bit-identical in any order. A shader adds with shaders/voxels/flux_accumulator.glsl and
 /// bindings().
 class FluxAccumulator {
  public:
-    static constexpr uint64_t kBytesPerVoxel = kFluxFloats * sizeof(uint64_t);
+    static constexpr uint64_t kBytesPerVoxel = kFaces * 3 * sizeof(uint64_t);
 
     FluxAccumulator() = default;
     FluxAccumulator(Device& device, const ShaderCompiler& compiler);

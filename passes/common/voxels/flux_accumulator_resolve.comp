@@ -1,17 +1,23 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Fixed-point sums to watts.
-#include "shaders/voxels/flux_accumulator.glsl"
+// Fixed-point sums to watts. A thread takes the two faces across an axis of a voxel.
 #include "shaders/compute/linear_index.glsl"
+#include "shaders/voxels/flux_accumulator.glsl"
+#include "shaders/voxels/packed_flux.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer FluxAt { LargeFloats flux; };
+layout(scalar) buffer FluxAt { LargeUints flux; };
 layout(push_constant) uniform Push {
-    uint count;
+    uint pairs;
     float wattsPerUnit;
 } push;
 
+vec3 watts(uint face) {
+    const uint at = 3u * face;
+    return vec3(fluxAccumulator.data[at], fluxAccumulator.data[at + 1u], fluxAccumulator.data[at + 2u]) * push.wattsPerUnit;
+}
+
 void main() {
-    const uint i = linearIndex();
-    if (i < push.count) flux.data[i] = float(fluxAccumulator.data[i]) * push.wattsPerUnit;
+    const uint pair = linearIndex();
+    if (pair < push.pairs) storeFlux(flux, pair, watts(2u * pair), watts(2u * pair + 1u));
 }

@@ -6,8 +6,6 @@
 namespace voxray {
 namespace {
 
-constexpr uint64_t kFaces = 6;
-
 struct ResolvePush {
     uint32_t voxelCount;
     float voxelSize;

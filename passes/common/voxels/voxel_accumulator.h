@@ -38,7 +38,7 @@ struct WriteParams {
     }
 };
 
-/// Irradiance samples, merged for each voxel and facing direction. A shader that writes them is compiled with
+/// Irradiance samples, merged for each face of each voxel. A shader that writes them is compiled with
 /// defines(), includes shaders/voxels/voxel_accumulator.glsl and is given bindings(). Source: Magalhães 2020,
 /// sections 4.2.5.2 to 4.2.5.3 and 5.2.4.
 ///  - average: 64-bit fixed-point sums of weight and weighted irradiance: bit-identical in any order, exact
@@ -69,9 +69,10 @@ class VoxelAccumulator {
     /// Factor from W/m² to stored units, which the writing shader passes to writeIrradiance().
     float scale() const { return scale_; }
 
-    /// Mean irradiance times exposed area into `flux` (VoxelIrradiance::direct or ::indirect). `area` is
-    /// raised to the exposed area of every face that a sample fell on, and kept elsewhere: clear it before
-    /// the first resolve() if faces without samples are unknown, fill it with exposed areas if they are dark.
+    /// Mean irradiance times unoccluded area into `flux` (VoxelIrradiance::direct or ::indirect). `area` is
+    /// raised to the unoccluded area of every face that a sample fell on, and kept elsewhere: clear it before
+    /// the first resolve() if faces without samples are unknown, fill it with unoccluded areas if they are
+    /// dark.
     void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const LargeBuffer& flux,
                  const Buffer& area) const;
     /// Frees the sums, once the stream has finished.

@@ -1,13 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Merged irradiance to flux over the exposed area of each face, and that area where a sample fell.
+// Merged irradiance to flux over the unoccluded area of each face, and that area where a sample fell. A thread takes a voxel.
 #include "shaders/compute/linear_index.glsl"
+#include "shaders/voxels/packed_flux.glsl"
 #include "shaders/voxels/voxel_accumulator.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer FluxAt { LargeFloats flux; };
-layout(scalar) buffer Area { float data[]; } area;
+layout(scalar) buffer FluxAt { LargeUints flux; };
+layout(scalar) buffer Area { uint data[]; } area;
 layout(push_constant) uniform Push {
     uint voxelCount;
     float voxelSize;
@@ -17,13 +18,18 @@ layout(push_constant) uniform Push {
 void main() {
     const uint voxel = linearIndex();
     if (voxel >= push.voxelCount) return;
-    const VoxelMaterial m = voxelMaterials.data[voxel];
-    for (uint direction = 0u; direction < 6u; ++direction) {
-        const uint face = voxel * 6u + direction;
-        const float exposed = (direction & 1u) == 0u ? m.unoccludedPositive[direction / 2u] : m.unoccludedNegative[direction / 2u];
-        const vec4 merged = mergedIrradiance(face, push.scale);
-        const vec3 watts = merged.rgb * (exposed * push.voxelSize * push.voxelSize);
-        for (uint c = 0u; c < 3u; ++c) flux.data[face * 3u + c] = watts[c];
-        if (merged.w > 0.0) area.data[face] = max(area.data[face], exposed);
+    const VoxelMaterial m = voxelMaterial(voxel);
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        const uint pair = 3u * voxel + axis;
+        vec3 watts[2];
+        float areas[2];
+        for (uint side = 0u; side < 2u; ++side) {
+            const float unoccludedArea = unoccluded(m, 2u * axis + side);
+            const vec4 merged = mergedIrradiance(2u * pair + side, push.scale);
+            watts[side] = merged.rgb * (unoccludedArea * push.voxelSize * push.voxelSize);
+            areas[side] = max(areaOf(area.data[pair], side), merged.w > 0.0 ? unoccludedArea : 0.0);
+        }
+        storeFlux(flux, pair, watts[0], watts[1]);
+        area.data[pair] = packAreas(areas[0], areas[1]);
     }
 }

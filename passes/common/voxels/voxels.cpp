@@ -10,18 +10,19 @@ namespace voxray {
 
 void VoxelIrradiance::allocate(Device& device, uint32_t voxelCount) {
     ++version;
-    const uint64_t fluxBytes = uint64_t(voxelCount) * kFluxFloats * sizeof(float);
+    const uint64_t fluxBytes = uint64_t(voxelCount) * kFluxWords * sizeof(uint32_t);
     if (direct && direct.bytes() == fluxBytes) return;
     direct = {}, indirect = {}, area = {};  // The previous ones go first.
     direct = LargeBuffer(device, "voxel direct flux", fluxBytes);
     indirect = LargeBuffer(device, "voxel indirect flux", fluxBytes);
-    area = Buffer(device, "voxel area", uint64_t(voxelCount) * kAreaFloats * sizeof(float));
+    area = Buffer(device, "voxel area", uint64_t(voxelCount) * kAreaWords * sizeof(uint32_t));
 }
 
 void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance) {
-    const std::vector<float> direct =
-        stream.readAs<float>(irradiance.direct, irradiance.direct.bytes() / sizeof(float));
-    if (std::ranges::none_of(direct, [](float watts) { return watts > 0; }))
+    // No flux at all packs to words of 0, and nothing else does.
+    const std::vector<uint32_t> direct =
+        stream.readAs<uint32_t>(irradiance.direct, irradiance.direct.bytes() / sizeof(uint32_t));
+    if (std::ranges::none_of(direct, [](uint32_t word) { return word != 0; }))
         throw Error(
             "no light falls on any voxel: either the lights shine past the scene, or all that they reach has "
             "another surface within one voxel ({:.3g} m); raise voxelize's 'resolution' or set its "

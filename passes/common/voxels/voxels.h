@@ -7,7 +7,7 @@
 #include "graph/pass.h"
 #include "passes/common/compute/large_buffer.h"
 #include "passes/common/voxels/voxel_box.h"
-#include "shaders/voxels/voxel_types.h"
+#include "shaders/voxels/voxel_packing.h"
 
 namespace voxray {
 
@@ -21,13 +21,13 @@ inline VoxelBox heldVoxels(const gpu::VoxelGrid& grid) {
 /// shaders/voxels/voxels.glsl.
 struct SurfaceVoxels : Resource {
     gpu::VoxelGrid grid{};
-    bool unoccludedOnly =
-        false;  ///< Areas count only sides with open space before them; so must what lands on them.
+    /// Areas count only sides of surfaces with open space in front of them, and so must the light on them.
+    bool unoccludedOnly = false;
     uint32_t voxelCount = 0;  ///< Occupied voxels; known once the voxelizing pass has run.
     uint64_t version = 0;     ///< Another one whenever the content is.
     Buffer occupancy;         ///< 1 bit a voxel of the grid.
     Buffer rank;              ///< 1 uint a word of `occupancy`: occupied voxels before it.
-    LargeBuffer materials;    ///< VoxelMaterial a surface voxel.
+    LargeBuffer materials;    ///< PackedVoxelMaterial a surface voxel.
 
     uint64_t words() const {
         const glm::uvec3 held = heldVoxels(grid).size;
@@ -36,21 +36,24 @@ struct SurfaceVoxels : Resource {
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }
 };
 
-/// Floats that VoxelIrradiance's flux buffers hold for each voxel, and its area.
-constexpr uint32_t kFluxFloats = 18, kAreaFloats = 6;
+/// Faces of a voxel: +x -x +y -y +z -z.
+constexpr uint32_t kFaces = 6;
+/// Words that VoxelIrradiance's flux buffers hold for each voxel, and its area
+/// (shaders/voxels/voxel_packing.h).
+constexpr uint32_t kFluxWords = 3 * FLUX_WORDS_PER_AXIS, kAreaWords = 3 * AREA_WORDS_PER_AXIS;
 
-/// Light that arrives at the surfaces of each voxel, by the side that they face: flux for the 6 directions
-/// +x -x +y -y +z -z, and the area that it fell on. Their ratio is the mean irradiance; keeping them apart
-/// lets a lookup interpolate both. Where the area is 0 the injection did not look: nothing is known, and a
-/// lookup passes it over. GLSL access: shaders/voxels/voxel_irradiance.glsl.
+/// Light that arrives at the surfaces of each voxel, by the voxel's faces +x -x +y -y +z -z: flux, and the
+/// area that it fell on. Their ratio is the mean irradiance; kept apart, a lookup can interpolate both. Where
+/// the area is 0 the injection did not look: nothing is known, and lookups skip the face. GLSL access:
+/// shaders/voxels/packed_flux.glsl and voxel_irradiance.glsl.
 struct VoxelIrradiance : Resource {
-    LargeBuffer direct;    ///< W, straight from the lights: 6 directions of 3 floats a voxel.
+    LargeBuffer direct;    ///< W, straight from the lights: kFluxWords a voxel.
     LargeBuffer indirect;  ///< W, after one bounce or more; likewise.
-    Buffer area;           ///< In units of a voxel's face: 6 floats a voxel.
-    uint64_t version = 0;  ///< Another one whenever the light has been measured anew.
+    Buffer area;           ///< In units of a voxel's face: kAreaWords a voxel.
+    uint64_t version = 0;  ///< Another one whenever the light has been measured again.
 
     static uint64_t bytes(uint32_t voxelCount) {
-        return uint64_t(voxelCount) * (2 * kFluxFloats + kAreaFloats) * sizeof(float);
+        return uint64_t(voxelCount) * (2 * kFluxWords + kAreaWords) * sizeof(uint32_t);
     }
     /// Before light is measured: makes the buffers where they don't have the right size; their content is
     /// undefined.
