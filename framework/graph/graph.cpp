@@ -129,6 +129,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
     struct Stamps {
         size_t sample;
         uint32_t begin, end;
+        std::vector<const Buffer*> voxelCounts;
     };
     std::vector<PassSample> samples;
     std::vector<Stamps> stamps;
@@ -152,18 +153,26 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
 
         PassSample sample;
         sample.rays = tracer.raysTraced() - raysBefore + context.extraRays;
-        sample.voxelSteps = context.voxelSteps;
         sample.reported = std::move(context.reported);
         for (const PassContext::Value& value : sample.reported)
             if (!std::isfinite(value.value))
                 throw Error("pass '{}' reported {} as '{}'", node.id, value.value, value.name);
-        stamps.push_back({samples.size(), begin, end});
+        stamps.push_back({samples.size(), begin, end, std::move(context.voxelCounts)});
         samples.push_back(sample);
         if (checkFinite) impl_->checkOutputs(node, stream);
     }
     stream.finish();
-    for (const Stamps& s : stamps)
-        samples[s.sample].milliseconds = stream.millisecondsBetween(s.begin, s.end);
+    for (const Stamps& s : stamps) {
+        PassSample& sample = samples[s.sample];
+        sample.milliseconds = stream.millisecondsBetween(s.begin, s.end);
+        uint64_t visits = 0;
+        for (const Buffer* counts : s.voxelCounts) {
+            const std::vector<uint64_t> both = stream.readAs<uint64_t>(*counts, 2);
+            sample.voxelSteps += both[0];
+            visits += both[1];
+        }
+        if (!s.voxelCounts.empty()) sample.reported.push_back({"voxel visits", double(visits)});
+    }
     return samples;
 }
 

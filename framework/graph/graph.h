@@ -16,7 +16,7 @@ namespace voxray {
 struct PassSample {
     double milliseconds = 0;
     uint64_t rays = 0;
-    uint64_t voxelSteps = 0;
+    uint64_t voxelSteps = 0;  ///< Of rays that walk through voxels, counted on the device.
     std::vector<PassContext::Value> reported;
 };
 

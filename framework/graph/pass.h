@@ -159,7 +159,10 @@ class PassContext : public PortAccess {
     uint32_t frameIndex;
     /// Rays traced outside of `tracer` (the reference traces on its own).
     uint64_t extraRays = 0;
-    uint64_t voxelSteps = 0;
+    /// Counts of walks through voxels (shaders/voxel_march), which the graph reads when all passes have run:
+    /// two 64-bit numbers, steps and words visited. They become the pass's voxel_steps and the value "voxel
+    /// visits".
+    std::vector<const Buffer*> voxelCounts;
 
     struct Value {
         std::string name;

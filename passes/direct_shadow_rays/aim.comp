@@ -29,6 +29,7 @@ layout(push_constant, scalar) uniform Push {
     uint seed;
     uint emitterCount;
     vec3 camera;
+    float minOffset;  // m: rays start at least as far from their surface, and end twice as far from the light.
 } push;
 
 // What a surface reflects of light from unit `direction` towards `out_`, over irradiance: its diffuse lobe under its specular
@@ -71,7 +72,7 @@ void main() {
         const float cosine = dot(n, s.direction);
         if (cosine > 0.0 && dot(side, s.direction) > 0.0) {
             radiance = reflectance(texelFetch(albedo, texel, 0).rgb, surface, n, out_, s.direction) * s.irradiance * cosine;
-            const float offset = surfaceOffset(p.xyz);
+            const float offset = max(surfaceOffset(p.xyz), push.minOffset);
             ray.origin = p.xyz + side * offset;
             ray.direction = s.direction;
             ray.tMax = s.distance_ - 2.0 * offset;

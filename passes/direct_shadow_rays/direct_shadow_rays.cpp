@@ -9,7 +9,8 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays and what they carry to 52 MiB.
+constexpr VoxelWalk kWalk = VoxelWalk::Bricks;  // All give the same answers (docs/voxel-march.md).
+constexpr uint32_t kBatchRays = 1u << 20;       // Bounds the memory of rays and what they carry to 52 MiB.
 enum TargetKind : uint32_t { kPunctual = 0, kEmitters = 1, kEnvironment = 2 };  // As in aim.comp.
 
 struct AimPush {
@@ -23,6 +24,7 @@ struct AimPush {
     uint32_t seed;
     uint32_t emitterCount;
     glm::vec3 camera;
+    float minOffset;
 };
 
 struct AddPush {
@@ -41,6 +43,8 @@ uint32_t batchPixels(const Frame& frame, const GBuffer& gbuffer) {
 
 void DirectShadowRays::declare(PassBuilder& builder) {
     gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
+    if (params_.visibility == Visibility::Voxels)
+        voxels_ = builder.read<SurfaceVoxels>("voxels", "what shadow rays meet");
     direct_ = builder.write<FrameImage>("direct", "radiance reflected of direct light");
 }
 
@@ -51,12 +55,15 @@ void DirectShadowRays::plan(PassPlan& plan) {
     plan.buffer(carried_, "shadow ray radiance", rays * 4 * sizeof(float));
     plan.buffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
     plan.image(plan.get(direct_).image, "direct", frameImageDesc(plan.frame));
+    if (params_.visibility == Visibility::Voxels) VoxelMarch::plan(plan, plan.get(voxels_), kWalk);
 }
 
 void DirectShadowRays::prepare(PassSetup& setup) {
     aim_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/direct_shadow_rays/aim.comp"));
     add_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/direct_shadow_rays/add.comp"));
     sampler_ = texelSampler(setup.device);
+    if (params_.visibility == Visibility::Voxels)
+        voxelTracer_ = std::make_unique<VoxelTracer>(setup.device, setup.compiler, kWalk);
 }
 
 void DirectShadowRays::record(PassContext& context) {
@@ -68,6 +75,15 @@ void DirectShadowRays::record(PassContext& context) {
     const uint32_t batch = batchPixels(frame, gbuffer), perPixel = gbuffer.samples * gbuffer.samples;
     const uint32_t seed = randomSeed(frame, context.frameIndex);
     stream.clear(direct, {});
+    RayTracer* tracer = &context.tracer;
+    float minOffset = 0;
+    if (params_.visibility == Visibility::Voxels) {
+        const SurfaceVoxels& voxels = context.get(voxels_);
+        minOffset = kVoxelsOffSurface * voxels.grid.voxelSize;
+        voxelTracer_->begin(stream, voxels);
+        tracer = voxelTracer_.get();
+    }
+    const uint64_t raysBefore = tracer->raysTraced();
 
     // A stream of shadow rays for each light, or for each sample of the emissive surfaces and the
     // environment.
@@ -84,10 +100,10 @@ void DirectShadowRays::record(PassContext& context) {
                                                     {"rays", rays_},
                                                     {"carried", carried_}}),
                             AimPush{kind, light, params_.samples, frame.width, first, rays, gbuffer.samples,
-                                    seed, context.scene.emitterCount, frame.camera.position},
+                                    seed, context.scene.emitterCount, frame.camera.position, minOffset},
                             linearGroups(rays));
-            context.tracer.occluded(stream, rays_, occluded_, rays,
-                                    kind == kPunctual ? Coherence::Coherent : Coherence::Incoherent);
+            tracer->occluded(stream, rays_, occluded_, rays,
+                             kind == kPunctual ? Coherence::Coherent : Coherence::Incoherent);
             stream.dispatch(add_, {{"carried", carried_}, {"occluded", occluded_}, {"direct", direct}},
                             AddPush{frame.width, first, count, perPixel}, linearGroups(count));
         }
@@ -96,6 +112,10 @@ void DirectShadowRays::record(PassContext& context) {
     for (uint32_t s = 0; s < params_.samples; ++s) {
         if (context.scene.emitterCount > 0) shadowRays(kEmitters, s);
         if (context.scene.hasEnvironment) shadowRays(kEnvironment, s);
+    }
+    if (params_.visibility == Visibility::Voxels) {
+        context.extraRays += tracer->raysTraced() - raysBefore;
+        context.voxelCounts.push_back(&voxelTracer_->march().counts());
     }
 }
 

@@ -1,8 +1,19 @@
 #pragma once
 
+#include <memory>
+
 #include "passes/common/view/gbuffer.h"
+#include "passes/common/voxel_march/voxel_tracer.h"
 
 namespace voxray {
+
+/// What shadow rays meet: the scene's triangles, or its surface voxels.
+enum class Visibility { Exact, Voxels };
+template <>
+struct EnumNames<Visibility> {
+    static constexpr std::array names{std::pair{Visibility::Exact, "exact"},
+                                      std::pair{Visibility::Voxels, "voxels"}};
+};
 
 /// Direct light per pixel by shadow rays through the stream interface: one ray for each texel of the g-buffer
 /// to each point, spot and directional light, `samples` rays to the emissive surfaces and to the environment.
@@ -13,16 +24,24 @@ class DirectShadowRays final : public Pass {
         "Direct light by shadow rays from every pixel to every light. Exact for point, spot and directional "
         "lights; noisy by "
         "`samples` for emissive surfaces (picked by power, uniform over area) and for the environment (by "
-        "cosine). Mirrors reflect no lamp and no environment: what they show of these is left out. Compare "
-        "with direct_voxels.";
+        "cosine). Mirrors reflect no lamp and no environment: what they show of these is left out. With "
+        "`visibility: voxels` biased by voxel size. Compare with direct_voxels.";
     struct Params {
         uint32_t samples = 4;
+        Visibility visibility = Visibility::Exact;
         static constexpr auto schema() {
-            return std::tuple{field(
-                "samples", &Params::samples,
-                "Shadow rays for each g-buffer texel to all emissive surfaces together, and as many to the "
-                "environment.",
-                1u, 4096u)};
+            return std::tuple{
+                field("samples", &Params::samples,
+                      "Shadow rays for each g-buffer texel to all emissive surfaces together, and as many to "
+                      "the "
+                      "environment.",
+                      1u, 4096u),
+                field("visibility", &Params::visibility,
+                      "What shadow rays meet. exact: the scene's triangles. voxels: those of the port "
+                      "`voxels`, "
+                      "which they leave by a voxel's diagonal first; shadows are wider by about a voxel, "
+                      "contacts "
+                      "and corners too dark or too bright within three (Magalhães 2020, section 3.3.3.2).")};
         }
     };
 
@@ -35,10 +54,12 @@ class DirectShadowRays final : public Pass {
  private:
     Params params_;
     Port<const GBuffer> gbuffer_;
+    Port<const SurfaceVoxels> voxels_;  ///< With Visibility::Voxels.
     Port<FrameImage> direct_;
     Program aim_, add_;
     Sampler sampler_;
     Buffer rays_, carried_, occluded_;
+    std::unique_ptr<VoxelTracer> voxelTracer_;  ///< With Visibility::Voxels.
 };
 
 }  // namespace voxray

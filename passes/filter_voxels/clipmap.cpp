@@ -42,6 +42,7 @@ class ClipmapStorage final : public RadianceStorage {
         const std::vector<gpu::ClipmapWindow> windows = clipmap_.follow(context, radiance);
 
         // Fill what is new in them; where surfaces or their light are, everything.
+        uint64_t updated = 0;
         std::vector<Binding> bindings = surfaceRadianceBindings(voxels, light);
         for (const Binding& binding : radiance.bindings()) bindings.push_back(binding);
         for (uint32_t level = 0; level < radiance.grid.levels; ++level) {
@@ -54,9 +55,10 @@ class ClipmapStorage final : public RadianceStorage {
                 context.stream.dispatch(fill_, bindings,
                                         FillPush{voxels.grid, emission, box.first, box.size, level, source},
                                         linearGroups(box.count()));
-                context.voxelSteps += box.count();
+                updated += box.count();
             }
         }
+        context.report(kUpdatedVoxels, double(updated));
         windows_ = windows;
         version_ = version;
     }

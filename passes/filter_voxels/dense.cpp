@@ -31,7 +31,7 @@ uint64_t voxelsOf(glm::uvec3 resolution) {
 uint64_t allVoxels(const gpu::RadianceGrid& grid) {
     uint64_t voxels = 0;
     for (uint32_t level = 0; level < grid.levels; ++level)
-        voxels += voxelsOf(radianceResolution(grid.resolution, level));
+        voxels += voxelsOf(levelResolution(grid.resolution, level));
     return voxels;
 }
 
@@ -55,7 +55,7 @@ class DenseStorage final : public RadianceStorage {
         Header header{grid, radiance.storage[0].address(), {}};
         uint32_t first = 0;
         for (uint32_t level = 0; level < grid.levels; ++level) {
-            header.levels[level] = {radianceResolution(grid.resolution, level), first};
+            header.levels[level] = {levelResolution(grid.resolution, level), first};
             first += uint32_t(voxelsOf(header.levels[level].resolution));
         }
         setup.stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
@@ -73,9 +73,8 @@ class DenseStorage final : public RadianceStorage {
         context.stream.dispatch(surface_, bindings, SurfacePush{voxels.grid, emission},
                                 linearGroups(voxelsOf(radiance.grid.resolution)));
         for (uint32_t level = 1; level < radiance.grid.levels; ++level)
-            context.stream.dispatch(
-                level_, radiance.bindings(), level,
-                linearGroups(voxelsOf(radianceResolution(radiance.grid.resolution, level))));
+            context.stream.dispatch(level_, radiance.bindings(), level,
+                                    linearGroups(voxelsOf(levelResolution(radiance.grid.resolution, level))));
     }
 
  private:

@@ -48,7 +48,7 @@ void FilterVoxels::plan(PassPlan& plan) {
     RadianceVoxels& radiance = plan.get(radiance_);
     radiance.layout = params_.layout;
     radiance.grid = {grid.origin,     grid.voxelSize,
-                     grid.resolution, radianceLevels(grid.resolution),
+                     grid.resolution, gridLevels(grid.resolution),
                      grid.directions, radianceUnit(*plan.frame.scene)};
     storage_->plan(plan, plan.get(voxels_), radiance);
     if (params_.bounces > 0) bounces_.plan(plan, plan.get(voxels_).voxelCount, eachFrame_);

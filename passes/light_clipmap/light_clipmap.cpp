@@ -79,7 +79,14 @@ void LightClipmap::record(PassContext& context) {
     sceneVersion_ = context.frame.sceneVersion;
     const bool updated = std::ranges::any_of(
         clipmap.levels, [](const ClipmapVoxels::Level& level) { return !level.boxes.empty(); });
-    if (!moved && !updated) return;
+    updatedVoxels_ = 0;
+    if (moved || updated) relight(context, moved);
+    context.report(kUpdatedVoxels, double(updatedVoxels_));
+}
+
+void LightClipmap::relight(PassContext& context, bool moved) {
+    const ClipmapVoxels& clipmap = context.get(clipmap_);
+    const RadianceVoxels& radiance = context.get(radiance_);
     const bool everywhere = moved || params_.bounces > 0;
 
     // Direct light
@@ -157,7 +164,7 @@ void LightClipmap::reflect(PassContext& context, uint32_t level, const SurfaceVo
     for (const VoxelBox& box : boxes) {
         context.stream.dispatch(window_, surfaces, WindowPush{voxels.grid, box.first, box.size, level},
                                 linearGroups(box.count()));
-        context.voxelSteps += box.count();
+        updatedVoxels_ += box.count();
     }
     context.stream.finish();
 }
@@ -165,10 +172,10 @@ void LightClipmap::reflect(PassContext& context, uint32_t level, const SurfaceVo
 void LightClipmap::filter(PassContext& context) {
     const RadianceVoxels& radiance = context.get(radiance_);
     for (uint32_t l = storage_.windows().firstWhole() + 1; l < radiance.grid.levels; ++l) {
-        const glm::uvec3 size = radianceResolution(radiance.grid.resolution, l);
+        const glm::uvec3 size = levelResolution(radiance.grid.resolution, l);
         const uint64_t voxels = uint64_t(size.x) * size.y * size.z;
         context.stream.dispatch(level_, radiance.bindings(), l, linearGroups(voxels));
-        context.voxelSteps += voxels;
+        updatedVoxels_ += voxels;
     }
 }
 

@@ -43,6 +43,8 @@ class LightClipmap final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    /// Measures light where windows or, with `moved`, lights or surfaces have changed, and fills all levels.
+    void relight(PassContext& context, bool moved);
     /// Direct light of the voxels in boxes of a level. @param voxels these, or others besides.
     VoxelIrradiance light(PassContext& context, const SurfaceVoxels& voxels,
                           const std::vector<VoxelBox>& boxes);
@@ -64,6 +66,7 @@ class LightClipmap final : public Pass {
     FluxAccumulator flux_;
     ConeBounces bounces_;
     std::optional<uint64_t> sceneVersion_;  ///< Of the last frame.
+    uint64_t updatedVoxels_ = 0;            ///< In this frame.
 };
 
 }  // namespace voxray

@@ -12,7 +12,7 @@ namespace {
 /// A level's grid, whose window is yet to be placed.
 gpu::VoxelGrid levelGrid(gpu::VoxelGrid grid, uint32_t level, uint32_t side) {
     grid.voxelSize *= float(1u << level);
-    grid.resolution = radianceResolution(grid.resolution, level);
+    grid.resolution = levelResolution(grid.resolution, level);
     grid.side = side;
     grid.wordsPerRow = (heldVoxels(grid).size.x + 31) / 32;
     return grid;
@@ -35,7 +35,7 @@ void VoxelizeClipmap::plan(PassPlan& plan) {
     finest.directions = params_.directions;
     ClipmapVoxels& clipmap = plan.get(clipmap_);
     clipmap.grid = {finest.origin,     finest.voxelSize,
-                    finest.resolution, radianceLevels(finest.resolution),
+                    finest.resolution, gridLevels(finest.resolution),
                     finest.directions, 1};
     clipmap.windows = ClipmapWindows(clipmap.grid, params_.clipmapResolution);
 
@@ -72,6 +72,7 @@ void VoxelizeClipmap::record(PassContext& context) {
     const bool known = !moved || (frame.sceneVersion == sceneVersion_ + 1 && frame.changed);
     const std::vector<gpu::ClipmapWindow> before = known ? windows_ : std::vector<gpu::ClipmapWindow>();
     windows_.clear();
+    uint64_t updated = 0;
     for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
         ClipmapVoxels::Level& level = clipmap.levels[l];
         SurfaceVoxels& voxels = level.voxels;
@@ -89,8 +90,9 @@ void VoxelizeClipmap::record(PassContext& context) {
             if (!level.boxes.empty())
                 level.updated = builder_.update(context, VoxelRegion(voxels.grid, level.boxes), voxels);
         }
-        for (const VoxelBox& box : level.boxes) context.voxelSteps += box.count();
+        for (const VoxelBox& box : level.boxes) updated += box.count();
     }
+    context.report(kUpdatedVoxels, double(updated));
     sceneVersion_ = frame.sceneVersion;
     if (clipmap.levels.back().voxels.voxelCount == 0)
         throw Error("{}: no surface meets the grid; the scene needs triangles with an area", kName);

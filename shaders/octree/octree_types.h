@@ -10,9 +10,13 @@
 
 VOXRAY_SHARED_BEGIN
 
-// What an octree has besides its RadianceGrid. A node is a voxel of a level that is not empty; the root is the one of the last.
+// A node is a voxel of a level that is not empty. Level 0 has the voxels of the grid, its nodes are the leaves; the root is the one
+// node of the last level.
 struct OctreeShape {
-    uint nodeCount;   // Of all levels and NO_NODE: the stride from one direction's values to the next.
+    uvec3 resolution;  // Voxels of the grid.
+    uint levels;
+    uint nodeCount;   // Of all levels and NO_NODE: one more than the largest number.
+    uint firstLeaf;   // Number of the first leaf; leaves come last.
     uint tableLevel;  // From this level on up, nodes are found by a table.
     uint tableFirst[OCTREE_MAX_LEVELS + 1u];  // Where the table of level tableLevel + i begins.
 };

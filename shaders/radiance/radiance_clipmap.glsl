@@ -85,10 +85,6 @@ vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     return met;
 }
 
-// Metres from `position` along `direction` that hold nothing at this footprint: 0 where something may be here. Windows keep nothing
-// that tells.
-float emptyDistance(vec3 position, float footprint, vec3 direction) { return 0.0; }
-
 // The next level counts from where a window's weight falls below 1. A cone has to keep clear of its voxels there. In a zone as wide
 // before that a growing part of the cones does so already, chosen by dithering, so that light doesn't jump where the level changes.
 uint startLevel(vec3 position, float dither) {

@@ -49,10 +49,6 @@ vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     return vec4(radianceVoxels.grid.unit * met.rgb, met.a);
 }
 
-// Metres from `position` along `direction` that hold nothing at this footprint: 0 where something may be here. Full grids keep
-// nothing that tells.
-float emptyDistance(vec3 position, float footprint, vec3 direction) { return 0.0; }
-
 uint startLevel(vec3 position, float dither) { return 0u; }
 
 #endif

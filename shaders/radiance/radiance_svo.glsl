@@ -2,7 +2,24 @@
 #ifndef VOXRAY_RADIANCE_SVO_GLSL
 #define VOXRAY_RADIANCE_SVO_GLSL
 
+#extension GL_EXT_buffer_reference : require
+
 #include "shaders/octree/octree.glsl"
+#include "shaders/radiance/radiance_texel.glsl"
+#include "shaders/radiance/radiance_types.h"
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer OctreeValues { uvec2 data[]; };
+layout(scalar) readonly buffer RadianceVoxels {
+    RadianceGrid grid;
+    OctreeValues values;  // By direction, then by node: shaders/radiance/radiance_texel.glsl.
+} radianceVoxels;
+
+// Where a node's value for a face (0 to 5 by direction, 0 where all share one) stands.
+uint octreeValueIndex(uint node, uint face) { return face * octree.shape.nodeCount + node; }
+
+// Radiance times cover and cover of a node, nothing for NO_NODE.
+vec4 radianceValue(uint node, uint face) { return unpackRadiance(radianceVoxels.values.data[octreeValueIndex(node, face)]); }
+
 #define NO_PLACE NO_NODE
 #include "shaders/radiance/radiance_interpolation.glsl"
 
@@ -16,35 +33,6 @@ vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
         if (octantWeight(octant, at) == 0.0) node[octant] = NO_NODE;
 
     return interpolateBlock(node, at, direction);
-}
-
-// The largest cube that holds none of the voxels that a sample here reads, on either of its two levels: those of the coarser
-// level enclose the others.
-float emptyDistance(vec3 position, float footprint, vec3 direction) {
-    const RadianceGrid g = radianceVoxels.grid;
-    const uint coarser = min(uint(max(ceil(log2(footprint / g.voxelSize)), 0.0)), g.levels - 1u);
-    vec3 at;
-    const ivec3 corner = cornerVoxel(coarser, position, at);
-    if (!inOctreeBorder(corner, coarser) || !inOctreeBorder(corner + 1, coarser)) return 0.0;
-    uint emptyLevel = 0u;
-    for (uint level = max(coarser, 1u); level <= g.levels; ++level) {
-        const ivec3 cube = corner >> (level - coarser);
-        if (cube != (corner + 1) >> (level - coarser)) continue;
-        if (octreeWord(cube, level) != 0u) break;
-        emptyLevel = level;
-    }
-    if (emptyLevel == 0u) return 0.0;
-
-    // The position may move until a voxel that it reads leaves the cube: to half a voxel before the cube's faces.
-    const uint up = emptyLevel - coarser;
-    const float side = g.voxelSize * float(1u << coarser);
-    const vec3 low = g.origin + side * (vec3((corner >> up) << up) + 0.5);
-    const vec3 high = g.origin + side * (vec3(((corner >> up) + 1) << up) - 0.5);
-    float reach = 1.0e30;
-    for (uint axis = 0u; axis < 3u; ++axis)
-        if (direction[axis] != 0.0)
-            reach = min(reach, ((direction[axis] > 0.0 ? high[axis] : low[axis]) - position[axis]) / direction[axis]);
-    return max(reach, 0.0);
 }
 
 // That of a uniform node where one stands for all.

@@ -14,8 +14,10 @@
 
 // A layout declares `radianceVoxels`, a buffer whose first member is a RadianceGrid named `grid`, and defines, for a position in
 // metres:
-//  - vec4 sampleLevel(uint level, vec3 position, vec3 direction): sampleRadiance() at one level, interpolated linearly in space;
-//  - float emptyDistance(vec3 position, float footprint, vec3 direction);
+//  - vec4 sampleLevel(uint level, vec3 position, vec3 direction): what a ray along `direction` (unit) meets in a cube of a
+//    voxel's side round `position`, interpolated linearly in space: rgb, the radiance that surfaces there send against
+//    `direction`, weighted by the part of the beam that they cover, W/(m² sr); a, that cover over one voxel's length: 0 where
+//    there is nothing; above 1 where surfaces hide each other;
 //  - uint startLevel(vec3 position, float dither): the level whose voxels a cone that starts there has to be clear of; between
 //    levels it is drawn by `dither`, 0 to 1.
 #if defined(RADIANCE_DENSE)
@@ -27,20 +29,5 @@
 #endif
 
 float radianceVoxelSize(uint level) { return radianceVoxels.grid.voxelSize * float(1u << level); }
-
-// What a ray along `direction` (unit) meets in a cube of side `footprint` (m) round `position`: rgb, the radiance that surfaces
-// there send against `direction`, weighted by the part of the beam that they cover, W/(m² sr); a, that cover over one footprint's
-// length: 0 where there is nothing; above 1 where surfaces hide each other. Linear in space and between levels, by density along
-// the ray: a surface covers the same in both.
-vec4 sampleRadiance(vec3 position, float footprint, vec3 direction) {
-    const float top = float(radianceVoxels.grid.levels - 1u);
-    const float level = clamp(log2(footprint / radianceVoxels.grid.voxelSize), 0.0, top);
-    const uint finer = uint(level);
-    const float part = level - float(finer);
-    vec4 met = sampleLevel(finer, position, direction) * (1.0 - part) * (footprint / radianceVoxelSize(finer));
-    if (part > 0.0)
-        met += sampleLevel(finer + 1u, position, direction) * part * (footprint / radianceVoxelSize(finer + 1u));
-    return met;
-}
 
 #endif

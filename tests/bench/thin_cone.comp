@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Cones through radiance voxels in steps of half a footprint, as in the thesis's comparison of layouts (Arnebäck 2017, section
-// 5.3.5): from one place in all directions, of a fixed length. SKIP jumps over what is empty.
+// 5.3.5): from one place in all directions, of a fixed length.
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/radiance/radiance_voxels.glsl"
+#include "tests/gpu/sample_radiance.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) writeonly buffer Met { vec4 data[]; } met;
@@ -24,13 +24,6 @@ void main() {
     for (float t = 0.0; t < push.reach && samples < 4096u;) {
         const vec3 position = push.origin + t * direction;
         const float footprint = max(radianceVoxelSize(0u), push.width * t);
-#ifdef SKIP
-        const float empty = emptyDistance(position, footprint, direction);
-        if (empty > 0.0) {
-            t += max(empty, 0.5 * footprint);
-            continue;
-        }
-#endif
         sum += 0.5 * sampleRadiance(position, footprint, direction);
         t += 0.5 * footprint;
         ++samples;

@@ -109,6 +109,13 @@ class Chain {
     std::unique_ptr<Graph> graph_;
 };
 
+/// What a pass reported under a name. @throws Error where it didn't.
+inline double reported(const PassSample& sample, const std::string& name) {
+    for (const PassContext::Value& value : sample.reported)
+        if (value.name == name) return value.value;
+    throw Error("no value '{}' was reported", name);
+}
+
 /// Mean of all pixels and channels.
 inline double mean(const ImageF& image) {
     double sum = 0;

@@ -30,7 +30,7 @@ inline std::vector<RadianceQuery> randomQueries(const gpu::VoxelGrid& grid, size
         for (int axis = 0; axis < 3; ++axis)
             q.position[axis] = grid.origin[axis] + extent[axis] * (1.2f * uniform(random) - 0.1f);
         q.footprint =
-            grid.voxelSize * std::exp2(-1 + float(radianceLevels(grid.resolution) + 1) * uniform(random));
+            grid.voxelSize * std::exp2(-1 + float(gridLevels(grid.resolution) + 1) * uniform(random));
         q.direction = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
     }
     return list;

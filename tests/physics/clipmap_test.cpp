@@ -71,7 +71,8 @@ std::vector<glm::uvec2> content(Chain& chain) {
 
 uint64_t filled(const Chain& chain) {
     uint64_t sum = 0;
-    for (const PassSample& sample : chain.frameSamples) sum += sample.voxelSteps;
+    for (const PassSample& sample : chain.frameSamples)
+        if (!sample.reported.empty()) sum += uint64_t(reported(sample, kUpdatedVoxels));
     return sum;
 }
 

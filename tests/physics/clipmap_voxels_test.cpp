@@ -50,7 +50,8 @@ std::vector<std::vector<uint32_t>> content(Chain& chain) {
 
 /// Voxels that were voxelized, and that were filled with radiance.
 std::pair<uint64_t, uint64_t> updated(const Chain& chain) {
-    return {chain.frameSamples.at(0).voxelSteps, chain.frameSamples.at(1).voxelSteps};
+    return {uint64_t(reported(chain.frameSamples.at(0), kUpdatedVoxels)),
+            uint64_t(reported(chain.frameSamples.at(1), kUpdatedVoxels))};
 }
 
 TEST(ClipmapVoxels, ScrolledAreAsMadeFromScratch) {

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "passes/common/octree/octree_builder.h"
-#include "passes/common/octree/octree_collapse.h"
+#include "passes/filter_voxels/svo_collapse.h"
 #include "tests/gpu/radiance_samples.h"
+#include "tests/physics/made_up_voxels.h"
 
 namespace voxray::test {
 
@@ -36,14 +37,10 @@ class Content {
     /// `value` of a voxel; nothing where all six opacities are 0. Directions: 1 (the first counts) or 6.
     Content(glm::uvec3 resolution, uint32_t directions, const std::function<Faces(glm::ivec3)>& value)
         : directions_(directions) {
-        grid.origin = {-1.25f, 0.5f, 3.0f};
-        grid.voxelSize = 0.125f;
-        grid.resolution = resolution;
-        grid.wordsPerRow = (resolution.x + 31) / 32;
+        grid = madeUpGrid(resolution, 0.125f);
         grid.directions = directions;
-        grid.side = 1024;
         levels.push_back(makeLevel(0, value));
-        for (uint32_t level = 1; level < radianceLevels(resolution); ++level)
+        for (uint32_t level = 1; level < gridLevels(resolution); ++level)
             levels.push_back(makeLevel(level, [&](glm::ivec3 cell) { return filtered(level - 1, cell); }));
     }
 
@@ -54,19 +51,19 @@ class Content {
     }
     const Faces& at(uint32_t level, glm::ivec3 cell) const {
         static const Faces nothing{};
-        const glm::ivec3 size(radianceResolution(grid.resolution, level));
+        const glm::ivec3 size(levelResolution(grid.resolution, level));
         for (int axis = 0; axis < 3; ++axis)
             if (cell[axis] < 0 || cell[axis] >= size[axis]) return nothing;
         return levels[level][(size_t(cell.z) * size.y + size_t(cell.y)) * size.x + size_t(cell.x)];
     }
     void forEach(uint32_t level, const std::function<void(glm::ivec3)>& visit) const {
-        const glm::ivec3 size(radianceResolution(grid.resolution, level));
+        const glm::ivec3 size(levelResolution(grid.resolution, level));
         for (int z = 0; z < size.z; ++z)
             for (int y = 0; y < size.y; ++y)
                 for (int x = 0; x < size.x; ++x) visit({x, y, z});
     }
 
-    /// What sampleRadiance() must answer: shaders/radiance/radiance_voxels.glsl, in doubles.
+    /// What sampleRadiance() must answer: tests/gpu/sample_radiance.glsl, in doubles.
     glm::dvec4 sample(glm::dvec3 position, double footprint, glm::dvec3 direction) const {
         const double voxel = grid.voxelSize;
         const double level = std::clamp(std::log2(footprint / voxel), 0.0, double(levels.size() - 1));
@@ -79,25 +76,8 @@ class Content {
         return met;
     }
 
-    /// The voxels as voxelization leaves them, without materials.
     SurfaceVoxels surfaceVoxels(CommandStream& stream) const {
-        SurfaceVoxels voxels;
-        voxels.grid = grid;
-        std::vector<uint32_t> occupancy(voxels.words(), 0), rank(voxels.words(), 0);
-        forEach(0, [&](glm::ivec3 v) {
-            if (empty(0, v)) return;
-            occupancy[(size_t(v.z) * grid.resolution.y + size_t(v.y)) * grid.wordsPerRow +
-                      size_t(v.x) / 32] |= 1u << (v.x % 32);
-        });
-        for (size_t word = 0; word < occupancy.size(); ++word) {
-            rank[word] = voxels.voxelCount;
-            voxels.voxelCount += uint32_t(std::popcount(occupancy[word]));
-        }
-        voxels.occupancy = Buffer(stream.device(), "occupancy", voxels.words() * sizeof(uint32_t));
-        voxels.rank = Buffer(stream.device(), "rank", voxels.words() * sizeof(uint32_t));
-        stream.upload(voxels.occupancy, occupancy);
-        stream.upload(voxels.rank, rank);
-        return voxels;
+        return madeUpVoxels(stream, grid, [&](glm::ivec3 v) { return !empty(0, v); });
     }
 
     gpu::VoxelGrid grid{};
@@ -165,20 +145,20 @@ class TestOctree {
     explicit TestOctree(const Content& content, uint32_t directions = 1) : stream_(device()) {
         const gpu::VoxelGrid& g = content.grid;
         radiance.layout = RadianceLayout::Svo;
-        radiance.grid = {g.origin, g.voxelSize, g.resolution, radianceLevels(g.resolution), directions, 1.0f};
-        OctreeBuilder::Built built = builder().build(stream_, content.surfaceVoxels(stream_), radiance);
-        size = built.size;
+        radiance.grid = {g.origin, g.voxelSize, g.resolution, gridLevels(g.resolution), directions, 1.0f};
+        allocateSvoValues(stream_, builder().build(stream_, content.surfaceVoxels(stream_)), radiance);
+        size = radiance.octree.size;
         first = size.first();
-        leaves = stream_.readAs<uint32_t>(built.leaves, size.nodes[0]);
-        std::vector<glm::uvec2> texels(size.valueBytes() / sizeof(glm::uvec2), glm::uvec2(0));
+        leaves = stream_.readAs<uint32_t>(radiance.octree.leafVoxels, size.nodes[0]);
+        std::vector<glm::uvec2> texels(radiance.storage[0].bytes() / sizeof(glm::uvec2), glm::uvec2(0));
         for (size_t face = 0; face < directions; ++face)
             for (size_t leaf = 0; leaf < leaves.size(); ++leaf)
                 texels[face * size.nodeCount() + first[0] + leaf] =
                     packRadiance(content.at(0, cellOf(leaves[leaf]))[face]);
-        stream_.upload(radiance.storage[kOctreeValues], texels);
-        changed_ = Buffer(device(), "changed", OctreeBuilder::changedBytes(size));
+        stream_.upload(radiance.storage[0], texels);
+        changed_ = Buffer(device(), "changed", SvoFilter::changedBytes(size));
         stream_.fill(changed_, ~0u);
-        builder().filter(stream_, size, radiance, changed_);
+        filter().run(stream_, radiance, changed_);
         refresh();
     }
 
@@ -188,12 +168,12 @@ class TestOctree {
         std::vector<uint32_t> bits(changed_.bytes() / sizeof(uint32_t), 0);
         bits[leaf / 32] |= 1u << leaf % 32;
         stream_.upload(changed_, bits);
-        for (size_t face = 0; face < size.directions; ++face) {
+        for (size_t face = 0; face < radiance.grid.directions; ++face) {
             const glm::uvec2 texel = packRadiance(value[face]);
-            stream_.upload(radiance.storage[kOctreeValues], std::as_bytes(std::span(&texel, 1)),
+            stream_.upload(radiance.storage[0], std::as_bytes(std::span(&texel, 1)),
                            (face * size.nodeCount() + leaf) * sizeof(texel));
         }
-        builder().filter(stream_, size, radiance, changed_);
+        filter().run(stream_, radiance, changed_);
         refresh();
         uint32_t count = 0;
         for (const uint32_t word : stream_.readAs<uint32_t>(changed_, bits.size()))
@@ -203,15 +183,16 @@ class TestOctree {
 
     /// Collapses uniform nodes.
     void collapse() {
-        size = collapser().run(stream_, size, radiance);
+        collapser().run(stream_, radiance);
+        size = radiance.octree.size;
         first = size.first();
         refresh();
     }
 
     uint64_t bytes() const {
-        uint64_t sum = radiance.header.bytes();
-        for (const Buffer& buffer : radiance.storage) sum += buffer.bytes();
-        return sum;
+        const Octree& octree = radiance.octree;
+        return octree.header.bytes() + octree.table.bytes() + octree.nodes.bytes() + radiance.header.bytes() +
+               radiance.storage[0].bytes();
     }
 
     /// The voxel of an entry of `leaves`.
@@ -233,17 +214,17 @@ class TestOctree {
         return sampleRadiance(radiance, queries);
     }
 
-    /// emptyDistance() and startLevel() on the device.
-    std::vector<glm::vec2> empty(const std::vector<RadianceQuery>& queries) {
+    /// octreeLeaf() and startLevel() on the device.
+    std::vector<glm::uvec2> lookUp(const std::vector<glm::ivec3>& voxels) {
         const Program program = makeComputeProgram(
-            device(), compiler().compile("tests/gpu/empty_distance.comp", radiance.defines()));
-        const Buffer in(device(), "queries", queries.size() * sizeof(RadianceQuery));
-        const Buffer out(device(), "answers", queries.size() * sizeof(glm::vec2));
-        stream_.upload(in, queries);
+            device(), compiler().compile("tests/gpu/octree_lookup.comp", radiance.defines()));
+        const Buffer in(device(), "queries", voxels.size() * sizeof(glm::ivec3));
+        const Buffer out(device(), "answers", voxels.size() * sizeof(glm::uvec2));
+        stream_.upload(in, voxels);
         std::vector<Binding> bindings = radiance.bindings();
         bindings.insert(bindings.end(), {{"queries", in}, {"answers", out}});
-        stream_.dispatch(program, bindings, uint32_t(queries.size()), linearGroups(queries.size()));
-        return stream_.readAs<glm::vec2>(out, queries.size());
+        stream_.dispatch(program, bindings, uint32_t(voxels.size()), linearGroups(voxels.size()));
+        return stream_.readAs<glm::uvec2>(out, voxels.size());
     }
 
     RadianceVoxels radiance;
@@ -253,12 +234,12 @@ class TestOctree {
 
  private:
     void refresh() {
-        const auto read = [&]<typename T>(std::vector<T>& into, OctreeStorage which) {
-            into = stream_.readAs<T>(radiance.storage[which], radiance.storage[which].bytes() / sizeof(T));
+        const auto read = [&]<typename T>(std::vector<T>& into, const Buffer& buffer) {
+            into = stream_.readAs<T>(buffer, buffer.bytes() / sizeof(T));
         };
-        read(table, kOctreeTable);
-        read(nodes, kOctreeNodes);
-        read(values, kOctreeValues);
+        read(table, radiance.octree.table);
+        read(nodes, radiance.octree.nodes);
+        read(values, radiance.storage[0]);
     }
 
     // Programs take longer to make than these octrees.
@@ -270,8 +251,12 @@ class TestOctree {
         static const OctreeBuilder shared(device(), compiler());
         return shared;
     }
-    static const OctreeCollapse& collapser() {
-        static const OctreeCollapse shared(device(), compiler());
+    static const SvoFilter& filter() {
+        static const SvoFilter shared(device(), compiler());
+        return shared;
+    }
+    static const SvoCollapse& collapser() {
+        static const SvoCollapse shared(device(), compiler());
         return shared;
     }
 

@@ -80,13 +80,33 @@ TEST(Octree, HasALeafForEachVoxelAndNothingElse) {
     }
 }
 
+TEST(Octree, LeadsFromALeafToItsVoxelAndBack) {
+    for (const glm::uvec3 resolution : {glm::uvec3(1), glm::uvec3(37, 9, 21), glm::uvec3(64)}) {
+        TestOctree tree(randomContent(resolution, 1, resolution.x == 1 ? 1.1 : 0.05));
+        std::vector<glm::ivec3> voxels;
+        for (const uint32_t leaf : tree.leaves) voxels.push_back(TestOctree::cellOf(leaf));
+        const std::vector<glm::uvec2> found = tree.lookUp(voxels);
+        for (uint32_t leaf = 0; leaf < voxels.size(); ++leaf) ASSERT_EQ(found[leaf].x, leaf);
+
+        // What is empty or outside has none.
+        std::vector<glm::ivec3> none;
+        const glm::ivec3 end(resolution);
+        for (int z = -1; z <= end.z; ++z)
+            for (int y = -1; y <= end.y; ++y)
+                for (int x = -1; x <= end.x; ++x) none.emplace_back(x, y, z);
+        size_t leaves = 0;
+        for (const glm::uvec2& answer : tree.lookUp(none)) leaves += answer.x != 0xffffffffu;
+        EXPECT_EQ(leaves, tree.leaves.size());
+    }
+}
+
 TEST(Octree, TableFindsWhatDescentFinds) {
     for (const uint32_t resolution : {48u, 64u}) {
         const Content content = shell(resolution, 1, 0.4);
         TestOctree tree(content);
         size_t entry = 0;
         for (uint32_t level = tree.size.tableLevel(); level <= tree.size.levels(); ++level) {
-            const glm::ivec3 cells(radianceResolution(content.grid.resolution, level));
+            const glm::ivec3 cells(levelResolution(content.grid.resolution, level));
             for (int z = -1; z <= cells.z; ++z)
                 for (int y = -1; y <= cells.y; ++y)
                     for (int x = -1; x <= cells.x; ++x) {
@@ -196,29 +216,6 @@ TEST(Octree, HasNoSeams) {
     }
 }
 
-TEST(Octree, EmptyDistanceHoldsNothing) {
-    const Content content = shell(64, 1, 0.35);
-    TestOctree tree(content);
-    std::vector<RadianceQuery> queries = randomQueries(content.grid, 40000);
-    const std::vector<glm::vec2> answers = tree.empty(queries);
-    size_t skips = 0;
-    for (size_t i = 0; i < queries.size(); ++i) {
-        const RadianceQuery& q = queries[i];
-        if (answers[i].x <= 0) continue;
-        ++skips;
-        for (const double part : {0.0, 0.1, 0.35, 0.8, 0.999}) {
-            const glm::dvec3 at =
-                glm::dvec3(q.position) + part * double(answers[i].x) * glm::dvec3(q.direction);
-            ASSERT_LT(content.sample(at, q.footprint, q.direction).a, 1e-5);
-        }
-    }
-    EXPECT_GT(skips, queries.size() / 20);
-    // From the center of the hollow the whole of the octant's cube is skipped.
-    const float voxel = content.grid.voxelSize;
-    const RadianceQuery inside{content.grid.origin + voxel * glm::vec3(33.5f), voxel, {1, 0, 0}};
-    EXPECT_GT(tree.empty({inside})[0].x, 5 * voxel);
-}
-
 TEST(Octree, UniformPartsCollapse) {
     // A solid block, uniform but for one voxel, and something random beside it.
     for (const uint32_t directions : {1u, 6u}) {
@@ -241,10 +238,9 @@ TEST(Octree, UniformPartsCollapse) {
         EXPECT_EQ(size.nodes[0], full.nodes[0] - 32768 + 8);
         for (uint32_t level = 1; level < 5; ++level)
             EXPECT_EQ(size.nodes[level], full.nodes[level] - (32768u >> 3 * level) + 8) << "level " << level;
-        EXPECT_LT(tree.bytes(), full.bytes());
-        EXPECT_EQ(tree.bytes(), size.bytes());
-        const RadianceQuery solid{content.grid.origin + content.grid.voxelSize * glm::vec3(4), 1, {1, 0, 0}};
-        EXPECT_EQ(tree.empty({solid})[0].y, 4) << "a uniform node of 16 voxels";
+        EXPECT_LT(tree.bytes(), full.bytes() + svoValueBytes(full, directions));
+        EXPECT_EQ(tree.bytes(), size.bytes() + svoValueBytes(size, directions));
+        EXPECT_EQ(tree.lookUp({glm::ivec3(4)})[0].y, 4u) << "a uniform node of 16 voxels";
 
         // Samples are the same, bit by bit.
         const std::vector<glm::vec4> after = tree.sample(queries);
@@ -261,7 +257,6 @@ TEST(Octree, AWhollyUniformGridIsOneNode) {
     const RadianceQuery inside{
         content.grid.origin + 16 * content.grid.voxelSize, content.grid.voxelSize, {0, 0, 1}};
     EXPECT_NEAR(tree.sample({inside})[0].g, 2.0, 2 * std::exp2(-14));
-    EXPECT_EQ(tree.empty({inside})[0].x, 0);
 }
 
 TEST(Octree, FiltersOnlyWhatTheLightHasChanged) {
@@ -291,27 +286,23 @@ TEST(Octree, MemoryIsPredictedExactly) {
     for (const uint32_t directions : {1u, 6u}) {
         const Content content = shell(40, directions, 0.3);
         TestOctree tree(content, directions);
-        OctreeSize counted{content.grid.resolution, directions, {}};
+        OctreeSize counted{content.grid.resolution, {}};
         for (uint32_t level = 0; level < tree.size.levels(); ++level) {
             counted.nodes.push_back(0);
             content.forEach(level,
                             [&](glm::ivec3 cell) { counted.nodes.back() += !content.empty(level, cell); });
         }
-        EXPECT_EQ(counted.bytes(), tree.bytes());
+        EXPECT_EQ(counted.bytes() + svoValueBytes(counted, directions), tree.bytes());
     }
 }
 
 TEST(Octree, RefusesWhatItCantNumber) {
     CommandStream stream(device());
-    RadianceVoxels radiance;
-    const auto error = [&](const OctreeSize& size) {
-        return errorOf([&] { allocateOctree(stream, size, radiance); });
-    };
-    OctreeSize size{glm::uvec3(1024), 1, std::vector<uint32_t>(11, 1)};
+    const auto error = [&](const OctreeSize& size) { return errorOf([&] { allocateOctree(stream, size); }); };
+    OctreeSize size{glm::uvec3(1024), std::vector<uint32_t>(11, 1)};
     size.nodes[0] = 20'000'000;
     EXPECT_CONTAINS(error(size), "at most 16777215 nodes; this one needs 20000011");
-    EXPECT_CONTAINS(error({glm::uvec3(2048), 1, std::vector<uint32_t>(12, 1)}), "at most 1024 voxels");
-    EXPECT_TRUE(radiance.storage.empty());  // Nothing was allocated.
+    EXPECT_CONTAINS(error({glm::uvec3(2048), std::vector<uint32_t>(12, 1)}), "at most 1024 voxels");
 }
 
 TEST(Octree, IsDeterministic) {

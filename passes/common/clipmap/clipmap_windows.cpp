@@ -31,7 +31,7 @@ void requirePowerOfTwo(const std::string& pass, uint32_t side) {
 
 ClipmapWindows::ClipmapWindows(const gpu::RadianceGrid& grid, uint32_t side) : grid_(grid), side_(side) {
     for (uint32_t level = 0; level < grid.levels; ++level) {
-        const glm::uvec3 resolution = radianceResolution(grid.resolution, level);
+        const glm::uvec3 resolution = levelResolution(grid.resolution, level);
         const glm::uvec3 size = glm::min(resolution, glm::uvec3(side));
         if (size != resolution) firstWhole_ = level + 1;
         begin_.push_back(uint32_t(voxels_));
@@ -41,7 +41,7 @@ ClipmapWindows::ClipmapWindows(const gpu::RadianceGrid& grid, uint32_t side) : g
 
 gpu::ClipmapWindow ClipmapWindows::window(uint32_t level, const glm::vec3& camera) const {
     const float voxel = grid_.voxelSize * float(1u << level);
-    const glm::uvec3 resolution = radianceResolution(grid_.resolution, level);
+    const glm::uvec3 resolution = levelResolution(grid_.resolution, level);
     const float half = 0.5f * float(side_), reach = half - kMargin, full = reach - kTransition * float(side_);
     gpu::ClipmapWindow w{};
     w.begin = begin_[level];

@@ -46,6 +46,10 @@ class ClipmapWindows {
     std::vector<uint32_t> begin_;  ///< By level.
 };
 
+/// What a pass reports as the number of voxels of its windows that it made, since they scrolled in or
+/// changed.
+constexpr const char* kUpdatedVoxels = "updated voxels";
+
 /// What `window` holds that `before` did not: up to three boxes that have no voxel in common. Windows of one
 /// level.
 std::vector<VoxelBox> scrolledIn(const gpu::ClipmapWindow& before, const gpu::ClipmapWindow& window);

@@ -7,17 +7,15 @@
 namespace voxray {
 namespace {
 
-/// The buffer `radianceVoxels` of shaders/octree/octree.glsl.
+/// The buffer `octree` of shaders/octree/octree.glsl.
 struct Header {
-    gpu::RadianceGrid grid;
-    VkDeviceAddress table, nodes, values;
+    VkDeviceAddress table, nodes;
     gpu::OctreeShape shape;
 };
-static_assert(sizeof(gpu::RadianceGrid) % sizeof(VkDeviceAddress) == 0);
 
 /// Words of the table at a level, border included.
 uint64_t tableWords(glm::uvec3 resolution, uint32_t level) {
-    const glm::u64vec3 size(radianceResolution(resolution, level) + 2u);
+    const glm::u64vec3 size(levelResolution(resolution, level) + 2u);
     return size.x * size.y * size.z;
 }
 
@@ -49,14 +47,11 @@ uint64_t OctreeSize::tableBytes() const {
 uint64_t OctreeSize::nodeBytes() const {
     return uint64_t(first().front()) * sizeof(uint32_t);
 }
-uint64_t OctreeSize::valueBytes() const {
-    return uint64_t(nodeCount()) * directions * sizeof(glm::uvec2);
-}
 uint64_t OctreeSize::bytes() const {
-    return sizeof(Header) + tableBytes() + nodeBytes() + valueBytes();
+    return sizeof(Header) + tableBytes() + nodeBytes();
 }
 
-void allocateOctree(CommandStream& stream, const OctreeSize& size, RadianceVoxels& radiance) {
+Octree allocateOctree(CommandStream& stream, const OctreeSize& size) {
     if (size.levels() > OCTREE_MAX_LEVELS)
         throw Error("an octree takes at most {} voxels along an axis; the grid has {}x{}x{}",
                     1u << (OCTREE_MAX_LEVELS - 1), size.resolution.x, size.resolution.y, size.resolution.z);
@@ -64,32 +59,29 @@ void allocateOctree(CommandStream& stream, const OctreeSize& size, RadianceVoxel
         throw Error("an octree takes at most {} nodes; this one needs {}: lower voxelize's 'resolution'",
                     OCTREE_MAX_NODES, size.nodeCount());
     Device& device = stream.device();
-    radiance.storage.clear();
-    radiance.storage.emplace_back(device, "octree table", size.tableBytes());
-    radiance.storage.emplace_back(device, "octree nodes", size.nodeBytes());
-    radiance.storage.emplace_back(device, "octree values", size.valueBytes());
-    radiance.header = Buffer(device, "octree header", sizeof(Header));
+    Octree octree;
+    octree.size = size;
+    octree.table = Buffer(device, "octree table", size.tableBytes());
+    octree.nodes = Buffer(device, "octree nodes", size.nodeBytes());
+    octree.header = Buffer(device, "octree header", sizeof(Header));
 
-    Header header{radiance.grid,
-                  radiance.storage[kOctreeTable].address(),
-                  radiance.storage[kOctreeNodes].address(),
-                  radiance.storage[kOctreeValues].address(),
-                  {size.nodeCount(), size.tableLevel(), {}}};
+    Header header{
+        octree.table.address(),
+        octree.nodes.address(),
+        {size.resolution, size.levels(), size.nodeCount(), size.first().front(), size.tableLevel(), {}}};
     const std::vector<uint64_t> offsets = tableOffsets(size);
     std::copy(offsets.begin(), offsets.end() - 1, header.shape.tableFirst);
-    stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
+    stream.upload(octree.header, std::as_bytes(std::span(&header, 1)));
 
     // Number 0 is no node; the root is octant 0 of the table's last level.
     const uint32_t none = 0, aboveRoot = 1u << 8 | 1u;
-    const glm::uvec2 nothing(0);
-    const auto write = [&](OctreeStorage target, const auto& value, uint64_t index) {
-        stream.upload(radiance.storage[target], std::as_bytes(std::span(&value, 1)), index * sizeof(value));
+    const auto write = [&](const Buffer& target, uint32_t word, uint64_t index) {
+        stream.upload(target, std::as_bytes(std::span(&word, 1)), index * sizeof(word));
     };
-    stream.fill(radiance.storage[kOctreeTable], 0);
-    write(kOctreeTable, aboveRoot, offsets.back() - 14);  // The center of 3x3x3.
-    write(kOctreeNodes, none, 0);
-    for (uint64_t face = 0; face < size.directions; ++face)
-        write(kOctreeValues, nothing, face * size.nodeCount());
+    stream.fill(octree.table, 0);
+    write(octree.table, aboveRoot, offsets.back() - 14);  // The center of 3x3x3.
+    write(octree.nodes, none, 0);
+    return octree;
 }
 
 }  // namespace voxray

@@ -2,16 +2,16 @@
 
 #include <vector>
 
-#include "passes/common/radiance/radiance_voxels.h"
+#include "passes/common/voxels/grid_levels.h"
 #include "shaders/octree/octree_types.h"
+#include "vulkan/commands.h"
 
 namespace voxray {
 
 /// How many nodes an octree has on each level, leaves first: all that its memory depends on.
 struct OctreeSize {
     glm::uvec3 resolution{};      ///< Voxels of the grid.
-    uint32_t directions = 1;      ///< Values a node: 1 or 6.
-    std::vector<uint32_t> nodes;  ///< By level, as many as radianceLevels(resolution); the last is the root.
+    std::vector<uint32_t> nodes;  ///< By level, as many as gridLevels(resolution); the last is the root.
 
     uint32_t levels() const { return uint32_t(nodes.size()); }
     /// Number of the first node of each level: the root is 1, leaves come last.
@@ -22,22 +22,28 @@ struct OctreeSize {
     /// dense.
     uint32_t tableLevel() const;
 
-    uint64_t tableBytes() const, nodeBytes() const, valueBytes() const;
-    /// Of all that allocateOctree() makes; exact.
+    uint64_t tableBytes() const, nodeBytes() const;
+    uint64_t leafBytes() const { return uint64_t(nodes.front()) * sizeof(uint32_t); }
+    /// Of all that allocateOctree() makes; exact. leafBytes() come on top where leaves are listed.
     uint64_t bytes() const;
 };
 
-/// The buffers of an octree in RadianceVoxels::storage. GLSL access: shaders/octree/octree.glsl.
-enum OctreeStorage : size_t {
-    kOctreeTable,   ///< A word a voxel, from tableLevel() on up.
-    kOctreeNodes,   ///< A word a node above the leaves.
-    kOctreeValues,  ///< 64 bits by direction and node (shaders/radiance/radiance_texel.glsl).
+/// Which voxels there are on each level, without any values: those are arrays of their own, by a node's
+/// number. GLSL access: shaders/octree/octree.glsl.
+struct Octree {
+    OctreeSize size;
+    Buffer header;      ///< OctreeShape, and the addresses of `table` and `nodes`.
+    Buffer table;       ///< A word a voxel, from tableLevel() on up.
+    Buffer nodes;       ///< A word a node above the leaves.
+    Buffer leafVoxels;  ///< The coordinates of each leaf's surface voxel, 10 bits each.
+
+    std::vector<Binding> bindings() const { return {{"octree", header}}; }
 };
 
-/// Gives `radiance`, whose grid is set, the buffers of an octree and their header. Nodes and values are
-/// undefined; the table holds the level above the root and nothing else.
+/// An octree without a list of its leaves. Nodes are undefined; the table holds the level above the root and
+/// nothing else.
 /// @throws Error for more than OCTREE_MAX_LEVELS or OCTREE_MAX_NODES, and over the memory limit, naming the
 /// number needed.
-void allocateOctree(CommandStream& stream, const OctreeSize& size, RadianceVoxels& radiance);
+Octree allocateOctree(CommandStream& stream, const OctreeSize& size);
 
 }  // namespace voxray

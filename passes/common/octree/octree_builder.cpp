@@ -23,11 +23,6 @@ struct NumberPush {
     uint32_t firstChild;
 };
 
-struct FilterPush {
-    uint32_t firstNode;
-    uint32_t count;
-};
-
 uint64_t flagWords(glm::uvec3 cells) {
     return uint64_t((cells.x + 31) / 32) * cells.y * cells.z;
 }
@@ -38,15 +33,13 @@ OctreeBuilder::OctreeBuilder(Device& device, const ShaderCompiler& compiler)
     : flag_(makeComputeProgram(device, compiler.compile("passes/common/octree/octree_flag.comp"))),
       subdivide_(makeComputeProgram(device, compiler.compile("passes/common/octree/octree_subdivide.comp"))),
       number_(makeComputeProgram(device, compiler.compile("passes/common/octree/octree_number.comp"))),
-      filter_(makeComputeProgram(device, compiler.compile("passes/common/octree/octree_filter.comp"))),
       prefixSum_(device, compiler, PrefixSum::Of::SetBits) {}
 
-OctreeBuilder::Built OctreeBuilder::build(CommandStream& stream, const SurfaceVoxels& voxels,
-                                          RadianceVoxels& radiance) const {
+Octree OctreeBuilder::build(CommandStream& stream, const SurfaceVoxels& voxels) const {
     Device& device = stream.device();
-    OctreeSize size{radiance.grid.resolution, radiance.grid.directions, {}};
+    OctreeSize size{voxels.grid.resolution, {}};
     const std::vector<Buffer> flags = flag(stream, voxels, size);
-    allocateOctree(stream, size, radiance);
+    Octree octree = allocateOctree(stream, size);
 
     // From the root down: which children there are, then their numbers and voxels.
     const std::vector<uint32_t> first = size.first();
@@ -59,11 +52,11 @@ OctreeBuilder::Built OctreeBuilder::build(CommandStream& stream, const SurfaceVo
         Buffer children(device, "octree cells", uint64_t(size.nodes[level - 1]) * sizeof(uint32_t));
         const Buffer& finer = level == 1 ? voxels.occupancy : flags[level - 2];
         stream.dispatch(subdivide_, {{"flags", finer}, {"cells", cells}, {"masks", masks}},
-                        SubdividePush{radianceResolution(size.resolution, level - 1), count},
+                        SubdividePush{levelResolution(size.resolution, level - 1), count},
                         linearGroups(words));
         prefixSum_.run(stream, masks, before, words);
         stream.dispatch(number_,
-                        {{"radianceVoxels", radiance.header},
+                        {{"octree", octree.header},
                          {"cells", cells},
                          {"masks", masks},
                          {"before", before},
@@ -72,24 +65,25 @@ OctreeBuilder::Built OctreeBuilder::build(CommandStream& stream, const SurfaceVo
         stream.finish();
         cells = std::move(children);
     }
-    return {std::move(size), std::move(cells)};
+    octree.leafVoxels = std::move(cells);
+    return octree;
 }
 
 std::vector<Buffer> OctreeBuilder::flag(CommandStream& stream, const SurfaceVoxels& voxels,
                                         OctreeSize& size) const {
     // A bit for each voxel of each level above the leaves, from the bits below.
-    const uint32_t levels = radianceLevels(size.resolution);
+    const uint32_t levels = gridLevels(size.resolution);
     const Buffer counts(stream.device(), "octree node counts", levels * sizeof(uint32_t));
     stream.fill(counts, 0);
     std::vector<Buffer> flags;
     for (uint32_t level = 1; level < levels; ++level) {
-        const glm::uvec3 coarser = radianceResolution(size.resolution, level);
+        const glm::uvec3 coarser = levelResolution(size.resolution, level);
         flags.emplace_back(stream.device(), "octree flags", flagWords(coarser) * sizeof(uint32_t));
         stream.dispatch(flag_,
                         {{"finer", level == 1 ? voxels.occupancy : flags[level - 2]},
                          {"coarser", flags.back()},
                          {"counts", counts}},
-                        FlagPush{radianceResolution(size.resolution, level - 1), coarser, level},
+                        FlagPush{levelResolution(size.resolution, level - 1), coarser, level},
                         linearGroups(flagWords(coarser)));
     }
     size.nodes = stream.readAs<uint32_t>(counts, levels);
@@ -97,19 +91,11 @@ std::vector<Buffer> OctreeBuilder::flag(CommandStream& stream, const SurfaceVoxe
     return flags;
 }
 
-void OctreeBuilder::filter(CommandStream& stream, const OctreeSize& size, const RadianceVoxels& radiance,
-                           const Buffer& changed) const {
-    const std::vector<uint32_t> first = size.first();
-    for (uint32_t level = 1; level < size.levels(); ++level)
-        stream.dispatch(filter_, {{"radianceVoxels", radiance.header}, {"changed", changed}},
-                        FilterPush{first[level], size.nodes[level]}, linearGroups(size.nodes[level]));
-}
-
 uint64_t OctreeBuilder::scratchBytes(const OctreeSize& size) {
     if (size.levels() == 1) return 0;
     uint64_t bytes = size.levels() * sizeof(uint32_t);
     for (uint32_t level = 1; level < size.levels(); ++level)
-        bytes += flagWords(radianceResolution(size.resolution, level)) * sizeof(uint32_t);
+        bytes += flagWords(levelResolution(size.resolution, level)) * sizeof(uint32_t);
     // The step from level 1 to the leaves takes most: masks and ranks a word of four nodes, voxels a node.
     const uint64_t words = (size.nodes[1] + 3) / 4, blocks = (words + 1023) / 1024 + 1;
     return bytes + (2 * words + blocks + size.nodes[1]) * sizeof(uint32_t);

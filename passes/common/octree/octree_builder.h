@@ -14,31 +14,18 @@ class OctreeBuilder {
  public:
     OctreeBuilder(Device& device, const ShaderCompiler& compiler);
 
-    struct Built {
-        OctreeSize size;
-        Buffer leaves;  ///< The voxel of each leaf, 10 bits for each coordinate.
-    };
-    /// Gives `radiance`, whose grid is set, the structure over `voxels`; values are left undefined. Waits for
-    /// the device. @throws Error over the memory limit, with the bytes needed, before it allocates the
-    /// octree.
-    Built build(CommandStream& stream, const SurfaceVoxels& voxels, RadianceVoxels& radiance) const;
+    /// The octree over `voxels`, which are held whole, with the list of its leaves. Waits for the device.
+    /// @throws Error over the memory limit, with the bytes needed, before it allocates the octree.
+    Octree build(CommandStream& stream, const SurfaceVoxels& voxels) const;
 
-    /// Values of all inner nodes whose children's have changed. `changed`: a bit a node (changedBytes()), set
-    /// for leaves with a new value, or for all nodes; the nodes that get a new value are set.
-    void filter(CommandStream& stream, const OctreeSize& size, const RadianceVoxels& radiance,
-                const Buffer& changed) const;
-    static uint64_t changedBytes(const OctreeSize& size) {
-        return (uint64_t(size.nodeCount()) + 31) / 32 * sizeof(uint32_t);
-    }
-
-    /// Bytes that build() takes for a while besides what it returns.
+    /// Bytes that build() takes only while it runs, besides what it returns.
     static uint64_t scratchBytes(const OctreeSize& size);
 
  private:
     /// The flags of each level above the leaves; sets size.nodes.
     std::vector<Buffer> flag(CommandStream& stream, const SurfaceVoxels& voxels, OctreeSize& size) const;
 
-    Program flag_, subdivide_, number_, filter_;
+    Program flag_, subdivide_, number_;
     PrefixSum prefixSum_;
 };
 

@@ -2,7 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 // Numbers the children of a level's nodes: they follow each other in the order of the masks' bits. Writes the nodes' words, in the
 // table too, and the voxels of the children. A thread takes four nodes.
-#include "passes/common/octree/octree_cells.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/octree.glsl"
 layout(local_size_x = 64) in;
@@ -25,9 +24,9 @@ void main() {
         const uint mask = masks.words[word] >> (8u * (i & 3u)) & 0xffu;
         const uint node = mask | (push.firstChild + child) << 8;
         const ivec3 cell = unpackCell(cells.data[i]);
-        radianceVoxels.nodes.data[push.firstNode + i] = node;
-        if (push.level >= radianceVoxels.octree.tableLevel)
-            radianceVoxels.table.data[octreeTableEntry(cell, push.level)] = node;
+        octree.nodes.data[push.firstNode + i] = node;
+        if (push.level >= octree.shape.tableLevel)
+            octree.table.data[octreeTableEntry(cell, push.level)] = node;
         for (uint bits = mask; bits != 0u; bits &= bits - 1u)
             childCells.data[child++] = packCell(2 * cell + octantOffset(findLSB(bits)));
     }

@@ -1,9 +1,5 @@
 #include "passes/common/radiance/radiance_voxels.h"
 
-#include <algorithm>
-#include <bit>
-#include <glm/common.hpp>
-
 namespace voxray {
 
 Defines RadianceVoxels::defines() const {
@@ -18,12 +14,11 @@ Defines RadianceVoxels::defines() const {
     return {};
 }
 
-uint32_t radianceLevels(glm::uvec3 resolution) {
-    return uint32_t(std::bit_width(std::max({resolution.x, resolution.y, resolution.z}) - 1)) + 1;
-}
-
-glm::uvec3 radianceResolution(glm::uvec3 resolution, uint32_t level) {
-    return (resolution + ((1u << level) - 1u)) >> level;
+std::vector<Binding> RadianceVoxels::bindings() const {
+    std::vector<Binding> all{{"radianceVoxels", header}};
+    if (layout == RadianceLayout::Svo)
+        for (const Binding& binding : octree.bindings()) all.push_back(ifUsed(binding));
+    return all;
 }
 
 }  // namespace voxray

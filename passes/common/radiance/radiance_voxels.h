@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "graph/pass.h"
+#include "passes/common/octree/octree.h"
 #include "shaders/radiance/radiance_types.h"
 
 namespace voxray {
@@ -25,16 +26,10 @@ struct RadianceVoxels : Resource {
     gpu::RadianceGrid grid{};
     Buffer header;                ///< RadianceGrid, then what the layout needs to find its values.
     std::vector<Buffer> storage;  ///< What the header's addresses lead to.
+    Octree octree;                ///< Layout svo: the structure whose nodes' values `storage` holds.
 
     Defines defines() const;
-    std::vector<Binding> bindings() const { return {{"radianceVoxels", header}}; }
+    std::vector<Binding> bindings() const;
 };
-
-/// Levels from a grid's voxels to a single one round them all.
-uint32_t radianceLevels(glm::uvec3 resolution);
-
-/// Voxels of a level along each axis, of a grid of `resolution`: half as many as of the level below, rounded
-/// up.
-glm::uvec3 radianceResolution(glm::uvec3 resolution, uint32_t level);
 
 }  // namespace voxray

@@ -1,11 +1,11 @@
 // Which nodes of an octree have a new value: a bit each. What has none need not be filtered again.
-#include "shaders/octree/octree.glsl"
+#include "shaders/radiance/radiance_svo.glsl"
 
 buffer Changed { uint bits[]; } changed;
 
 // Stores a node's value; the node has changed where its bits have.
 void replaceOctreeValue(uint node, uint face, vec4 value) {
-    const uint at = face * radianceVoxels.octree.nodeCount + node;
+    const uint at = octreeValueIndex(node, face);
     const uvec2 packed = packRadiance(value);
     if (radianceVoxels.values.data[at] == packed) return;
     radianceVoxels.values.data[at] = packed;

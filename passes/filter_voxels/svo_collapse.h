@@ -1,27 +1,27 @@
 #pragma once
 
 #include "passes/common/compute/prefix_sum.h"
-#include "passes/common/octree/octree.h"
+#include "passes/filter_voxels/svo_values.h"
 
 namespace voxray {
 
 /// Replaces uniform parts of an octree by one value each: where all eight children of a node hold the same
 /// bits, the node stands for them, and so on upwards (Crassin 2011; Arnebäck 2017, section 5.4 and figure
 /// 48). Exact: samples stay as they are.
-class OctreeCollapse {
+class SvoCollapse {
  public:
-    OctreeCollapse(Device& device, const ShaderCompiler& compiler);
+    SvoCollapse(Device& device, const ShaderCompiler& compiler);
 
     /// Puts a smaller octree into `radiance`, and leaves it as it is where nothing is uniform. Waits for the
-    /// device. @return the size of what is there now.
-    OctreeSize run(CommandStream& stream, const OctreeSize& size, RadianceVoxels& radiance) const;
+    /// device.
+    void run(CommandStream& stream, RadianceVoxels& radiance) const;
 
-    /// Bytes that run() takes for a while, at most, besides a second, smaller octree.
+    /// Bytes that run() takes only while it runs, at most, besides a second, smaller octree.
     static uint64_t scratchBytes(const OctreeSize& size);
 
  private:
-    RadianceVoxels shrink(CommandStream& stream, const RadianceVoxels& radiance, const OctreeSize& size,
-                          const Buffer& uniform, const OctreeSize& smaller) const;
+    RadianceVoxels shrink(CommandStream& stream, const RadianceVoxels& radiance, const Buffer& uniform,
+                          const OctreeSize& smaller) const;
 
     Program uniform_, masks_, words_, table_;
     PrefixSum prefixSum_;

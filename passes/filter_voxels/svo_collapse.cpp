@@ -1,4 +1,4 @@
-#include "passes/common/octree/octree_collapse.h"
+#include "passes/filter_voxels/svo_collapse.h"
 
 #include <algorithm>
 
@@ -22,49 +22,48 @@ struct LevelPush {
 
 }  // namespace
 
-OctreeCollapse::OctreeCollapse(Device& device, const ShaderCompiler& compiler)
+SvoCollapse::SvoCollapse(Device& device, const ShaderCompiler& compiler)
     : prefixSum_(device, compiler, PrefixSum::Of::SetBits) {
     const auto program = [&](const char* file, const Defines& defines) {
         return makeComputeProgram(device,
-                                  compiler.compile(std::string("passes/common/octree/") + file, defines));
+                                  compiler.compile(std::string("passes/filter_voxels/") + file, defines));
     };
-    uniform_ = program("octree_uniform.comp", {});
-    masks_ = program("octree_collapse.comp", {{"MASKS", "1"}});
-    words_ = program("octree_collapse.comp", {{"WORDS", "1"}});
-    table_ = program("octree_collapse_table.comp", {});
+    uniform_ = program("svo_uniform.comp", {});
+    masks_ = program("svo_collapse.comp", {{"MASKS", "1"}});
+    words_ = program("svo_collapse.comp", {{"WORDS", "1"}});
+    table_ = program("svo_collapse_table.comp", {});
 }
 
-OctreeSize OctreeCollapse::run(CommandStream& stream, const OctreeSize& size,
-                               RadianceVoxels& radiance) const {
+void SvoCollapse::run(CommandStream& stream, RadianceVoxels& radiance) const {
     // From the leaves up: which nodes are uniform.
+    const OctreeSize& size = radiance.octree.size;
     const std::vector<uint32_t> first = size.first();
     const Buffer uniform(stream.device(), "octree uniform nodes",
                          (uint64_t(size.nodeCount()) + 31) / 32 * sizeof(uint32_t));
     const Buffer counts(stream.device(), "octree uniform counts", size.levels() * sizeof(uint32_t));
     stream.fill(uniform, 0);
     stream.fill(counts, 0);
+    std::vector<Binding> bindings = radiance.bindings();
+    bindings.insert(bindings.end(), {{"uniform_", uniform}, {"counts", counts}});
     for (uint32_t level = 1; level < size.levels(); ++level)
-        stream.dispatch(uniform_,
-                        {{"radianceVoxels", radiance.header}, {"uniform_", uniform}, {"counts", counts}},
-                        UniformPush{level, size.nodes[level], first[level]}, linearGroups(size.nodes[level]));
+        stream.dispatch(uniform_, bindings, UniformPush{level, size.nodes[level], first[level]},
+                        linearGroups(size.nodes[level]));
 
     // Each of them drops its eight children.
     const std::vector<uint32_t> uniformNodes = stream.readAs<uint32_t>(counts, size.levels());
     OctreeSize smaller = size;
     for (uint32_t level = 1; level < size.levels(); ++level)
         smaller.nodes[level - 1] -= 8 * uniformNodes[level];
-    if (smaller.nodes != size.nodes) radiance = shrink(stream, radiance, size, uniform, smaller);
-    return smaller;
+    if (smaller.nodes != size.nodes) radiance = shrink(stream, radiance, uniform, smaller);
 }
 
-RadianceVoxels OctreeCollapse::shrink(CommandStream& stream, const RadianceVoxels& radiance,
-                                      const OctreeSize& size, const Buffer& uniform,
-                                      const OctreeSize& smaller) const {
+RadianceVoxels SvoCollapse::shrink(CommandStream& stream, const RadianceVoxels& radiance,
+                                   const Buffer& uniform, const OctreeSize& smaller) const {
     Device& device = stream.device();
     RadianceVoxels result;
     result.layout = radiance.layout;
     result.grid = radiance.grid;
-    allocateOctree(stream, smaller, result);
+    allocateSvoValues(stream, allocateOctree(stream, smaller), result);
 
     // From the root down, as it was built: masks, numbers, then words, values and the next level's list.
     const std::vector<uint32_t> first = smaller.first();
@@ -78,28 +77,35 @@ RadianceVoxels OctreeCollapse::shrink(CommandStream& stream, const RadianceVoxel
         const Buffer before(device, "octree ranks", uint64_t(words) * sizeof(uint32_t));
         Buffer children(device, "octree children", uint64_t(std::max(childCount, 1u)) * sizeof(glm::uvec2));
         const LevelPush push{level, count, first[level], level > 0 ? first[level - 1] : 0};
-        std::vector<Binding> bindings{
-            {"radianceVoxels", radiance.header}, {"nodes", nodes}, {"uniform_", uniform}, {"masks", masks}};
-        stream.dispatch(masks_, bindings, push, linearGroups(words));
+        stream.dispatch(
+            masks_,
+            {{"octree", radiance.octree.header}, {"nodes", nodes}, {"uniform_", uniform}, {"masks", masks}},
+            push, linearGroups(words));
         prefixSum_.run(stream, masks, before, words);
-        bindings.pop_back();
-        bindings.insert(bindings.end(),
-                        {{"before", before}, {"children", children}, {"collapsed", result.header}});
-        stream.dispatch(words_, bindings, push, linearGroups(words));
+        stream.dispatch(words_,
+                        {{"octree", radiance.octree.header},
+                         {"radianceVoxels", radiance.header},
+                         {"nodes", nodes},
+                         {"uniform_", uniform},
+                         {"before", before},
+                         {"children", children},
+                         {"collapsed", result.octree.header},
+                         {"collapsedValues", result.header}},
+                        push, linearGroups(words));
         stream.finish();
         nodes = std::move(children);
     }
 
     for (uint32_t level = smaller.levels(); level-- > smaller.tableLevel();) {
-        const glm::uvec3 voxels = radianceResolution(size.resolution, level);
-        stream.dispatch(table_, result.bindings(), level,
+        const glm::uvec3 voxels = levelResolution(smaller.resolution, level);
+        stream.dispatch(table_, result.octree.bindings(), level,
                         linearGroups(uint64_t(voxels.x) * voxels.y * voxels.z));
     }
     stream.finish();
     return result;
 }
 
-uint64_t OctreeCollapse::scratchBytes(const OctreeSize& size) {
+uint64_t SvoCollapse::scratchBytes(const OctreeSize& size) {
     // Marks, and the step of the largest level: masks and ranks a word of four nodes, place and voxel a node.
     const uint64_t marks = (uint64_t(size.nodeCount()) + 31) / 32 + size.levels();
     const uint64_t words = (uint64_t(size.nodes.front()) + 3) / 4, blocks = (words + 1023) / 1024 + 1;

@@ -12,6 +12,6 @@ void main() {
     const uint i = linearIndex();
     if (i >= size.x * size.y * size.z) return;
     const ivec3 voxel = ivec3(i % size.x, i / size.x % size.y, i / size.x / size.y);
-    const uint parent = radianceVoxels.table.data[octreeTableEntry(voxel >> 1, push.level + 1u)];
-    if (isUniform(parent)) radianceVoxels.table.data[octreeTableEntry(voxel, push.level)] = parent;
+    const uint parent = octree.table.data[octreeTableEntry(voxel >> 1, push.level + 1u)];
+    if (isUniform(parent)) octree.table.data[octreeTableEntry(voxel, push.level)] = parent;
 }

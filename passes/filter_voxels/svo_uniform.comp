@@ -3,7 +3,7 @@
 // Marks and counts the uniform nodes of a level: all eight children are there, are uniform or leaves, and hold the same bits as
 // the node in each direction, so that it can stand for them. A thread takes a node.
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/octree/octree.glsl"
+#include "shaders/radiance/radiance_svo.glsl"
 layout(local_size_x = 64) in;
 
 buffer Uniform { uint bits[]; } uniform_;
@@ -15,14 +15,15 @@ layout(push_constant) uniform Push {
 } push;
 
 bool standsForAll(uint node) {
-    const uint word = radianceVoxels.nodes.data[node];
+    const uint word = octree.nodes.data[node];
     if (octreeMask(word) != 0xffu) return false;
     for (uint octant = 0u; octant < 8u; ++octant) {
         const uint child = octreeChild(word, octant);
         if (push.level > 1u && (uniform_.bits[child / 32u] >> (child & 31u) & 1u) == 0u) return false;
         for (uint face = 0u; face < radianceVoxels.grid.directions; ++face) {
-            const uint values = face * radianceVoxels.octree.nodeCount;
-            if (radianceVoxels.values.data[values + child] != radianceVoxels.values.data[values + node]) return false;
+            if (radianceVoxels.values.data[octreeValueIndex(child, face)] !=
+                radianceVoxels.values.data[octreeValueIndex(node, face)])
+                return false;
         }
     }
     return true;

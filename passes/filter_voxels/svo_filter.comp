@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The values of a level's nodes from their children's, where any of those has changed. A thread takes a node.
-#include "passes/common/octree/octree_change.glsl"
+#include "passes/filter_voxels/svo_change.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance/radiance_filter.glsl"
 layout(local_size_x = 64) in;
@@ -13,7 +13,7 @@ layout(push_constant) uniform Push {
 
 void main() {
     if (linearIndex() >= push.count) return;
-    const uint node = push.firstNode + linearIndex(), word = radianceVoxels.nodes.data[node];
+    const uint node = push.firstNode + linearIndex(), word = octree.nodes.data[node];
     if (!anyChanged(word >> 8, uint(bitCount(octreeMask(word))))) return;
     const uint directions = radianceVoxels.grid.directions;
     for (uint face = 0u; face < directions; ++face) {

@@ -1,8 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The values of an octree's leaves: the surfaces' own radiance and cover. A thread takes a leaf.
-#include "passes/common/octree/octree_cells.glsl"
-#include "passes/common/octree/octree_change.glsl"
+#include "passes/filter_voxels/svo_change.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance/surface_radiance.glsl"
 layout(local_size_x = 64) in;

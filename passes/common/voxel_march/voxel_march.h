@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "graph/pass.h"
+#include "passes/common/octree/octree_builder.h"
+#include "passes/common/voxels/voxels.h"
+
+namespace voxray {
+
+/// How a ray finds the occupied voxels on its way. All find the same ones.
+enum class VoxelWalk {
+    Bits,           ///< Voxel by voxel over the occupancy bits.
+    Bricks,         ///< Bits with coarser ones for 4^3 and 16^3 voxels: empty space in larger steps.
+    OctreeRestart,  ///< The octree, from its root down in each step (Sun and Agu 2015, figure 3).
+    Octree,         ///< The octree, from the smallest node that holds both ends of the step.
+};
+template <>
+struct EnumNames<VoxelWalk> {
+    static constexpr std::array names{
+        std::pair{VoxelWalk::Bits, "bits"}, std::pair{VoxelWalk::Bricks, "bricks"},
+        std::pair{VoxelWalk::OctreeRestart, "octree_restart"}, std::pair{VoxelWalk::Octree, "octree"}};
+};
+
+/// What rays walk through: surface voxels and what a walk needs besides, built of them. A shader that walks
+/// is compiled with defines(), includes shaders/voxel_march/voxel_march.glsl and is given bindings(): it is
+/// written once for all walks. Docs: docs/voxel-march.md.
+class VoxelMarch {
+ public:
+    VoxelMarch() = default;
+    /// @param epsilon for OctreeRestart: steps in floats, past each node by this many voxels, as in the
+    /// paper, which skips what is thinner; 0 steps exactly.
+    VoxelMarch(Device& device, const ShaderCompiler& compiler, VoxelWalk walk, float epsilon = 0);
+
+    /// Reserves what a walk takes besides the voxels. @throws Error for a grid that it can't walk through.
+    static void plan(PassPlan& plan, const SurfaceVoxels& voxels, VoxelWalk walk);
+
+    /// Takes over the voxels where their content is another one, and sets the counts to 0. `voxels` must
+    /// outlive the walks. Waits for the device where it builds.
+    void begin(CommandStream& stream, const SurfaceVoxels& voxels);
+
+    Defines defines() const;
+    /// Of all that shaders/voxel_march/voxel_march.glsl may use.
+    std::vector<Binding> bindings() const;
+    /// Steps and visits since begin(), 64 bits each (PassContext::countVoxelSteps).
+    const Buffer& counts() const { return counts_; }
+
+    uint64_t memoryBytes() const;
+
+ private:
+    VoxelWalk walk_ = VoxelWalk::Bits;
+    float epsilon_ = 0;
+    std::optional<OctreeBuilder> builder_;
+    Program bricksOf_, blocksOf_;
+    const SurfaceVoxels* voxels_ = nullptr;
+    std::optional<uint64_t> version_;  ///< Of the voxels that bricks or octree are built of.
+    Octree octree_;
+    Buffer bricks_;
+    Buffer counts_;
+};
+
+}  // namespace voxray

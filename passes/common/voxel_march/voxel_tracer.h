@@ -1,0 +1,41 @@
+#pragma once
+
+#include "passes/common/voxel_march/voxel_march.h"
+#include "trace/ray_tracer.h"
+
+namespace voxray {
+
+/// Streams of rays through voxels, with the interface of rays through triangles: what takes the one can take
+/// the other, for comparison (Magalhães 2020, section 3.3.3.2). A hit's `triangle` is the number of the
+/// surface voxel, its t is where the ray enters it, u and v are 0. Rays that start in an occupied voxel hit
+/// it: whoever starts them at a surface moves their ends out of its voxels (kVoxelsOffSurface).
+class VoxelTracer final : public RayTracer {
+ public:
+    VoxelTracer(Device& device, const ShaderCompiler& compiler, VoxelWalk walk, float epsilon = 0);
+
+    std::string_view name() const override { return "voxels"; }
+    /// Takes over the voxels, as VoxelMarch::begin(); before the first rays and where the voxels have
+    /// changed.
+    void begin(CommandStream& stream, const SurfaceVoxels& voxels) {
+        march_.begin(stream, voxels);
+        grid_ = voxels.grid;
+    }
+    /// Nothing: begin() takes over what has moved.
+    void update(CommandStream&) override {}
+    size_t memoryBytes() const override { return march_.memoryBytes(); }
+    const VoxelMarch& march() const { return march_; }
+
+ private:
+    void trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
+               Coherence coherence) override;
+
+    VoxelMarch march_;
+    Program closestHit_, occluded_;
+    gpu::VoxelGrid grid_{};
+};
+
+/// How far along its normal a point is from a plane when no voxel that the plane touches holds it, in voxels:
+/// the diagonal of a voxel.
+constexpr float kVoxelsOffSurface = 1.7320508f;
+
+}  // namespace voxray

@@ -1,0 +1,64 @@
+#include "passes/filter_voxels/svo_values.h"
+
+#include <utility>
+
+#include "passes/common/compute/dispatch.h"
+
+namespace voxray {
+namespace {
+
+/// The buffer `radianceVoxels` of shaders/radiance/radiance_svo.glsl.
+struct Header {
+    gpu::RadianceGrid grid;
+    VkDeviceAddress values;
+};
+static_assert(sizeof(gpu::RadianceGrid) % sizeof(VkDeviceAddress) == 0);
+
+struct FilterPush {
+    uint32_t firstNode;
+    uint32_t count;
+};
+
+uint64_t arrayBytes(const OctreeSize& size, uint32_t directions) {
+    return uint64_t(size.nodeCount()) * directions * sizeof(glm::uvec2);
+}
+
+}  // namespace
+
+uint64_t svoValueBytes(const OctreeSize& size, uint32_t directions) {
+    return sizeof(Header) + arrayBytes(size, directions);
+}
+
+void allocateSvoValues(CommandStream& stream, Octree octree, RadianceVoxels& radiance) {
+    Device& device = stream.device();
+    const uint32_t directions = radiance.grid.directions;
+    radiance.storage.clear();
+    radiance.octree = std::move(octree);
+    const OctreeSize& size = radiance.octree.size;
+    const Buffer& values =
+        radiance.storage.emplace_back(device, "octree values", arrayBytes(size, directions));
+    radiance.header = Buffer(device, "octree values' header", sizeof(Header));
+    const Header header{radiance.grid, values.address()};
+    stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
+
+    // NO_NODE holds nothing.
+    const glm::uvec2 nothing(0);
+    for (uint64_t face = 0; face < directions; ++face)
+        stream.upload(values, std::as_bytes(std::span(&nothing, 1)),
+                      face * size.nodeCount() * sizeof(nothing));
+}
+
+SvoFilter::SvoFilter(Device& device, const ShaderCompiler& compiler)
+    : program_(makeComputeProgram(device, compiler.compile("passes/filter_voxels/svo_filter.comp"))) {}
+
+void SvoFilter::run(CommandStream& stream, const RadianceVoxels& radiance, const Buffer& changed) const {
+    const OctreeSize& size = radiance.octree.size;
+    const std::vector<uint32_t> first = size.first();
+    std::vector<Binding> bindings = radiance.bindings();
+    bindings.emplace_back("changed", changed);
+    for (uint32_t level = 1; level < size.levels(); ++level)
+        stream.dispatch(program_, bindings, FilterPush{first[level], size.nodes[level]},
+                        linearGroups(size.nodes[level]));
+}
+
+}  // namespace voxray

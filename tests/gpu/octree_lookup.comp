@@ -1,0 +1,19 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Where a list of voxels stands in an octree: each one's leaf, and the level at which a cone from its center would start.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/radiance/radiance_voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Queries { ivec3 voxel[]; } queries;
+layout(scalar) writeonly buffer Answers { uvec2 data[]; } answers;
+layout(push_constant) uniform Push { uint count; } push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const ivec3 voxel = queries.voxel[i];
+    const vec3 center = radianceVoxels.grid.origin + radianceVoxels.grid.voxelSize * (vec3(voxel) + 0.5);
+    answers.data[i] = uvec2(octreeLeaf(voxel), startLevel(center, 0.5));
+}
