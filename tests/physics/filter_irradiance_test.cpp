@@ -66,7 +66,7 @@ class KnownIrradiance final : public Pass {
 
 ImageF filterKnown(const std::string& source, const std::string& filter, const std::string& scene,
                    const std::string& samples = "1") {
-    Chain chain(scene, "{}",
+    Chain chain(scene, scene == "white_room" ? "{albedo: 0.5}" : "{}",
                 "[{pass: gbuffer, samples: " + samples + "}, {pass: known_irradiance, " + source +
                     "}, {pass: filter_irradiance, " + filter + "}]",
                 48, 48, 1, [](Registry& registry) { registry.add<KnownIrradiance>(); });
