@@ -90,8 +90,10 @@ TEST(FilterIrradiance, KeepsConstantIrradianceExactly) {
 }
 
 TEST(FilterIrradiance, MultipliesByAlbedoOverPi) {
-    const ImageF image = filterKnown("rays: 1", "levels: 4", "white_room");
-    for (const float value : image.data) EXPECT_NEAR(value, 0.5 * 2 / kPi, 1e-6);
+    // The g-buffer keeps albedo in half floats, cut off at 11 bits.
+    const double expected = 0.5 * 2 / kPi;
+    for (const float value : filterKnown("rays: 1", "levels: 4", "white_room").data)
+        EXPECT_NEAR(value, expected, expected * 0x1p-10);
 }
 
 TEST(FilterIrradiance, KeepsTheMeanOfNoise) {
@@ -203,8 +205,6 @@ TEST(FilterIrradiance, FollowsAnySource) {
         const ImageF raw = image(source, ", {pass: composite}]"), filtered = image(source, kFilter);
         EXPECT_NEAR(mean(filtered) / mean(expected), 1, 0.03) << source;
         EXPECT_LT(difference(filtered, expected), 0.5 * difference(raw, expected)) << source;
-        std::printf("%s: %.3f raw, %.3f filtered\n", source.c_str(), difference(raw, expected),
-                    difference(filtered, expected));
     }
 }
 
