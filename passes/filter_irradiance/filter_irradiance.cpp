@@ -24,15 +24,6 @@ struct WaveletPush {
     float edgeStoppingScale;
 };
 
-uint64_t guideBytes(glm::uvec2 texels) {
-    return uint64_t(texels.x) * texels.y * sizeof(gpu::FilterTexel);
-}
-
-uint64_t statisticsBytes(const NoisyIrradiance& noisy, glm::uvec2 texels) {
-    const glm::uvec2 blocks = noisy.blocks(texels);
-    return uint64_t(blocks.x) * blocks.y * sizeof(gpu::RayStatistics);
-}
-
 }  // namespace
 
 void FilterIrradiance::declare(PassBuilder& builder) {
@@ -52,34 +43,28 @@ void FilterIrradiance::plan(PassPlan& plan) {
             noisy.spacing, params_.levels, minLevels);
     const uint32_t samples = plan.get(gbuffer_).samples;
     const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
-    plan.reserve("indirect image", imageBytes(frameImageDesc(plan.frame)));
-    plan.reserve("filtered irradiance",
-                 std::min(params_.levels, 2u) * imageBytes(NoisyIrradiance::desc(plan.frame, samples)));
-    plan.reserve("guide of the filter", guideBytes(texels));
-    if (noisy.blockSize > 0) plan.reserve("statistics of rays", statisticsBytes(noisy, texels));
+    plan.image(plan.get(indirect_).image, "filtered indirect", frameImageDesc(plan.frame));
+    for (uint32_t i = 0; i < std::min(params_.levels, 2u); ++i)
+        plan.image(filtered_[i], "filtered irradiance", NoisyIrradiance::desc(plan.frame, samples));
+    plan.buffer(guides_, "guide of the filter", uint64_t(texels.x) * texels.y * sizeof(gpu::FilterTexel));
+    if (noisy.blockSize > 0) {
+        const glm::uvec2 blocks = noisy.blocks(texels);
+        plan.buffer(blockStatistics_, "statistics of rays",
+                    uint64_t(blocks.x) * blocks.y * sizeof(gpu::RayStatistics));
+    }
 }
 
 void FilterIrradiance::prepare(PassSetup& setup) {
-    const NoisyIrradiance& noisy = setup.get(noisy_);
-    const uint32_t samples = setup.get(gbuffer_).samples;
-    const glm::uvec2 texels = gbufferExtent(setup.frame, samples);
+    const bool hasMoments = setup.get(noisy_).blockSize > 0;
     const auto program = [&](const char* file, const Defines& defines = {}) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
-    if (noisy.blockSize > 0) {
-        statistics_ = program("passes/filter_irradiance/statistics.comp");
-        blockStatistics_ = Buffer(setup.device, "statistics of rays", statisticsBytes(noisy, texels));
-    }
-    guide_ = program("passes/filter_irradiance/guide.comp",
-                     noisy.blockSize > 0 ? Defines{{"MOMENTS", "1"}} : Defines{});
+    if (hasMoments) statistics_ = program("passes/filter_irradiance/statistics.comp");
+    guide_ =
+        program("passes/filter_irradiance/guide.comp", hasMoments ? Defines{{"MOMENTS", "1"}} : Defines{});
     wavelet_ = program("passes/filter_irradiance/wavelet.comp");
     resolve_ = IrradianceResolve(setup);
     sampler_ = texelSampler(setup.device);
-    guides_ = Buffer(setup.device, "guide of the filter", guideBytes(texels));
-    for (uint32_t i = 0; i < std::min(params_.levels, 2u); ++i)
-        filtered_[i] =
-            Image(setup.device, "filtered irradiance", NoisyIrradiance::desc(setup.frame, samples));
-    setup.get(indirect_).image = Image(setup.device, "filtered indirect", frameImageDesc(setup.frame));
 }
 
 void FilterIrradiance::record(PassContext& context) {

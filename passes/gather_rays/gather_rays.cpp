@@ -54,14 +54,15 @@ void GatherRays::plan(PassPlan& plan) {
             "gather_rays: blocks of {0}x{0} texels have {1} rays, which leaves texels without any; let "
             "filter_irradiance follow, or raise 'rays' of trace_gather_rays to {2}",
             hits.layout.blockSize, hits.layout.raysPerBlock, texelsPerBlock);
-    plan.reserve("noisy irradiance",
-                 imageBytes(NoisyIrradiance::desc(plan.frame, plan.get(gbuffer_).samples)));
+    plan.image(noisy.irradiance, "noisy irradiance",
+               NoisyIrradiance::desc(plan.frame, plan.get(gbuffer_).samples));
     if (noisy.isRead) {
         noisy.blockSize = hits.layout.blockSize;
-        plan.reserve("moments of rays", noisy.momentsBytes(hits.layout.texels));
+        plan.buffer(noisy.moments, "moments of rays", noisy.momentsBytes(hits.layout.texels));
     }
-    if (plan.get(indirect_).isRead) plan.reserve("indirect image", imageBytes(frameImageDesc(plan.frame)));
-    plan.reserve("light of a batch of rays", batchRays(hits) * kLightBytes);
+    if (FrameImage& indirect = plan.get(indirect_); indirect.isRead)
+        plan.image(indirect.image, "indirect", frameImageDesc(plan.frame));
+    plan.buffer(light_, "light of gather rays", batchRays(hits) * kLightBytes);
     if (shadowRays()) {
         sources_ = lightSources(*plan.frame.scene);
         hitLight_.plan(plan, uint32_t(batchRays(hits)));
@@ -72,28 +73,17 @@ void GatherRays::plan(PassPlan& plan) {
 }
 
 void GatherRays::prepare(PassSetup& setup) {
-    const GatherHits& hits = setup.get(hits_);
-    NoisyIrradiance& noisy = setup.get(noisy_);
-    noisy.irradiance = Image(setup.device, "noisy irradiance",
-                             NoisyIrradiance::desc(setup.frame, setup.get(gbuffer_).samples));
     const auto program = [&](const char* file, const Defines& defines = {}) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
     const Defines direct = shadowRays() ? Defines{{"SHADOW_RAYS", "1"}} : Defines{};
     shade_ = program("passes/gather_rays/shade.comp", direct);
     collect_ = program("passes/gather_rays/collect.comp", direct);
-    if (noisy.blockSize > 0) {
-        moments_ = program("passes/gather_rays/moments.comp", direct);
-        noisy.moments = Buffer(setup.device, "moments of rays", noisy.momentsBytes(hits.layout.texels));
-    }
-    if (FrameImage& indirect = setup.get(indirect_); indirect.isRead) {
-        resolve_ = IrradianceResolve(setup);
-        indirect.image = Image(setup.device, "indirect", frameImageDesc(setup.frame));
-    }
+    if (setup.get(noisy_).isRead) moments_ = program("passes/gather_rays/moments.comp", direct);
+    if (setup.get(indirect_).isRead) resolve_ = IrradianceResolve(setup);
     faces_ = FaceIrradiance(setup.device, setup.compiler);
     facesVersion_.reset();
     sampler_ = texelSampler(setup.device);
-    light_ = Buffer(setup.device, "light of gather rays", batchRays(hits) * kLightBytes);
     if (shadowRays()) hitLight_.prepare(setup);
 }
 
@@ -142,7 +132,7 @@ void GatherRays::gather(PassContext& context, uint32_t batch) {
     const NoisyIrradiance& noisy = context.get(noisy_);
     add(collect_, {"gathered", noisy.irradiance}, CollectPush{hits.layout, firstBlock, blocks},
         uint64_t(blocks) * texelsPerBlock);
-    if (noisy.blockSize > 0)
+    if (noisy.isRead)
         add(moments_, {"moments", noisy.moments}, MomentsPush{firstBlock, blocks, hits.layout.raysPerBlock},
             blocks);
 }

@@ -50,8 +50,7 @@ void PathTracePass::plan(PassPlan& plan) {
         noisy.blockSize = texels * options_.momentsPixels();
         const ImageDesc desc = NoisyIrradiance::desc(plan.frame, texels);
         plan.image(noisy.irradiance, "path traced irradiance", desc);
-        plan.buffer(noisy.moments, "moments of paths",
-                    noisy.momentsBytes(gbufferExtent(plan.frame, texels)));
+        plan.buffer(noisy.moments, "moments of paths", noisy.momentsBytes(gbufferExtent(plan.frame, texels)));
         largest = imageBytes(desc);
     }
     plan.reserveScratch("staging of an image", largest);

@@ -35,13 +35,13 @@ class KnownIrradiance final : public Pass {
         gbuffer_ = builder.read<GBuffer>("gbuffer", "for its size");
         noisy_ = builder.write<NoisyIrradiance>("noisy_irradiance", "known irradiance");
     }
-    void plan(PassPlan& plan) override { plan.get(noisy_).spacing = params_.spacing; }
-    void prepare(PassSetup& setup) override {
-        const ImageDesc desc = NoisyIrradiance::desc(setup.frame, setup.get(gbuffer_).samples);
-        setup.get(noisy_).irradiance = Image(setup.device, "known irradiance", desc);
-        staging_ = Buffer(setup.device, "known irradiance staging",
-                          uint64_t(desc.extent.x) * desc.extent.y * sizeof(glm::vec4), MemoryKind::Upload);
+    void plan(PassPlan& plan) override {
+        NoisyIrradiance& noisy = plan.get(noisy_);
+        noisy.spacing = params_.spacing;
+        plan.image(noisy.irradiance, "known irradiance",
+                   NoisyIrradiance::desc(plan.frame, plan.get(gbuffer_).samples));
     }
+    void prepare(PassSetup&) override {}
     void record(PassContext& context) override {
         const Image& image = context.get(noisy_).irradiance;
         const glm::uvec3 texels = image.desc().extent;
@@ -52,16 +52,13 @@ class KnownIrradiance final : public Pass {
             for (uint32_t x = 0; x < texels.x; x += params_.spacing)
                 values[size_t(y) * texels.x + x] =
                     glm::vec4(glm::vec3(2.0f * (1.0f + params_.noise * even(random))), params_.rays);
-        context.stream.upload(staging_, values);
-        context.stream.copy(staging_, image);
-        context.stream.finish();
+        context.stream.upload(image, std::as_bytes(std::span(values)));
     }
 
  private:
     Params params_;
-    Port<GBuffer> gbuffer_;
+    Port<const GBuffer> gbuffer_;
     Port<NoisyIrradiance> noisy_;
-    Buffer staging_;
 };
 
 ImageF filterKnown(const std::string& source, const std::string& filter, const std::string& scene,
