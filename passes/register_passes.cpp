@@ -4,6 +4,7 @@
 #include "passes/composite/composite.h"
 #include "passes/direct_shadow_rays/direct_shadow_rays.h"
 #include "passes/direct_voxels/direct_voxels.h"
+#include "passes/filter_irradiance/filter_irradiance.h"
 #include "passes/filter_voxels/filter_voxels.h"
 #include "passes/gather_cones/gather_cones.h"
 #include "passes/gather_irradiance/gather_irradiance.h"
@@ -44,6 +45,7 @@ void registerPasses(Registry& registry) {
     registry.add<GatherIrradiance>();
     registry.add<TraceGatherRays>();
     registry.add<GatherRays>();
+    registry.add<FilterIrradiance>();
     registry.add<DirectShadowRays>();
     registry.add<DirectVoxels>();
     registry.add<Composite>();

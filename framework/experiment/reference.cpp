@@ -54,6 +54,12 @@ uint64_t referenceSeed(uint64_t seed) {
     return seed ^ 0x9e3779b97f4a7c15ull;
 }
 
+std::vector<std::string> referencePorts() {
+    std::vector<std::string> names;
+    for (const Part& part : kParts) names.emplace_back(part.name);
+    return names;
+}
+
 ReferenceImages renderReference(Graph& graph, const GraphTarget& target, uint32_t frameIndex,
                                 const std::function<void(double)>& progress) {
     Frame frame = target.frame;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "experiment/measure.h"
 #include "image/image.h"
@@ -25,6 +26,9 @@ Scores noiseFloor(const ImageF& mean, const ImageF& variance, PixelMask mask = {
 /// The seed that the reference renders with: not the variants' own, so that a path-traced variant does not
 /// share the reference's samples.
 uint64_t referenceSeed(uint64_t seed);
+
+/// The outputs that a reference's pass must write.
+std::vector<std::string> referencePorts();
 
 /// Renders a one-pass graph, prepared, that writes final, indirect, variance and indirect_variance.
 /// @param frameIndex of a sequence: frames draw random numbers of their own, so that their noise is

@@ -1,6 +1,7 @@
 #include "experiment/validate.h"
 
 #include "config/overrides.h"
+#include "experiment/reference.h"
 #include "graph/graph.h"
 
 namespace voxray {
@@ -27,7 +28,9 @@ Graph referenceGraph(const Experiment& experiment, const Registry& registry) {
     Value list = Value::list();
     list.where = experiment.reference.where;
     list.items.push_back(experiment.reference);
-    return Graph(registry, list);
+    Graph graph(registry, list);
+    graph.keepOnly(referencePorts());
+    return graph;
 }
 
 WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) {
@@ -45,7 +48,7 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
     }
     if (!experiment.reference.isNull()) {
         const Graph graph = referenceGraph(experiment, registry);
-        for (const char* port : {"final", "indirect", "variance", "indirect_variance"})
+        for (const std::string& port : referencePorts())
             if (!graph.writes(port))
                 throw UsageError(experiment.reference.where,
                                  "reference: the pass writes no '{}'; use path_trace", port);

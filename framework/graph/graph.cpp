@@ -59,9 +59,12 @@ std::vector<std::string> Graph::keepOnly(const std::vector<std::string>& portNam
     std::vector<std::string> dropped;
     for (size_t n = nodes.size(); n-- > 0;) {
         bool needed = std::ranges::none_of(nodes[n].ports, &PortInfo::output);
-        for (size_t p = 0; p < nodes[n].ports.size(); ++p)
-            if (nodes[n].ports[p].output)
-                needed |= open.erase(nodes[n].ports[p].name) > 0 || wanted.count(nodes[n].resources[p]) > 0;
+        for (size_t p = 0; p < nodes[n].ports.size(); ++p) {
+            if (!nodes[n].ports[p].output) continue;
+            const bool isLast = open.erase(nodes[n].ports[p].name) > 0;
+            nodes[n].resources[p]->isRead = isLast || wanted.count(nodes[n].resources[p]) > 0;
+            needed |= nodes[n].resources[p]->isRead;
+        }
         if (!needed) {
             dropped.push_back(nodes[n].id);
             continue;

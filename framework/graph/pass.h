@@ -34,6 +34,9 @@ struct Aov {
 /// them in plan(), or makes them in record() where their size is counted.
 struct Resource {
     virtual ~Resource() = default;
+    /// False for an output that nothing reads: its producer may leave it empty. Set by the graph, before
+    /// plan().
+    bool isRead = true;
     /// Float images and float buffers that are checked for NaN and infinity after the producing pass ran.
     virtual std::vector<const Image*> checkedImages() const { return {}; }
     virtual std::vector<const Buffer*> checkedBuffers() const { return {}; }

@@ -152,13 +152,16 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
                                  nodes[n].id);
     }
 
-    // Outputs are owned by the pass that writes them.
-    for (GraphNode& node : nodes) {
+    // Outputs are owned by the pass that writes them. From outside, only the last of a name can be read.
+    std::set<std::string> laterOutputs;
+    for (size_t n = nodes.size(); n-- > 0;) {
+        GraphNode& node = nodes[n];
         node.resources.assign(node.ports.size(), nullptr);
         for (size_t p = 0; p < node.ports.size(); ++p) {
             if (!node.ports[p].output) continue;
             node.outputs.emplace_back(node.ports[p].create());
             node.resources[p] = node.outputs.back().get();
+            node.resources[p]->isRead = laterOutputs.insert(node.ports[p].name).second;
         }
     }
 
@@ -179,6 +182,7 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
                 throw UsageError(nodes[n].where, "{}: port '{}' can't read '{}.{}', which is of another type",
                                  nodes[n].id, port.name, writer.id, writer.ports[source->port].name);
             nodes[n].resources[p] = writer.resources[source->port];
+            writer.resources[source->port]->isRead = true;
             dependencies[n].insert(source->node);
         }
     }

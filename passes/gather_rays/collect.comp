@@ -6,7 +6,7 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) writeonly buffer Gathered { vec4 data[]; } gathered;  // Irradiance, number of rays.
+layout(rgba32f) writeonly uniform image2D gathered;  // Irradiance, W/m²; number of rays.
 layout(push_constant, scalar) uniform Push {
     GatherLayout layout_;
     uint firstBlock;
@@ -35,5 +35,5 @@ void main() {
         sum += light_.rgb;
         rays += 1.0;
     }
-    gathered.data[texel.y * g.texels.x + texel.x] = vec4(sum / max(rays, 1.0), rays);
+    imageStore(gathered, ivec2(texel), vec4(sum / max(rays, 1.0), rays));
 }

@@ -40,20 +40,29 @@ void GatherRays::declare(PassBuilder& builder) {
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
     irradiance_ = builder.read<VoxelIrradiance>("irradiance", "light that arrives at the voxels' surfaces");
     hits_ = builder.read<GatherHits>("gather_hits", "where the gather rays hit");
-    indirect_ = builder.write<FrameImage>("indirect", "radiance reflected of indirect light");
+    noisy_ = builder.write<NoisyIrradiance>("noisy_irradiance", "irradiance from few rays a texel");
+    indirect_ = builder.write<FrameImage>("indirect", "radiance reflected of indirect light, unfiltered");
 }
 
 void GatherRays::plan(PassPlan& plan) {
     const GatherHits& hits = plan.get(hits_);
     const uint32_t texelsPerBlock = hits.layout.blockSize * hits.layout.blockSize;
-    if (hits.layout.raysPerBlock < texelsPerBlock && (1u << params_.filter) < hits.layout.blockSize * 2)
+    NoisyIrradiance& noisy = plan.get(noisy_);
+    noisy.spacing = hits.layout.raysPerBlock < texelsPerBlock ? hits.layout.blockSize : 1;
+    if (plan.get(indirect_).isRead && noisy.spacing > 1)
         throw Error(
-            "gather_rays: blocks of {0}x{0} texels have {1} rays, which leaves texels without any; raise "
-            "'filter' of gather_rays, or 'rays' of trace_gather_rays to {2}",
+            "gather_rays: blocks of {0}x{0} texels have {1} rays, which leaves texels without any; let "
+            "filter_irradiance follow, or raise 'rays' of trace_gather_rays to {2}",
             hits.layout.blockSize, hits.layout.raysPerBlock, texelsPerBlock);
-    plan.reserve("indirect image", imageBytes(frameImageDesc(plan.frame)));
-    plan.reserve("irradiance of texels", IrradianceFilter::bytes(hits));
-    plan.reserve("light of a batch of rays", batchRays(hits) * kLightBytes);
+    plan.image(noisy.irradiance, "noisy irradiance",
+               NoisyIrradiance::desc(plan.frame, plan.get(gbuffer_).samples));
+    if (noisy.isRead) {
+        noisy.blockSize = hits.layout.blockSize;
+        plan.buffer(noisy.moments, "moments of rays", noisy.momentsBytes(hits.layout.texels));
+    }
+    if (FrameImage& indirect = plan.get(indirect_); indirect.isRead)
+        plan.image(indirect.image, "indirect", frameImageDesc(plan.frame));
+    plan.buffer(light_, "light of gather rays", batchRays(hits) * kLightBytes);
     if (shadowRays()) {
         sources_ = lightSources(*plan.frame.scene);
         hitLight_.plan(plan, uint32_t(batchRays(hits)));
@@ -64,26 +73,21 @@ void GatherRays::plan(PassPlan& plan) {
 }
 
 void GatherRays::prepare(PassSetup& setup) {
-    const GatherHits& hits = setup.get(hits_);
-    setup.get(indirect_).image = Image(setup.device, "indirect", frameImageDesc(setup.frame));
     const auto program = [&](const char* file, const Defines& defines = {}) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
     const Defines direct = shadowRays() ? Defines{{"SHADOW_RAYS", "1"}} : Defines{};
     shade_ = program("passes/gather_rays/shade.comp", direct);
     collect_ = program("passes/gather_rays/collect.comp", direct);
-    moments_ = program("passes/gather_rays/moments.comp", direct);
-    resolve_ = program("passes/gather_rays/resolve.comp");
-    filter_ = IrradianceFilter(setup, hits);
+    if (setup.get(noisy_).isRead) moments_ = program("passes/gather_rays/moments.comp", direct);
+    if (setup.get(indirect_).isRead) resolve_ = IrradianceResolve(setup);
     faces_ = FaceIrradiance(setup.device, setup.compiler);
     facesVersion_.reset();
     sampler_ = texelSampler(setup.device);
-    light_ = Buffer(setup.device, "light of gather rays", batchRays(hits) * kLightBytes);
     if (shadowRays()) hitLight_.prepare(setup);
 }
 
 void GatherRays::record(PassContext& context) {
-    const GBuffer& gbuffer = context.get(gbuffer_);
     const SurfaceVoxels& voxels = context.get(voxels_);
     const VoxelIrradiance& light = context.get(irradiance_);
     if (const std::pair version{voxels.version, light.version}; facesVersion_ != version) {
@@ -92,13 +96,8 @@ void GatherRays::record(PassContext& context) {
         facesVersion_ = version;
     }
     for (uint32_t b = 0; b < context.get(hits_).batches.size(); ++b) gather(context, b);
-    const Buffer& irradiance =
-        filter_.run(context, gbuffer, context.get(hits_), params_.filter, params_.strictness);
-    context.stream.dispatch(resolve_,
-                            {{"irradiance", irradiance},
-                             {"albedo", gbuffer.albedo, sampler_},
-                             {"result", context.get(indirect_).image}},
-                            int32_t(gbuffer.samples), pixelGroups(context.frame.width, context.frame.height));
+    if (const FrameImage& indirect = context.get(indirect_); indirect.isRead)
+        resolve_.record(context, context.get(gbuffer_), context.get(noisy_).irradiance, indirect.image);
 }
 
 void GatherRays::gather(PassContext& context, uint32_t batch) {
@@ -130,11 +129,12 @@ void GatherRays::gather(PassContext& context, uint32_t batch) {
         if (shadowRays()) bindings.insert(bindings.end(), {{"surfels", surfels_}, {"direct", direct_}});
         stream.dispatch(program, bindings, push, linearGroups(threads));
     };
-    add(collect_, {"gathered", filter_.gathered()}, CollectPush{hits.layout, firstBlock, blocks},
+    const NoisyIrradiance& noisy = context.get(noisy_);
+    add(collect_, {"gathered", noisy.irradiance}, CollectPush{hits.layout, firstBlock, blocks},
         uint64_t(blocks) * texelsPerBlock);
-    if (params_.filter > 0)
-        add(moments_, {"moments", filter_.moments()},
-            MomentsPush{firstBlock, blocks, hits.layout.raysPerBlock}, blocks);
+    if (noisy.isRead)
+        add(moments_, {"moments", noisy.moments}, MomentsPush{firstBlock, blocks, hits.layout.raysPerBlock},
+            blocks);
 }
 
 }  // namespace voxray

@@ -4,11 +4,12 @@
 #include <optional>
 #include <utility>
 
+#include "passes/common/filter/irradiance_resolve.h"
+#include "passes/common/filter/noisy_irradiance.h"
 #include "passes/common/surfels/surfel_light.h"
 #include "passes/common/view/gather_hits.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/voxels/face_irradiance.h"
-#include "passes/gather_rays/irradiance_filter.h"
 
 namespace voxray {
 
@@ -21,7 +22,7 @@ struct EnumNames<DirectAtHits> {
 };
 
 /// Indirect light by a final gather: rays find what each pixel sees, voxels tell how bright that is. Source:
-/// Magalhães 2020 (hybrid of rays and voxels); filter: irradiance_filter.h.
+/// Magalhães 2020 (hybrid of rays and voxels). filter_irradiance lowers its noise.
 class GatherRays final : public Pass {
  public:
     static constexpr const char* kName = "gather_rays";
@@ -29,13 +30,11 @@ class GatherRays final : public Pass {
         "Indirect light: shades the hits of trace_gather_rays with the irradiance of the voxels there and "
         "their own albedo. "
         "Biased by: voxel size (light at the hits is as coarse as voxels, not at the pixel; with "
-        "`direct_at_hits: shadow_rays` only indirect light is); `filter`. Noisy by: rays. Lambert surfaces "
-        "only.";
+        "`direct_at_hits: shadow_rays` only indirect light is). Noisy by: rays; filter_irradiance lowers "
+        "that. Lambert surfaces only.";
     struct Params {
         DirectAtHits directAtHits = DirectAtHits::Voxels;
         uint32_t lightSamples = 1;
-        uint32_t filter = 0;
-        float strictness = 0.1f;
         static constexpr auto schema() {
             return std::tuple{
                 field(
@@ -45,14 +44,7 @@ class GatherRays final : public Pass {
                 field("light_samples", &Params::lightSamples,
                       "With shadow_rays: shadow rays from each hit to the emissive surfaces, and to the "
                       "environment.",
-                      1u, 256u),
-                field("filter", &Params::filter,
-                      "Levels of the filter; each doubles its reach: 0 is none, n reaches 2^n - 1 texels.",
-                      0u, 6u),
-                field("strictness", &Params::strictness,
-                      "How much of the bound of irradiance's change between texels the filter expects: 1 is "
-                      "all; more is sharper and noisier, less is smoother.",
-                      0.01f, 100.0f)};
+                      1u, 256u)};
         }
     };
 
@@ -71,11 +63,12 @@ class GatherRays final : public Pass {
     Port<const SurfaceVoxels> voxels_;
     Port<const VoxelIrradiance> irradiance_;
     Port<const GatherHits> hits_;
+    Port<NoisyIrradiance> noisy_;
     Port<FrameImage> indirect_;
     FaceIrradiance faces_;
     std::optional<std::pair<uint64_t, uint64_t>> facesVersion_;  ///< Of the voxels and the light in them.
-    Program shade_, collect_, moments_, resolve_;
-    IrradianceFilter filter_;
+    Program shade_, collect_, moments_;
+    IrradianceResolve resolve_;
     Sampler sampler_;
     Buffer light_;  ///< What the rays of a batch bring.
 

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // What the surface at each gather ray's hit reflects of the light that its voxel holds: radiance times pi. A ray that misses
-// brings none: the environment is direct light. With SHADOW_RAYS the voxel's share is indirect light alone, and a surfel at each
-// hit is left for shadow rays to add the direct one.
+// brings none: the environment is direct light. With SHADOW_RAYS voxels bring indirect light alone, and a surfel is written for
+// each hit, where shadow rays will measure the direct light.
 #include "shaders/voxels/face_irradiance.glsl"
 #include "shaders/view/gather_layout.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -44,17 +44,17 @@ void main() {
         received.w = hit.t;
         const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
         if (dot(s.geometricNormal, s.geometricNormal) > 0.0) {
-            // On the side that the ray came from.
-            const vec3 side =
+            // The triangle's normal, turned to where the ray came from.
+            const vec3 faceNormal =
                 dot(s.geometricNormal, from.xyz - s.position) >= 0.0 ? s.geometricNormal : -s.geometricNormal;
             const GpuMaterial m = sceneMaterials.data[s.material];
             const vec3 albedo = diffuseAlbedo(m, s, 0.0);
             bool known;
-            received.rgb = albedo * irradianceAt(push.grid, s.position, side, known);
+            received.rgb = albedo * irradianceAt(push.grid, s.position, faceNormal, known);
 #ifdef SHADOW_RAYS
             const vec3 normal = shadingNormal(m, s, 0.0);
             at.position = s.position;
-            at.normal = dot(normal, side) < 0.0 ? -normal : normal;
+            at.normal = dot(normal, faceNormal) < 0.0 ? -normal : normal;
             at.reflectance = albedo;
 #endif
         }

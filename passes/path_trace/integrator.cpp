@@ -28,8 +28,13 @@ struct Integrator::VertexSampler {
 };
 
 Integrator::Integrator(const SceneState& state, const EmbreeScene& tracer, uint32_t bounces,
-                       Strategy strategy)
-    : tracer_(tracer), surfaces_(state), lights_(state, surfaces_), bounces_(bounces), strategy_(strategy) {}
+                       Strategy strategy, PathLight light)
+    : tracer_(tracer),
+      surfaces_(state),
+      lights_(state, surfaces_),
+      bounces_(bounces),
+      strategy_(strategy),
+      light_(light) {}
 
 float Integrator::weightOfHit(float reflectionPdf, float lightPdf) const {
     switch (strategy_) {
@@ -69,40 +74,46 @@ PathSample Integrator::trace(const Ray& cameraRay, const SobolSampler& sampler) 
     PathSample path;
     Ray ray = cameraRay;
     glm::vec3 throughput(1.0f);
+    glm::vec3 irradianceThroughput(0.0f);  // The same with the first hit's reflection left out.
     float reflectionPdf = 0.0f;
     bool isMirrored =
         true;  // The camera, as a mirror, has no density: only the ray itself finds what it sees.
 
     for (uint32_t vertex = 0;; ++vertex) {
-        // Light that the path runs into. Beyond the second vertex it is indirect.
-        glm::vec3& found = vertex <= 1 ? path.direct : path.indirect;
+        // Light that reaches the path here or that it runs into. Beyond the second vertex the latter is
+        // indirect.
+        const auto add = [&](bool isDirect, const glm::vec3& light, float weight) {
+            (isDirect ? path.direct : path.indirect) += throughput * light * weight;
+            if (!isDirect) path.irradiance += irradianceThroughput * light * weight;
+        };
+        const bool wantsFound = vertex > 1 || light_ == PathLight::All;
         const Hit hit = tracer_.closestHit(ray);
         ++path.rays;
+        if (vertex == 1 && hit.triangle != Hit::kMiss) path.distance = hit.t;
         if (hit.triangle == Hit::kMiss) {
             const EnvironmentLight& environment = lights_.environment();
-            if (!environment.isBlack()) {
+            if (wantsFound && !environment.isBlack()) {
                 const float weight =
                     isMirrored ? 1.0f : weightOfHit(reflectionPdf, lights_.pdfOfEnvironment(ray.direction));
-                found += throughput * environment.radiance(ray.direction) * weight;
+                add(vertex <= 1, environment.radiance(ray.direction), weight);
             }
             return path;
         }
         const SurfaceTriangle& triangle = surfaces_.triangle(hit.triangle);
-        if (triangle.light != kNoLight && surfaces_.emitsTowards(triangle, -ray.direction)) {
+        if (wantsFound && triangle.light != kNoLight && surfaces_.emitsTowards(triangle, -ray.direction)) {
             const float weight =
                 isMirrored ? 1.0f
                            : weightOfHit(reflectionPdf, lights_.pdfOfHit(triangle, ray.direction, hit.t));
-            found += throughput * surfaces_.emission(hit.triangle, hit.u, hit.v) * weight;
+            add(vertex <= 1, surfaces_.emission(hit.triangle, hit.u, hit.v), weight);
         }
         if (vertex > bounces_) return path;
 
         // Direct light at this vertex.
         const VertexSampler vertexSampler{sampler, vertex};
         const SurfacePoint point = surfaces_.at(hit, ray.direction);
-        if (!lights_.empty()) {
-            const glm::vec3 light = throughput * lightAt(point, -ray.direction, vertexSampler, path);
-            (vertex == 0 ? path.direct : path.indirect) += light;
-        }
+        if (vertex == 0) path.hasIrradiance = maxComponent(point.bsdf.diffuse) > 0.0f;
+        if (!lights_.empty() && (vertex > 0 || light_ == PathLight::All))
+            add(vertex == 0, lightAt(point, -ray.direction, vertexSampler, path), 1.0f);
         if (vertex == bounces_ && !lights_.canBeHit()) return path;
 
         // Scatter; rays that a shading normal sends below the surface are lost.
@@ -110,6 +121,10 @@ PathSample Integrator::trace(const Ray& cameraRay, const SobolSampler& sampler) 
         const BsdfSample next =
             point.bsdf.sample(-ray.direction, point.shadingNormal, vertexSampler.pair(kReflection), lobe);
         throughput *= next.weight;
+        if (vertex > 0)
+            irradianceThroughput *= next.weight;
+        else if (next.pdf > 0.0f)
+            irradianceThroughput = glm::vec3(glm::dot(point.shadingNormal, next.direction) / next.pdf);
         const float strength = maxComponent(throughput);
         if (!(strength > 0.0f) || !(glm::dot(next.direction, point.faceNormal) > 0.0f)) return path;
 
@@ -118,6 +133,7 @@ PathSample Integrator::trace(const Ray& cameraRay, const SobolSampler& sampler) 
             const float survival = std::sqrt(strength);
             if (vertexSampler.one(kRoulette) >= survival) return path;
             throughput /= survival;
+            irradianceThroughput /= survival;
         }
         ray = {point.rayOrigin(), 0.0f, next.direction, kInfinity};
         reflectionPdf = next.pdf;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 
 #include "passes/path_trace/lights.h"
 #include "passes/path_trace/path_tracer.h"
@@ -19,13 +20,19 @@ struct PathSample {
     glm::vec3 direct{0.0f};    ///< Emission and direct light at the first hit: N = 0.
     glm::vec3 indirect{0.0f};  ///< Everything else.
     uint32_t rays = 0;
+
+    /// Whether the path scattered at a first hit that reflects diffusely; if so, the next two are estimates.
+    bool hasIrradiance = false;
+    glm::vec3 irradiance{0.0f};  ///< Of indirect light, about the first hit's shading normal, W/m².
+    float distance = std::numeric_limits<float>::infinity();  ///< From the first hit to the second, m.
 };
 
 /// The light transport equation's estimator: unidirectional paths with next-event estimation.
 class Integrator {
  public:
     /// Both arguments must outlive this object.
-    Integrator(const SceneState& state, const EmbreeScene& tracer, uint32_t bounces, Strategy strategy);
+    Integrator(const SceneState& state, const EmbreeScene& tracer, uint32_t bounces, Strategy strategy,
+               PathLight light = PathLight::All);
 
     /// Follows a path that starts along `ray` (unit direction). Sampler pair 0 is the caller's.
     PathSample trace(const Ray& ray, const SobolSampler& sampler) const;
@@ -41,6 +48,7 @@ class Integrator {
     LightTable lights_;
     uint32_t bounces_;
     Strategy strategy_;
+    PathLight light_;
 };
 
 /// Renders as `pathTrace` does, with any strategy.

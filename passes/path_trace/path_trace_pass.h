@@ -1,11 +1,19 @@
 #pragma once
 
+#include <array>
 #include <memory>
 
-#include "graph/pass.h"
+#include "passes/common/filter/noisy_irradiance.h"
+#include "passes/path_trace/path_tracer.h"
 #include "trace/embree_scene.h"
 
 namespace voxray {
+
+template <>
+struct EnumNames<PathLight> {
+    static constexpr std::array names{std::pair{PathLight::All, "all"},
+                                      std::pair{PathLight::Indirect, "indirect"}};
+};
 
 /// The reference path tracer (path_tracer.h) as a pass: many samples make it the judge of all others, few
 /// make it the baseline on the chart. It shares no shader and no stream with the methods that it judges.
@@ -16,18 +24,22 @@ class PathTracePass final : public Pass {
         "Path tracer on the CPU (Embree): next-event estimation and multiple importance sampling, "
         "Owen-scrambled Sobol "
         "points. Unbiased for the bounces that it is given; noisy by: spp. Writes total and indirect light "
-        "and the variance "
-        "of each pixel's mean.";
+        "and the variance of each pixel's mean, and irradiance at the g-buffer's texels for "
+        "filter_irradiance.";
     struct Params {
         uint32_t spp = 64;
         uint32_t bounces = 8;
+        PathLight light = PathLight::All;
         static constexpr auto schema() {
             return std::tuple{
                 field("spp", &Params::spp, "Samples a pixel.", 1u, 1u << 20),
                 field(
                     "bounces", &Params::bounces,
                     "Scattering events after direct light at the first hit; 0 is emission and direct light.",
-                    0u, 1024u)};
+                    0u, 1024u),
+                field("light", &Params::light,
+                      "indirect: nothing is spent on emission and direct light at the first hit; another "
+                      "pass writes 'final'.")};
         }
     };
 
@@ -40,7 +52,17 @@ class PathTracePass final : public Pass {
 
  private:
     Params params_;
+    struct RenderedImage {
+        const char* name;
+        ImageF PathTraceResult::*pixels;
+    };
+    /// What is rendered for each output; with `light: indirect` nothing for 'final' and 'variance'.
+    std::vector<std::pair<Port<FrameImage>, RenderedImage>> frameImages() const;
+
+    Port<const GBuffer> gbuffer_;
     Port<FrameImage> final_, indirect_, variance_, indirectVariance_;
+    Port<NoisyIrradiance> noisy_;
+    PathTraceOptions options_;
     std::unique_ptr<EmbreeScene> embree_;
 };
 

@@ -17,7 +17,7 @@ namespace path_trace {
 
 namespace {
 
-constexpr uint32_t kTile = 16;
+constexpr uint32_t kTile = 16;  ///< A multiple of every momentsPixels(): no two tiles share a block.
 constexpr uint32_t kBatches = 2;
 
 /// Turns points of the image plane into rays.
@@ -68,6 +68,16 @@ struct PixelSums {
     }
 };
 
+void addTo(gpu::RayMoments& sum, const PathSample& path) {
+    const float l = luminance(path.irradiance), inverseDistance = 1.0f / std::max(path.distance, 1e-6f);
+    sum.rays += 1.0f;
+    sum.luminance += l;
+    sum.squared += l * l;
+    sum.inverseDistance += inverseDistance;
+    sum.luminanceOverDistance += l * inverseDistance;
+    sum.squaredOverDistance += l * l * inverseDistance;
+}
+
 /// Everything that the tiles share.
 struct Job {
     const Integrator& integrator;
@@ -76,6 +86,27 @@ struct Job {
     std::array<uint32_t, kBatches> batchSizes{};
     uint32_t batches = 1;
     PathTraceResult& result;
+
+    /// Adds what a path tells of the irradiance at its first hit, `place` in [0, 1)² of the pixel.
+    void addIrradiance(uint32_t x, uint32_t y, glm::vec2 place, const PathSample& path) const {
+        const uint32_t texels = options.irradianceTexels, block = options.momentsPixels();
+        const glm::uvec2 inPixel = glm::min(glm::uvec2(place * float(texels)), glm::uvec2(texels - 1));
+        float* texel = result.irradiance.pixel(x * texels + inPixel.x, y * texels + inPixel.y);
+        for (int c = 0; c < 3; ++c) texel[c] += path.irradiance[c];
+        texel[3] += 1.0f;
+        const uint32_t blocksX = (options.width + block - 1) / block;
+        addTo(result.moments[size_t(y / block) * blocksX + x / block], path);
+    }
+
+    /// From sums over a pixel's paths to means.
+    void finishIrradiance(uint32_t x, uint32_t y) const {
+        const uint32_t texels = options.irradianceTexels;
+        for (uint32_t j = 0; j < texels; ++j)
+            for (uint32_t i = 0; i < texels; ++i) {
+                float* texel = result.irradiance.pixel(x * texels + i, y * texels + j);
+                for (int c = 0; c < 3; ++c) texel[c] /= std::max(texel[3], 1.0f);
+            }
+    }
 
     /// Renders a pixel; returns the rays that it took.
     uint64_t renderPixel(uint32_t x, uint32_t y) const {
@@ -87,7 +118,8 @@ struct Job {
             const uint32_t sequence = hashOf(pixel, batch);
             for (uint32_t i = 0; i < batchSizes[batch]; ++i) {
                 const SobolSampler sampler(sequence, i);
-                const glm::vec2 place = sampler.pair(0) + glm::vec2(x, y);
+                const glm::vec2 inPixel = sampler.pair(0);
+                const glm::vec2 place = inPixel + glm::vec2(x, y);
                 const Ray ray = camera.ray(place.x, place.y);
                 const PathSample path = integrator.trace(ray, sampler);
                 const glm::vec3 sum = path.direct + path.indirect;
@@ -98,9 +130,11 @@ struct Job {
                         x, y);
                 total.batch[batch] += sum;
                 indirect.batch[batch] += path.indirect;
+                if (options.irradianceTexels > 0 && path.hasIrradiance) addIrradiance(x, y, inPixel, path);
                 rays += path.rays;
             }
         }
+        finishIrradiance(x, y);
         total.write(batchSizes, batches, options.spp, result.total.pixel(x, y),
                     result.totalVariance.pixel(x, y));
         indirect.write(batchSizes, batches, options.spp, result.indirect.pixel(x, y),
@@ -140,7 +174,12 @@ PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const
     PathTraceResult result;
     for (ImageF* image : {&result.total, &result.indirect, &result.totalVariance, &result.indirectVariance})
         *image = ImageF(width, height, 3);
-    const Integrator integrator(state, tracer, options.bounces, strategy);
+    if (options.irradianceTexels > 0) {
+        result.irradiance = ImageF(width * options.irradianceTexels, height * options.irradianceTexels, 4);
+        const uint32_t block = options.momentsPixels();
+        result.moments.resize(size_t((width + block - 1) / block) * ((height + block - 1) / block));
+    }
+    const Integrator integrator(state, tracer, options.bounces, strategy, options.light);
     const PinholeCamera pinhole(camera, width, height);
 
     // Share the samples out to independent batches.

@@ -2,12 +2,18 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "image/image.h"
 #include "scene/geometry.h"
+#include "shaders/filter/ray_moments.h"
 #include "trace/embree_scene.h"
 
 namespace voxray {
+
+/// Which light paths are spent on. Indirect: nothing on emission and direct light at the first hit; the
+/// indirect light is the same, bit for bit.
+enum class PathLight { All, Indirect };
 
 /// What the reference path tracer renders.
 struct PathTraceOptions {
@@ -16,6 +22,12 @@ struct PathTraceOptions {
     uint32_t spp = 64;     ///< Paths a pixel; powers of two are sampled best.
     uint32_t bounces = 8;  ///< Scattering events after direct light at the first hit.
     uint64_t seed = 0;     ///< Another seed: another, independent estimate.
+    PathLight light = PathLight::All;
+    /// Texels along a pixel's edge at which the irradiance of indirect light is estimated; 0: it is not.
+    uint32_t irradianceTexels = 0;
+
+    /// Pixels along the edge of the blocks of `PathTraceResult::moments`: each has 16 paths or more.
+    uint32_t momentsPixels() const { return spp >= 16 ? 1 : spp >= 4 ? 2 : 4; }
 };
 
 /// Radiance, 3 channels, W/(m² sr), and the variance of each pixel's mean. The variance is measured between
@@ -28,6 +40,14 @@ struct PathTraceResult {
     ImageF totalVariance;
     ImageF indirectVariance;
     uint64_t rays = 0;
+
+    /// Indirect light that arrives at first hits, before they reflect it. 4 channels, irradianceTexels texels
+    /// along a pixel's edge: irradiance about the shading normal, W/m², the mean over the paths that fall
+    /// into the texel and whose first hit reflects diffusely; the number of these paths. Empty without
+    /// irradianceTexels.
+    ImageF irradiance;
+    /// Sums over these paths for each block of momentsPixels x momentsPixels pixels, row by row.
+    std::vector<gpu::RayMoments> moments;
 };
 
 /// Called now and then with the part that is done, 0 to 1, never twice at once. False stops the rendering.

@@ -33,11 +33,11 @@ void main() {
     const vec4 p = all(lessThan(texel, ivec2(g.texels))) ? texelFetch(position, texel, 0) : vec4(0.0);
     if (p.w > 0.0) {
         const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
-        const vec3 side = normalize(texelFetch(geometricNormal, texel, 0).xyz);
+        const vec3 faceNormal = normalize(texelFetch(geometricNormal, texel, 0).xyz);
         const vec3 direction = cosineDirection(raySample(g, block, j), n);
         // A normal map may point rays below the surface: those see the surface itself, which reflects nothing to it.
-        if (dot(direction, side) > 0.0) {
-            ray.origin = p.xyz + side * surfaceOffset(p.xyz);
+        if (dot(direction, faceNormal) > 0.0) {
+            ray.origin = p.xyz + faceNormal * surfaceOffset(p.xyz);
             ray.direction = direction;
             ray.tMax = 1.0e30;
         }

@@ -13,9 +13,9 @@ class TraceGatherRays final : public Pass {
     static constexpr const char* kName = "trace_gather_rays";
     static constexpr const char* kHelp =
         "Traces rays from what the camera sees, distributed by cosine, for gather_rays to shade. Exact "
-        "geometry; noisy by "
-        "rays. `block` shares rays between texels: each starts from one texel, gather_rays spreads its light "
-        "over the others.";
+        "geometry; noisy by rays. Where a block has fewer rays than texels, filter_irradiance fills the "
+        "texels "
+        "without any.";
     struct Params {
         uint32_t rays = 16;
         uint32_t block = 1;

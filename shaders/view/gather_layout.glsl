@@ -28,14 +28,15 @@ uint gatherBits(uint x) {
 uint morton(uvec2 p) { return spreadBits(p.x) | (spreadBits(p.y) << 1); }
 uvec2 mortonInverse(uint code) { return uvec2(gatherBits(code), gatherBits(code >> 1)); }
 
-// Texel in the block, in Morton order, that ray j starts from. Where a block has fewer rays than texels, a ray stands for a share of
-// them and starts from any: neighbours' choices must not go alike, or the filter, whose steps are powers of two, shows them as stripes.
+// Texel in the block, in Morton order, that ray j starts from. Where a block has fewer rays than texels, a ray stands for a run of
+// them and starts from a random one: were the choice alike in all blocks, the filter, whose steps are powers of two, would show
+// stripes.
 uint rayTexel(GatherLayout g, uvec2 block, uint j) {
     const uint count = g.blockSize * g.blockSize;
     const uint first = j * count / g.raysPerBlock;
     if (g.raysPerBlock >= count) return first;
-    const uint share = (j + 1u) * count / g.raysPerBlock - first;
-    return first + hashCombine(g.seed ^ 0x5bd1e995u, morton(block) * g.raysPerBlock + j) % share;
+    const uint run = (j + 1u) * count / g.raysPerBlock - first;
+    return first + hashCombine(g.seed ^ 0x5bd1e995u, morton(block) * g.raysPerBlock + j) % run;
 }
 
 // First ray of a block at or after which rays start from texel t, where rays are no fewer than texels: ceil(t * rays / count).
@@ -44,7 +45,7 @@ uint firstRay(GatherLayout g, uint t) {
     return (t * g.raysPerBlock + count - 1u) / count;
 }
 
-// The ray in whose share texel t lies, where rays are fewer than texels.
+// The ray in whose run texel t lies, where rays are fewer than texels.
 uint rayNear(GatherLayout g, uint t) { return ((t + 1u) * g.raysPerBlock - 1u) / (g.blockSize * g.blockSize); }
 
 uvec2 texelOf(GatherLayout g, uvec2 block, uint t) { return block * g.blockSize + mortonInverse(t); }

@@ -19,13 +19,15 @@ namespace voxray::test {
 class Chain {
  public:
     Chain(const std::string& scene, const std::string& sceneParameters, const std::string& graphYaml,
-          uint32_t width = 32, uint32_t height = 32, uint64_t seed = 1)
+          uint32_t width = 32, uint32_t height = 32, uint64_t seed = 1,
+          const std::function<void(Registry&)>& addPasses = {})
         : Chain(std::make_shared<SceneState>(
                     evaluate(makeBuiltinScene(scene, parseYaml(sceneParameters, "scene")), 0.0)),
-                graphYaml, width, height, seed) {}
+                graphYaml, width, height, seed, addPasses) {}
 
+    /// @param addPasses adds a test's own passes to those of the program.
     Chain(const std::shared_ptr<const SceneState>& state, const std::string& graphYaml, uint32_t width,
-          uint32_t height, uint64_t seed)
+          uint32_t height, uint64_t seed, const std::function<void(Registry&)>& addPasses = {})
         : state_(std::make_shared<SceneState>(*state)),
           compiler_(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE),
           stream_(device()),
@@ -38,6 +40,7 @@ class Chain {
         frame_.seed = seed;
         Registry registry;
         registerPasses(registry);
+        if (addPasses) addPasses(registry);
         graph_ = std::make_unique<Graph>(registry, parseYaml(graphYaml, "graph"));
         predicted = graph_->plan(frame_, device().info(), device().memoryLimitBytes());
         graph_->prepare(frame_, device(), compiler_, stream_);

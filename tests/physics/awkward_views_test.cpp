@@ -9,7 +9,7 @@ namespace {
 
 std::string graphOf(const Injection& injection) {
     return graphYaml({"gbuffer", "voxelize", "place_surfels, points: 8", "trace_gather_rays, rays: 32",
-                      injection.withBounces(3), "gather_rays, filter: 0"});
+                      injection.withBounces(3), "gather_rays"});
 }
 
 /// The Cornell box, lit by a point light of 1 W/sr.

@@ -27,12 +27,22 @@ double total(Chain& chain, const Buffer& flux) {
     return sum;
 }
 
-std::string gatherGraph(const std::string& inject, const std::string& trace, const std::string& gather,
+using Passes = std::vector<std::string>;
+const Passes kRaw = {"gather_rays"};
+
+// Gather rays, then `levels` levels of the filter.
+Passes filtered(int levels, const std::string& gather = "gather_rays") {
+    return {gather, "filter_irradiance, levels: " + std::to_string(levels)};
+}
+
+// `gather` ends the list of passes: kRaw, filtered() or the like.
+std::string gatherGraph(const std::string& inject, const std::string& trace, const Passes& gather = kRaw,
                         const std::string& voxelize = "resolution: 16", const std::string& samples = "1") {
     const bool atSurfels = inject.starts_with("inject_voxel_rays") || inject.starts_with("inject_shadow_map");
-    return graphYaml({"gbuffer, samples: " + samples, "voxelize, " + voxelize,
-                      atSurfels ? "place_surfels, points: 8" : "", "trace_gather_rays, " + trace, inject,
-                      "gather_rays, " + gather});
+    Passes passes{"gbuffer, samples: " + samples, "voxelize, " + voxelize,
+                  atSurfels ? "place_surfels, points: 8" : "", "trace_gather_rays, " + trace, inject};
+    passes.insert(passes.end(), gather.begin(), gather.end());
+    return graphYaml(passes);
 }
 
 std::string messageOf(const std::string& scene, const std::string& graph) {
@@ -49,7 +59,7 @@ TEST(FinalGather, FollowsALightThatMoves) {
     // What is kept from frame to frame is made anew: the image is that of a graph made where the light is.
     for (const Injection& injection : kInjections) {
         SCOPED_TRACE(injection.pass);
-        const std::string graph = gatherGraph(injection.withBounces(1), "rays: 4", "filter: 1");
+        const std::string graph = gatherGraph(injection.withBounces(1), "rays: 4", filtered(1));
         const auto before = std::make_shared<SceneState>(
             evaluate(makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")), 0.0));
         const auto after = std::make_shared<SceneState>(*before);
@@ -77,8 +87,7 @@ TEST(VoxelRays, ClosedRoomCatchesAllLight) {
 
 TEST(VoxelRays, AreDeterministic) {
     const auto run = [](const std::string& inject) {
-        Chain chain("cornell", "{lights: point}",
-                    gatherGraph(inject, "rays: 4", "filter: 0", "resolution: 24"));
+        Chain chain("cornell", "{lights: point}", gatherGraph(inject, "rays: 4", kRaw, "resolution: 24"));
         return chain.image("indirect").data;
     };
     for (const std::string inject :
@@ -103,8 +112,7 @@ TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAFurnace) {
         if (!injection.takesEmission) continue;
         const bool fromLights = injection.pass.starts_with("inject_light_rays");
         const std::string inject = injection.withBounces(2) + (fromLights ? "" : ", light_samples: 16");
-        Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
-                    gatherGraph(inject, "rays: 64", "filter: 0"));
+        Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}", gatherGraph(inject, "rays: 64"));
         EXPECT_NEAR(mean(chain.image("indirect")), 0.36 + 0.216 + 0.1296, 0.02 * 0.7056) << injection.pass;
     }
 }
@@ -119,7 +127,7 @@ TEST(FinalGather, EveryStrategyKeepsTheEnergyOfALitSphere) {
         std::make_shared<SceneState>(evaluate(std::make_shared<Scene>(std::move(sphere)), 0.0));
     const double expected = 0.6 / kPi * (0.6 + 0.36 + 0.216);
     for (const Injection& injection : kInjections) {
-        Chain chain(state, gatherGraph(injection.withBounces(2), "rays: 64", "filter: 0"), 32, 32, 1);
+        Chain chain(state, gatherGraph(injection.withBounces(2), "rays: 64"), 32, 32, 1);
         const double ratio = mean(chain.image("indirect")) / expected;
         std::printf("%s: %.4f of the closed form\n", injection.pass.c_str(), ratio);
         EXPECT_NEAR(ratio, 1.0, 0.005) << injection.pass;  // Noise of 64 rays a pixel: up to 0.0012.
@@ -129,21 +137,21 @@ TEST(FinalGather, EveryStrategyKeepsTheEnergyOfALitSphere) {
 TEST(FinalGather, ShadowRaysAtHitsKeepTheEnergyOfAFurnace) {
     Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
                 gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 2", "rays: 64",
-                            "direct_at_hits: shadow_rays, light_samples: 4"));
+                            {"gather_rays, direct_at_hits: shadow_rays, light_samples: 4"}));
     EXPECT_NEAR(mean(chain.image("indirect")), 0.36 + 0.216 + 0.1296, 0.02 * 0.7056);
 }
 
 TEST(FinalGather, ShadowRaysAtHitsKeepTheEnergyOfAWhiteRoom) {
     Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 256, bounces: 4"}));
-    const auto image = [](const std::string& intensity, const std::string& filter) {
+    const std::string exact = "gather_rays, direct_at_hits: shadow_rays";
+    const auto image = [](const std::string& intensity, const Passes& gather) {
         Chain chain("white_room", "{albedo: 0.5, intensity: " + intensity + "}",
-                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 3", "rays: 64",
-                                "direct_at_hits: shadow_rays, filter: " + filter));
+                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 3", "rays: 64", gather));
         return mean(chain.image("indirect"));
     };
-    EXPECT_NEAR(image("1", "0") / mean(reference.image("indirect")), 1.0, 0.02);
-    EXPECT_NEAR(image("1", "4") / mean(reference.image("indirect")), 1.0, 0.02);
-    EXPECT_NEAR(image("7", "0") / image("1", "0"), 7.0, 7e-3);
+    EXPECT_NEAR(image("1", {exact}) / mean(reference.image("indirect")), 1.0, 0.02);
+    EXPECT_NEAR(image("1", filtered(4, exact)) / mean(reference.image("indirect")), 1.0, 0.02);
+    EXPECT_NEAR(image("7", {exact}) / image("1", {exact}), 7.0, 7e-3);
 }
 
 TEST(FinalGather, ShadowRaysAtHitsKnowNoVoxels) {
@@ -152,11 +160,12 @@ TEST(FinalGather, ShadowRaysAtHitsKnowNoVoxels) {
     Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 1024, bounces: 1"}));
     const auto error = [&](const std::string& gather) {
         Chain chain("white_room", "{albedo: 0.5}",
-                    gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 0", "rays: 256", gather,
+                    gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 0", "rays: 256",
+                                {"gather_rays, direct_at_hits: " + gather},
                                 "resolution: 3, visibility_rays: 0", "2"));
         return difference(chain.image("indirect"), reference.image("indirect"));
     };
-    const double exact = error("direct_at_hits: shadow_rays"), coarse = error("direct_at_hits: voxels");
+    const double exact = error("shadow_rays"), coarse = error("voxels");
     EXPECT_LT(exact, 0.02);
     EXPECT_GT(coarse, 3 * exact);
 }
@@ -164,13 +173,13 @@ TEST(FinalGather, ShadowRaysAtHitsKnowNoVoxels) {
 TEST(FinalGather, FilterKeepsAUniformImage) {
     // In a furnace irradiance is the same everywhere and no ray is noisy: nothing may change it, edges
     // included.
-    const auto image = [](const std::string& filter) {
+    const auto image = [](int levels) {
         Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
                     gatherGraph("inject_light_rays, rays_per_light: 524288, bounces: 2", "rays: 16, block: 4",
-                                "filter: " + filter, "resolution: 4"));
+                                filtered(levels), "resolution: 4"));
         return chain.image("indirect");
     };
-    EXPECT_LT(difference(image("5"), image("1")), 0.01);
+    EXPECT_LT(difference(image(5), image(1)), 0.01);
 }
 
 TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAWhiteRoom) {
@@ -179,8 +188,7 @@ TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAWhiteRoom) {
     // the path tracer is the reference.
     Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 256, bounces: 4"}));
     for (const Injection& injection : kInjections) {
-        Chain chain("white_room", "{albedo: 0.5}",
-                    gatherGraph(injection.withBounces(3), "rays: 64", "filter: 0"));
+        Chain chain("white_room", "{albedo: 0.5}", gatherGraph(injection.withBounces(3), "rays: 64"));
         EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.02)
             << injection.pass;
     }
@@ -190,7 +198,7 @@ TEST(FinalGather, AllPairsOfStrategiesAgreeOnCornell) {
     std::vector<double> means;
     for (const Injection& injection : kInjections) {
         Chain chain("cornell", "{lights: point}",
-                    gatherGraph(injection.withBounces(3), "rays: 64", "filter: 0", "resolution: 48"));
+                    gatherGraph(injection.withBounces(3), "rays: 64", kRaw, "resolution: 48"));
         means.push_back(mean(chain.image("indirect")));
         std::printf("%s: %.5f\n", injection.pass.c_str(), means.back());
     }
@@ -205,7 +213,7 @@ TEST(FinalGather, ConvergesToTheReference) {
     const auto error = [&](const std::string& rays) {
         Chain chain("cornell", "{lights: point}",
                     gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5", "rays: " + rays,
-                                "filter: 0", "resolution: 64", "3"));
+                                kRaw, "resolution: 64", "3"));
         return difference(chain.image("indirect"), reference.image("indirect"));
     };
     const double few = error("1"), many = error("32");
@@ -218,7 +226,7 @@ TEST(FinalGather, BlocksShareRaysWithoutLosingEnergy) {
     // split.
     const auto image = [](const std::string& trace) {
         Chain chain("white_room", "{albedo: 0.5}",
-                    gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 2", trace, "filter: 3",
+                    gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 2", trace, filtered(3),
                                 "resolution: 16"),
                     48, 48);
         return mean(chain.image("indirect"));
@@ -230,14 +238,14 @@ TEST(FinalGather, BlocksShareRaysWithoutLosingEnergy) {
 
 TEST(FinalGather, FilterLowersTheError) {
     Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 128, bounces: 6"}), 64, 64);
-    const auto error = [&](const std::string& filter) {
+    const auto error = [&](const Passes& gather) {
         Chain chain("cornell", "{lights: point}",
-                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5", "rays: 4",
-                                "filter: " + filter, "resolution: 48"),
+                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5", "rays: 4", gather,
+                                "resolution: 48"),
                     64, 64);
         return difference(chain.image("indirect"), reference.image("indirect"));
     };
-    EXPECT_LT(error("3"), 0.6 * error("0"));
+    EXPECT_LT(error(filtered(3)), 0.6 * error(kRaw));
 }
 
 TEST(FinalGather, SubPixelsAreAveraged) {
@@ -265,15 +273,17 @@ TEST(FinalGather, MorePathsOnDemandLowerTheNoise) {
 
 TEST(FinalGather, BadInputIsNamed) {
     const std::string scene = "cornell";
-    EXPECT_CONTAINS(messageOf(scene, gatherGraph("inject_light_rays", "rays: 4, block: 3", "filter: 0")),
+    EXPECT_CONTAINS(messageOf(scene, gatherGraph("inject_light_rays", "rays: 4, block: 3")),
                     "block is 3; it must be 1, 2, 4 or 8");
-    EXPECT_CONTAINS(messageOf(scene, gatherGraph("inject_light_rays", "rays: 2, block: 4", "filter: 1")),
-                    "leaves texels without any");
+    EXPECT_CONTAINS(messageOf(scene, gatherGraph("inject_light_rays", "rays: 2, block: 4")),
+                    "leaves texels without any; let filter_irradiance follow");
+    EXPECT_CONTAINS(messageOf(scene, gatherGraph("inject_light_rays", "rays: 2, block: 4", filtered(1))),
+                    "raise 'levels' to 3");
     EXPECT_CONTAINS(
         messageOf(scene, graphYaml({"gbuffer", "voxelize", "place_surfels", "inject_gather_hits"})),
         "gather_hits");
     EXPECT_CONTAINS(
-        messageOf("white_room", gatherGraph("inject_voxel_rays", "rays: 4", "filter: 0", "resolution: 1")),
+        messageOf("white_room", gatherGraph("inject_voxel_rays", "rays: 4", kRaw, "resolution: 1")),
         "raise voxelize's 'resolution'");
     for (const std::string inject : {"inject_voxel_rays", "inject_camera_rays"}) {
         SCOPED_TRACE(inject);
@@ -299,9 +309,9 @@ TEST(FinalGather, GridOfOneVoxel) {
         {"inject_rsm", {0.5, 0.02}},          {"inject_shadow_map", {halved, 0.02}}};
     Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 16, bounces: 4"}));
     for (const Injection& injection : kInjections) {
-        Chain chain("white_room", "{albedo: 0.5}",
-                    gatherGraph(injection.withBounces(3), "rays: 16", "filter: 0",
-                                "resolution: 1, visibility_rays: 0"));
+        Chain chain(
+            "white_room", "{albedo: 0.5}",
+            gatherGraph(injection.withBounces(3), "rays: 16", kRaw, "resolution: 1, visibility_rays: 0"));
         const double ratio = mean(chain.image("indirect")) / mean(reference.image("indirect"));
         std::printf("%s: %.4f\n", injection.pass.c_str(), ratio);
         const auto [value, tolerance] = expected.at(injection.pass.substr(0, injection.pass.find(',')));

@@ -70,10 +70,9 @@ TEST(ThinWalls, OneDirectionMakesThemBrown) {
 /// one.
 double leakOfGatherRays(const std::string& inject) {
     const auto seen = [&](const std::string& view) {
-        Chain chain(
-            "thin_wall", "{thickness: 0.05, view: " + view + "}",
-            graphYaml({"gbuffer", "voxelize, resolution: 64", "place_surfels", inject + ", bounces: 3",
-                       "trace_gather_rays, rays: 64", "gather_rays, filter: 0"}));
+        Chain chain("thin_wall", "{thickness: 0.05, view: " + view + "}",
+                    graphYaml({"gbuffer", "voxelize, resolution: 64", "place_surfels",
+                               inject + ", bounces: 3", "trace_gather_rays, rays: 64", "gather_rays"}));
         return mean(chain.image("indirect"));
     };
     return seen("dark") / seen("lit");

@@ -84,6 +84,26 @@ struct Blink : Idle {
     void declare(PassBuilder& builder) override { builder.write<Light>("light", "the light"); }
 };
 
+// Keeps a byte for an output that is read, and two for the other.
+struct TwoOutputs : Idle {
+    static constexpr const char* kName = "two_outputs";
+    static constexpr const char* kHelp = "Writes light and spare light.";
+    struct Params {
+        static constexpr auto schema() { return std::tuple{}; }
+    };
+    explicit TwoOutputs(const Params&) {}
+    void declare(PassBuilder& builder) override {
+        builder.readOptional<Light>("before", "any light");
+        light = builder.write<Light>("light", "the light");
+        spare = builder.write<Light>("spare", "more light");
+    }
+    void plan(PassPlan& plan) override {
+        plan.reserve("light", plan.get(light).isRead ? 1 : 0);
+        plan.reserve("spare", plan.get(spare).isRead ? 2 : 0);
+    }
+    Port<Light> light, spare;
+};
+
 // Only reports.
 struct CountVoxels : Idle {
     static constexpr const char* kName = "count_voxels";
@@ -102,6 +122,7 @@ Registry registry() {
     r.add<WrongType>();
     r.add<SumUp>();
     r.add<Blink>();
+    r.add<TwoOutputs>();
     r.add<CountVoxels>();
     return r;
 }
@@ -159,6 +180,23 @@ TEST(GraphWiring, KeepsOnlyWhatIsAskedFor) {
     EXPECT_EQ(passes[1].id, "a");
     EXPECT_EQ(passes[2].id, "b");
     EXPECT_EQ(g.keepOnly({"light"}), std::vector<std::string>{});
+}
+
+TEST(GraphWiring, TellsProducersWhatIsRead) {
+    // From outside, only the last output of a name can be read; keepOnly says which names are.
+    const auto bytes = [](Graph g) {
+        std::vector<uint64_t> all;
+        for (const PassMemory& pass : g.plan(Frame(), DeviceInfo(), 1u << 20)) all.push_back(pass.bytes);
+        return all;
+    };
+    EXPECT_EQ(bytes(graph("[{pass: two_outputs}, {pass: two_outputs, id: last}]")),
+              (std::vector<uint64_t>{0, 3}));
+    const std::string linked =
+        "[{pass: two_outputs}, {pass: two_outputs, id: last, inputs: {before: two_outputs.light}}]";
+    EXPECT_EQ(bytes(graph(linked)), (std::vector<uint64_t>{1, 3}));
+    Graph kept = graph(linked);
+    kept.keepOnly({"spare"});
+    EXPECT_EQ(bytes(std::move(kept)), (std::vector<uint64_t>{1, 2}));
 }
 
 TEST(GraphWiring, KeepsWhatOnlyReports) {

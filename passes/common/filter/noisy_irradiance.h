@@ -1,0 +1,46 @@
+#pragma once
+
+#include "passes/common/view/gbuffer.h"
+#include "shaders/filter/ray_moments.h"
+
+namespace voxray {
+
+/// Irradiance that a gather estimates from few rays for each texel of the G-buffer: what filter_irradiance
+/// reads.
+///
+/// A producer fills in `irradiance`; all else is optional. With `moments` the filter knows how noisy a ray is
+/// and how fast irradiance can change along a surface; without them it goes by geometry and by the number of
+/// rays alone.
+struct NoisyIrradiance : Resource {
+    /// RGBA32F, of the G-buffer's extent (gbufferExtent). rgb: irradiance about the shading normal, W/m²: the
+    /// mean of what the texel's rays bring, which is π times its radiance for a ray distributed by cosine.
+    /// a: the number of these rays; where it is 0, rgb is 0.
+    Image irradiance;
+    /// Every aligned square of `spacing` x `spacing` texels that shows a surface has a ray; 1: every texel
+    /// has one. Known from plan() on.
+    uint32_t spacing = 1;
+
+    /// Texels along the edge of the blocks that `moments` are summed over, 0 without. Known from plan() on.
+    /// The filter adds up 3 x 3 blocks: some 16 rays in each are enough.
+    uint32_t blockSize = 0;
+    /// gpu::RayMoments of each block, row by row: blocks().x * blocks().y.
+    Buffer moments;
+
+    static ImageDesc desc(const Frame& frame, uint32_t samples) {
+        ImageDesc desc;
+        desc.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+        desc.extent = {gbufferExtent(frame, samples), 1};
+        return desc;
+    }
+    /// Blocks of a G-buffer of so many texels; needs a `blockSize`.
+    glm::uvec2 blocks(glm::uvec2 texels) const { return (texels + blockSize - 1u) / blockSize; }
+    uint64_t momentsBytes(glm::uvec2 texels) const {
+        const glm::uvec2 count = blocks(texels);
+        return uint64_t(count.x) * count.y * sizeof(gpu::RayMoments);
+    }
+
+    std::vector<const Image*> checkedImages() const override { return {&irradiance}; }
+    std::vector<const Buffer*> checkedBuffers() const override { return {&moments}; }
+};
+
+}  // namespace voxray

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "passes/common/filter/irradiance_resolve.h"
+#include "passes/common/filter/noisy_irradiance.h"
+
+namespace voxray {
+
+/// Lowers the noise of any gather's irradiance. Source: the edge-avoiding à-trous wavelet of Dammertz et al.
+/// 2010, with a weight that balances noise against the gradient bound of Ward et al. 1988 (wavelet.comp).
+/// Docs: docs/filtering.md.
+class FilterIrradiance final : public Pass {
+ public:
+    static constexpr const char* kName = "filter_irradiance";
+    static constexpr const char* kHelp =
+        "Filters the noisy irradiance of a gather (gather_rays, path_trace) along surfaces and multiplies it "
+        "by albedo. An edge-avoiding wavelet whose width follows from the number of rays and, where the "
+        "gather tells them, from their variance and the distances of their hits. Biased by: "
+        "edge_stopping_scale and levels, less the more rays. Lambert surfaces only. Source: Dammertz et al. "
+        "2010; Ward et al. 1988; docs/filtering.md.";
+    struct Params {
+        uint32_t levels = 4;
+        float edgeStoppingScale = 0.1f;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("levels", &Params::levels,
+                      "Levels of the wavelet, each of twice the reach of the one before: n levels reach "
+                      "2^n - 1 texels.",
+                      1u, 6u),
+                field("edge_stopping_scale", &Params::edgeStoppingScale,
+                      "Factor of the bound on how much irradiance differs between two texels. 1: the whole "
+                      "bound, sharp and noisy. Smaller: smoother, and shadows blur. Most changes cancel, so "
+                      "a tenth is a good start.",
+                      0.01f, 100.0f)};
+        }
+    };
+
+    explicit FilterIrradiance(const Params& params) : params_(params) {}
+    Phase phase() const override { return Phase::Frame; }
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    void guide(PassContext& context) const;
+
+    Params params_;
+    Port<const GBuffer> gbuffer_;
+    Port<const NoisyIrradiance> noisy_;
+    Port<FrameImage> indirect_;
+    Program statistics_, guide_, wavelet_;
+    IrradianceResolve resolve_;
+    Sampler sampler_;
+    Buffer blockStatistics_;  ///< gpu::RayStatistics a block, where the gather tells moments.
+    Buffer guides_;           ///< gpu::FilterTexel a texel.
+    Image filtered_[2];       ///< As NoisyIrradiance::irradiance; levels write them in turn.
+};
+
+}  // namespace voxray

@@ -1,0 +1,209 @@
+// The irradiance filter: what it must keep, how far it may be off, and every source that it can follow.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "passes/common/filter/noisy_irradiance.h"
+#include "tests/gpu/chain.h"
+
+namespace voxray::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// A source of irradiance 2 W/m², with noise, from so many rays a texel.
+class KnownIrradiance final : public Pass {
+ public:
+    static constexpr const char* kName = "known_irradiance";
+    static constexpr const char* kHelp = "Irradiance 2, with even noise.";
+    struct Params {
+        float noise = 0.0f;
+        float rays = 1.0f;
+        uint32_t spacing = 1;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("noise", &Params::noise, "Largest deviation over the mean.", 0.0f, 1.0f),
+                field("rays", &Params::rays, "Rays of a texel that has any.", 0.0f, 1e9f),
+                field("spacing", &Params::spacing, "One texel in spacing x spacing has rays.", 1u, 8u)};
+        }
+    };
+    explicit KnownIrradiance(const Params& params) : params_(params) {}
+    Phase phase() const override { return Phase::Frame; }
+    void declare(PassBuilder& builder) override {
+        gbuffer_ = builder.read<GBuffer>("gbuffer", "for its size");
+        noisy_ = builder.write<NoisyIrradiance>("noisy_irradiance", "known irradiance");
+    }
+    void plan(PassPlan& plan) override {
+        NoisyIrradiance& noisy = plan.get(noisy_);
+        noisy.spacing = params_.spacing;
+        plan.image(noisy.irradiance, "known irradiance",
+                   NoisyIrradiance::desc(plan.frame, plan.get(gbuffer_).samples));
+    }
+    void prepare(PassSetup&) override {}
+    void record(PassContext& context) override {
+        const Image& image = context.get(noisy_).irradiance;
+        const glm::uvec3 texels = image.desc().extent;
+        std::mt19937 random(1);
+        std::uniform_real_distribution<float> even(-1.0f, 1.0f);
+        std::vector<glm::vec4> values(size_t(texels.x) * texels.y, glm::vec4(0.0f));
+        for (uint32_t y = 0; y < texels.y; y += params_.spacing)
+            for (uint32_t x = 0; x < texels.x; x += params_.spacing)
+                values[size_t(y) * texels.x + x] =
+                    glm::vec4(glm::vec3(2.0f * (1.0f + params_.noise * even(random))), params_.rays);
+        context.stream.upload(image, std::as_bytes(std::span(values)));
+    }
+
+ private:
+    Params params_;
+    Port<const GBuffer> gbuffer_;
+    Port<NoisyIrradiance> noisy_;
+};
+
+ImageF filterKnown(const std::string& source, const std::string& filter, const std::string& scene,
+                   const std::string& samples = "1") {
+    Chain chain(scene, scene == "white_room" ? "{albedo: 0.5}" : "{}",
+                "[{pass: gbuffer, samples: " + samples + "}, {pass: known_irradiance, " + source +
+                    "}, {pass: filter_irradiance, " + filter + "}]",
+                48, 48, 1, [](Registry& registry) { registry.add<KnownIrradiance>(); });
+    return chain.image("indirect");
+}
+
+double difference(const ImageF& a, const ImageF& b) {
+    double sum = 0;
+    for (size_t i = 0; i < a.data.size(); ++i) sum += std::abs(double(a.data[i]) - b.data[i]);
+    return sum / double(b.data.size()) / mean(b);
+}
+
+TEST(FilterIrradiance, KeepsConstantIrradianceExactly) {
+    // Cornell's edges, walls of different albedo, background and sub-pixels; a mean of equal values is that
+    // value, however taps are weighted and wherever rays are missing.
+    const ImageF one = filterKnown("rays: 1", "levels: 1", "cornell", "2");
+    EXPECT_GT(mean(one), 0.0);
+    EXPECT_EQ(filterKnown("rays: 1", "levels: 5", "cornell", "2").data, one.data);
+    EXPECT_EQ(filterKnown("rays: 1, spacing: 4", "levels: 5", "cornell", "2").data, one.data);
+    EXPECT_EQ(filterKnown("rays: 16", "levels: 3, edge_stopping_scale: 10", "cornell", "2").data, one.data);
+}
+
+TEST(FilterIrradiance, MultipliesByAlbedoOverPi) {
+    // The g-buffer keeps albedo in half floats, cut off at 11 bits.
+    const double expected = 0.5 * 2 / kPi;
+    for (const float value : filterKnown("rays: 1", "levels: 4", "white_room").data)
+        EXPECT_NEAR(value, expected, expected * 0x1p-10);
+}
+
+TEST(FilterIrradiance, KeepsTheMeanOfNoise) {
+    // Weights depend on geometry and on the number of rays alone, so the filter has no bias: the mean over N
+    // texels is off by their noise, sigma, times the root of the sum of their squared weights in that mean.
+    // Where the image's edge cuts the kernel off, weights at most double along each axis: 4 / N at most, so
+    // the root is 2 / sqrt(N) at most. Even noise of +-1 has sigma 1 / sqrt(3).
+    const ImageF noisy = filterKnown("noise: 1", "levels: 4", "white_room");
+    const double sigma = 1 / std::sqrt(3.0), texels = 48 * 48;
+    EXPECT_NEAR(mean(noisy) / (0.5 * 2 / kPi), 1, 4 * sigma * 2 / std::sqrt(texels));
+
+    // And it is much smoother.
+    double squares = 0;
+    for (const float value : noisy.data) squares += std::pow(value / mean(noisy) - 1, 2);
+    EXPECT_LT(std::sqrt(squares / double(noisy.data.size())), 0.2 * sigma);
+}
+
+TEST(FilterIrradiance, LeavesWellKnownIrradianceAlone) {
+    const ImageF noisy =
+        filterKnown("noise: 1, rays: 1e9", "levels: 1, edge_stopping_scale: 100", "white_room");
+    const ImageF filtered = filterKnown("noise: 1, rays: 1e9", "levels: 4", "white_room");
+    EXPECT_LT(difference(filtered, noisy), 1e-3);
+}
+
+TEST(FilterIrradiance, NamesGapsThatItCannotFill) {
+    try {
+        filterKnown("spacing: 8", "levels: 2", "cornell");
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("raise 'levels' to 4"), std::string::npos) << error.what();
+    }
+}
+
+const std::string kPaths = "{pass: path_trace, light: indirect, ";
+const std::string kFilter = ", {pass: filter_irradiance}, {pass: composite}]";
+
+TEST(FilterIrradiance, PathsIrradianceTimesAlbedoIsTheirRadiance) {
+    // One albedo everywhere: a pixel's indirect light is albedo / pi times the mean irradiance of its texels,
+    // by their numbers of paths.
+    Chain chain("white_room", "{albedo: 0.5}",
+                "[{pass: gbuffer, samples: 2}, " + kPaths + "spp: 16}, " + "{pass: composite}]");
+    const ImageF indirect = chain.image("indirect");
+    const NoisyIrradiance& noisy = *chain.graph().resource<NoisyIrradiance>("noisy_irradiance");
+    const std::vector<glm::vec4> texels = chain.readImage<glm::vec4>(noisy.irradiance);
+    for (uint32_t y = 0; y < indirect.height; ++y)
+        for (uint32_t x = 0; x < indirect.width; ++x) {
+            glm::vec4 sum(0.0f);
+            for (uint32_t t = 0; t < 4; ++t) {
+                const glm::vec4 texel = texels[(2 * y + t / 2) * 2 * indirect.width + 2 * x + t % 2];
+                sum += glm::vec4(glm::vec3(texel) * texel.w, texel.w);
+            }
+            EXPECT_EQ(sum.w, 16.0f);
+            EXPECT_NEAR(sum.g / 16 * 0.5 / kPi, indirect.pixel(x, y)[1], 1e-5 * mean(indirect));
+        }
+
+    // Each block of moments has seen each of its paths once.
+    const std::vector<gpu::RayMoments> moments = chain.read<gpu::RayMoments>(noisy.moments);
+    double rays = 0, luminance = 0, irradiance = 0;
+    for (const gpu::RayMoments& m : moments) {
+        rays += m.rays;
+        luminance += m.luminance;
+        EXPECT_GE(m.rays * m.squared, 0.999f * m.luminance * m.luminance);
+    }
+    for (const glm::vec4& texel : texels) irradiance += double(texel.g) * texel.w;
+    EXPECT_EQ(rays, 16.0 * double(indirect.pixelCount()));
+    EXPECT_NEAR(luminance / irradiance, 1, 1e-4);  // The room is grey.
+}
+
+TEST(FilterIrradiance, PathsWithoutDirectLightAreTheSamePaths) {
+    const auto trace = [](const std::string& light) {
+        return std::make_unique<Chain>("cornell", "{}",
+                                       "[{pass: gbuffer}, {pass: path_trace, spp: 4, bounces: 3, light: " +
+                                           light + "}, {pass: composite}]");
+    };
+    const auto all = trace("all"), indirect = trace("indirect");
+    EXPECT_EQ(indirect->image("indirect").data, all->image("indirect").data);
+    EXPECT_LT(indirect->frameSamples.at(1).rays, all->frameSamples.at(1).rays);
+    EXPECT_THROW(Chain("cornell", "{}", "[{pass: path_trace, light: indirect}]"), Error);
+}
+
+TEST(FilterIrradiance, KeepsTheEnergyOfAPathTracedFurnace) {
+    // Every surface emits 1 and reflects 0.6. Two bounces after direct light: 0.36 + 0.216. The raw image's
+    // own variance bounds the error, as in KeepsTheMeanOfNoise.
+    for (const std::string samples : {"1", "2"}) {
+        Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
+                    "[{pass: gbuffer, samples: " + samples + "}, " + kPaths + "spp: 4, bounces: 2}" + kFilter,
+                    48, 48);
+        const ImageF variance = chain.image("indirect_variance");
+        const double noise = std::sqrt(mean(variance) / double(variance.pixelCount()));
+        EXPECT_LT(8 * noise, 0.02);
+        EXPECT_NEAR(mean(chain.image("indirect")), 0.576, 8 * noise) << samples;
+    }
+}
+
+TEST(FilterIrradiance, FollowsAnySource) {
+    // The same scene by gather rays and by paths: the same light, and less noise than without the filter.
+    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 256, bounces: 4}]", 64, 64);
+    const ImageF expected = reference.image("indirect");
+    const auto image = [](const std::string& source, const std::string& end) {
+        return Chain("cornell", "{lights: point}",
+                     "[{pass: gbuffer, samples: 2}, {pass: voxelize, resolution: 48}, {pass: "
+                     "inject_light_rays, "
+                     "rays_per_light: 131072, bounces: 3}, {pass: trace_gather_rays, rays: 4}, " +
+                         source + end,
+                     64, 64)
+            .image("indirect");
+    };
+    for (const std::string& source : {std::string("{pass: gather_rays}"), kPaths + "spp: 4, bounces: 4}"}) {
+        const ImageF raw = image(source, ", {pass: composite}]"), filtered = image(source, kFilter);
+        EXPECT_NEAR(mean(filtered) / mean(expected), 1, 0.03) << source;
+        EXPECT_LT(difference(filtered, expected), 0.5 * difference(raw, expected)) << source;
+    }
+}
+
+}  // namespace
+}  // namespace voxray::test
