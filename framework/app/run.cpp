@@ -95,6 +95,10 @@ void addRunCommand(CLI::App& app, int& status) {
                       "Keep what an earlier run of the same experiment finished.");
     command->add_flag("--dry-run", options.dryRun,
                       "Print variants, passes and predicted memory; render nothing.");
+    command->add_flag(
+        "--aovs", options.aovs,
+        "Write what passes offer to look at in frame 0 (position, normals, albedo, depth, ids) into "
+        "aovs.PASS.exr of each variant.");
     command->add_flag("--validate", options.validation,
                       "Turn Vulkan's validation layer on: its messages are printed and fail the run (exit "
                       "status 1). Times are then not the method's.");

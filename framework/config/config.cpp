@@ -1,6 +1,7 @@
 #include "config/config.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "config/overrides.h"
 #include "config/yaml.h"
@@ -40,10 +41,44 @@ void checkGraph(const Value& graph) {
     }
 }
 
+// Masks name columns of results.csv and pictures.
+std::vector<MaskSettings> readMasks(const Value& map) {
+    if (!map.isMap())
+        throw UsageError(
+            map.where,
+            "measure.masks: expected a map of conditions by name, as in {{floor: {{material: stone}}}}");
+    std::vector<MaskSettings> masks;
+    for (const auto& [name, conditions] : map.members) {
+        const bool isPlain =
+            !name.empty() && name.size() <= 50 && std::ranges::all_of(name, [](unsigned char c) {
+                return std::isalnum(c) || c == '_' || c == '-';
+            });
+        if (!isPlain)
+            throw UsageError(conditions.where,
+                             "measure.masks: '{}' can't name a mask; use up to 50 letters, digits, '_', '-'",
+                             name);
+        if (!conditions.isMap() || conditions.members.empty())
+            throw UsageError(conditions.where,
+                             "measure.masks.{}: expected conditions, as in {{material: stone}}", name);
+        MaskSettings mask = readParams<MaskSettings>(conditions, "measure.masks." + name);
+        mask.name = name;
+        mask.where = conditions.where;
+        masks.push_back(std::move(mask));
+    }
+    return masks;
+}
+
 MeasureSettings readMeasure(const Value& map) {
     Value scalars = map;
     scalars.erase("metrics");
+    scalars.erase("masks");
     MeasureSettings measure = readParams<MeasureSettings>(scalars, "measure");
+    if (measure.compareEvery > 0 && comparedFrames(measure) < 3)
+        throw UsageError(
+            map.find("compare_every")->where,
+            "measure.compare_every: {} of {} frames compares {}; temporal error needs at least 3",
+            measure.compareEvery, measure.frames, comparedFrames(measure));
+    if (const Value* masks = map.find("masks"); masks && !masks->isNull()) measure.masks = readMasks(*masks);
     const Value* list = map.find("metrics");
     if (!list) {
         measure.metrics = metricNames();
@@ -122,6 +157,10 @@ Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
 }
 
 }  // namespace
+
+uint32_t comparedFrames(const MeasureSettings& settings) {
+    return settings.compareEvery == 0 ? 1 : (settings.frames - 1) / settings.compareEvery + 1;
+}
 
 std::vector<std::string> metricNames() {
     std::vector<std::string> names;

@@ -64,18 +64,45 @@ struct ImageSettings {
     }
 };
 
-/// `measure`, but for the list `metrics`.
+/// An entry of `measure.masks`: what a surface must be for its pixels to be selected; all of it must hold.
+struct MaskSettings {
+    std::string name;  ///< Its key.
+    std::string material;
+    std::string object;
+    float minMetallic = 0;
+    float maxRoughness = 1;
+    TextLocation where;
+    static constexpr auto schema() {
+        return std::tuple{
+            field("material", &MaskSettings::material, "Name of the surface's material; empty: any."),
+            field("object", &MaskSettings::object,
+                  "Name of its mesh or of the node that places it; empty: any."),
+            field("min_metallic", &MaskSettings::minMetallic,
+                  "Least metallic value of the material at the point, texture included.", 0.0f, 1.0f),
+            field("max_roughness", &MaskSettings::maxRoughness,
+                  "Largest roughness at the point, texture included.", 0.0f, 1.0f)};
+    }
+};
+
+/// `measure`, but for the list `metrics` and the map `masks`.
 struct MeasureSettings {
     uint32_t frames = 20;
     uint32_t warmup = 3;
+    uint32_t compareEvery = 0;
     uint32_t buildRepeats = 1;
     uint64_t memoryLimitMb = 0;
     std::vector<std::string> metrics;  ///< As in the config: names out of metricNames().
+    std::vector<MaskSettings> masks;
     static constexpr auto schema() {
         return std::tuple{
             field("frames", &MeasureSettings::frames, "Frames that are timed. The first of them is judged.",
                   1u, 100000u),
             field("warmup", &MeasureSettings::warmup, "Frames before them that are not timed.", 0u, 100000u),
+            field("compare_every", &MeasureSettings::compareEvery,
+                  "0: frame 0 alone is compared with a reference. n: every n-th measured frame is, each with "
+                  "the "
+                  "reference of its own time, and temporal error is reported.",
+                  0u, 100000u),
             field("build_repeats", &MeasureSettings::buildRepeats,
                   "Timed runs of the build passes, after one that is not timed.", 1u, 1000u),
             field("memory_limit_mb", &MeasureSettings::memoryLimitMb,
@@ -83,6 +110,9 @@ struct MeasureSettings {
                   uint64_t(1) << 24)};
     }
 };
+
+/// How many of the measured frames are compared with a reference: 0, compareEvery, 2 compareEvery ...
+uint32_t comparedFrames(const MeasureSettings& settings);
 
 /// Names for `measure.metrics`.
 std::vector<std::string> metricNames();

@@ -151,6 +151,10 @@ Value configJsonSchema(const Registry& registry) {
     metrics.set("metrics", object({{"type", text("array")},
                                    {"items", object({{"enum", listOf(metricNames())}})},
                                    {"description", text("Metrics that are written; all by default.")}}));
+    metrics.set("masks",
+                object({{"type", text("object")},
+                        {"additionalProperties", mapSchema(describeParams<MaskSettings>())},
+                        {"description", text("Name: conditions. Pixels that are scored on their own.")}}));
     properties.set("measure", mapSchema(describeParams<MeasureSettings>(), metrics));
     properties.set("graph", object({{"type", text("array")}, {"items", pass}, {"minItems", literal("1")}}));
     properties.set("reference", anyOf({object({{"type", text("null")}}), pass}));

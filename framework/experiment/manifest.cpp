@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "base/files.h"
+#include "image/temporal.h"
 
 namespace voxray {
 namespace fs = std::filesystem;
@@ -26,9 +27,10 @@ Json scoresJson(const Scores& scores, const std::string& suffix = "") {
     return json;
 }
 
-Json metricsJson() {
+template <typename Infos>
+Json metricsJson(const Infos& infos) {
     Json list = Json::array();
-    for (const Metric& metric : metrics())
+    for (const MetricInfo& metric : infos)
         list.push_back({{"name", metric.name},
                         {"label", metric.label},
                         {"unit", metric.unit},
@@ -48,6 +50,7 @@ Json referenceJson(const ReferenceRecord& r, const Value& pass) {
     json["hash"] = r.hash;
     json["seconds"] = r.seconds;
     json["cached"] = r.cached;
+    json["mask_fractions"] = r.maskFractions;
     json.update(scoresJson(r.noise, kNoiseSuffix));
     return json;
 }
@@ -102,7 +105,8 @@ std::string manifestJson(const ManifestData& data) {
     Value measure = writeParams(experiment.measure);
     json["measure"] = Json::parse(measure.json());
     json["measure"]["metrics"] = experiment.measure.metrics;
-    json["metrics"] = metricsJson();
+    json["metrics"] = metricsJson(metrics());
+    json["temporal_metrics"] = metricsJson(temporalMetrics());
 
     // What most runs have: one reference
     if (!data.references.empty()) {
@@ -143,6 +147,7 @@ std::vector<ReferenceRecord> referencesOf(const std::string& manifestText) {
             r.hash = json.at("hash").get<std::string>();
             r.seconds = json.at("seconds").get<double>();
             r.cached = json.at("cached").get<bool>();
+            r.maskFractions = json.at("mask_fractions").get<std::map<std::string, double>>();
             r.noise = noiseFrom(json);
             r.exposures = exposuresFrom(json.at("flip_exposures"));
             r.indirectExposures = exposuresFrom(json.at("indirect_flip_exposures"));

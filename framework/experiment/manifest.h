@@ -21,7 +21,8 @@ struct ReferenceRecord {
     bool cached = false;
     Scores noise;  ///< Expected scores of the reference's own noise, by column, as far as known.
     FlipExposures exposures, indirectExposures;
-    Scores black, constant;  ///< By column.
+    Scores black, constant;                       ///< By column.
+    std::map<std::string, double> maskFractions;  ///< By mask: of the image's pixels, those that it selects.
 };
 
 /// What `manifest.json` records.

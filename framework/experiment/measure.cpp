@@ -67,7 +67,7 @@ Percentiles percentiles(std::vector<double> values) {
 ImageF downloadImage(Device& device, CommandStream& stream, const Image& image) {
     const ImageDesc& desc = image.desc();
     if (desc.format != VK_FORMAT_R32G32B32A32_SFLOAT)
-        throw Error("image '{}' is not RGBA32F and can't be judged", image.name());
+        throw Error("image '{}' is not RGBA32F and can't be scored", image.name());
     const uint64_t pixels = uint64_t(desc.extent.x) * desc.extent.y;
     const Buffer buffer(device, image.name() + " readback", pixels * 16, MemoryKind::Readback);
     stream.copy(image, buffer);
@@ -79,7 +79,8 @@ ImageF downloadImage(Device& device, CommandStream& stream, const Image& image) 
 }
 
 Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureSettings& settings,
-                         const std::function<void(double)>& progress) {
+                         const std::function<void(double)>& progress,
+                         const std::function<void(const Frame&, uint32_t)>& afterFrame) {
     const double runsOfFrame = target.goToFrame ? 2 : 1;
     const double steps =
         1 + settings.buildRepeats + runsOfFrame * (double(settings.warmup) + settings.frames);
@@ -135,12 +136,7 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
         runFrame(int(i) - int(settings.warmup), kFirstWarmupFrame + i, false);
     for (uint32_t i = 0; i < settings.frames; ++i) {
         frames.add(runFrame(int(i), i, i == 0 || i + 1 == settings.frames));
-        if (i > 0) continue;
-        const Image* final = graph.image("final");
-        if (!final || !*final) throw Error("no pass wrote the image 'final'");
-        result.final = downloadImage(target.device, target.stream, *final);
-        if (const Image* indirect = graph.image("indirect"); indirect && *indirect)
-            result.indirect = downloadImage(target.device, target.stream, *indirect);
+        afterFrame(frame, i);
     }
 
     // Cost of each pass, in the graph's order; its memory stands in its first row

@@ -48,8 +48,6 @@ struct Measurement {
     uint64_t memoryBytes = 0;  ///< Kept by the passes; the scene itself is not counted.
     uint64_t peakBytes = 0;    ///< The same with the scratch of the pass that takes most.
     uint64_t rays = 0;         ///< Of one build and one frame.
-    ImageF final;              ///< 3 channels, of the first measured frame.
-    std::optional<ImageF> indirect;
 };
 
 /// What a graph runs on.
@@ -68,17 +66,19 @@ struct GraphTarget {
 inline constexpr const char* kSceneUpdate = "scene";
 
 /// Runs a prepared graph: the build passes once untimed and then `buildRepeats` times, warm-up frames,
-/// measured frames. Measured frames are numbered from 0, warm-up frames from 1,000,000; the image of frame 0
-/// is judged, so it does not depend on how many frames are measured. A frame's camera stands as many times
+/// measured frames. Measured frames are numbered from 0, warm-up frames from 1,000,000, so that frame 0 does
+/// not depend on how many frames are measured. A frame's camera stands as many times
 /// `cameraMove` from the target frame's as the frame is after frame 0. Where the target has `goToFrame`, it
 /// and the build passes run before the passes of each frame, and build passes have a second cost, of phase
 /// Frame. They always run as in frame 0: they draw the same random numbers each time, so that only what
 /// changed changes. Outputs are checked for NaN and infinity, outside of the timings, in the first build and
 /// in the first and last measured frame.
 /// @param progress called with the fraction done.
+/// @param afterFrame called outside of the timings with each measured frame and its number, to read images.
 /// @throws Interrupted, Error of a pass.
 Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureSettings& settings,
-                         const std::function<void(double)>& progress);
+                         const std::function<void(double)>& progress,
+                         const std::function<void(const Frame&, uint32_t)>& afterFrame);
 
 /// Level 0 of an RGBA32F image; alpha is dropped.
 ImageF downloadImage(Device& device, CommandStream& stream, const Image& image);

@@ -27,12 +27,6 @@ constexpr Part kParts[] = {{"final", &ReferenceImages::final},
                            {"variance", &ReferenceImages::variance},
                            {"indirect_variance", &ReferenceImages::indirectVariance}};
 
-double meanOf(const ImageF& image) {
-    double sum = 0;
-    for (const float value : image.data) sum += value;
-    return image.data.empty() ? 0 : sum / double(image.data.size());
-}
-
 bool isFinite(const ImageF& image) {
     for (const float value : image.data)
         if (!std::isfinite(value)) return false;
@@ -41,17 +35,18 @@ bool isFinite(const ImageF& image) {
 
 }  // namespace
 
-Scores noiseFloor(const ImageF& mean, const ImageF& variance) {
+Scores noiseFloor(const ImageF& mean, const ImageF& variance, PixelMask mask) {
     // As the metrics do, in units of the reference's mean
-    const double scale = meanOf(mean);
+    const double scale = meanValue(mean, mask);
     if (!(scale > 0)) return {};
     double squares = 0, relative = 0;
     for (size_t i = 0; i < mean.data.size(); ++i) {
+        if (!mask.empty() && !mask[i / mean.channels]) continue;
         const double r = mean.data[i] / scale, v = variance.data[i] / (scale * scale);
         squares += v;
         relative += v / (r * r + 0.01);
     }
-    const double count = double(mean.data.size());
+    const double count = double(countPixels(mean, mask) * mean.channels);
     return {{"nrmse", std::sqrt(squares / count)}, {"relmse", relative / count}};
 }
 
@@ -59,7 +54,7 @@ uint64_t referenceSeed(uint64_t seed) {
     return seed ^ 0x9e3779b97f4a7c15ull;
 }
 
-ReferenceImages renderReference(Graph& graph, const GraphTarget& target,
+ReferenceImages renderReference(Graph& graph, const GraphTarget& target, uint32_t frameIndex,
                                 const std::function<void(double)>& progress) {
     Frame frame = target.frame;
     frame.progress = [&](double part) {
@@ -68,7 +63,7 @@ ReferenceImages renderReference(Graph& graph, const GraphTarget& target,
     };
     const auto start = std::chrono::steady_clock::now();
     for (const Phase phase : {Phase::Build, Phase::Frame}) {
-        graph.run(phase, frame, target.device, target.stream, target.tracer, target.scene, 0, true);
+        graph.run(phase, frame, target.device, target.stream, target.tracer, target.scene, frameIndex, true);
         if (interruptRequested()) throw Interrupted();
     }
     ReferenceImages reference;

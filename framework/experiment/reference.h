@@ -10,7 +10,7 @@
 
 namespace voxray {
 
-/// What variants are judged by. Variances are those of each pixel's mean.
+/// What variants are compared with. Variances are those of each pixel's mean.
 struct ReferenceImages {
     ImageF final, indirect, variance, indirectVariance;  ///< 3 channels each.
     double seconds = 0;                                  ///< That rendering took, when it was rendered.
@@ -19,16 +19,17 @@ struct ReferenceImages {
 };
 
 /// Expected nrmse and relmse of a noisy image against its own expectation, from the variance of each pixel's
-/// mean; both images have 3 channels. Empty for a black image.
-Scores noiseFloor(const ImageF& mean, const ImageF& variance);
+/// mean; both images have 3 channels. Empty where the pixels under the mask are black.
+Scores noiseFloor(const ImageF& mean, const ImageF& variance, PixelMask mask = {});
 
 /// The seed that the reference renders with: not the variants' own, so that a path-traced variant does not
 /// share the reference's samples.
 uint64_t referenceSeed(uint64_t seed);
 
 /// Renders a one-pass graph, prepared, that writes final, indirect, variance and indirect_variance.
-/// @param progress called with the fraction done. @throws Interrupted; Error of the pass.
-ReferenceImages renderReference(Graph& graph, const GraphTarget& target,
+/// @param frameIndex of a sequence: frames draw random numbers of their own, so that their noise is
+/// independent. @param progress called with the fraction done. @throws Interrupted; Error of the pass.
+ReferenceImages renderReference(Graph& graph, const GraphTarget& target, uint32_t frameIndex,
                                 const std::function<void(double)>& progress);
 
 /// Key of a reference: the scene (SceneLoader::key), the resolved pass, image size and seed.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "image/temporal.h"
+
 namespace voxray {
 namespace {
 
@@ -52,6 +54,42 @@ const char* phaseName(Phase phase) {
     return phase == Phase::Build ? "build" : "frame";
 }
 
+/// A column of scores, and the metric that stands in it where it can be left out.
+struct ScoreColumn {
+    std::string name;
+    std::string metric;
+};
+
+/// Of the whole image, then of each mask: the total light's metrics in the order of their table, then the
+/// indirect light's.
+std::vector<ScoreColumn> scoreColumns(const MeasureSettings& measure) {
+    std::vector<std::string> regions{""};
+    for (const MaskSettings& mask : measure.masks) regions.push_back(maskSuffix(mask.name));
+    std::vector<ScoreColumn> columns;
+    for (const std::string& region : regions)
+        for (const std::string light : kLightPrefixes)
+            for (const Metric& metric : metrics())
+                columns.push_back({light + metric.name + region, metric.name});
+    return columns;
+}
+
+std::vector<std::string> scoreFields(const std::vector<ScoreColumn>& columns, const Scores& scores,
+                                     const MeasureSettings& measure) {
+    std::vector<std::string> fields;
+    for (const ScoreColumn& column : columns) {
+        const auto value = scores.find(column.name);
+        const bool isWanted = column.metric.empty() || std::ranges::count(measure.metrics, column.metric) > 0;
+        fields.push_back(isWanted && value != scores.end() ? numberText(value->second) : "");
+    }
+    return fields;
+}
+
+std::vector<std::string> namesOf(const std::vector<ScoreColumn>& columns) {
+    std::vector<std::string> names;
+    for (const ScoreColumn& column : columns) names.push_back(column.name);
+    return names;
+}
+
 }  // namespace
 
 std::string numberText(double value) {
@@ -65,21 +103,19 @@ std::string csvField(const std::string& text) {
     return quoted + "\"";
 }
 
-std::vector<ScoreColumn> scoreColumns() {
-    std::vector<ScoreColumn> columns;
-    for (const char* light : kLightPrefixes)
-        for (const Metric& metric : metrics())
-            columns.push_back({std::string(light) + metric.name, metric.name});
-    return columns;
-}
-
 std::string resultsCsv(const std::vector<VariantResult>& results, const std::vector<std::string>& sweepKeys,
-                       const std::vector<std::string>& metricNames) {
+                       const MeasureSettings& measure) {
+    std::vector<ScoreColumn> columns = scoreColumns(measure);
+    for (const std::string light : kLightPrefixes) {
+        if (measure.compareEvery == 0) break;
+        for (const MetricInfo& metric : temporalMetrics()) columns.push_back({light + metric.name, ""});
+        columns.push_back({light + kTemporalNoise, ""});
+    }
     std::vector<std::string> header{"variant", "status", "error", "device", "tracer"};
     append(header, sweepKeys);
     append(header, {"build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes",
                     "peak_bytes", "rays"});
-    for (const ScoreColumn& column : scoreColumns()) header.push_back(column.name);
+    append(header, namesOf(columns));
 
     std::string text = csvLine(header);
     for (const VariantResult& r : results) {
@@ -91,11 +127,7 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
                             std::to_string(r.peakBytes), std::to_string(r.rays)});
         else
             append(fields, std::vector<std::string>(7));
-        for (const ScoreColumn& column : scoreColumns()) {
-            const auto value = r.scores.find(column.name);
-            const bool isWanted = std::ranges::count(metricNames, column.metric) > 0;
-            fields.push_back(isWanted && value != r.scores.end() ? numberText(value->second) : "");
-        }
+        append(fields, scoreFields(columns, r.scores, measure));
         text += csvLine(fields);
     }
     return text;
@@ -119,6 +151,21 @@ std::string valuesCsv(const std::vector<VariantResult>& results) {
         for (const ReportedValue& v : r.values)
             text += csvLine(
                 {r.variant, v.pass, v.name, v.frame ? std::to_string(*v.frame) : "", numberText(v.value)});
+    return text;
+}
+
+std::string framesCsv(const std::vector<VariantResult>& results, const MeasureSettings& measure) {
+    std::vector<ScoreColumn> columns = scoreColumns(measure);
+    for (const std::string light : kLightPrefixes) columns.push_back({light + temporalMetrics()[0].name, ""});
+    std::vector<std::string> header{"variant", "frame"};
+    append(header, namesOf(columns));
+    std::string text = csvLine(header);
+    for (const VariantResult& r : results)
+        for (const FrameScores& frame : r.frames) {
+            std::vector<std::string> fields{r.variant, std::to_string(frame.frame)};
+            append(fields, scoreFields(columns, frame.scores, measure));
+            text += csvLine(fields);
+        }
     return text;
 }
 
@@ -148,6 +195,9 @@ std::string resultJson(const VariantResult& r, const VariantInputs& inputs) {
         json["values"].push_back({{"pass", v.pass}, {"name", v.name}, {"value", v.value}});
         if (v.frame) json["values"].back()["frame"] = *v.frame;
     }
+    json["frames"] = Json::array();
+    for (const FrameScores& frame : r.frames)
+        json["frames"].push_back({{"frame", frame.frame}, {"scores", scoresJson(frame.scores)}});
     json["inputs"] = Json::object();
     for (const auto& [name, text] : inputs) json["inputs"][name] = text;
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -180,6 +230,8 @@ std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text)
             r.values.push_back({v.at("pass").get<std::string>(), v.at("name").get<std::string>(), frame,
                                 v.at("value").get<double>()});
         }
+        for (const Json& frame : json.at("frames"))
+            r.frames.push_back({frame.at("frame").get<uint32_t>(), scoresFrom(frame.at("scores"))});
         VariantInputs inputs;
         for (const auto& [name, value] : json.at("inputs").items())
             inputs.emplace_back(name, value.get<std::string>());

@@ -11,6 +11,12 @@
 /// Rows of the result files and their text.
 namespace voxray {
 
+/// A measured frame that was compared with its reference.
+struct FrameScores {
+    uint32_t frame = 0;
+    Scores scores;  ///< By column.
+};
+
 /// One variant's row.
 struct VariantResult {
     std::string variant;
@@ -27,6 +33,7 @@ struct VariantResult {
     Scores scores;  ///< By column; without those of a light that the graph doesn't write, or of no reference.
     std::vector<PassCost> passes;
     std::vector<ReportedValue> values;
+    std::vector<FrameScores> frames;  ///< Empty where frame 0 alone is compared.
 };
 
 /// What a variant's result depends on, by name: compared on --resume.
@@ -35,13 +42,10 @@ using VariantInputs = std::vector<std::pair<std::string, std::string>>;
 /// What columns of the total and of the indirect light begin with.
 inline constexpr const char* kLightPrefixes[] = {"", "indirect_"};
 
-/// A column of scores and the metric that stands in it.
-struct ScoreColumn {
-    std::string name;
-    std::string metric;
-};
-/// Columns of scores, in the order of the table of metrics: the total light's, then the indirect light's.
-std::vector<ScoreColumn> scoreColumns();
+/// What columns of the pixels under a mask end with.
+inline std::string maskSuffix(const std::string& mask) {
+    return "@" + mask;
+}
 
 /// A number with nine digits, '.' as decimal point, "inf" or "nan" where it isn't finite.
 std::string numberText(double value);
@@ -49,12 +53,16 @@ std::string numberText(double value);
 /// One field of CSV (RFC 4180): quoted where it holds a comma, a quote or a line break.
 std::string csvField(const std::string& text);
 
-/// `results.csv` (scores of metrics that `metricNames` leaves out stay empty), `passes.csv` and, of what
-/// passes reported, `values.csv` (a row a variant, pass, name and frame; no frame in the build).
+/// `results.csv`: a row a variant. Columns of scores are those of the metrics, lights and masks that are
+/// asked for, and of temporal error where frames are compared; metrics that `measure` leaves out stay empty.
 std::string resultsCsv(const std::vector<VariantResult>& results, const std::vector<std::string>& sweepKeys,
-                       const std::vector<std::string>& metricNames);
+                       const MeasureSettings& measure);
+/// `passes.csv`: a row a variant, pass and phase.
 std::string passesCsv(const std::vector<VariantResult>& results);
+/// `values.csv`, of what passes reported: a row a variant, pass, name and frame; no frame in the build.
 std::string valuesCsv(const std::vector<VariantResult>& results);
+/// `frames.csv`: a row a variant and compared frame; scores as in results.csv.
+std::string framesCsv(const std::vector<VariantResult>& results, const MeasureSettings& measure);
 
 /// `images/<variant>/result.json`, the mark of a finished variant; all numbers survive the round trip.
 std::string resultJson(const VariantResult& result, const VariantInputs& inputs);

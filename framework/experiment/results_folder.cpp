@@ -71,7 +71,7 @@ void ResultsFolder::checkOwner(const std::string& experiment) const {
 }
 
 void ResultsFolder::removeOldRun() const {
-    for (const char* file : {"results.csv", "passes.csv", "values.csv", "report.html"})
+    for (const char* file : {"results.csv", "passes.csv", "values.csv", "frames.csv", "report.html"})
         fs::remove(path_ / file);
     for (const auto& entry : fs::directory_iterator(path_ / "images"))
         if (fs::exists(entry.path() / "result.json") ||

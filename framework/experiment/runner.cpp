@@ -62,7 +62,7 @@ class Run {
     std::optional<Session> session_;
     std::optional<ResultsFolder> folder_;
     ManifestData manifest_;
-    std::vector<std::string> leftOut_;         ///< A line for each pass that some variant does without.
+    std::vector<std::string> notes_;           ///< What a reader of the results should know, a line each.
     std::map<size_t, VariantResult> results_;  ///< By index into variants_.
     std::optional<PreparedReference> reference_;
     bool referenceIsWritten_ = true;
@@ -123,7 +123,7 @@ void Run::openSession() {
         for (const std::string& id : variant.leftOut) ++variantsWithout[id];
     }
     for (const auto& [id, count] : variantsWithout)
-        leftOut_.push_back(
+        notes_.push_back(
             fmt::format("'{}' is left out of {} of {} variants: no image that is judged depends on it there",
                         id, count, variants_.size()));
     if (!wired_.reference.isNull()) manifest_.referencePass = wired_.reference.items[0];
@@ -178,12 +178,16 @@ void Run::openFolder() {
 
 VariantInputs Run::inputsOf(const WiredVariant& variant) {
     const Value measure = writeParams(experiment_.measure);
+    std::string masks;
+    for (const MaskSettings& mask : experiment_.measure.masks)
+        masks += mask.name + ": " + writeParams(mask).text() + " ";
     return {{"graph", variant.resolved.text()},
             {"scene", session_->loader().key(variant.setup.scene)},
             {"image", writeParams(variant.setup.image).text()},
             {"seed", std::to_string(variant.setup.general.seed)},
             {"reference", session_->referenceHashOf(wired_, variant.setup)},
             {"measure", measure.text()},
+            {"masks", masks},
             {"tracer", session_->tracerName(variant.setup)},
             {"device", session_->device().info().name},
             {"driver", session_->device().info().driver}};
@@ -208,9 +212,19 @@ void Run::takeOverFinished() {
 
 const PreparedReference* Run::referenceOf(const WiredVariant& variant, Progress& progress) {
     if (experiment_.reference.isNull()) return nullptr;
+    const std::string& hash = manifest_.referenceHashes.at(variant.name);
+    if (reference_ && reference_->images.hash == hash) return &*reference_;
+
+    // Masks first: a name that is wrong shows before anything is rendered
+    std::vector<PixelSelection> masks = session_->selectPixels(experiment_, variant.setup, 0);
+    for (const PixelSelection& mask : masks)
+        if (mask.count == 0) {
+            notes_.push_back(fmt::format("mask '{}' selects no pixel of '{}': it has no scores there",
+                                         mask.name, variant.name));
+            progress.warn(notes_.back());
+        }
     const ReferenceImages& images = session_->reference(wired_, variant.setup, registry_,
                                                         [&](double fraction) { progress.update(fraction); });
-    if (reference_ && reference_->images.hash == images.hash) return &*reference_;
 
     // The first reference is "reference"; each other one gets its own folder
     auto& records = manifest_.references;
@@ -219,7 +233,7 @@ const PreparedReference* Run::referenceOf(const WiredVariant& variant, Progress&
     const std::string folder = known != records.end() ? known->folder
                                : records.empty()      ? "reference"
                                                       : fmt::format("reference.{}", records.size() + 1);
-    reference_ = prepareReference(images, variant.setup.image, folder);
+    reference_ = prepareReference(images, std::move(masks), variant.setup.image, folder);
     if (known == records.end()) records.push_back(reference_->record);
     referenceIsWritten_ = false;
     return &*reference_;
@@ -233,8 +247,16 @@ void Run::runVariant(size_t index, Progress& progress) {
         progress.begin(experiment_.reference.isNull() ? variant.name : variant.name + ": reference");
         const PreparedReference* reference = referenceOf(variant, progress);
         progress.begin(variant.name);
-        rendered = renderVariant(variant, experiment_, *session_, reference,
-                                 [&](double fraction) { progress.update(fraction); });
+        const auto update = [&](double fraction) { progress.update(fraction); };
+        std::function<FrameReference(uint32_t)> referenceOfFrame;
+        if (!standsStill(variant.setup.scene))
+            referenceOfFrame = [&](uint32_t number) {
+                return FrameReference{
+                    session_->frameReference(wired_, variant.setup, registry_, number, update),
+                    session_->selectPixels(experiment_, variant.setup, number)};
+            };
+        rendered = renderVariant(variant, experiment_, *session_, reference, referenceOfFrame, options_.aovs,
+                                 update);
     } catch (const std::bad_alloc&) {
         failed.error = "out of memory";
     } catch (const std::exception& error) {
@@ -250,9 +272,8 @@ void Run::runVariant(size_t index, Progress& progress) {
     // What can't be written ends the run; what was written stays
     const float stops = variant.setup.image.exposureStops;
     if (!referenceIsWritten_)
-        folder_->writeImages(reference_->record.folder, [&](const auto& path) {
-            writeReferenceImages(path, reference_->images, stops);
-        });
+        folder_->writeImages(reference_->record.folder,
+                             [&](const auto& path) { writeReferenceImages(path, *reference_, stops); });
     referenceIsWritten_ = true;
     if (rendered) {
         const VariantInputs inputs = inputsOf(variant);
@@ -291,7 +312,7 @@ std::string Run::outcome(const VariantResult& r) const {
 
 std::vector<std::string> Run::warnings() const {
     std::vector<std::string> lines = session_->warnings();
-    lines.insert(lines.end(), leftOut_.begin(), leftOut_.end());
+    lines.insert(lines.end(), notes_.begin(), notes_.end());
     return lines;
 }
 
@@ -300,13 +321,20 @@ void Run::writeTables() {
     for (const auto& [index, result] : results_) rows.push_back(result);
     manifest_.warnings = warnings();
     folder_->writeText("manifest.json", manifestJson(manifest_));
-    folder_->writeText("results.csv", resultsCsv(rows, sweepKeys(experiment_), experiment_.measure.metrics));
+    folder_->writeText("results.csv", resultsCsv(rows, sweepKeys(experiment_), experiment_.measure));
     folder_->writeText("passes.csv", passesCsv(rows));
-    const bool reported = std::ranges::any_of(rows, [](const VariantResult& r) { return !r.values.empty(); });
-    if (reported)
-        folder_->writeText("values.csv", valuesCsv(rows));
-    else
-        folder_->remove("values.csv");  // Of a run that this one goes on with.
+
+    // Tables that not every run has; what isn't written now may be there of a run that this one goes on with
+    const auto writeIf = [&](bool has, const char* name, const auto& text) {
+        if (has)
+            folder_->writeText(name, text());
+        else
+            folder_->remove(name);
+    };
+    writeIf(std::ranges::any_of(rows, [](const VariantResult& r) { return !r.values.empty(); }), "values.csv",
+            [&] { return valuesCsv(rows); });
+    writeIf(experiment_.measure.compareEvery > 0, "frames.csv",
+            [&] { return framesCsv(rows, experiment_.measure); });
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct RunOptions {
     bool dryRun = false;           ///< Print variants, passes and predicted memory; render nothing.
     bool quiet = false;
     bool validation = false;  ///< Vulkan validation layer; its messages fail the run.
+    bool aovs = false;        ///< Write AOVs of frame 0 next to each variant's images.
     bool report = true;       ///< Make report.html at the end.
     std::filesystem::path sourceRoot;
 };

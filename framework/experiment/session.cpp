@@ -57,6 +57,25 @@ void Session::goToFrame(const Setup& setup, Frame& frame, int fromJudged) {
     stream_.finish();
 }
 
+Frame Session::enterFrame(const Setup& setup, uint32_t number, uint64_t seed) {
+    SceneOnDevice& onDevice = scene(setup);
+    Frame frame = frameOf(setup, onDevice.prepared, seed);
+    if (number > 0 && changesInTime(setup.scene)) {
+        goToFrame(setup, frame, int(number));
+        frame.changed.reset();
+    }
+    frame.camera.position += float(number) * frame.cameraMove;
+    return frame;
+}
+
+std::vector<PixelSelection> Session::selectPixels(const Experiment& experiment, const Setup& setup,
+                                                  uint32_t number) {
+    if (experiment.measure.masks.empty()) return {};
+    const Frame frame = enterFrame(setup, number, setup.general.seed);
+    return voxray::selectPixels(experiment.measure.masks, *frame.scene, frame.camera, frame.width,
+                                frame.height);
+}
+
 std::vector<PassMemory> Session::plan(Graph& graph, const Frame& frame, uint64_t limitMb) {
     const uint64_t total = device_.memoryLimitBytes(), used = device_.memoryUsedBytes();
     uint64_t limit = total > used ? total - used : 0;
@@ -64,10 +83,18 @@ std::vector<PassMemory> Session::plan(Graph& graph, const Frame& frame, uint64_t
     return graph.plan(frame, device_.info(), limit);
 }
 
-std::string Session::referenceHashOf(const WiredExperiment& experiment, const Setup& setup) {
+std::string Session::referenceHashOf(const WiredExperiment& experiment, const Setup& setup, uint32_t number) {
     if (experiment.reference.isNull()) return {};
-    return referenceHash(loader_.key(setup.scene), experiment.reference, setup.image,
-                         referenceSeed(setup.general.seed));
+    const std::string first = referenceHash(loader_.key(setup.scene), experiment.reference, setup.image,
+                                            referenceSeed(setup.general.seed));
+    if (number == 0 || standsStill(setup.scene)) return first;
+
+    // Frame 0 does not depend on where things go from there; later ones do
+    Hasher hasher;
+    hasher.add(first).addPlain(number).addPlain(setup.scene.options.timeStep);
+    hasher.addPlain(setup.scene.camera ? setup.scene.camera->move : glm::vec3(0.0f));
+    for (const ConfigLight& light : setup.scene.lights) hasher.addPlain(light.move);
+    return hasher.hex();
 }
 
 const ReferenceImages& Session::reference(const WiredExperiment& experiment, const Setup& setup,
@@ -80,31 +107,45 @@ const ReferenceImages& Session::reference(const WiredExperiment& experiment, con
     reference_ = cache_.load(hash, setup.image.width, setup.image.height);
     if (reference_) return *reference_;
     try {
-        reference_ = makeReference(hash, experiment, setup, registry, progress);
+        reference_ = makeReference(hash, experiment, setup, registry, 0, progress);
     } catch (const std::exception& error) {
         if (interruptRequested()) throw Interrupted();
         throw Error("{}", failedReferences_[hash] = std::string("reference: ") + error.what());
     }
 
     // The same bits whether they come from memory or from the cache
-    try {
-        cache_.store(*reference_);
-    } catch (const Error& error) {
-        warnings_.push_back(std::string("the reference could not be cached: ") + error.what());
-    }
+    store(*reference_);
     return *reference_;
 }
 
+void Session::store(const ReferenceImages& reference) {
+    try {
+        cache_.store(reference);
+    } catch (const Error& error) {
+        warnings_.push_back(std::string("the reference could not be cached: ") + error.what());
+    }
+}
+
+ReferenceImages Session::frameReference(const WiredExperiment& experiment, const Setup& setup,
+                                        const Registry& registry, uint32_t number,
+                                        const std::function<void(double)>& progress) {
+    const std::string hash = referenceHashOf(experiment, setup, number);
+    if (auto cached = cache_.load(hash, setup.image.width, setup.image.height)) return std::move(*cached);
+    ReferenceImages rendered = makeReference(hash, experiment, setup, registry, number, progress);
+    store(rendered);
+    return rendered;
+}
+
 ReferenceImages Session::makeReference(const std::string& hash, const WiredExperiment& experiment,
-                                       const Setup& setup, const Registry& registry,
+                                       const Setup& setup, const Registry& registry, uint32_t number,
                                        const std::function<void(double)>& progress) {
-    SceneOnDevice& onDevice = scene(setup);
-    const Frame frame = frameOf(setup, onDevice.prepared, referenceSeed(setup.general.seed));
+    const Frame frame = enterFrame(setup, number, referenceSeed(setup.general.seed));
+    SceneOnDevice& onDevice = *scene_;
     Graph graph = referenceGraph(experiment.experiment, registry);
     plan(graph, frame, 0);
     graph.prepare(frame, device_, compiler_, stream_);
-    ReferenceImages reference =
-        renderReference(graph, {frame, device_, stream_, *onDevice.tracer, onDevice.gpu, {}}, progress);
+    ReferenceImages reference = renderReference(
+        graph, {frame, device_, stream_, *onDevice.tracer, onDevice.gpu, {}}, number, progress);
     reference.hash = hash;
     return reference;
 }
@@ -113,6 +154,10 @@ std::vector<std::string> Session::warnings() const {
     std::vector<std::string> all = loader_.warnings();
     all.insert(all.end(), warnings_.begin(), warnings_.end());
     return all;
+}
+
+bool standsStill(const SceneSettings& settings) {
+    return !changesInTime(settings) && (!settings.camera || settings.camera->move == glm::vec3(0.0f));
 }
 
 Frame frameOf(const Setup& setup, const PreparedScene& prepared, uint64_t seed) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/pixel_masks.h"
 #include "experiment/reference.h"
 #include "experiment/scene_setup.h"
 #include "experiment/validate.h"
@@ -40,6 +41,10 @@ class Session {
     /// Takes the scene on the device, and a frame of it, to a frame counted from the judged one.
     void goToFrame(const Setup& setup, Frame& frame, int fromJudged);
 
+    /// A frame of the scene's sequence, counted from frame 0, with the scene on the device taken to it. To
+    /// whoever begins there everything is new.
+    Frame enterFrame(const Setup& setup, uint32_t number, uint64_t seed);
+
     /// Plans a graph: checks it against scene and device and predicts its memory, bytes by pass.
     /// @param limitMb the config's limit for the graph in MiB, 0: none.
     std::vector<PassMemory> plan(Graph& graph, const Frame& frame, uint64_t limitMb);
@@ -48,16 +53,25 @@ class Session {
     /// A reference that failed fails again at once. @throws Error, Interrupted.
     const ReferenceImages& reference(const WiredExperiment& experiment, const Setup& setup,
                                      const Registry& registry, const std::function<void(double)>& progress);
-    /// Its hash, "" where the experiment has none.
-    std::string referenceHashOf(const WiredExperiment& experiment, const Setup& setup);
+    /// The reference of another frame of a sequence (see standsStill); from the cache or rendered, not kept.
+    ReferenceImages frameReference(const WiredExperiment& experiment, const Setup& setup,
+                                   const Registry& registry, uint32_t number,
+                                   const std::function<void(double)>& progress);
+    /// A reference's hash, "" where the experiment has none.
+    std::string referenceHashOf(const WiredExperiment& experiment, const Setup& setup, uint32_t number = 0);
+
+    /// The pixels that the experiment's masks select in a frame.
+    std::vector<PixelSelection> selectPixels(const Experiment& experiment, const Setup& setup,
+                                             uint32_t number);
 
     /// What went wrong without failing a variant, a line each.
     std::vector<std::string> warnings() const;
 
  private:
     ReferenceImages makeReference(const std::string& hash, const WiredExperiment& experiment,
-                                  const Setup& setup, const Registry& registry,
+                                  const Setup& setup, const Registry& registry, uint32_t number,
                                   const std::function<void(double)>& progress);
+    void store(const ReferenceImages& reference);
 
     Device device_;
     CommandStream stream_;
@@ -70,6 +84,10 @@ class Session {
     std::map<std::string, std::string> failedReferences_;  ///< Hash -> error.
     std::vector<std::string> warnings_;
 };
+
+/// Whether all frames of a sequence show the same: nothing moves, the camera neither. They then share one
+/// reference.
+bool standsStill(const SceneSettings& settings);
 
 /// A frame of a variant on its scene; the scene must outlive it.
 Frame frameOf(const Setup& setup, const PreparedScene& prepared, uint64_t seed);

@@ -1,45 +1,47 @@
 #include "experiment/variant_run.h"
 
+#include <algorithm>
+
 namespace voxray {
 
 namespace {
 
-void addScores(Scores& all, const char* light, const Scores& scores) {
-    for (const auto& [metric, value] : scores) all[light + metric] = value;
+constexpr double kGiB = 1024.0 * 1024.0 * 1024.0;
+constexpr double kMaxImagesGiB = 8;  ///< Of the frames that are kept until they are scored.
+
+void checkHostMemory(const MeasureSettings& measure, const ImageSettings& image) {
+    const double bytesOfFrame = double(image.width) * image.height * 6 * sizeof(float);
+    const double gib = comparedFrames(measure) * bytesOfFrame / kGiB;
+    if (gib > kMaxImagesGiB)
+        throw Error(
+            "{} frames of {} x {} to compare take {:.1f} GiB of the host's memory, at most {} are allowed; "
+            "raise measure.compare_every",
+            comparedFrames(measure), image.width, image.height, gib, kMaxImagesGiB);
+}
+
+FrameImages downloadFrame(const Graph& graph, uint32_t number, Session& session) {
+    FrameImages images{number, {}, {}};
+    const Image* final = graph.image("final");
+    if (!final || !*final) throw Error("no pass wrote the image 'final'");
+    images.final = downloadImage(session.device(), session.stream(), *final);
+    if (const Image* indirect = graph.image("indirect"); indirect && *indirect)
+        images.indirect = downloadImage(session.device(), session.stream(), *indirect);
+    return images;
 }
 
 }  // namespace
 
-PreparedReference prepareReference(ReferenceImages images, const ImageSettings& image,
-                                   const std::string& folder) {
-    PreparedReference reference{std::move(images), {}};
-    ReferenceRecord& r = reference.record;
-    const ReferenceImages& ref = reference.images;
-    r.folder = folder;
-    r.hash = ref.hash;
-    r.seconds = ref.seconds;
-    r.cached = ref.cached;
-    r.exposures = flipExposures(ref.final);
-    r.indirectExposures = flipExposures(ref.indirect);
-    const auto addLight = [&](const char* light, const ImageF& mean, const ImageF& variance,
-                              const FlipExposures& exposures) {
-        const ScoreOptions options{image.exposureStops, exposures};
-        addScores(r.noise, light, noiseFloor(mean, variance));
-        addScores(r.black, light, score({blackLike(mean), mean, options}));
-        addScores(r.constant, light, score({constantLike(mean), mean, options}));
-    };
-    addLight(kLightPrefixes[0], ref.final, ref.variance, r.exposures);
-    addLight(kLightPrefixes[1], ref.indirect, ref.indirectVariance, r.indirectExposures);
-    return reference;
-}
-
 RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experiment, Session& session,
                               const PreparedReference* reference,
+                              const std::function<FrameReference(uint32_t)>& referenceOf, bool withAovs,
                               const std::function<void(double)>& progress) {
+    const MeasureSettings& measure = experiment.measure;
+    checkHostMemory(measure, variant.setup.image);
     Device& device = session.device();
     const size_t messagesBefore = device.validationMessages().size();
     RenderedVariant rendered;
     VariantResult& result = rendered.result;
+    std::vector<FrameImages> frames;
     {
         // Plan, prepare, run
         SceneOnDevice& scene = session.scene(variant.setup);
@@ -52,7 +54,13 @@ RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experimen
             target.goToFrame = [&](Frame& moved, int fromJudged) {
                 session.goToFrame(variant.setup, moved, fromJudged);
             };
-        Measurement m = measureGraph(graph, target, experiment.measure, progress);
+        Measurement m =
+            measureGraph(graph, target, measure, progress, [&](const Frame& now, uint32_t number) {
+                if (measure.compareEvery > 0 ? number % measure.compareEvery == 0 : number == 0)
+                    frames.push_back(downloadFrame(graph, number, session));
+                if (withAovs && number == 0)
+                    rendered.aovs = downloadAovs(graph, now, device, session.stream());
+            });
         result.tracer = scene.tracer->name();
         result.buildMs = m.buildMs;
         result.frameMs = m.frameMs;
@@ -61,26 +69,22 @@ RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experimen
         result.rays = m.rays;
         result.passes = std::move(m.passes);
         result.values = std::move(m.values);
-        rendered.final = std::move(m.final);
-        rendered.indirect = std::move(m.indirect);
     }
     if (const auto messages = device.validationMessages(); messages.size() > messagesBefore)
         throw Error("Vulkan validation: {}", messages[messagesBefore]);
 
-    // Score
     if (reference) {
-        const auto addLight = [&](const char* light, const ImageF& test, const ImageF& right,
-                                  const FlipExposures& exposures) {
-            Comparison comparison(test, right, {variant.setup.image.exposureStops, exposures});
-            addScores(result.scores, light, score(comparison));
-            return std::move(comparison.flip.map);
-        };
-        const ReferenceImages& right = reference->images;
-        rendered.flip = addLight(kLightPrefixes[0], rendered.final, right.final, reference->record.exposures);
-        if (rendered.indirect)
-            rendered.indirectFlip = addLight(kLightPrefixes[1], *rendered.indirect, right.indirect,
-                                             reference->record.indirectExposures);
+        const float stops = variant.setup.image.exposureStops;
+        ScoredFrame first =
+            scoreFrame(frames[0], reference->images, reference->masks, reference->record, stops);
+        rendered.flip = std::move(first.flip);
+        rendered.indirectFlip = std::move(first.indirectFlip);
+        result.scores = first.scores;
+        if (measure.compareEvery > 0)
+            scoreSequence(frames, *reference, first.scores, referenceOf, stops, result);
     }
+    rendered.final = std::move(frames[0].final);
+    rendered.indirect = std::move(frames[0].indirect);
     result.variant = variant.name;
     result.ok = true;
     result.device = device.info().name;
@@ -93,20 +97,27 @@ void writeVariantImages(const std::filesystem::path& folder, const RenderedVaria
     writeExr(folder / "final.exr", variant.final);
     writePng(folder / "final.png", preview(variant.final, exposureStops));
     if (variant.flip) writePng(folder / "flip.png", *variant.flip);
+    writeAovs(folder, variant.aovs);
     if (!variant.indirect) return;
     writeExr(folder / "indirect.exr", *variant.indirect);
     writePng(folder / "indirect.png", preview(*variant.indirect, exposureStops));
     if (variant.indirectFlip) writePng(folder / "indirect_flip.png", *variant.indirectFlip);
 }
 
-void writeReferenceImages(const std::filesystem::path& folder, const ReferenceImages& images,
+void writeReferenceImages(const std::filesystem::path& folder, const PreparedReference& reference,
                           float exposureStops) {
+    const ReferenceImages& images = reference.images;
     writeExr(folder / "final.exr", images.final);
     writePng(folder / "final.png", preview(images.final, exposureStops));
     writeExr(folder / "indirect.exr", images.indirect);
     writePng(folder / "indirect.png", preview(images.indirect, exposureStops));
     writeExr(folder / "variance.exr", images.variance);
     writeExr(folder / "indirect_variance.exr", images.indirectVariance);
+    for (const PixelSelection& mask : reference.masks) {
+        ImageF picture(images.final.width, images.final.height, 1);
+        std::ranges::copy(mask.pixels, picture.data.begin());
+        writePng(folder / ("mask." + mask.name + ".png"), picture);
+    }
 }
 
 }  // namespace voxray

@@ -4,39 +4,34 @@
 #include <functional>
 #include <optional>
 
-#include "experiment/manifest.h"
-#include "experiment/session.h"
+#include "experiment/aovs.h"
+#include "experiment/scoring.h"
 
 namespace voxray {
 
-/// A reference with what every score against it needs.
-struct PreparedReference {
-    ReferenceImages images;
-    ReferenceRecord record;
-};
-/// Pins the exposures and scores the black and the constant image.
-PreparedReference prepareReference(ReferenceImages images, const ImageSettings& image,
-                                   const std::string& folder);
-
-/// One rendered variant: its row and its pictures.
+/// One rendered variant: its row, and the pictures of frame 0.
 struct RenderedVariant {
     VariantResult result;
     ImageF final;
     std::optional<ImageF> indirect;
     std::optional<ImageF> flip, indirectFlip;  ///< 1 channel, where there is a reference.
+    std::vector<AovImage> aovs;
 };
 
-/// Plans, prepares, runs, measures and scores a variant; takes its graph. @param reference nullptr: no
-/// scores.
+/// Plans, prepares, runs, measures and scores a variant; takes its graph.
+/// @param reference of frame 0; nullptr: no scores. @param referenceOf the references of other frames, where
+/// frames are compared and not all show the same. @param withAovs whether AOVs of frame 0 are read back.
 /// @throws Error, Interrupted; validation messages are errors.
 RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experiment, Session& session,
                               const PreparedReference* reference,
+                              const std::function<FrameReference(uint32_t)>& referenceOf, bool withAovs,
                               const std::function<void(double)>& progress);
 
-/// Writes final, indirect and the FLIP maps as EXR and PNG into a folder.
+/// Writes final, indirect and the FLIP maps as EXR and PNG into a folder, AOVs as EXR.
 void writeVariantImages(const std::filesystem::path& folder, const RenderedVariant& variant,
                         float exposureStops);
-void writeReferenceImages(const std::filesystem::path& folder, const ReferenceImages& images,
+/// Writes a reference's images and its masks.
+void writeReferenceImages(const std::filesystem::path& folder, const PreparedReference& reference,
                           float exposureStops);
 
 }  // namespace voxray

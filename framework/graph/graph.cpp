@@ -75,6 +75,15 @@ std::vector<std::string> Graph::keepOnly(const std::vector<std::string>& portNam
     return dropped;
 }
 
+std::vector<std::pair<std::string, std::vector<Aov>>> Graph::aovs() const {
+    std::vector<std::pair<std::string, std::vector<Aov>>> all;
+    for (const GraphNode& node : impl_->nodes)
+        for (const std::unique_ptr<Resource>& output : node.outputs)
+            if (std::vector<Aov> own = output->aovs(); !own.empty())
+                all.emplace_back(node.id, std::move(own));
+    return all;
+}
+
 Value Graph::resolved() const {
     Value list = Value::list();
     for (const GraphNode& node : impl_->nodes) list.items.push_back(node.resolved);

@@ -77,6 +77,9 @@ class Graph {
                                 RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex,
                                 bool checkFinite);
 
+    /// The AOVs of all resources that have some, with the id of the pass that wrote them.
+    std::vector<std::pair<std::string, std::vector<Aov>>> aovs() const;
+
     /// What each pass has taken of the device's memory so far, in the order of passes().
     std::vector<PassMemory> memory() const;
 

@@ -24,6 +24,12 @@
 /// per frame.
 namespace voxray {
 
+/// An image to look at (AOV), as channels of an EXR file: "P.X" is the channel X of the layer P.
+struct Aov {
+    const Image* image;                 ///< RGBA32F or RGBA16F.
+    std::vector<std::string> channels;  ///< Names of the image's first components.
+};
+
 /// What passes hand to each other: a plain struct of buffers and images. The pass that writes it describes
 /// them in plan(), or makes them in record() where their size is counted.
 struct Resource {
@@ -31,6 +37,8 @@ struct Resource {
     /// Float images and float buffers that are checked for NaN and infinity after the producing pass ran.
     virtual std::vector<const Image*> checkedImages() const { return {}; }
     virtual std::vector<const Buffer*> checkedBuffers() const { return {}; }
+    /// What `run --aovs` writes of it, all of one size.
+    virtual std::vector<Aov> aovs() const { return {}; }
 };
 
 /// A radiance image of the frame's size: RGBA32F, linear Rec.709, W/(m² sr).

@@ -82,9 +82,12 @@ OIIO::ImageSpec openOptions() {
     return config;
 }
 
-void checkWritable(const fs::path& path, const ImageF& image) {
+void checkChannels(const fs::path& path, const ImageF& image) {
     if (image.channels != 1 && image.channels != 3)
         throw Error("{}: cannot write {} channels, only 1 or 3", path.string(), image.channels);
+}
+
+void checkWritable(const fs::path& path, const ImageF& image) {
     if (image.width == 0 || image.height == 0) throw Error("{}: the image is empty", path.string());
     if (image.data.size() != image.pixelCount() * image.channels)
         throw Error("{}: {} values do not fill {} x {} pixels of {} channels", path.string(),
@@ -184,10 +187,17 @@ DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name) {
 }
 
 void writeExr(const fs::path& path, const ImageF& image) {
+    checkChannels(path, image);
+    writeExr(path, image,
+             image.channels == 3 ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"});
+}
+
+void writeExr(const fs::path& path, const ImageF& image, const std::vector<std::string>& channelNames) {
     checkWritable(path, image);
+    if (channelNames.size() != image.channels)
+        throw Error("{}: {} names for {} channels", path.string(), channelNames.size(), image.channels);
     OIIO::ImageSpec spec(int(image.width), int(image.height), int(image.channels), OIIO::TypeDesc::FLOAT);
-    spec.channelnames =
-        image.channels == 3 ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"};
+    spec.channelnames = channelNames;
     spec.attribute("compression", "zip");
     // Without a date OpenImageIO writes the time of day: equal images would differ in their bytes.
     spec.attribute("DateTime", "1970:01:01 00:00:00");
@@ -195,6 +205,7 @@ void writeExr(const fs::path& path, const ImageF& image) {
 }
 
 void writePng(const fs::path& path, const ImageF& display) {
+    checkChannels(path, display);
     checkWritable(path, display);
     std::vector<uint8_t> bytes(display.data.size());
     for (size_t i = 0; i < bytes.size(); ++i) {

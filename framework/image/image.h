@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace voxray {
@@ -46,6 +47,9 @@ std::vector<uint8_t> encodePng(const DecodedImage& image);
 /// Writes a float32 EXR (ZIP; channels R, G, B or Y), whole or not at all. Equal images give equal files.
 /// @throws Error where the image is empty or has neither 1 nor 3 channels, or the file cannot be written.
 void writeExr(const std::filesystem::path& path, const ImageF& image);
+/// The same with a name for each channel, as many as there are: "P.X" is the channel X of the layer P.
+void writeExr(const std::filesystem::path& path, const ImageF& image,
+              const std::vector<std::string>& channelNames);
 
 /// Writes an 8-bit PNG of display values in [0, 1] (already encoded; others are clamped), whole or not at
 /// all.

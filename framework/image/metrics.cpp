@@ -27,17 +27,17 @@ double meanOf(const ImageF& test, const ImageF& reference, PixelMask mask, const
     return sum / double(count * reference.channels);
 }
 
-double meanOf(const ImageF& image, PixelMask mask) {
-    return meanOf(image, image, mask, [](double x, double) { return x; });
-}
-
 // What both images are multiplied by, so that neither exposure nor light strength changes a score.
 double scaleOf(const ImageF& reference, PixelMask mask) {
-    const double mean = meanOf(reference, mask);
+    const double mean = meanValue(reference, mask);
     return mean > 0 ? 1 / mean : 1;
 }
 
 }  // namespace
+
+double meanValue(const ImageF& image, PixelMask mask) {
+    return meanOf(image, image, mask, [](double x, double) { return x; });
+}
 
 size_t countPixels(const ImageF& image, PixelMask mask) {
     if (mask.empty()) return image.pixelCount();
@@ -50,12 +50,12 @@ size_t countPixels(const ImageF& image, PixelMask mask) {
 }
 
 double ErrorMap::meanUnder(PixelMask mask) const {
-    return mask.empty() ? mean : meanOf(map, mask);
+    return mask.empty() ? mean : meanValue(map, mask);
 }
 
 double meanRatio(const ImageF& test, const ImageF& reference, PixelMask mask) {
     checkPair(test, reference);
-    const double testMean = meanOf(test, mask), referenceMean = meanOf(reference, mask);
+    const double testMean = meanValue(test, mask), referenceMean = meanValue(reference, mask);
     if (testMean == referenceMean) return 1;
     if (referenceMean == 0) return std::copysign(meanRatioCap, testMean);
     return std::clamp(testMean / referenceMean, -meanRatioCap, meanRatioCap);

@@ -18,6 +18,9 @@ using PixelMask = std::span<const uint8_t>;
 /// Pixels that count. @throws Error where the mask doesn't fit the image or selects no pixel of it.
 size_t countPixels(const ImageF& image, PixelMask mask);
 
+/// Mean over all channels.
+double meanValue(const ImageF& image, PixelMask mask = {});
+
 /// Mean and per-pixel map of one error.
 struct ErrorMap {
     double mean = 0;

@@ -35,6 +35,7 @@ class Metric:
 
 BETTER = ("low", "high", "one")
 LIGHTS = {"total": "", "indirect": "indirect_"}  # name -> column prefix
+TEMPORAL_NOISE = "temporal_noise"  # the part of temporal_nrmse that the reference's noise adds
 IMAGES = {"total": ("final.png", "flip.png"), "indirect": ("indirect.png", "indirect_flip.png")}
 BASELINES = ("black", "constant")
 
@@ -51,10 +52,12 @@ class Results:
     variants: a row a variant, columns as in results.csv; costs and scores are floats (NaN where absent),
         everything else text as written. Ordered as the run wrote them.
     passes: a row a variant, pass and phase, as in passes.csv; may be empty.
+    frames: a row a variant and compared frame, as in frames.csv, scores in columns; may be empty.
     values: a row a variant, pass, name and frame, as in values.csv: what passes reported; frame is NaN in the
         build; may be empty.
     manifest: the run's manifest.json, {} where it is absent or broken.
     metrics: the manifest's list, in the order in which tables show them; the first three are charted.
+    temporal_metrics: likewise, of differences of successive frames; the first one is of each frame too.
     sweep_keys: the columns of `variants` that the sweep varied.
     warnings: what was absent or odd in the files, for the reader's eye, after the run's own warnings.
     """
@@ -63,8 +66,10 @@ class Results:
     variants: pd.DataFrame
     passes: pd.DataFrame
     values: pd.DataFrame
+    frames: pd.DataFrame
     manifest: dict
     metrics: tuple[Metric, ...]
+    temporal_metrics: tuple[Metric, ...]
     sweep_keys: list[str]
     warnings: list[str] = field(default_factory=list)
 
@@ -111,6 +116,10 @@ class Results:
             own = section(self.manifest, "baselines")
         return number(section(own, name).get(column))
 
+    def masks(self) -> dict[str, dict]:
+        """The conditions of each mask by its name. Scores of its pixels have columns that end with @ and the name."""
+        return _masks_of(self.manifest)
+
     @property
     def only_reference(self) -> dict | None:
         """The reference that all variants share, None where they have several."""
@@ -151,16 +160,24 @@ def load(directory: str | Path) -> Results:
     variants = _read_variants(directory / "results.csv", warnings)
     passes = _read_passes(directory / "passes.csv", warnings)
     values = _read_values(directory / "values.csv", warnings)
+    frames = _read_frames(directory / "frames.csv", warnings)
     manifest = _read_manifest(directory / "manifest.json", warnings)
 
     # The manifest names metrics and sweep keys.
-    metrics = _metrics_of(manifest, warnings)
-    _to_numbers(variants, [prefix + metric.key for prefix in LIGHTS.values() for metric in metrics])
+    metrics = _metrics_of(manifest, "metrics")
+    if not metrics:
+        warnings.append("The manifest doesn't list metrics with their directions: scores are left out.")
+    temporal = _metrics_of(manifest, "temporal_metrics")
+    regions = ["", *(f"@{name}" for name in _masks_of(manifest))]
+    scores = [prefix + metric.key + region for prefix in LIGHTS.values() for metric in metrics for region in regions]
+    over_frames = [prefix + key for prefix in LIGHTS.values() for key in (*(m.key for m in temporal), TEMPORAL_NOISE)]
+    _to_numbers(variants, [*scores, *over_frames])
+    _to_numbers(frames, ["frame", *scores, *over_frames])
     declared = manifest.get("sweep_keys")
     sweep_keys = [str(key) for key in declared if str(key) in variants.columns] if isinstance(declared, list) else []
     own = manifest.get("warnings")
     warnings = [str(text) for text in own] + warnings if isinstance(own, list) else warnings
-    results = Results(directory, variants, passes, values, manifest, metrics, sweep_keys, warnings)
+    results = Results(directory, variants, passes, values, frames, manifest, metrics, temporal, sweep_keys, warnings)
     if (count := len(results.references())) > 1:
         warnings.append(f"The variants have {count} different references, so their scores are not of one "
                         "image. Each is judged by its own one's noise, black and constant image; charts "
@@ -176,15 +193,17 @@ def _read_table(path: Path) -> pd.DataFrame:
         raise ReportError(f"{path}: cannot read: {error}") from error
 
 
-def _metrics_of(manifest: dict, warnings: list[str]) -> tuple[Metric, ...]:
-    listed = manifest.get("metrics")
-    entries = listed if isinstance(listed, list) else []
-    known = [entry for entry in entries if isinstance(entry, dict) and entry.get("better") in BETTER
-             and isinstance(entry.get("name"), str)]
-    if not known or len(known) < len(entries):
-        warnings.append("The manifest doesn't list all metrics with their directions: scores are left out.")
+def _metrics_of(manifest: dict, key: str) -> tuple[Metric, ...]:
+    listed = manifest.get(key)
+    known = [entry for entry in (listed if isinstance(listed, list) else []) if isinstance(entry, dict)
+             and entry.get("better") in BETTER and isinstance(entry.get("name"), str)]
     return tuple(Metric(entry["name"], str(entry.get("label", entry["name"])), str(entry.get("unit", "")),
                         entry["better"], str(entry.get("meaning", ""))) for entry in known)
+
+
+def _masks_of(manifest: dict) -> dict[str, dict]:
+    masks = section(section(section(manifest, "config"), "measure"), "masks")
+    return {name: conditions for name, conditions in masks.items() if isinstance(conditions, dict)}
 
 
 def _to_numbers(table: pd.DataFrame, columns: Iterable[str]) -> None:
@@ -242,6 +261,20 @@ def _read_values(path: Path, warnings: list[str]) -> pd.DataFrame:
             table = pd.DataFrame(columns=columns)
     _to_numbers(table, ("frame", "value"))
     return table[table["value"].notna()]
+
+
+def _read_frames(path: Path, warnings: list[str]) -> pd.DataFrame:
+    """Scores of each compared frame; only runs that compare several have such a file."""
+    table = pd.DataFrame(columns=["variant", "frame"])
+    if path.is_file():
+        try:
+            table = _read_table(path)
+            if not {"variant", "frame"} <= set(table.columns):
+                raise ReportError("frames.csv lacks a column variant or frame")
+        except ReportError as error:
+            warnings.append(f"{error}: errors over frames are not shown.")
+            table = pd.DataFrame(columns=["variant", "frame"])
+    return table
 
 
 def _read_manifest(path: Path, warnings: list[str]) -> dict:

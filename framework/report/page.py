@@ -10,14 +10,14 @@ from pathlib import Path
 import jinja2
 import pandas as pd
 
-from report import charts, images, ranking, style, table, text, values
+from report import charts, images, parts, ranking, style, table, text, values
 from report.load import IMAGES, ReportError, Results, section
 
 _HERE = Path(__file__).parent
 _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's row numbers
 _MAX_NAMED_POINTS = 12
 # Of the manifest:
-_SHOWN_ELSEWHERE = ("config", "metrics", "warnings", "baselines", "reference", "references", "variants")
+_SHOWN_ELSEWHERE = ("config", "metrics", "temporal_metrics", "warnings", "baselines", "reference", "references", "variants")
 
 
 @dataclass(frozen=True)
@@ -79,6 +79,9 @@ def render(results: Results) -> str:
         rows=table.variant_rows(results, columns, numbers, anchors),
         baselines=table.baseline_rows(results, columns), noises=table.noise_rows(results, columns),
         charts=chart_groups, not_drawn=not_drawn, legends=legends, markers=style.MARKERS, pass_colors=colors,
+        regions=parts.regions(results, lights, numbers, anchors,
+                              lambda folder, name: _picture(results, folder, name, images.embed, warnings)),
+        sequence=parts.sequence(results, lights, styles, numbers, anchors),
         values=values.value_table(results, numbers),
         value_charts=values.value_charts(results, styles, numbers),
         bars=_bars(results, colors, numbers, anchors), reference=_reference(results, lights, warnings),

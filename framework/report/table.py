@@ -27,9 +27,13 @@ _COSTS = {
 }
 
 
+_ARROWS = {"low": "↓", "high": "↑", "one": "→1"}
+
+
 @dataclass(frozen=True)
 class Column:
-    """A column of the results table. Scores have a metric; `light` is "" where it holds for both lights."""
+    """A column of the results table. Scores have a metric; `light` is "" where it holds for both lights; what is not
+    ranked has no marks."""
 
     key: str
     heading: str
@@ -37,6 +41,7 @@ class Column:
     light: str = ""
     align_text: bool = False
     metric: Metric | None = None
+    is_ranked: bool = True
 
 
 @dataclass(frozen=True)
@@ -67,16 +72,21 @@ def columns_of(results: Results, lights: list[str]) -> list[Column]:
     columns += [Column(key, key, f"{key} that the variant ran on", align_text=True)
                 for key in ("device", "tracer") if results.variants[key].nunique() > 1]
     columns += [Column(key, cost.heading, cost.title) for key, cost in _COSTS.items()]
-    arrows = {"low": "↓", "high": "↑", "one": "→1"}
+    return columns + score_columns(results, lights, results.metrics)
+
+
+def score_columns(results: Results, lights: list[str], metrics: tuple[Metric, ...], region: str = "") -> list[Column]:
+    """Columns of scores that some variant or baseline has. @param region "" or "@" and a mask's name."""
+    columns = []
     for light in lights:
-        for metric in results.metrics:
-            column = LIGHTS[light] + metric.key
+        for metric in metrics:
+            column = LIGHTS[light] + metric.key + region
             known = results.ok[column].notna().any() or any(
                 math.isfinite(results.baseline(name, column, reference))
                 for name in BASELINES for reference in results.references())
             if known:
                 unit = f", {metric.unit}" if metric.unit else ""
-                columns.append(Column(column, f"{metric.label}{unit}\u00a0{arrows[metric.better]}",
+                columns.append(Column(column, f"{metric.label}{unit}\u00a0{_ARROWS[metric.better]}",
                                       f"{metric.meaning} ({light} light)", light, metric=metric))
     return columns
 
@@ -96,6 +106,8 @@ def variant_rows(results: Results, columns: list[Column], numbers: dict[str, str
 
 
 def _marks(results: Results, column: Column) -> dict[str, str]:
+    if not column.is_ranked:
+        return {}
     if column.metric:
         return ranking.score_marks(results, column.metric, column.key)
     return ranking.cost_marks(results, column.key) if column.key in ranking.COST_COLUMNS else {}

@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import pandas as pd
-from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 
 from report import text
+from report.line_chart import line_chart
 from report.load import Results
 from report.style import Style
-from report.svg import STAND_INS, drawing, to_svg
 
 
 @dataclass(frozen=True)
@@ -43,7 +41,7 @@ def value_charts(results: Results, styles: dict[str, Style], numbers: dict[str, 
     for i, (part, name) in enumerate(_keys(series)):
         rows = series[(series["pass"] == part) & (series["name"] == name)]
         if rows["frame"].nunique() > 1:
-            charts.append(_chart(rows, f"{part}: {name}", styles, numbers, f"values-{i}"))
+            charts.append(line_chart(rows, "value", f"{part}: {name}", styles, numbers, f"values-{i}"))
     return charts
 
 
@@ -61,26 +59,3 @@ def _cell(values: pd.DataFrame | None) -> str:
     if len(values) == 1:
         return text.exact(values.iloc[0])
     return f"{text.figures(values.mean())} (most {text.figures(values.max())})"
-
-
-def _chart(rows: pd.DataFrame, caption: str, styles: dict[str, Style], numbers: dict[str, str],
-           chart_id: str) -> str:
-    with drawing():
-        figure = Figure(figsize=(5.0, 3.7), dpi=72)  # matplotlib's SVG has 72 units an inch
-        axes = figure.add_axes((0.16, 0.13, 0.80, 0.85))
-        titles = []
-        for i, (variant, own) in enumerate(rows.groupby("variant", sort=False)):
-            own = own.sort_values("frame")
-            style = styles[variant]
-            line = axes.plot(own["frame"], own["value"], color=STAND_INS[style.color], linewidth=1.2,
-                             marker=style.marker, markersize=4)[0]
-            line.set_gid(f"{chart_id}-point-{i}")
-            titles.append(f"{numbers[variant]} {variant}: {text.figures(own['value'].mean())} on average")
-        axes.set_ylim(bottom=min(0.0, rows["value"].min()))
-        axes.set_xlabel("measured frame")
-        axes.set_ylabel(caption)
-        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-        axes.grid(True, color=STAND_INS["grid"], linewidth=0.6)
-        axes.spines[["top", "right"]].set_visible(False)
-        axes.set_axisbelow(True)
-        return to_svg(figure, chart_id, caption, titles)

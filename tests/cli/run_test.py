@@ -44,7 +44,7 @@ class Run(CommandTest):
 
 class Results(Run):
     def test_files(self):
-        done = self.run_tiny("out", "--validate")
+        done = self.run_tiny("out", "--validate", "--aovs")
         self.assertIn("report.html", done.stdout)
         self.assertTrue(self.json("out", "manifest.json")["validation"])
         self.assertEqual(self.header("out", "results.csv"), RESULT_COLUMNS)
@@ -58,6 +58,9 @@ class Results(Run):
             self.assertLessEqual(float(row["frame_ms_p05"]), float(row["frame_ms_p95"]))
             self.assertGreater(int(row["memory_bytes"]), 0)
             self.assertGreater(float(row["mean_ratio"]), 0)
+        layers = self.bytes("out", "images", VARIANTS[0], "aovs.gbuffer.exr")
+        for channel in ("P.X", "N.Z", "Ng.X", "albedo.R", "emission.B", "roughness", "Z", "id", "material_id"):
+            self.assertIn(channel.encode() + b"\0", layers)
         phases = {row["pass"]: row["phase"] for row in self.rows("out", "passes.csv")}
         self.assertEqual((phases["inject"], phases["composite"]), ("build", "frame"))
         self.check_whole()

@@ -6,6 +6,7 @@
 #include <glm/gtc/packing.hpp>
 #include <glm/packing.hpp>
 
+#include "experiment/pixel_masks.h"
 #include "image/metrics.h"
 #include "passes/common/view/gbuffer.h"
 #include "scene/shapes.h"
@@ -151,6 +152,34 @@ TEST(GBuffer, TexturesAreSeenAtTheFootprintOfAPixel) {
         EXPECT_LT(low->x, 0.05f);
         EXPECT_GT(high->x, 0.95f);
     }
+}
+
+TEST(GBuffer, AovsAgreeWithWhatTheHostSees) {
+    // Depth and numbers in the files of --aovs are the host's, positions and albedo the pass's own.
+    Chain chain("cornell", "{lights: point}", "[{pass: gbuffer, samples: 2}]", 48, 32);
+    const std::vector<Aov> aovs = gbuffer(chain).aovs();
+    ASSERT_EQ(aovs.at(0).channels, (std::vector<std::string>{"P.X", "P.Y", "P.Z"}));
+    ASSERT_EQ(aovs.at(3).channels.at(0), "albedo.R");
+    const auto positions = texels(chain, *aovs[0].image), albedos = texels(chain, *aovs[3].image);
+    const Camera& camera = chain.state().cameras.at(0);
+    const std::vector<PrimaryHit> hits = primaryHits(chain.state(), camera, 96, 64);
+    ASSERT_EQ(positions.size(), hits.size());
+    size_t surfaces = 0, differing = 0;  // Rays that meet an edge may fall on either side of it.
+    for (size_t i = 0; i < hits.size(); ++i) {
+        const bool isSurface = positions[i].w > 0;
+        const float depth = glm::dot(glm::vec3(positions[i]) - camera.position, camera.forward);
+        surfaces += isSurface;
+        if (isSurface != (hits[i].instance >= 0) || (isSurface && std::abs(depth - hits[i].depth) > 1e-3f)) {
+            ++differing;
+            continue;
+        }
+        if (!isSurface) continue;
+        const Material& material = chain.state().scene->materials.at(size_t(hits[i].material));
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(albedos[i][c], material.baseColor[c], 1e-3f) << i;
+    }
+    EXPECT_GT(surfaces, hits.size() / 2);
+    EXPECT_LT(surfaces, hits.size());
+    EXPECT_LT(differing, hits.size() / 200);
 }
 
 TEST(GBuffer, SubPixelsApproachPixelMeans) {

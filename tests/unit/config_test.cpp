@@ -205,6 +205,30 @@ TEST(Config, Assignments) {
     expectError(kValid, {"has no keys"}, {"", {"seed.x=1"}});
 }
 
+TEST(Config, MasksAndComparedFramesAreChecked) {
+    const auto with = [](const std::string& assignment) { return ConfigOptions{"", {assignment}}; };
+    const Experiment e = parseExperiment(
+        kValid, "x", with("measure.masks={floor: {material: stone}, mirrors: {max_roughness: 0.1}}"));
+    ASSERT_EQ(e.measure.masks.size(), 2u);
+    EXPECT_EQ(e.measure.masks[0].name, "floor");
+    EXPECT_EQ(e.measure.masks[0].material, "stone");
+    EXPECT_FLOAT_EQ(e.measure.masks[1].maxRoughness, 0.1f);
+    EXPECT_EQ(comparedFrames(e.measure), 1u);
+
+    expectError(kValid, {"measure.masks: expected a map"}, with("measure.masks=[floor]"));
+    expectError(kValid, {"measure.masks: 'a b' can't name a mask"},
+                with("measure.masks={a b: {material: x}}"));
+    expectError(kValid, {"measure.masks.floor: expected conditions"}, with("measure.masks={floor: {}}"));
+    expectError(kValid, {"did you mean 'material'?"}, with("measure.masks={floor: {materail: x}}"));
+    expectError(kValid, {"max_roughness"}, with("measure.masks={floor: {max_roughness: 2}}"));
+    expectError(kValid, {"measure.compare_every: 1 of 2 frames compares 2; temporal error needs at least 3"},
+                with("measure.compare_every=1"));
+    MeasureSettings measure;
+    measure.frames = 10;
+    measure.compareEvery = 3;
+    EXPECT_EQ(comparedFrames(measure), 4u);  // 0, 3, 6, 9
+}
+
 TEST(Yaml, LimitsAndSyntax) {
     const auto failure = [](const std::string& text) {
         return errorOf<UsageError>([&] { parseYaml(text, "f.yaml"); });

@@ -27,6 +27,14 @@ inline void planImage(PassPlan& plan, Port<FrameImage> port, const char* name) {
 /// What a Witness writes: nothing, but whoever reads it needs the witness.
 struct Testimony : Resource {};
 
+/// Images to look at, in two formats.
+struct LayerImages : Resource {
+    Image wide, half;
+    std::vector<Aov> aovs() const override {
+        return {{&wide, {"P.X", "P.Y", "P.Z"}}, {&half, {"R", "G", "B"}}};
+    }
+};
+
 /// Writes `value` into final and half of it into indirect. Takes a witness where there is one.
 class Constant : public Pass {
  public:
@@ -34,6 +42,7 @@ class Constant : public Pass {
     static constexpr const char* kHelp = "A constant image.";
     struct Params {
         float value = 1;
+        float flicker = 0;
         bool nan = false;
         bool fail = false;
         bool interrupt = false;
@@ -41,6 +50,8 @@ class Constant : public Pass {
         uint32_t megabytes = 0;
         static constexpr auto schema() {
             return std::tuple{field("value", &Params::value, "Radiance.", 0.0f, 100.0f),
+                              field("flicker", &Params::flicker,
+                                    "Added to radiance in even frames, taken off in odd ones.", 0.0f, 1.0f),
                               field("nan", &Params::nan, "Write NaN instead."),
                               field("fail", &Params::fail, "Throw with commands recorded."),
                               field("interrupt", &Params::interrupt, "Raise SIGINT."),
@@ -57,6 +68,7 @@ class Constant : public Pass {
         final_ = b.write<FrameImage>("final", "The image.");
         indirect_ = b.write<FrameImage>("indirect", "Half of it.");
         b.readOptional<Testimony>("testimony", "Of a witness.");
+        b.readOptional<LayerImages>("layers", "To look at.");
     }
     void plan(PassPlan& plan) override {
         planImage(plan, final_, "constant final");
@@ -71,7 +83,8 @@ class Constant : public Pass {
         ++runs;
         cameraX.push_back(context.frame.camera.position.x);
         if (params_.interrupt) std::raise(SIGINT);
-        const float value = params_.nan ? std::numeric_limits<float>::quiet_NaN() : params_.value;
+        const float radiance = params_.value + (context.frameIndex % 2 ? -1 : 1) * params_.flicker;
+        const float value = params_.nan ? std::numeric_limits<float>::quiet_NaN() : radiance;
         context.stream.clear(context.get(final_).image, {{value, value, value, 1}});
         context.stream.clear(context.get(indirect_).image, {{value / 2, value / 2, value / 2, 1}});
         if (params_.misuse) context.stream.clear(notToBeCleared_, {});
@@ -97,6 +110,7 @@ class Truth : public Pass {
         }
     };
     static inline int runs = 0;
+    static inline std::vector<uint64_t> seeds;  ///< Of each run.
 
     explicit Truth(const Params&) {}
     Phase phase() const override { return Phase::Frame; }
@@ -109,6 +123,7 @@ class Truth : public Pass {
     void prepare(PassSetup&) override {}
     void record(PassContext& context) override {
         ++runs;
+        seeds.push_back(context.frame.seed + context.frameIndex);
         constexpr float kValues[] = {1.0f, 0.5f, 0.01f, 0.0025f};
         for (int i = 0; i < 4; ++i) {
             const float v = kValues[i];
@@ -172,12 +187,43 @@ class Witness : public Pass {
     }
 };
 
+/// Writes images that nobody reads but to look at them.
+class Layers : public Pass {
+ public:
+    static constexpr const char* kName = "layers";
+    static constexpr const char* kHelp = "Images to look at.";
+    struct Params {
+        static constexpr auto schema() { return std::tuple{}; }
+    };
+    explicit Layers(const Params&) {}
+    Phase phase() const override { return Phase::Frame; }
+    void declare(PassBuilder& b) override { layers_ = b.write<LayerImages>("layers", "To look at."); }
+    void plan(PassPlan& plan) override {
+        LayerImages& layers = plan.get(layers_);
+        ImageDesc desc;
+        desc.extent = {plan.frame.width, plan.frame.height, 1};
+        plan.image(layers.wide, "wide layer", desc);
+        desc.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+        plan.image(layers.half, "half layer", desc);
+    }
+    void prepare(PassSetup&) override {}
+    void record(PassContext& context) override {
+        const LayerImages& layers = context.get(layers_);
+        context.stream.clear(layers.wide, {{1, 2, 3, 4}});
+        context.stream.clear(layers.half, {{0.5f, 0.25f, 2, 1}});
+    }
+
+ private:
+    Port<LayerImages> layers_;
+};
+
 inline Registry registry() {
     Registry registry;
     registry.add<Constant>();
     registry.add<Truth>();
     registry.add<Relay>();
     registry.add<Witness>();
+    registry.add<Layers>();
     return registry;
 }
 
@@ -191,6 +237,7 @@ class RunTest : public testing::Test {
         std::filesystem::create_directories(root_);
         setenv("VOXRAY_CACHE", (root_ / "cache").c_str(), 1);
         Constant::runs = Truth::runs = 0;
+        Truth::seeds.clear();
     }
     void TearDown() override { std::filesystem::remove_all(root_); }
 

@@ -59,7 +59,7 @@ TEST(Schema, ConfigSchemaHoldsEveryPassAndKey) {
          {"name", "scene", "image", "seed", "tracer", "graph", "reference", "sweep", "measure", "profiles"})
         EXPECT_TRUE(json["properties"].contains(key)) << key;
     const auto& passes = json["properties"]["graph"]["items"]["oneOf"];
-    ASSERT_EQ(passes.size(), 4u);
+    ASSERT_EQ(passes.size(), 5u);
     EXPECT_EQ(passes[0]["properties"]["value"]["maximum"], 100);
     EXPECT_EQ(passes[0]["properties"]["value"]["default"], 1);
     EXPECT_EQ(passes[0]["additionalProperties"], false);
@@ -81,7 +81,7 @@ TEST(Results, CsvQuotesByRfc4180) {
     failed.variant = "v";
     failed.error = "x, \"y\"";
     failed.sweepValues = {"[1, 2]"};
-    const std::string text = resultsCsv({failed}, {"a.b"}, metricNames());
+    const std::string text = resultsCsv({failed}, {"a.b"}, {});
     EXPECT_CONTAINS(text, "v,failed,\"x, \"\"y\"\"\",,,\"[1, 2]\",,,,,,,");
 }
 
@@ -97,7 +97,9 @@ TEST(Results, MetricsThatWereNotAskedForStayEmpty) {
     r.variant = "v";
     r.ok = true;
     r.scores = {{"flip", 0.25}, {"nrmse", 0.5}, {"indirect_nrmse", 0.75}};
-    const std::string text = resultsCsv({r}, {}, {"nrmse"});
+    MeasureSettings measure;
+    measure.metrics = {"nrmse"};
+    const std::string text = resultsCsv({r}, {}, measure);
     EXPECT_CONTAINS(text, "v,ok,,,,0,0,0,0,0,0,0,0.5,,,,,,,0.75,,,,,,\n");
 }
 

@@ -15,6 +15,9 @@ METRICS = [{"name": name, "label": label, "unit": unit, "better": better, "meani
                ("nrmse", "nRMSE", "", "low"), ("relmse", "relMSE", "", "low"), ("flip", "HDR-FLIP", "", "low"),
                ("flip_ldr", "LDR-FLIP", "", "low"), ("ssim", "SSIM", "", "high"), ("psnr_db", "PSNR", "dB", "high"),
                ("mean_ratio", "mean ratio", "", "one"))]
+TEMPORAL_METRICS = [{"name": name, "label": label, "unit": "", "better": "low", "meaning": f"what {label} measures"}
+                    for name, label in (("temporal_nrmse", "temporal nRMSE"), ("temporal_bias", "temporal bias"),
+                                        ("temporal_flicker", "flicker"))]
 SCORES = tuple(metric["name"] for metric in METRICS)
 COSTS = ("build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays")
 SIZE = (64, 36)
@@ -43,6 +46,19 @@ def failed(name: str, error: str, **sweep) -> dict:
             **sweep}
 
 
+def with_sequence(rows: list[dict], frames: int) -> list[dict]:
+    """Adds temporal errors to rows of results.csv. @return rows of frames.csv."""
+    table = []
+    for row in rows:
+        error = row["nrmse"]
+        row.update({"temporal_nrmse": error / 2, "temporal_bias": error / 10, "temporal_flicker": error * 0.49,
+                    "temporal_noise": 0.001})
+        for frame in range(frames):
+            table.append({"variant": row["variant"], "frame": frame, **scores(error * (1 + 0.1 * frame)),
+                          "temporal_nrmse": error / 2 if frame else ""})
+    return table
+
+
 def manifest(sweep_keys: list[str]) -> dict:
     """The manifest of a finished run."""
     baselines = {name: {**scores(error), **{f"indirect_{k}": v for k, v in scores(error * 1.2).items()}}
@@ -53,7 +69,7 @@ def manifest(sweep_keys: list[str]) -> dict:
             "config": {"name": "synthetic", "scene": {"file": "cornell", "lights": [{"point": [0, 1, 0]}]},
                        "graph": [{"pass": "gbuffer"}, {"pass": "voxelize", "resolution": 64}]},
             "image": {"width": SIZE[0], "height": SIZE[1]}, "exposure_stops": 0.0,
-            "metrics": METRICS, "flip_exposures": {"start": -2.0, "stop": 3.0, "count": 5},
+            "metrics": METRICS, "temporal_metrics": TEMPORAL_METRICS, "flip_exposures": {"start": -2.0, "stop": 3.0, "count": 5},
             "reference": {"pass": "path_trace", "spp": 64, "seconds": 12.5, "cached": False,
                           "hash": "0123abcd", "nrmse_noise": 0.01, "relmse_noise": 0.001,
                           "indirect_nrmse_noise": 0.02, "indirect_relmse_noise": 0.002},
@@ -90,12 +106,13 @@ def write_results(directory: Path, rows: list[dict], run: dict | None, *, refere
                   indirect: bool = True, images: bool = True, size: tuple[int, int] = SIZE) -> Path:
     """Writes a results folder; `run` is its manifest, None for none."""
     text = ("variant", "status", "error", "device", "tracer")
-    numbers = (*COSTS, *SCORES, *(f"indirect_{key}" for key in SCORES))
+    numbers = [*COSTS, *SCORES, *(f"indirect_{key}" for key in SCORES)]
+    numbers += [key for row in rows[:1] for key in row if "@" in key or key.startswith("temporal_")]
     sweep = [key for row in rows[:1] for key in row if key not in (*text, *numbers)]
     columns = [*text, *sweep, *numbers]
     directory.mkdir(parents=True, exist_ok=True)
-    _write_csv(directory / "results.csv", columns, rows)
-    _write_csv(directory / "passes.csv", ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays",
+    write_csv(directory / "results.csv", columns, rows)
+    write_csv(directory / "passes.csv", ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays",
                                           "voxel_steps", "memory_bytes", "scratch_bytes"], passes(rows))
     if run is not None:
         (directory / "manifest.json").write_text(json.dumps(run), encoding="utf-8")
@@ -110,7 +127,7 @@ def write_results(directory: Path, rows: list[dict], run: dict | None, *, refere
     return directory
 
 
-def _write_csv(path: Path, columns: list[str], rows: list[dict]) -> None:
+def write_csv(path: Path, columns: list[str], rows: list[dict]) -> None:
     with path.open("w", newline="", encoding="utf-8") as out:
         writer = csv.DictWriter(out, columns, restval="")
         writer.writeheader()

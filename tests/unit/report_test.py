@@ -214,6 +214,40 @@ class PartOfARun(ReportTest):
         self.assertIn("values.csv lacks a column", Page((self.directory / "report.html").read_text(
             encoding="utf-8")).text)
 
+    def test_sequences_have_a_table_and_charts_over_frames(self):
+        rows = [made_up.variant(name, 10, error) for name, error in (("calm", 0.2), ("restless", 0.4))]
+        frames = made_up.with_sequence(rows, 3)
+        made_up.write_results(self.directory, rows, made_up.manifest([]), indirect=False)
+        made_up.write_csv(self.directory / "frames.csv", list(frames[1]), frames)
+        self.assertEqual(self.run_program()[0], 0)
+        shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
+        for words in ("Over frames", "temporal bias", "reference's noise", "calm: 0.220 on average"):
+            self.assertIn(words, shown.text)
+        self.assertEqual(shown.count("svg", "chart"), 6 + 3)
+        (self.directory / "frames.csv").write_text("what,is\nthis,here\n")
+        self.assertEqual(self.run_program()[0], 0)
+        self.assertIn("frames.csv lacks a column", (self.directory / "report.html").read_text(encoding="utf-8"))
+
+    def test_masks_have_their_own_scores_noise_and_picture(self):
+        rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.4))]
+        for row, value in zip(rows, (0.7, 0.609)):
+            row["nrmse@floor"] = value
+        run = made_up.manifest([])
+        run["config"]["measure"] = {"masks": {"floor": {"material": "stone"}}}
+        run["reference"] |= {"nrmse@floor_noise": 0.1, "mask_fractions": {"floor": 0.25}}
+        run["baselines"]["black"]["nrmse@floor"] = 0.65
+        path = self.directory / "images/reference/mask.floor.png"
+        path.parent.mkdir(parents=True)
+        Image.new("L", (4, 2), 255).save(path)
+        shown = self.make(rows, run, indirect=False)
+        for words in ("Under masks", "material stone", "25.0 % of the pixels", "0.609", "0.700"):
+            self.assertIn(words, shown.text)
+        self.assertEqual(shown.text.count("a black image"), 2)  # in both tables
+        # Within the mask's noise b is the best and a, worse than black, has that mark.
+        results = load(self.directory)
+        self.assertEqual(ranking.score_marks(results, _NRMSE, "nrmse@floor"), {"b": "best", "a": "tie"})
+        self.assertEqual(ranking.beaten_by(results, _NRMSE, "nrmse@floor", "a", 0.7), ["black"])
+
     def test_each_variant_is_shown_beside_its_own_reference(self):
         run = made_up.manifest([])
         run["references"] = [{**run["reference"], "folder": "reference", "variants": ["a"]},

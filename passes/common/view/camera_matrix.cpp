@@ -18,11 +18,4 @@ glm::mat4 viewProjection(const Camera& camera, uint32_t width, uint32_t height, 
     return projection * glm::lookAt(camera.position, camera.position + camera.forward, camera.up);
 }
 
-CameraRays cameraRays(const Camera& camera, uint32_t width, uint32_t height) {
-    const float halfHeight = std::tan(0.5f * camera.verticalFovRadians);
-    const glm::vec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
-    return {camera.position, camera.forward, right * (halfHeight * float(width) / float(height)),
-            camera.up * halfHeight};
-}
-
 }  // namespace voxray

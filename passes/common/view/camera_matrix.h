@@ -3,6 +3,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "graph/pass.h"
+#include "scene/camera_rays.h"
 
 namespace voxray {
 
@@ -10,12 +11,5 @@ namespace voxray {
 /// the scene.
 glm::mat4 viewProjection(const Camera& camera, uint32_t width, uint32_t height, glm::vec3 boundsMin,
                          glm::vec3 boundsMax);
-
-/// Directions of pixel centers: forward + (2 (x + 0.5) / width - 1) * right + (1 - 2 (y + 0.5) / height) *
-/// up.
-struct CameraRays {
-    glm::vec3 origin, forward, right, up;
-};
-CameraRays cameraRays(const Camera& camera, uint32_t width, uint32_t height);
 
 }  // namespace voxray

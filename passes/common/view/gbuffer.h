@@ -20,6 +20,14 @@ struct GBuffer : Resource {
     Image fresnel;   ///< RGBA8: reflectance at grazing incidence; what diffuse light loses at normal and at
                      ///< grazing incidence. Both are read by shaders/scene/specular.glsl.
 
+    std::vector<Aov> aovs() const override {
+        return {{&position, {"P.X", "P.Y", "P.Z"}},
+                {&normal, {"N.X", "N.Y", "N.Z"}},
+                {&geometricNormal, {"Ng.X", "Ng.Y", "Ng.Z"}},
+                {&albedo, {"albedo.R", "albedo.G", "albedo.B"}},
+                {&emission, {"emission.R", "emission.G", "emission.B"}},
+                {&specular, {"specular.R", "specular.G", "specular.B", "roughness"}}};
+    }
     std::vector<const Image*> checkedImages() const override {
         return {&position, &normal, &geometricNormal, &albedo, &emission, &specular};
     }

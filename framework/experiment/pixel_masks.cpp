@@ -1,0 +1,134 @@
+#include "experiment/pixel_masks.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
+#include "base/parallel.h"
+#include "base/suggest.h"
+#include "scene/camera_rays.h"
+#include "trace/texture_lookup.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kSubPixels = 2;  ///< Along each side of a pixel.
+
+/// Which instances and materials a mask names.
+struct Condition {
+    std::vector<bool> instances, materials;
+    float minMetallic, maxRoughness;
+};
+
+Condition conditionOf(const MaskSettings& mask, const Scene& scene) {
+    Condition condition{{}, {}, mask.minMetallic, mask.maxRoughness};
+    std::vector<std::string> materials, meshes;
+    for (const Material& material : scene.materials) {
+        condition.materials.push_back(mask.material.empty() || material.name == mask.material);
+        materials.push_back(material.name);
+    }
+    for (const Instance& instance : scene.instances) {
+        const std::string& mesh = scene.meshes[instance.mesh].name;
+        const std::string node = instance.node >= 0 ? scene.nodes[size_t(instance.node)].name : "";
+        condition.instances.push_back(mask.object.empty() || mesh == mask.object || node == mask.object);
+        meshes.push_back(mesh);
+        if (!node.empty() && node != mesh) meshes.push_back(node);
+    }
+    const auto lacks = [](const std::vector<bool>& chosen) { return std::ranges::count(chosen, true) == 0; };
+    if (lacks(condition.materials))
+        throw UsageError(mask.where, "measure.masks.{}: the scene has no material '{}'{}", mask.name,
+                         mask.material, didYouMean(mask.material, materials));
+    if (lacks(condition.instances))
+        throw UsageError(mask.where, "measure.masks.{}: the scene has no object '{}'{}", mask.name,
+                         mask.object, didYouMean(mask.object, meshes));
+    return condition;
+}
+
+uint32_t instanceOf(const Geometry& geometry, uint32_t triangle) {
+    const auto after =
+        std::ranges::upper_bound(geometry.instances, triangle, {}, &InstanceRange::firstTriangle);
+    return uint32_t(after - geometry.instances.begin()) - 1;
+}
+
+bool isMet(const Condition& condition, const SceneState& state, const Hit& hit) {
+    if (hit.triangle == Hit::kMiss) return false;
+    const Geometry& geometry = state.geometry;
+    const uint32_t number = geometry.triangleMaterials[hit.triangle];
+    if (!condition.materials[number] || !condition.instances[instanceOf(geometry, hit.triangle)])
+        return false;
+
+    // Metallic and roughness at the point
+    const Material& material = state.scene->materials[number];
+    float metallic = material.metallic, roughness = material.roughness;
+    if (const int32_t texture = material.metallicRoughnessTexture.texture; texture >= 0) {
+        const glm::uvec3 corners = geometry.triangles[hit.triangle];
+        const glm::vec4 texCoords =
+            interpolate(geometry.attributes[corners.x].texCoords, geometry.attributes[corners.y].texCoords,
+                        geometry.attributes[corners.z].texCoords, hit.u, hit.v);
+        const glm::vec4 texel =
+            sampleTexture(state.scene->textures[size_t(texture)],
+                          textureCoordinates(material.metallicRoughnessTexture, texCoords));
+        roughness *= texel.g;
+        metallic *= texel.b;
+    }
+    return metallic >= condition.minMetallic && roughness <= condition.maxRoughness;
+}
+
+/// Calls body(x, y, hit) for each pixel of an image, with what its center sees; rows in parallel.
+template <typename Body>
+void forEachPixel(const SceneState& state, const Camera& camera, uint32_t width, uint32_t height,
+                  const Body& body) {
+    const EmbreeScene scene(state);
+    const CameraRays rays = cameraRays(camera, width, height);
+    parallelRanges(height, 4, [&](size_t begin, size_t end) {
+        for (size_t y = begin; y < end; ++y)
+            for (uint32_t x = 0; x < width; ++x) {
+                const glm::vec3 direction =
+                    rays.direction((float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(height));
+                body(
+                    x, uint32_t(y),
+                    scene.closestHit({rays.origin, 0.0f, direction, std::numeric_limits<float>::infinity()}));
+            }
+    });
+}
+
+}  // namespace
+
+std::vector<PixelSelection> selectPixels(const std::vector<MaskSettings>& masks, const SceneState& state,
+                                         const Camera& camera, uint32_t width, uint32_t height) {
+    if (masks.empty()) return {};
+    std::vector<Condition> conditions;
+    std::vector<PixelSelection> selections;
+    for (const MaskSettings& mask : masks) {
+        conditions.push_back(conditionOf(mask, *state.scene));
+        selections.push_back({mask.name, std::vector<uint8_t>(size_t(width) * height, 1), 0});
+    }
+
+    // One row of pixels is two rows of sub-pixels, which different threads may look through: each writes 0
+    // alone
+    forEachPixel(state, camera, width * kSubPixels, height * kSubPixels,
+                 [&](uint32_t x, uint32_t y, const Hit& hit) {
+                     const size_t pixel = size_t(y / kSubPixels) * width + x / kSubPixels;
+                     for (size_t m = 0; m < masks.size(); ++m)
+                         if (!isMet(conditions[m], state, hit))
+                             std::atomic_ref(selections[m].pixels[pixel]).store(0, std::memory_order_relaxed);
+                 });
+    for (PixelSelection& selection : selections)
+        selection.count = size_t(std::ranges::count(selection.pixels, uint8_t(1)));
+    return selections;
+}
+
+std::vector<PrimaryHit> primaryHits(const SceneState& state, const Camera& camera, uint32_t width,
+                                    uint32_t height) {
+    std::vector<PrimaryHit> hits(size_t(width) * height);
+    forEachPixel(state, camera, width, height, [&](uint32_t x, uint32_t y, const Hit& hit) {
+        PrimaryHit& seen = hits[size_t(y) * width + x];
+        seen.depth = hit.t;  // Directions have length 1 along the axis
+        if (hit.triangle == Hit::kMiss) return;
+        seen.instance = int32_t(instanceOf(state.geometry, hit.triangle));
+        seen.material = int32_t(state.geometry.triangleMaterials[hit.triangle]);
+    });
+    return hits;
+}
+
+}  // namespace voxray

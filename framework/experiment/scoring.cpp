@@ -1,0 +1,107 @@
+#include "experiment/scoring.h"
+
+#include "image/temporal.h"
+
+namespace voxray {
+namespace {
+
+constexpr const char* kTotal = kLightPrefixes[0];
+constexpr const char* kIndirect = kLightPrefixes[1];
+
+/// Calls body(end of the column's name, mask) for the whole image and for each mask that selects a pixel.
+template <typename Body>
+void forEachRegion(const std::vector<PixelSelection>& masks, const Body& body) {
+    body(std::string(), PixelMask());
+    for (const PixelSelection& mask : masks)
+        if (mask.count > 0) body(maskSuffix(mask.name), PixelMask(mask.pixels));
+}
+
+void add(Scores& all, const std::string& light, const Scores& scores, const std::string& region) {
+    for (const auto& [metric, value] : scores) all[light + metric + region] = value;
+}
+
+void addScores(Scores& all, const std::string& light, const Comparison& comparison,
+               const std::vector<PixelSelection>& masks) {
+    forEachRegion(masks, [&](const std::string& region, PixelMask mask) {
+        add(all, light, score(comparison, mask), region);
+    });
+}
+
+}  // namespace
+
+PreparedReference prepareReference(ReferenceImages images, std::vector<PixelSelection> masks,
+                                   const ImageSettings& image, const std::string& folder) {
+    PreparedReference reference{std::move(images), std::move(masks), {}};
+    ReferenceRecord& r = reference.record;
+    const ReferenceImages& ref = reference.images;
+    r.folder = folder;
+    r.hash = ref.hash;
+    r.seconds = ref.seconds;
+    r.cached = ref.cached;
+    r.exposures = flipExposures(ref.final);
+    r.indirectExposures = flipExposures(ref.indirect);
+    for (const PixelSelection& mask : reference.masks)
+        r.maskFractions[mask.name] = double(mask.count) / double(ref.final.pixelCount());
+    const auto addLight = [&](const std::string& light, const ImageF& mean, const ImageF& variance,
+                              const FlipExposures& exposures) {
+        const ScoreOptions options{image.exposureStops, exposures};
+        const ImageF black = blackLike(mean), constant = constantLike(mean);
+        addScores(r.black, light, {black, mean, options}, reference.masks);
+        addScores(r.constant, light, {constant, mean, options}, reference.masks);
+        forEachRegion(reference.masks, [&](const std::string& region, PixelMask mask) {
+            add(r.noise, light, noiseFloor(mean, variance, mask), region);
+        });
+    };
+    addLight(kTotal, ref.final, ref.variance, r.exposures);
+    addLight(kIndirect, ref.indirect, ref.indirectVariance, r.indirectExposures);
+    return reference;
+}
+
+ScoredFrame scoreFrame(const FrameImages& test, const ReferenceImages& reference,
+                       const std::vector<PixelSelection>& masks, const ReferenceRecord& pinned,
+                       float exposureStops) {
+    ScoredFrame scored;
+    const auto addLight = [&](const std::string& light, const ImageF& image, const ImageF& right,
+                              const FlipExposures& exposures) {
+        Comparison comparison(image, right, {exposureStops, exposures});
+        addScores(scored.scores, light, comparison, masks);
+        return std::move(comparison.flip.map);
+    };
+    scored.flip = addLight(kTotal, test.final, reference.final, pinned.exposures);
+    if (test.indirect)
+        scored.indirectFlip =
+            addLight(kIndirect, *test.indirect, reference.indirect, pinned.indirectExposures);
+    return scored;
+}
+
+void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReference& reference,
+                   const Scores& first, const std::function<FrameReference(uint32_t)>& referenceOf,
+                   float exposureStops, VariantResult& result) {
+    TemporalError total, indirect;
+    for (const FrameImages& test : frames) {
+        // Frame 0 has its scores already
+        std::optional<FrameReference> own;
+        if (test.frame > 0 && referenceOf) own = referenceOf(test.frame);
+        const ReferenceImages& right = own ? own->images : reference.images;
+        const auto& masks = own ? own->masks : reference.masks;
+        result.frames.push_back({test.frame, first});
+        if (test.frame > 0)
+            result.frames.back().scores =
+                scoreFrame(test, right, masks, reference.record, exposureStops).scores;
+
+        // The noise of one reference cancels in differences, that of one a frame does not
+        total.add(test.final, right.final, referenceOf ? meanValue(right.variance) : 0);
+        if (test.indirect)
+            indirect.add(*test.indirect, right.indirect, referenceOf ? meanValue(right.indirectVariance) : 0);
+    }
+    const auto addLight = [&](const std::string& light, const TemporalError& temporal) {
+        add(result.scores, light, temporal.scores(), "");
+        const std::vector<double> errors = temporal.frameErrors();
+        for (size_t t = 0; t < errors.size(); ++t)
+            result.frames[t + 1].scores[light + temporalMetrics()[0].name] = errors[t];
+    };
+    addLight(kTotal, total);
+    addLight(kIndirect, indirect);
+}
+
+}  // namespace voxray

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/manifest.h"
+#include "experiment/results.h"
+#include "experiment/session.h"
+
+namespace voxray {
+
+/// A reference with what every score against it needs.
+struct PreparedReference {
+    ReferenceImages images;
+    std::vector<PixelSelection> masks;
+    ReferenceRecord record;
+};
+/// Pins the exposures and scores the black and the constant image, on the whole image and under each mask.
+PreparedReference prepareReference(ReferenceImages images, std::vector<PixelSelection> masks,
+                                   const ImageSettings& image, const std::string& folder);
+
+/// What a variant rendered in one of its measured frames.
+struct FrameImages {
+    uint32_t frame = 0;
+    ImageF final;
+    std::optional<ImageF> indirect;
+};
+
+/// The scores of a frame by column, and its HDR-FLIP maps (1 channel).
+struct ScoredFrame {
+    Scores scores;
+    ImageF flip;
+    std::optional<ImageF> indirectFlip;
+};
+/// Scores both lights on the whole image and under each mask that selects a pixel.
+/// @param pinned whose exposures are taken: those of frame 0 for all frames.
+ScoredFrame scoreFrame(const FrameImages& test, const ReferenceImages& reference,
+                       const std::vector<PixelSelection>& masks, const ReferenceRecord& pinned,
+                       float exposureStops);
+
+/// The reference of a measured frame and the pixels that masks select there.
+struct FrameReference {
+    ReferenceImages images;
+    std::vector<PixelSelection> masks;
+};
+
+/// Scores each compared frame into `result.frames` and the temporal error of all of them into
+/// `result.scores`.
+/// @param first the scores of frame 0. @param referenceOf the reference of another frame; empty: all frames
+/// share the prepared one, whose noise then cancels in temporal error.
+void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReference& reference,
+                   const Scores& first, const std::function<FrameReference(uint32_t)>& referenceOf,
+                   float exposureStops, VariantResult& result);
+
+}  // namespace voxray
