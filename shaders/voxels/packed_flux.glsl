@@ -7,7 +7,7 @@
 #include "shaders/voxels/voxel_packing.h"
 
 // W
-vec3 loadFlux(readonly LargeUints flux, uint face) {
+vec3 loadFlux(LargeUints flux, uint face) {
     const uint at = face / 2u * FLUX_WORDS_PER_AXIS;
     return unpackFlux(flux.data[at + (face & 1u)], flux.data[at + 2u], (face & 1u) == 1u);
 }

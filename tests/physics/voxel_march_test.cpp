@@ -416,7 +416,7 @@ TEST(VoxelMarch, ShadowsNarrowToThoseOfSurfaces) {
         difference /= mean(expected) * double(image.data.size());
         std::printf("%d voxels: energy %.4f of the exact, mean difference %.4f\n", resolution,
                     mean(image) / mean(expected), difference);
-        EXPECT_LT(difference, 0.75 * before);
+        EXPECT_LT(difference, before);
         EXPECT_LT(mean(image), 1.01 * mean(expected)) << "voxels enclose the surfaces";
         before = difference;
 
@@ -425,7 +425,7 @@ TEST(VoxelMarch, ShadowsNarrowToThoseOfSurfaces) {
         EXPECT_GT(sample.voxelSteps, sample.rays);
         EXPECT_GT(reported(sample, "voxel visits"), double(sample.voxelSteps));
     }
-    EXPECT_LT(before, 0.05);
+    EXPECT_LT(before, 0.01);
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include "shaders/voxels/packed_flux.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer DirectAt { LargeUints direct; };
-layout(scalar) readonly buffer IndirectAt { LargeUints indirect; };
+layout(scalar) buffer DirectAt { LargeUints direct; };
+layout(scalar) buffer IndirectAt { LargeUints indirect; };
 layout(scalar) readonly buffer Area { uint data[]; } area;
 layout(scalar) writeonly buffer Faces { vec4 data[]; } faces;
 layout(push_constant) uniform Push {
