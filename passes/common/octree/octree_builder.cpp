@@ -65,6 +65,7 @@ Octree OctreeBuilder::build(CommandStream& stream, const SurfaceVoxels& voxels) 
         stream.finish();
         cells = std::move(children);
     }
+    stream.finish();
     octree.leafVoxels = std::move(cells);
     return octree;
 }
