@@ -84,7 +84,7 @@ class Compare(CommandTest):
     def test_table(self):
         self.image("a.png", 90)
         lines = self.expect(0, "compare", "a.png", "a.png").stdout.splitlines()
-        self.assertEqual(lines[0].split(), ["flip", "flip_ldr", "ssim", "psnr_db", "nrmse", "relmse", "mean_ratio"])
+        self.assertEqual(lines[0].split(), ["nrmse", "relmse", "flip", "flip_ldr", "ssim", "psnr_db", "mean_ratio"])
         self.assertEqual([line.split()[0] for line in lines[1:]], ["test", "black", "constant"])
 
     def test_flip_map(self):
