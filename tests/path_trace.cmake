@@ -4,6 +4,6 @@ voxray_tests(embree
   DEPENDS voxray_embree)
 voxray_tests(path_trace
   SOURCES physics/path_trace_closed_form_test.cpp physics/path_trace_reflection_test.cpp
-          physics/path_trace_sampling_test.cpp
+          physics/path_trace_sampling_test.cpp physics/sealed_rooms_test.cpp
   DEPENDS voxray_path_trace)
 add_subdirectory(${CMAKE_SOURCE_DIR}/tests/bench ${CMAKE_BINARY_DIR}/tests/bench)

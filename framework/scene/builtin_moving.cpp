@@ -1,8 +1,8 @@
 #include <glm/trigonometric.hpp>
-#include <random>
 
 #include "scene/builtin.h"
 #include "scene/shapes.h"
+#include "scene/uniform_random.h"
 
 namespace voxray {
 namespace {
@@ -31,10 +31,7 @@ constexpr uint32_t keysPerRound = 64;
 /// Spheres over a floor of 10 m, each a node on its own ellipse, in the sun.
 std::shared_ptr<const Scene> make(const Spheres& params) {
     SceneBuilder b(Spheres::name);
-    std::mt19937 random(params.seed);
-    const auto uniform = [&](float low, float high) {
-        return low + (high - low) * float(random() >> 8) * (1.0f / 16777216.0f);
-    };
+    UniformRandom uniform(params.seed);
 
     // One mesh a colour, shared by the spheres.
     const uint32_t floor = b.lambert("floor", glm::vec3(0.6f));

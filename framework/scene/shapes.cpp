@@ -11,13 +11,18 @@
 namespace voxray {
 namespace {
 
-void appendQuad(Mesh& mesh, const glm::vec3& corner, const glm::vec3& edgeU, const glm::vec3& edgeV) {
+/// A flat, convex quadrilateral whose front sees its corners counter-clockwise.
+void appendCorners(Mesh& mesh, const SceneBuilder::Corners& corners, const glm::vec3& normal) {
     const uint32_t first = uint32_t(mesh.positions.size());
-    mesh.positions.insert(mesh.positions.end(),
-                          {corner, corner + edgeU, corner + edgeU + edgeV, corner + edgeV});
-    mesh.normals.insert(mesh.normals.end(), 4, glm::normalize(glm::cross(edgeU, edgeV)));
+    mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
+    mesh.normals.insert(mesh.normals.end(), 4, normal);
     mesh.triangles.push_back({first, first + 1, first + 2});
     mesh.triangles.push_back({first, first + 2, first + 3});
+}
+
+void appendQuad(Mesh& mesh, const glm::vec3& corner, const glm::vec3& edgeU, const glm::vec3& edgeV) {
+    appendCorners(mesh, {corner, corner + edgeU, corner + edgeU + edgeV, corner + edgeV},
+                  glm::normalize(glm::cross(edgeU, edgeV)));
 }
 
 }  // namespace
@@ -56,6 +61,19 @@ void SceneBuilder::quad(const std::string& name, const glm::vec3& corner, const 
     m.name = name;
     m.material = material;
     appendQuad(m, corner, edgeU, edgeV);
+    place(mesh(std::move(m)));
+}
+
+void SceneBuilder::band(const std::string& name, const Corners& inner, const Corners& outer,
+                        uint32_t material) {
+    Mesh m;
+    m.name = name;
+    m.material = material;
+    for (size_t i = 0; i < 4; ++i) {
+        const size_t next = (i + 1) % 4;
+        const glm::vec3 normal = glm::cross(inner[next] - inner[i], outer[i] - inner[i]);
+        appendCorners(m, {inner[i], inner[next], outer[next], outer[i]}, glm::normalize(normal));
+    }
     place(mesh(std::move(m)));
 }
 

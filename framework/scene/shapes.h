@@ -21,6 +21,10 @@ class SceneBuilder {
     /// A parallelogram with its front towards cross(edgeU, edgeV).
     void quad(const std::string& name, const glm::vec3& corner, const glm::vec3& edgeU,
               const glm::vec3& edgeV, uint32_t material);
+    using Corners = std::array<glm::vec3, 4>;
+    /// The four quads between the edges of two quadrilaterals: a wall round a window, or walls from a floor's
+    /// outline to a ceiling's. Fronts are towards cross(inner[1] - inner[0], outer[0] - inner[0]).
+    void band(const std::string& name, const Corners& inner, const Corners& outer, uint32_t material);
     /// A box that stands at `base` (the center of its bottom), turned about +Y; fronts outwards.
     void box(const std::string& name, const glm::vec3& base, const glm::vec3& size, float angleRadians,
              uint32_t material);

@@ -130,6 +130,67 @@ TEST(BuiltinScenes, SpheresMoveOnClosedPathsAndSeedsDiffer) {
               evaluate(makeBuiltinScene("spheres", parameter("moving", "false")), 0).geometry.positions);
 }
 
+TEST(BuiltinScenes, WallsAreClosedSolids) {
+    // A point inside a solid sees its fronts from behind all round it; one outside of it sees as much of them
+    // from before as from behind. A room that is sealed lies outside of its walls' solid.
+    const auto sumFrom = [](const SceneState& state, const glm::dvec3& point) {
+        double sum = 0;
+        for (size_t i = 0; i < state.geometry.triangles.size(); ++i)
+            sum += solidAngle(state.geometry, i, point);
+        return sum;
+    };
+    Value window = parameter("sill", "0.2");
+    window.set("wall_thickness", Value::fromScalar("0.3"));
+    window.set("ground_distance", Value::fromScalar("3"));
+    for (const SceneState& state :
+         {build("window_room"), build("window_room", window), build("shell_room")}) {
+        SCOPED_TRACE(state.scene->name);
+        EXPECT_NEAR(sumFrom(state, glm::dvec3(state.cameras[0].position)), 0, 1e-4);
+        EXPECT_NEAR(sumFrom(state, {0.1, 1.2, 20}), 0, 1e-4);
+        EXPECT_NEAR(sumFrom(state, {0.1, 1.2, -2.05}), -4 * M_PI, 1e-4) << "inside the wall";
+    }
+    // The walls of clutter are sheets that look inwards.
+    EXPECT_NEAR(sumFrom(build("clutter"), {-2.9, 2.7, -2.4}), 4 * M_PI, 1e-4);
+}
+
+TEST(BuiltinScenes, WindowRoomHasItsBlindAndItsSun) {
+    Value params = parameter("slats", "26");
+    params.set("slat_tilt_deg", Value::fromScalar("90"));
+    params.set("slat_width", Value::fromScalar("0.05"));
+    const SceneState open = build("window_room");
+    const SceneState closed = build("window_room", params);
+    EXPECT_EQ(closed.geometry.triangles.size(), open.geometry.triangles.size() + 2 * 26);
+    // 26 upright slats of 5 cm fill 1.3 m of window, 1.98 m wide.
+    double area = 0;
+    for (const glm::uvec3& t : closed.geometry.triangles) {
+        const auto& p = closed.geometry.positions;
+        const bool isInTheWall = p[t.x].z > 2.09f && p[t.x].z < 2.11f;
+        if (isInTheWall) area += 0.5 * double(glm::length(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x])));
+    }
+    EXPECT_NEAR(area, 1.98 * 1.3, 1e-4);
+    const SceneState low = build("window_room", parameter("sun_elevation_deg", "10"));
+    EXPECT_NEAR(low.lights.at(0).direction.y, -std::sin(10 * M_PI / 180), 1e-6);
+    EXPECT_LT(low.lights.at(0).direction.z, 0);
+    EXPECT_EQ(build("window_room", parameter("ground_distance", "5")).geometry.boundsMin.y, -5.5f);
+}
+
+TEST(BuiltinScenes, ClutterFollowsItsSeedAndStaysInItsRoom) {
+    const auto clutter = [](const char* seed) {
+        return makeBuiltinScene("clutter", parameter("seed", seed));
+    };
+    EXPECT_EQ(clutter("1")->contentHash, clutter("1")->contentHash);
+    EXPECT_NE(clutter("1")->contentHash, clutter("2")->contentHash);
+    EXPECT_EQ(build("clutter", parameter("count", "0")).geometry.triangles.size(), 12u);
+    for (const char* seed : {"1", "2", "3"}) {
+        Value full = parameter("seed", seed);
+        full.set("count", Value::fromScalar("30"));
+        const Geometry g = build("clutter", full).geometry;
+        EXPECT_EQ(g.boundsMin, glm::vec3(-3, 0, -2.5f));
+        EXPECT_EQ(g.boundsMax, glm::vec3(3, 2.8f, 2.5f));
+        EXPECT_GT(g.triangles.size(), 12u + 30u * 4 * 12);
+    }
+}
+
 TEST(BuiltinScenes, BadNamesAndParametersAreUsageErrors) {
     EXPECT_THROW(makeBuiltinScene("cornel", {}), UsageError);
     EXPECT_THROW(makeBuiltinScene("cornell", parameter("light", "area")), UsageError);

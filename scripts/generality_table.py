@@ -1,0 +1,49 @@
+#!/usr/bin/python3
+"""Prints the table of docs/generality.md from results of configs/generality.
+
+generality_table.py RESULTS...: folders that `./voxray run configs/generality/SCENE.yaml` wrote. A cell is the mean
+ratio, relMSE and nRMSE of the indirect light; where the reference is black, the root mean square of the leaking
+radiance, W/(m² sr), alone.
+"""
+import csv
+import os
+import sys
+
+VOXELS = "voxelize.resolution"
+PLAIN = {"variant", "status", "error", "device", "tracer", VOXELS, "inject", "gather"}
+
+
+def cell(row):
+    if row["status"] != "ok":
+        return "failed"
+    nrmse = float(row["indirect_nrmse"])
+    if not row["indirect_mean_ratio"]:
+        return f"rms {nrmse:.2g}"
+    return f"{float(row['indirect_mean_ratio']):.3f} / {float(row['indirect_relmse']):.2g} / {nrmse:.2g}"
+
+
+def swept(row):
+    """What a config sweeps beyond voxels, injection and gather: columns before the timings."""
+    names = list(row)
+    return ", ".join(f"{name.split('.')[-1]}: {row[name]}" for name in names[:names.index("build_ms")]
+                     if name not in PLAIN)
+
+
+def table(folder):
+    with open(os.path.join(folder, "results.csv"), newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    voxels = sorted({int(row[VOXELS]) for row in rows})
+    yield "| " + " | ".join(["", "injection", "gather"] + [f"{count}³" for count in voxels]) + " |"
+    yield "|" + " --- |" * (3 + len(voxels))
+    cells = {}
+    for row in rows:
+        cells.setdefault((swept(row), row["inject"], row["gather"]), {})[int(row[VOXELS])] = cell(row)
+    for (variant, inject, gather), found in cells.items():
+        yield "| " + " | ".join([variant, f"`{inject}`", f"`{gather}`"] +
+                                [found.get(count, "") for count in voxels]) + " |"
+
+
+if __name__ == "__main__":
+    for results in sys.argv[1:]:
+        print(f"\n### {os.path.basename(os.path.normpath(results)).replace('generality_', '')}\n")
+        print("\n".join(table(results)))
