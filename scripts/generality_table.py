@@ -10,16 +10,17 @@ import os
 import sys
 
 VOXELS = "voxelize.resolution"
+NO_RATIO = 1e6  # Of an image over a black reference.
 PLAIN = {"variant", "status", "error", "device", "tracer", VOXELS, "inject", "gather"}
 
 
 def cell(row):
     if row["status"] != "ok":
         return "failed"
-    nrmse = float(row["indirect_nrmse"])
-    if not row["indirect_mean_ratio"]:
+    nrmse, mean_ratio = float(row["indirect_nrmse"]), float(row["indirect_mean_ratio"])
+    if nrmse == 0 or mean_ratio == NO_RATIO:
         return f"rms {nrmse:.2g}"
-    return f"{float(row['indirect_mean_ratio']):.3f} / {float(row['indirect_relmse']):.2g} / {nrmse:.2g}"
+    return f"{mean_ratio:.3f} / {float(row['indirect_relmse']):.2g} / {nrmse:.2g}"
 
 
 def swept(row):

@@ -57,7 +57,7 @@ struct WindowRoom {
     }
 };
 
-/// A room of 5 m x 2.7 m x 4 m with a window of 2 m x 1.3 m in the wall at +Z, on a ground of 24 m, lit by
+/// A room of 5 m x 2.7 m x 4 m with a window of 2 m x 1.3 m in the wall at +Z, on a ground of 46 m, lit by
 /// sun and sky. Walls, roof and ground are one closed solid, so that nothing lights them from within.
 std::shared_ptr<const Scene> make(const WindowRoom& params) {
     SceneBuilder b(WindowRoom::name);
@@ -89,7 +89,7 @@ std::shared_ptr<const Scene> make(const WindowRoom& params) {
     b.band("facade +z", upright(outerMax.z, glm::vec2(outerMin), glm::vec2(outerMax)), outerWindow, facade);
     b.quad("roof", outerMax, -z, -x, facade);
     const glm::vec2 footMin(outerMin.x, outerMin.z), footMax(outerMax.x, outerMax.z);
-    const glm::vec2 half(12);
+    const glm::vec2 half(23);
     b.band("ground", level(outerMin.y, footMin, footMax), level(outerMin.y, -half, half), ground);
     b.band("ground's edge", level(outerMin.y, -half, half), level(outerMin.y - 0.5f, -half, half), ground);
     b.quad("ground's bottom", {-half.x, outerMin.y - 0.5f, -half.y}, {2 * half.x, 0, 0}, {0, 0, 2 * half.y},
