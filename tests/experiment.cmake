@@ -1,10 +1,10 @@
 # Tests of experiment.
 voxray_tests(config
-  SOURCES unit/config_test.cpp unit/config_sweep_test.cpp
+  SOURCES unit/config_scene_test.cpp unit/config_sweep_test.cpp unit/config_test.cpp
   DEPENDS voxray_config)
 
 voxray_tests(experiment
-  SOURCES unit/experiment_run_test.cpp unit/experiment_sequence_test.cpp unit/experiment_validate_test.cpp unit/pixel_masks_test.cpp
+  SOURCES unit/composed_scene_test.cpp unit/experiment_run_test.cpp unit/experiment_sequence_test.cpp unit/experiment_validate_test.cpp unit/pixel_masks_test.cpp
   DEPENDS voxray_experiment)
 
 # Every config that is shipped, against the real passes.

@@ -49,32 +49,44 @@ void setAlong(Value& root, std::string_view path, const std::string& whole, cons
     setNested(*parent, std::string(path), value, merge);
 }
 
-// Another pass in an entry's place; the id stays, so that later passes find it.
-void swapPass(Value& entry, const std::string& id, const Value& value, const std::string& path) {
-    Value swapped = Value::map();
-    swapped.where = value.where;
-    if (value.isScalar()) {
-        swapped.set("pass", value);
-    } else if (value.isMap() && value.find("pass")) {
-        swapped = value;
-    } else {
-        throw UsageError(value.where, "{}: expected a pass: its name, or a map with 'pass'", path);
-    }
-    Value idValue = Value::fromScalar(id);
-    idValue.where = value.where;
-    swapped.set("id", idValue);
-    entry = std::move(swapped);
+// An entry of the graph: a pass's name stands for a map with `pass`.
+Value passEntry(const Value& value, const std::string& path) {
+    if (value.isMap() && value.find("pass")) return value;
+    if (!value.isScalar())
+        throw UsageError(value.where,
+                         "{}: expected a pass, which is its name or a map with 'pass', or a list of passes",
+                         path);
+    Value entry = Value::map();
+    entry.where = value.where;
+    entry.set("pass", value);
+    return entry;
 }
 
-void overridePass(Value& entry, const std::string& id, const std::string& rest, const std::string& path,
+// Another pass, or a chain of passes, in an entry's place. The last one gets the id, so that later passes
+// find it.
+void swapPass(Value& graph, size_t index, const Value& value, const std::string& path) {
+    std::vector<Value> chain;
+    if (value.isList())
+        for (const Value& item : value.items) chain.push_back(passEntry(item, path));
+    else
+        chain.push_back(passEntry(value, path));
+    if (chain.empty()) throw UsageError(value.where, "{}: a chain needs at least one pass", path);
+    Value id = Value::fromScalar(passId(graph.items[index]));
+    id.where = value.where;
+    chain.back().set("id", id);
+    graph.items[index] = std::move(chain.back());
+    graph.items.insert(graph.items.begin() + ptrdiff_t(index), chain.begin(), chain.end() - 1);
+}
+
+void overridePass(Value& graph, size_t index, const std::string& rest, const std::string& path,
                   const Value& value, Merge merge) {
     const bool isSwap = rest.empty() && (merge == Merge::Replace || !value.isMap() || value.find("pass"));
     if (isSwap) {
-        swapPass(entry, id, value, path);
+        swapPass(graph, index, value, path);
     } else if (rest.empty()) {
-        mergeInto(entry, value, merge);
+        mergeInto(graph.items[index], value, merge);
     } else {
-        setAlong(entry, rest, path, value, merge);
+        setAlong(graph.items[index], rest, path, value, merge);
     }
 }
 
@@ -121,9 +133,9 @@ void applyOverride(Value& config, const std::string& path, const Value& value, M
     // A pass
     std::vector<std::string> candidates(configKeys());
     if (Value* graph = config.find("graph"); graph && graph->isList()) {
-        for (Value& entry : graph->items) {
-            const std::string id = passId(entry);
-            if (id == first && !id.empty()) return overridePass(entry, id, rest, path, value, merge);
+        for (size_t i = 0; i < graph->items.size(); ++i) {
+            const std::string id = passId(graph->items[i]);
+            if (id == first && !id.empty()) return overridePass(*graph, i, rest, path, value, merge);
             if (!id.empty()) candidates.push_back(id);
         }
     }

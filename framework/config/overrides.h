@@ -8,7 +8,9 @@
 /// Changes to a config before it is read: profiles, `--set`, sweeps. All name a place by a dotted path:
 ///   image.width            a key of the config
 ///   voxelize.resolution    a parameter of the pass with that id
-///   inject                 a whole pass: a name, or a map with `pass`; the id stays
+///   inject                 a whole pass: a name, a map with `pass`, or a list of these, a chain; the id
+///   stays,
+///                          with the chain's last pass
 ///   sweep.inject           an axis of the sweep (the rest of the path is the axis' own path)
 namespace voxray {
 

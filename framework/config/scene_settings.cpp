@@ -97,6 +97,13 @@ void readEnvironment(const Value& value, SceneSettings& settings) {
     settings.environment = environment;
 }
 
+/// Keys that any scene may have beside its source.
+std::vector<std::string> sceneKeys() {
+    std::vector<std::string> keys = fieldNames<SceneOptions>();
+    keys.insert(keys.end(), {"camera", "lights", "environment", "moving_spheres", "add", "override"});
+    return keys;
+}
+
 }  // namespace
 
 SceneSettings readSceneSettings(const Value& map) {
@@ -105,39 +112,29 @@ SceneSettings readSceneSettings(const Value& map) {
                          "scene: expected a map such as {{builtin: cornell}} or {{file: sponza.glb}}");
     SceneSettings settings;
     settings.where = map.where;
-
-    // A built-in scene's own parameters stand beside the keys that every scene has
-    const std::vector<std::string> known = fieldNames<SceneOptions>();
-    Value own = Value::map();
-    own.where = map.where;
+    settings.source = readSceneSource(map, "scene", sceneKeys());
+    Value scalars = Value::map();
+    scalars.where = map.where;
     for (const auto& [key, value] : map.members) {
-        const bool isBuiltinsLights = key == "lights" && value.isScalar() && map.find("builtin");
         if (key == "camera") {
             readCamera(value, settings);
         } else if (key == "environment") {
             readEnvironment(value, settings);
         } else if (key == "moving_spheres") {
             settings.movingSpheres = readParams<MovingSpheres>(value, "scene.moving_spheres");
-        } else if (key == "lights" && !isBuiltinsLights) {
+        } else if (key == "lights" && !settings.source.builtinParameters.find(key)) {
             if (!value.isList()) throw UsageError(value.where, "scene.lights: expected a list of lights");
             for (size_t i = 0; i < value.items.size(); ++i)
                 settings.lights.push_back(readLight(value.items[i], i));
-        } else if (map.find("builtin") && std::find(known.begin(), known.end(), key) == known.end()) {
-            settings.builtinParameters.set(key, value);
-        } else {
-            own.set(key, value);
+        } else if (key == "add") {
+            settings.additions = readSceneAdditions(value);
+        } else if (key == "override") {
+            settings.overrides = readMaterialOverrides(value);
+        } else if (std::ranges::count(fieldNames<SceneOptions>(), key) > 0) {
+            scalars.set(key, value);
         }
     }
-    settings.options =
-        readParams<SceneOptions>(own, "scene", {"camera", "lights", "environment", "moving_spheres"});
-
-    // One source
-    const bool hasFile = !settings.options.file.empty(), hasBuiltin = !settings.options.builtin.empty();
-    if (hasFile && hasBuiltin)
-        throw UsageError(map.where,
-                         "scene: both 'file' and 'builtin' are set; take one out (null removes a key)");
-    if (!hasFile && !hasBuiltin) throw UsageError(map.where, "scene: needs 'file' or 'builtin'");
-    settings.sourceWhere = map.find(hasFile ? "file" : "builtin")->where;
+    settings.options = readParams<SceneOptions>(scalars, "scene");
     return settings;
 }
 

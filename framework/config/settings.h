@@ -8,6 +8,7 @@
 
 #include "base/schema.h"
 #include "base/value.h"
+#include "config/scene_additions.h"
 #include "scene/moving_spheres.h"
 #include "scene/scene.h"
 #include "trace/ray_tracer.h"
@@ -117,24 +118,21 @@ uint32_t comparedFrames(const MeasureSettings& settings);
 /// Names for `measure.metrics`.
 std::vector<std::string> metricNames();
 
-/// `scene`, but for `camera`, `lights`, `environment` and `moving_spheres`.
+/// Scalars of `scene`, but for its source.
 struct SceneOptions {
-    std::string file;
-    std::string builtin;
     bool keepFileLights = true;
     MaterialMode materials = MaterialMode::AsIs;
     double time = 0;
     double timeStep = 0;
     static constexpr auto schema() {
         return std::tuple{
-            field("file", &SceneOptions::file, "A .glb or .gltf file, looked for in the scene folders."),
-            field("builtin", &SceneOptions::builtin, "A built-in scene; its own parameters stand beside it."),
             field("keep_file_lights", &SceneOptions::keepFileLights,
                   "Keep the scene's own punctual lights; false leaves those of `lights` alone. Emissive "
                   "surfaces "
                   "always stay."),
             field("materials", &SceneOptions::materials,
-                  "as_is, or lambert: drop specular and metal, keep base colour and emission."),
+                  "as_is, or lambert: drop specular and metal of what scenes bring, keep base colour and "
+                  "emission."),
             field("time", &SceneOptions::time, "Time of the judged frame in the animation, seconds.", 0.0,
                   1e6),
             field(
@@ -245,14 +243,16 @@ struct ConfigLight {
 
 /// `scene`, read.
 struct SceneSettings {
+    SceneSource source;
     SceneOptions options;
-    Value builtinParameters = Value::map();
+    std::vector<SceneAddition> additions;
+    std::vector<MaterialOverride> overrides;
     std::string cameraName;  ///< Empty: `camera`, or the scene's first camera.
     std::optional<CameraSettings> camera;
     std::vector<ConfigLight> lights;
     std::optional<MovingSpheres> movingSpheres;
     std::optional<EnvironmentSettings> environment;  ///< Empty: the scene's own.
-    TextLocation where, sourceWhere, cameraWhere, environmentWhere;
+    TextLocation where, cameraWhere, environmentWhere;
 };
 
 /// Reads the block `scene`. Touches no file. @throws UsageError with file, line and the nearest valid word.

@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "config/overrides.h"
+#include "config/value_labels.h"
 
 namespace voxray {
 namespace {
@@ -17,7 +18,7 @@ struct Axis {
     std::string path;
     std::string label;  ///< Short name, for the names of variants.
     std::vector<Value> values;
-    std::vector<std::string> texts;
+    std::vector<std::string> texts;  ///< Of the values, short.
 };
 
 void checkPath(const std::string& path, const TextLocation& where) {
@@ -28,25 +29,6 @@ void checkPath(const std::string& path, const TextLocation& where) {
             where,
             "sweep: '{}' is the same for all variants; sweep over a pass, scene, image, seed or tracer",
             path);
-}
-
-// A map is called by what it is: its pass, scene or file; by all of its text where that is not enough.
-std::vector<std::string> describeValues(const std::vector<Value>& values) {
-    std::vector<std::string> texts;
-    std::map<std::string, int> uses;
-    for (const Value& value : values) {
-        std::string text = value.isScalar() ? value.scalar : value.text();
-        for (const char* key : {"pass", "builtin", "file", "directional", "point", "spot"})
-            if (const Value* found = value.find(key); found && value.isMap() && found->isScalar()) {
-                text = found->scalar;
-                break;
-            }
-        ++uses[text];
-        texts.push_back(text);
-    }
-    for (size_t i = 0; i < values.size(); ++i)
-        if (uses[texts[i]] > 1) texts[i] = values[i].text();
-    return texts;
 }
 
 std::string fileSafe(const std::string& text) {
@@ -71,7 +53,7 @@ std::vector<Axis> readAxes(const Value& sweep) {
         const size_t dot = path.rfind('.');
         const std::string label = dot == std::string::npos ? path : path.substr(dot + 1);
         ++labels[label];
-        axes.push_back({path, label, list.items, describeValues(list.items)});
+        axes.push_back({path, label, list.items, valueLabels(list.items)});
         const std::set<std::string> unique(axes.back().texts.begin(), axes.back().texts.end());
         if (unique.size() != axes.back().texts.size())
             throw UsageError(list.where, "sweep.{}: a value appears twice", path);

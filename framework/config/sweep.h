@@ -19,8 +19,8 @@ struct Variant {
 std::vector<std::string> sweepKeys(const Experiment& experiment);
 
 /// Every combination of the sweep's values; the last axis runs fastest. One variant, "default", without a
-/// sweep. An axis is `<id>.<parameter>`, `<id>` (swaps the whole pass), `scene...`, `image...`, `seed` or
-/// `tracer`.
+/// sweep. An axis is `<id>.<parameter>`, `<id>` (swaps the whole pass for another or for a chain),
+/// `scene...`, `image...`, `seed` or `tracer`.
 /// @throws UsageError for another axis, a value that the config can't hold, or over 10,000 variants.
 std::vector<Variant> expandSweep(const Experiment& experiment);
 

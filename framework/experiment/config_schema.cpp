@@ -104,6 +104,36 @@ Value passSchema(const PassKind& kind) {
     return withRequired(mapSchema(kind.parameters, properties), {"pass"});
 }
 
+/// Properties of a scene's source: parameters of built-in scenes stand beside the keys that every scene has.
+void addSource(Value& schema) {
+    Value& properties = *schema.find("properties");
+    for (const ParameterDoc& doc : describeParams<SceneSource>())
+        properties.set(doc.name, parameterSchema(doc));
+    properties.find("builtin")->set("enum", listOf(builtinSceneNames()));
+    for (const std::string& name : builtinSceneNames())
+        for (const ParameterDoc& doc : describeBuiltinScene(name))
+            if (!properties.find(doc.name)) {
+                Value parameter = parameterSchema(doc);
+                parameter.erase("default");
+                properties.set(doc.name, parameter);
+            }
+}
+
+Value additionSchema() {
+    Value schema = mapSchema({});
+    Value& properties = *schema.find("properties");
+    properties.set("transform", mapSchema(describeParams<Placement>()));
+    properties.set("material", mapSchema(describeParams<MaterialSettings>()));
+    addSource(schema);
+    return schema;
+}
+
+Value overrideSchema() {
+    Value schema = mapSchema(describeParams<MaterialSettings>());
+    for (auto& member : schema.find("properties")->members) member.value.erase("default");
+    return schema;
+}
+
 Value sceneSchema() {
     Value camera = withRequired(mapSchema(describeParams<CameraSettings>()), {"position", "target"});
     Value lights = Value::list();
@@ -116,7 +146,6 @@ Value sceneSchema() {
          {"items", object({{"oneOf", lights}})},
          {"description", text("Added to the scene's own; a word is the built-in scene's parameter.")}});
 
-    // Parameters of built-in scenes stand beside the keys that every scene has
     Value schema = mapSchema(describeParams<SceneOptions>());
     Value& properties = *schema.find("properties");
     properties.set("moving_spheres", mapSchema(describeParams<MovingSpheres>()));
@@ -124,14 +153,13 @@ Value sceneSchema() {
     properties.set("lights", anyOf({string, lightList}));
     properties.set("environment",
                    anyOf({string, rgbSchema(), mapSchema(describeParams<EnvironmentSettings>())}));
-    properties.find("builtin")->set("enum", listOf(builtinSceneNames()));
-    for (const std::string& name : builtinSceneNames())
-        for (const ParameterDoc& doc : describeBuiltinScene(name))
-            if (!properties.find(doc.name)) {
-                Value parameter = parameterSchema(doc);
-                parameter.erase("default");
-                properties.set(doc.name, parameter);
-            }
+    properties.set("add", object({{"type", text("array")},
+                                  {"items", additionSchema()},
+                                  {"description", text("Scenes that are added to this one.")}}));
+    properties.set("override", object({{"type", text("object")},
+                                       {"additionalProperties", overrideSchema()},
+                                       {"description", text("Name of a material: its new settings.")}}));
+    addSource(schema);
     return schema;
 }
 

@@ -11,6 +11,8 @@
 #include "base/files.h"
 #include "base/suggest.h"
 #include "image/image.h"
+#include "scene/compose.h"
+#include "scene/content_hash.h"
 #include "scene/load.h"
 
 namespace voxray {
@@ -18,21 +20,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void checkBuiltin(const SceneSettings& settings) {
-    const std::string& name = settings.options.builtin;
+void checkBuiltin(const SceneSource& source) {
+    const std::string& name = source.builtin;
     const std::vector<std::string> names = builtinSceneNames();
     if (std::find(names.begin(), names.end(), name) == names.end())
-        throw UsageError(settings.sourceWhere, "scene.builtin: no built-in scene '{}'{}", name,
+        throw UsageError(source.where, "{}.builtin: no built-in scene '{}'{}", source.owner, name,
                          didYouMean(name, names));
 
-    // Its own parameters, and in suggestions the keys that every scene has
-    std::vector<std::string> own, all{"camera", "lights", "environment", "moving_spheres"};
+    // Its own parameters, and in suggestions the keys that stand beside them
+    std::vector<std::string> own, all = source.otherKeys;
     for (const ParameterDoc& doc : describeBuiltinScene(name)) own.push_back(doc.name);
-    for (const std::string& key : fieldNames<SceneOptions>()) all.push_back(key);
     all.insert(all.end(), own.begin(), own.end());
-    for (const auto& [key, value] : settings.builtinParameters.members)
+    for (const auto& [key, value] : source.builtinParameters.members)
         if (std::find(own.begin(), own.end(), key) == own.end())
-            throw UsageError(value.where, "scene: {} has no parameter '{}'{}", name, key,
+            throw UsageError(value.where, "{}: {} has no parameter '{}'{}", source.owner, name, key,
                              didYouMean(key, all));
 }
 
@@ -122,17 +123,17 @@ fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& fol
                      name, looked.empty() ? "" : fmt::format(" in {}", fmt::join(looked, ", ")));
 }
 
-std::shared_ptr<const Scene> SceneLoader::load(const SceneSettings& settings) {
-    if (!settings.options.builtin.empty()) {
-        const std::string id = "builtin:" + settings.options.builtin + settings.builtinParameters.text();
+std::shared_ptr<const Scene> SceneLoader::load(const SceneSource& source) {
+    if (!source.builtin.empty()) {
+        const std::string id = "builtin:" + source.builtin + source.builtinParameters.text();
         auto& scene = scenes_[id];
         if (!scene) {
-            checkBuiltin(settings);
-            scene = makeBuiltinScene(settings.options.builtin, settings.builtinParameters);
+            checkBuiltin(source);
+            scene = makeBuiltinScene(source.builtin, source.builtinParameters);
         }
         return scene;
     }
-    const fs::path path = findSceneFile(settings.options.file, folders_, settings.sourceWhere);
+    const fs::path path = findSceneFile(source.file, folders_, source.where);
     auto& scene = scenes_[path.string()];
     if (!scene) scene = loadGltf(path);
     return scene;
@@ -152,7 +153,19 @@ std::shared_ptr<const ImageF> SceneLoader::loadMap(const SceneSettings& settings
 
 std::string SceneLoader::key(const SceneSettings& settings) {
     Hasher hasher;
-    hasher.add(load(settings)->contentHash);
+    hasher.add(load(settings.source)->contentHash);
+    for (const auto& [source, placement, material] : settings.additions)
+        hasher.add("add")
+            .add(load(source)->contentHash)
+            .add(source.name())
+            .add(writeParams(placement).text())
+            .add(material ? writeParams(*material).text() : "");
+    checkOverrides(settings);
+    for (const auto& [name, change, where] : settings.overrides)
+        hasher.add("override")
+            .add(name)
+            .add(writeParams(change.settings).text())
+            .add(fmt::format("{}", fmt::join(change.keys, " ")));
     hasher.addPlain(settings.options.keepFileLights).addPlain(settings.options.materials);
     hasher.addPlain(settings.options.time).add(settings.cameraName);
     // Where all goes from the judged frame on changes nothing in it but the bounds
@@ -178,23 +191,60 @@ std::string SceneLoader::key(const SceneSettings& settings) {
     return hasher.hex();
 }
 
-PreparedScene SceneLoader::prepare(const SceneSettings& settings) {
-    // The scene's materials and environment
-    std::shared_ptr<const Scene> scene = load(settings);
-    if (settings.options.materials == MaterialMode::Lambert) scene = withLambertMaterials(*scene);
-    if (settings.environment || settings.movingSpheres) {
-        auto copy = std::make_shared<Scene>(*scene);
-        if (settings.environment) {
-            copy->environment.radiance = settings.environment->scale;
-            copy->environment.map = loadMap(settings);
-        }
-        if (settings.movingSpheres) addMovingSpheres(*copy, *settings.movingSpheres);
-        scene = copy;
+void SceneLoader::checkOverrides(const SceneSettings& settings) {
+    if (settings.overrides.empty()) return;
+    std::vector<std::string> names;
+    const auto addNames = [&](const SceneSource& source) {
+        for (const Material& material : load(source)->materials) names.push_back(material.name);
+    };
+    addNames(settings.source);
+    for (const SceneAddition& addition : settings.additions) {
+        if (addition.material)
+            names.push_back(addition.source.name());
+        else
+            addNames(addition.source);
     }
+    for (const MaterialOverride& entry : settings.overrides)
+        if (std::find(names.begin(), names.end(), entry.material) == names.end())
+            throw UsageError(entry.where, "scene.override: the scene has no material '{}'{}", entry.material,
+                             didYouMean(entry.material, names));
+}
 
+std::shared_ptr<const Scene> SceneLoader::compose(const SceneSettings& settings) {
+    // What scenes bring is made Lambert where the config asks for it; what the config itself says stands
+    // above that
+    const auto loadInMode = [&](const SceneSource& source) {
+        std::shared_ptr<const Scene> scene = load(source);
+        return settings.options.materials == MaterialMode::Lambert ? withLambertMaterials(*scene) : scene;
+    };
+    std::shared_ptr<const Scene> scene = loadInMode(settings.source);
+    if (settings.additions.empty() && settings.overrides.empty() && !settings.environment &&
+        !settings.movingSpheres)
+        return scene;
+
+    auto composed = std::make_shared<Scene>(*scene);
+    for (const auto& [source, placement, settingsOfMaterial] : settings.additions) {
+        std::optional<Material> material;
+        if (settingsOfMaterial) material = makeMaterial(source.name(), *settingsOfMaterial);
+        addScene(*composed, *loadInMode(source), placement, source.name(), material ? &*material : nullptr);
+    }
+    checkOverrides(settings);
+    for (const MaterialOverride& entry : settings.overrides)
+        for (Material& material : composed->materials)
+            if (material.name == entry.material) changeMaterial(material, entry.change);
+    if (settings.movingSpheres) addMovingSpheres(*composed, *settings.movingSpheres);
+    if (settings.environment) {
+        composed->environment.radiance = settings.environment->scale;
+        composed->environment.map = loadMap(settings);
+    }
+    composed->contentHash = hashScene(*composed);
+    return composed;
+}
+
+PreparedScene SceneLoader::prepare(const SceneSettings& settings) {
     PreparedScene prepared;
     const Playback playback = settings.options.timeStep > 0 ? Playback::Looping : Playback::Frozen;
-    prepared.state = evaluate(scene, settings.options.time, playback);
+    prepared.state = evaluate(compose(settings), settings.options.time, playback);
     chooseLightsAndCamera(prepared, settings, 0);
     return prepared;
 }

@@ -30,14 +30,15 @@ struct PreparedScene {
     Camera camera;
 };
 
-/// Loads scenes and puts a config's camera, lights, environment and material mode on them. Keeps every scene
-/// it loaded.
+/// Loads scenes, composes what a config adds and overrides, and puts its camera, lights, environment and
+/// material mode on them. Keeps every scene it loaded, as it was loaded.
 class SceneLoader {
  public:
     explicit SceneLoader(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
 
     /// Hash of everything that the prepared scene depends on, file contents included.
-    /// @throws UsageError for a scene, parameter or file that isn't there, Error for a broken file.
+    /// @throws UsageError for a scene, parameter, file or overridden material that isn't there, Error for a
+    /// broken file.
     std::string key(const SceneSettings& settings);
 
     /// @throws as key(), and UsageError for a camera that the scene lacks.
@@ -52,7 +53,11 @@ class SceneLoader {
     std::vector<std::string> warnings() const;
 
  private:
-    std::shared_ptr<const Scene> load(const SceneSettings& settings);
+    std::shared_ptr<const Scene> load(const SceneSource& source);
+    /// @throws UsageError for an overridden material that no scene has.
+    void checkOverrides(const SceneSettings& settings);
+    /// The scene with all that is added and overridden.
+    std::shared_ptr<const Scene> compose(const SceneSettings& settings);
     std::shared_ptr<const ImageF> loadMap(const SceneSettings& settings);
 
     std::vector<std::filesystem::path> folders_;

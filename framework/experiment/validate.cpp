@@ -8,6 +8,7 @@ namespace voxray {
 namespace {
 
 void checkPassName(const Value& pass, const Registry& registry) {
+    for (const Value& item : pass.items) checkPassName(item, registry);  // A chain.
     const Value* name = pass.isMap() ? pass.find("pass") : &pass;
     if (name && name->isScalar()) registry.require(name->scalar, name->where);
 }

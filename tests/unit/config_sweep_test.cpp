@@ -57,13 +57,48 @@ TEST(Sweep, ParameterReachesSwappedPassWhateverTheOrder) {
     }
 }
 
+TEST(Sweep, ChainReplacesOnePassAndItsLastKeepsTheId) {
+    const auto variants = expand(
+        "  inject: [inject_rsm, [place_surfels, {pass: inject_voxel_rays, id: x, rays: 4}]]\n"
+        "  inject.write: [max]\n");
+    ASSERT_EQ(variants.size(), 2u);
+    EXPECT_EQ(variants[0].setup.graph.items.size(), 2u);
+    EXPECT_EQ(variants[1].setup.graph.text(),
+              "[{pass: voxelize, resolution: 64}, {pass: place_surfels}, "
+              "{pass: inject_voxel_rays, id: inject, rays: 4, write: max}]");
+    EXPECT_EQ(variants[1].name, "inject-place_surfels-inject_voxel_rays_write-max");
+
+    EXPECT_CONTAINS(sweepError("  inject: [[]]\n"), "demo.yaml:7: inject: a chain needs at least one pass");
+    EXPECT_CONTAINS(sweepError("  inject: [[[a]]]\n"), "demo.yaml:7: inject: expected a pass");
+    EXPECT_CONTAINS(sweepError("  inject: [[{id: a}, b]]\n"), "demo.yaml:7: inject: expected a pass");
+    EXPECT_CONTAINS(sweepError("  inject: [[{pass: a, id: image}, b]]\n"),
+                    "demo.yaml:7: graph: the id 'image'");
+}
+
+TEST(Sweep, LabelsTellWhatDiffers) {
+    const auto labels = [](const std::string& list) {
+        std::vector<std::string> texts;
+        for (const Variant& variant : expand("  inject: " + list + "\n")) texts.push_back(variant.values[0]);
+        return texts;
+    };
+    using Texts = std::vector<std::string>;
+    EXPECT_EQ(labels("[{pass: a, n: 1, m: 2}, {pass: a, n: 3, m: 2}, {pass: b, n: 1}]"),
+              (Texts{"a n 1", "a n 3", "b"}));
+    EXPECT_EQ(labels("[[{pass: a, n: 1}, b], [{pass: a, n: 2}, b], [b, {pass: a}]]"),
+              (Texts{"a n 1 + b", "a n 2 + b", "b + a"}));
+    EXPECT_EQ(labels("[a, {pass: a, n: 1}]"), (Texts{"a", "a n 1"}));
+
+    // Not enough: the whole text
+    EXPECT_EQ(labels("[[{pass: a}, b], 'a + b', c]"), (Texts{"[{pass: a}, b]", "\"a + b\"", "c"}));
+}
+
 TEST(Sweep, ConfigAxes) {
     const auto variants = expand(
         "  image.width: [16, 32]\n  scene.lights: [point, spot]\n  seed: [1, 2]\n"
         "  tracer: [embree, ray_query]\n");
     ASSERT_EQ(variants.size(), 16u);
     EXPECT_EQ(variants[15].setup.image.width, 32u);
-    EXPECT_EQ(variants[15].setup.scene.builtinParameters.find("lights")->scalar, "spot");
+    EXPECT_EQ(variants[15].setup.scene.source.builtinParameters.find("lights")->scalar, "spot");
     EXPECT_EQ(variants[15].setup.general.seed, 2u);
     EXPECT_EQ(variants[15].setup.general.tracer, TracerKind::RayQuery);
 }

@@ -59,8 +59,8 @@ TEST(Config, ReadsEveryBlock) {
     const Experiment e = parseExperiment(kValid, "demo.yaml");
     EXPECT_EQ(e.setup.general.name, "demo");
     EXPECT_EQ(e.setup.general.seed, 7u);
-    EXPECT_EQ(e.setup.scene.options.builtin, "cornell");
-    EXPECT_EQ(e.setup.scene.builtinParameters.find("lights")->scalar, "point");
+    EXPECT_EQ(e.setup.scene.source.builtin, "cornell");
+    EXPECT_EQ(e.setup.scene.source.builtinParameters.find("lights")->scalar, "point");
     EXPECT_TRUE(e.setup.scene.lights.empty());
     EXPECT_FLOAT_EQ(e.setup.scene.camera->fovDegrees, 40);
     EXPECT_EQ(e.setup.image.width, 64u);

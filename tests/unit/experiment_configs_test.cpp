@@ -26,7 +26,7 @@ TEST(ShippedConfigs, ReadAndValidate) {
                     wireExperiment(loadExperiment(entry.path(), {profile, {}}), registry);
                 SceneLoader loader({});
                 for (const WiredVariant& variant : wired.variants)
-                    if (!variant.setup.scene.options.builtin.empty()) loader.prepare(variant.setup.scene);
+                    if (!variant.setup.scene.source.builtin.empty()) loader.prepare(variant.setup.scene);
             } catch (const Error& error) {
                 ADD_FAILURE() << error.what();
             }

@@ -1,3 +1,5 @@
+#include "scene/compose.h"
+#include "scene/material_change.h"
 #include "scene_gltf_builder.h"
 
 namespace voxray::test {
@@ -95,6 +97,18 @@ TEST(GlbExport, BuiltinScenesComeBackAsTheyWere) {
         const SceneState state = evaluate(makeBuiltinScene("cornell", params), 0);
         expectSame(state, roundTrip(state));
     }
+}
+
+TEST(GlbExport, ComposedScenesComeBackAsTheyWere) {
+    const auto scene = std::make_shared<Scene>(*makeBuiltinScene("cornell", {}));
+    const Material gold =
+        makeMaterial("gold", {.baseColor = {1, 0.8f, 0.3f}, .metallic = 1, .roughness = 0.25f});
+    addScene(*scene, *makeBuiltinScene("spheres", {}), {{1, 0, 2}, {0, 30, 0}, {0.5f, -0.5f, 0.5f}},
+             "spheres", &gold);
+    addScene(*scene, *makeBuiltinScene("plane", {}), {{0, 3, 0}, {10, 20, 30}, glm::vec3(2)}, "plane");
+    const SceneState state = evaluate(scene, 0.7);
+    EXPECT_EQ(state.lights.size(), 2u);
+    expectSame(state, roundTrip(state));
 }
 
 TEST(GlbExport, TexturesMirrorsAndEveryAttributeComeBack) {

@@ -1,0 +1,79 @@
+#include "scene/compose.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace voxray {
+namespace {
+
+Node nodeOf(const Placement& placement, const std::string& name) {
+    const glm::vec3 angles = glm::radians(placement.rotateDegrees);
+    Node node;
+    node.name = name;
+    node.translation = placement.translate;
+    node.rotation = glm::angleAxis(angles.z, glm::vec3(0, 0, 1)) *
+                    glm::angleAxis(angles.y, glm::vec3(0, 1, 0)) *
+                    glm::angleAxis(angles.x, glm::vec3(1, 0, 0));
+    node.scale = placement.scale;
+    return node;
+}
+
+/// Copies textures and materials. @return the number of the first of these materials.
+uint32_t addMaterials(Scene& scene, const Scene& added) {
+    const int32_t firstTexture = int32_t(scene.textures.size());
+    const uint32_t firstMaterial = uint32_t(scene.materials.size());
+    scene.textures.insert(scene.textures.end(), added.textures.begin(), added.textures.end());
+    for (Material material : added.materials) {
+        for (TextureRef* ref : {&material.baseColorTexture, &material.metallicRoughnessTexture,
+                                &material.normalTexture, &material.emissiveTexture})
+            if (ref->texture >= 0) ref->texture += firstTexture;
+        scene.materials.push_back(std::move(material));
+    }
+    return firstMaterial;
+}
+
+}  // namespace
+
+void addScene(Scene& scene, const Scene& added, const Placement& placement, const std::string& name,
+              const Material* material) {
+    // Nodes below the one that places them
+    const int32_t root = int32_t(scene.nodes.size());
+    const auto numberOf = [&](int32_t node) { return node < 0 ? root : root + 1 + node; };
+    scene.nodes.push_back(nodeOf(placement, name));
+    const Node& placing = scene.nodes.back();
+    const auto placed = [rotation = placing.rotation, scale = placing.scale](const glm::vec3& vector) {
+        return rotation * (scale * vector);
+    };
+    for (Node node : added.nodes) {
+        node.parent = numberOf(node.parent);
+        scene.nodes.push_back(std::move(node));
+    }
+    for (AnimationChannel channel : added.animation) {
+        channel.node = uint32_t(numberOf(int32_t(channel.node)));
+        scene.animation.push_back(std::move(channel));
+    }
+
+    // Surfaces
+    const uint32_t firstMaterial = material ? uint32_t(scene.materials.size()) : addMaterials(scene, added);
+    if (material) scene.materials.push_back(*material);
+    const uint32_t firstMesh = uint32_t(scene.meshes.size());
+    for (Mesh mesh : added.meshes) {
+        mesh.material = firstMaterial + (material ? 0 : mesh.material);
+        scene.meshes.push_back(std::move(mesh));
+    }
+    for (const Instance& instance : added.instances)
+        scene.instances.push_back({firstMesh + instance.mesh, numberOf(instance.node)});
+
+    // Lights; those without a node stand in the added scene's world
+    for (Light light : added.lights) {
+        if (light.node < 0) {
+            light.position = placement.translate + placed(light.position);
+            light.direction = glm::normalize(placed(light.direction));
+        } else {
+            light.node = numberOf(light.node);
+        }
+        scene.lights.push_back(std::move(light));
+    }
+}
+
+}  // namespace voxray

@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "experiment/scene_setup.h"
+#include "experiment_fakes.h"
+#include "scene/load.h"
+#include "tests/support/errors.h"
+
+using namespace voxray;
+using namespace voxray::fakes;
+
+namespace {
+
+SceneSettings settingsOf(const std::string& rest) {
+    return parseExperiment(
+               "name: x\nscene:\n  builtin: cornell\n  lights: point\n" + rest + "graph: [{pass: a}]\n",
+               "x.yaml")
+        .setup.scene;
+}
+
+const Material& materialOf(const PreparedScene& prepared, const std::string& name) {
+    for (const Material& material : prepared.state.scene->materials)
+        if (material.name == name) return material;
+    throw Error("no material '{}'", name);
+}
+
+}  // namespace
+
+TEST(ComposedSceneLoader, AddsOverridesAndKeepsItsCamera) {
+    SceneLoader loader({});
+    const PreparedScene plain = loader.prepare(settingsOf(""));
+    const PreparedScene composed = loader.prepare(
+        settingsOf("  add:\n    - {builtin: spheres, count: 2, material: {metallic: 1}}\n"
+                   "    - {builtin: cornell, lights: spot, boxes: false, transform: {translate: [9, 0, 0]}}\n"
+                   "  override:\n    grey: {roughness: 0.25}\n    spheres: {base_color: 0.5}\n"));
+    const PreparedScene spheres = loader.prepare(
+        parseExperiment("name: x\nscene: {builtin: spheres, count: 2}\ngraph: [{pass: a}]\n", "x")
+            .setup.scene);
+    EXPECT_GT(composed.state.geometry.triangles.size(),
+              plain.state.geometry.triangles.size() + spheres.state.geometry.triangles.size());
+    EXPECT_EQ(composed.camera.position, plain.camera.position);
+    ASSERT_EQ(composed.state.lights.size(), 3u);
+    EXPECT_EQ(composed.state.lights[2].position, glm::vec3(9, 1.8f, 0));
+
+    // Both rooms' grey, and the material that stands in for the spheres'
+    int greys = 0;
+    for (const Material& material : composed.state.scene->materials) {
+        if (material.name != "grey") continue;
+        EXPECT_EQ(material.roughness, 0.25f);
+        ++greys;
+    }
+    EXPECT_EQ(greys, 2);
+    EXPECT_EQ(materialOf(composed, "spheres").metallic, 1);
+    EXPECT_EQ(materialOf(composed, "spheres").baseColor, glm::vec4(0.5f, 0.5f, 0.5f, 1));
+    EXPECT_EQ(materialOf(plain, "grey").roughness, 1);
+
+    EXPECT_TRUE(
+        loader.prepare(settingsOf("  keep_file_lights: false\n  add: [{builtin: cornell, lights: spot}]\n"))
+            .state.lights.empty());
+}
+
+TEST(ComposedSceneLoader, LambertLeavesWhatTheConfigSays) {
+    SceneLoader loader({});
+    const PreparedScene prepared = loader.prepare(
+        settingsOf("  materials: lambert\n  add:\n    - {builtin: mirror_room}\n"
+                   "    - {builtin: plane, material: {metallic: 1}}\n  override: {red: {specular: 1}}\n"));
+    EXPECT_EQ(materialOf(prepared, "mirror").metallic, 0);
+    EXPECT_EQ(materialOf(prepared, "plane").metallic, 1);
+    EXPECT_EQ(materialOf(prepared, "red").specular, 1);
+    EXPECT_EQ(materialOf(prepared, "green").specular, 0);
+}
+
+TEST(ComposedSceneLoader, KeysTellCompositionsApart) {
+    SceneLoader loader({});
+    std::set<std::string> keys;
+    size_t count = 0;
+    for (const char* rest :
+         {"", "  add: [{builtin: plane}]\n", "  add: [{builtin: plane, albedo: 0.25}]\n",
+          "  add: [{builtin: plane}, {builtin: plane}]\n",
+          "  add: [{builtin: plane, transform: {scale: 2}}]\n",
+          "  add: [{builtin: plane, transform: {translate: [0, 1, 0]}}]\n",
+          "  add: [{builtin: plane, material: {}}]\n",
+          "  add: [{builtin: plane, material: {roughness: 0.5}}]\n", "  override: {grey: {roughness: 0.5}}\n",
+          "  override: {grey: {specular: 1}}\n", "  override: {red: {specular: 1}}\n"}) {
+        keys.insert(loader.key(settingsOf(rest)));
+        EXPECT_EQ(keys.size(), ++count) << rest;
+    }
+    EXPECT_EQ(loader.key(settingsOf("  add: []\n  override: {}\n")), loader.key(settingsOf("")));
+    EXPECT_EQ(loader.prepare(settingsOf("  add: [{builtin: plane}]\n")).state.scene->contentHash,
+              loader.prepare(settingsOf("  add: [{builtin: plane}]\n")).state.scene->contentHash);
+    EXPECT_NE(loader.prepare(settingsOf("  add: [{builtin: plane}]\n")).state.scene->contentHash,
+              loader.prepare(settingsOf("")).state.scene->contentHash);
+}
+
+TEST(ComposedSceneLoader, ErrorsNamePlaceAndNearestWord) {
+    SceneLoader loader({});
+    const auto keyError = [&](const std::string& rest) {
+        return errorOf<UsageError>([&] { loader.key(settingsOf(rest)); });
+    };
+    EXPECT_CONTAINS(keyError("  override:\n    red: {specular: 1}\n    graey: {specular: 1}\n"),
+                    "x.yaml:7: scene.override: the scene has no material 'graey'; did you mean 'grey'?");
+    EXPECT_CONTAINS(keyError("  add: [{builtin: plane, material: {}}]\n  override: {plan: {specular: 1}}\n"),
+                    "x.yaml:6: scene.override: the scene has no material 'plan'; did you mean 'plane'?");
+    EXPECT_CONTAINS(keyError("  add: [{builtin: plan}]\n"),
+                    "x.yaml:5: scene.add[0].builtin: no built-in scene 'plan'; did you mean 'plane'?");
+    EXPECT_CONTAINS(keyError("  add: [{builtin: plane, heigth: 2}]\n"),
+                    "x.yaml:5: scene.add[0]: plane has no parameter 'heigth'; did you mean 'height'?");
+    EXPECT_CONTAINS(keyError("  add: [{builtin: plane, matrial: {}}]\n"), "did you mean 'material'?");
+    EXPECT_CONTAINS(keyError("  add: [{file: nowhere.glb}]\n"), "x.yaml:5: no file 'nowhere.glb'");
+}
+
+TEST_F(RunTest, ComposedScenesHaveReferencesOfTheirOwn) {
+    const std::string sweep =
+        "sweep:\n  scene.add: [[], [{builtin: plane}]]\n  scene.override: [{grey: {roughness: 0}}, null]\n";
+    EXPECT_EQ(run(sweep).ok, 4u);
+    EXPECT_EQ(Truth::runs, 4);
+    EXPECT_EQ(run(sweep).ok, 4u);
+    EXPECT_EQ(Truth::runs, 4);
+    EXPECT_EQ(cell("add-plane_override-null", "scene.add"), "plane");
+}
+
+TEST_F(RunTest, ChainsOfPassesRunInPlaceOfOne) {
+    const std::string graph = "graph: [{pass: constant, id: c}]\n";
+    const Experiment experiment = parseExperiment(
+        "name: fake\nscene: {builtin: cornell, lights: point}\nimage: {width: 8, height: 4}\n" + graph +
+            "reference: {pass: truth}\nmeasure: {frames: 3, warmup: 1}\n"
+            "sweep:\n  c: [constant, [witness, {pass: constant, value: 0.5}]]\n",
+        "fake.yaml");
+    EXPECT_EQ(runExperiment(experiment, options(), registry()).ok, 2u);
+    EXPECT_NEAR(std::stod(cell("c-witness-constant", "nrmse")), 0.5, 1e-6);
+    EXPECT_CONTAINS(readTextFile(root_ / "out" / "passes.csv"), "c-witness-constant,witness,build,");
+    EXPECT_CONTAINS(readTextFile(root_ / "out" / "passes.csv"), "c-witness-constant,c,frame,");
+}
