@@ -87,7 +87,9 @@ void expectSame(const SceneState& a, const SceneState& b) {
 TEST(GlbExport, BuiltinScenesComeBackAsTheyWere) {
     for (const std::string& name : builtinSceneNames()) {
         SCOPED_TRACE(name);
-        const SceneState state = evaluate(makeBuiltinScene(name, {}), 0.7);
+        const auto scene = std::make_shared<Scene>(*makeBuiltinScene(name, {}));
+        scene->environment = {};  // glTF has none
+        const SceneState state = evaluate(scene, 0.7);
         expectSame(state, roundTrip(state));
     }
     for (const char* light : {"area", "point", "spot", "sun"}) {
