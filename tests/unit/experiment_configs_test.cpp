@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "experiment/scene_setup.h"
@@ -8,6 +9,13 @@
 
 using namespace voxray;
 namespace fs = std::filesystem;
+
+/// Scene files are not part of the repository.
+bool needsFiles(const SceneSettings& scene) {
+    return !scene.source.file.empty() || std::ranges::any_of(scene.additions, [](const SceneAddition& added) {
+        return !added.source.file.empty();
+    });
+}
 
 /// Every config that is shipped, with each of its profiles.
 TEST(ShippedConfigs, ReadAndValidate) {
@@ -26,7 +34,7 @@ TEST(ShippedConfigs, ReadAndValidate) {
                     wireExperiment(loadExperiment(entry.path(), {profile, {}}), registry);
                 SceneLoader loader({});
                 for (const WiredVariant& variant : wired.variants)
-                    if (!variant.setup.scene.source.builtin.empty()) loader.prepare(variant.setup.scene);
+                    if (!needsFiles(variant.setup.scene)) loader.prepare(variant.setup.scene);
             } catch (const Error& error) {
                 ADD_FAILURE() << error.what();
             }
