@@ -12,7 +12,9 @@ namespace {
 
 const std::string kSeed = R"(name: mutate_me   # comment
 scene: {builtin: cornell, lights: [{point: [0, 1.5, 0], intensity: [5, 5, 5]}, {spot: [0, 1, 0], outer_deg: 30}],
-        camera: {position: [-9, 1.2, -0.3], target: [0, 3, 0], fov_deg: 60}, environment: {map: a.exr, scale: 2}}
+        camera: {position: [-9, 1.2, -0.3], target: [0, 3, 0], fov_deg: 60}, environment: {map: a.exr, scale: 2},
+        add: [{file: a.glb, transform: {translate: [0, 1, 0], scale: 2}, material: {metallic: 1}}, {builtin: plane, height: 2}],
+        override: {grey: {base_color: [1, 0.5, 0], roughness: 0}}}
 image: {width: 640, height: 360, exposure_stops: 0.5}
 seed: 7
 graph: &graph
@@ -23,7 +25,7 @@ graph: &graph
 reference: {pass: path_trace, spp: 1024}
 sweep:
   voxelize.resolution: [64, 128]
-  gather: [a, {pass: b, write: max}]
+  gather: [a, {pass: b, write: max}, [c, {pass: d, rays: 3}]]
   scene.camera.fov_deg: [10, 20.5]
 measure: {frames: 20, warmup: 3, metrics: [flip, ssim]}
 profiles:

@@ -40,6 +40,12 @@ TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
                 {"x.yaml:6: ", "did you mean 'value'?"});
     expectError("graph:\n  - {pass: constant}\nsweep:\n  constant: [constant, constnat]\n",
                 {"x.yaml:6: ", "did you mean 'constant'?"});
+    expectError("graph:\n  - {pass: constant, id: c}\nsweep:\n  c: [[witness, {pass: constnat}]]\n",
+                {"x.yaml:6: ", "did you mean 'constant'?"});
+    expectError(
+        "graph:\n  - {pass: constant, id: c}\nsweep:\n  c:\n    - constant\n    - [witness, witness, "
+        "constant]\n",
+        {"x.yaml:8: ", "two passes have the id 'witness'"});
     expectError("graph:\n  - {pass: constnat}\nsweep:\n  constant.value: [1]\n",
                 {"x.yaml:4: ", "unknown pass 'constnat'", "did you mean 'constant'?"});
     expectError(
@@ -68,6 +74,11 @@ TEST(Schema, ConfigSchemaHoldsEveryPassAndKey) {
     const auto& scene = json["properties"]["scene"]["properties"];
     EXPECT_EQ(scene["moving_spheres"]["properties"]["count"]["maximum"], 4096);
     EXPECT_TRUE(scene.contains("time_step"));
+    const auto& added = scene["add"]["items"]["properties"];
+    for (const char* key : {"file", "builtin", "count", "transform", "material"})
+        EXPECT_TRUE(added.contains(key)) << key;
+    EXPECT_EQ(added["material"]["properties"]["roughness"]["default"], 1);
+    EXPECT_FALSE(scene["override"]["additionalProperties"]["properties"]["roughness"].contains("default"));
 }
 
 TEST(Results, CsvQuotesByRfc4180) {
