@@ -36,7 +36,14 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
             best = candidate;
         }
     }
-    return best;
+    if (!best.empty() || word.empty()) return best;
+
+    // A part of a name that says more: `rays` of `rays_per_block`
+    const auto isPart = [&](const std::string& candidate) {
+        return fmt::format("_{}_", candidate).find(fmt::format("_{}_", word)) != std::string::npos;
+    };
+    const auto whole = std::ranges::find_if(candidates, isPart);
+    return whole == candidates.end() ? std::string() : *whole;
 }
 
 std::string didYouMean(std::string_view word, std::span<const std::string> candidates) {

@@ -7,8 +7,8 @@
 
 namespace voxray {
 
-/// The candidate nearest to `word` by edit distance (with transpositions), or "" where none is near
-/// (more than a third of the letters differ).
+/// The candidate nearest to `word` by edit distance (with transpositions); where none is near (more than a
+/// third of the letters differ) the first that `word` is a part of, as `rays` of `rays_per_block`; else "".
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
 /// "; did you mean 'x'?" for a near candidate, else "; one of: a, b, c".

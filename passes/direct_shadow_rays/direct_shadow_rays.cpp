@@ -90,18 +90,19 @@ void DirectShadowRays::record(PassContext& context) {
     const auto shadowRays = [&](TargetKind kind, uint32_t light) {
         for (uint32_t first = 0; first < pixels; first += batch) {
             const uint32_t count = std::min(batch, pixels - first), rays = count * perPixel;
-            stream.dispatch(aim_,
-                            context.scene.bindings({{"position", gbuffer.position, sampler_},
-                                                    {"normal", gbuffer.normal, sampler_},
-                                                    {"geometricNormal", gbuffer.geometricNormal, sampler_},
-                                                    {"albedo", gbuffer.albedo, sampler_},
-                                                    {"specular", gbuffer.specular, sampler_},
-                                                    {"fresnel", gbuffer.fresnel, sampler_},
-                                                    {"rays", rays_},
-                                                    {"carried", carried_}}),
-                            AimPush{kind, light, params_.samples, frame.width, first, rays, gbuffer.samples,
-                                    seed, context.scene.emitterCount, frame.camera.position, minOffset},
-                            linearGroups(rays));
+            stream.dispatch(
+                aim_,
+                context.scene.bindings({{"position", gbuffer.position, sampler_},
+                                        {"normal", gbuffer.normal, sampler_},
+                                        {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                                        {"albedo", gbuffer.albedo, sampler_},
+                                        {"specular", gbuffer.specular, sampler_},
+                                        {"fresnel", gbuffer.fresnel, sampler_},
+                                        {"rays", rays_},
+                                        {"carried", carried_}}),
+                AimPush{kind, light, params_.lightSamples, frame.width, first, rays, gbuffer.samples, seed,
+                        context.scene.emitterCount, frame.camera.position, minOffset},
+                linearGroups(rays));
             tracer->occluded(stream, rays_, occluded_, rays,
                              kind == kPunctual ? Coherence::Coherent : Coherence::Incoherent);
             stream.dispatch(add_, {{"carried", carried_}, {"occluded", occluded_}, {"direct", direct}},
@@ -109,7 +110,7 @@ void DirectShadowRays::record(PassContext& context) {
         }
     };
     for (uint32_t light = 0; light < context.scene.lightCount; ++light) shadowRays(kPunctual, light);
-    for (uint32_t s = 0; s < params_.samples; ++s) {
+    for (uint32_t s = 0; s < params_.lightSamples; ++s) {
         if (context.scene.emitterCount > 0) shadowRays(kEmitters, s);
         if (context.scene.hasEnvironment) shadowRays(kEnvironment, s);
     }

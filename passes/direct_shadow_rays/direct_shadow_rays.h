@@ -16,22 +16,24 @@ struct EnumNames<Visibility> {
 };
 
 /// Direct light per pixel by shadow rays through the stream interface: one ray for each texel of the g-buffer
-/// to each point, spot and directional light, `samples` rays to the emissive surfaces and to the environment.
+/// to each point, spot and directional light, `light_samples` rays to the emissive surfaces and to the
+/// environment.
 class DirectShadowRays final : public Pass {
  public:
     static constexpr const char* kName = "direct_shadow_rays";
     static constexpr const char* kHelp =
         "Direct light by shadow rays from every pixel to every light. Exact for point, spot and directional "
         "lights; noisy by "
-        "`samples` for emissive surfaces (picked by power, uniform over area) and for the environment (by "
+        "`light_samples` for emissive surfaces (picked by power, uniform over area) and for the environment "
+        "(by "
         "cosine). Mirrors reflect no lamp and no environment: what they show of these is left out. With "
         "`visibility: voxels` biased by voxel size. Compare with direct_voxels.";
     struct Params {
-        uint32_t samples = 4;
+        uint32_t lightSamples = 4;
         Visibility visibility = Visibility::Exact;
         static constexpr auto schema() {
             return std::tuple{
-                field("samples", &Params::samples,
+                field("light_samples", &Params::lightSamples,
                       "Shadow rays for each g-buffer texel to all emissive surfaces together, and as many to "
                       "the "
                       "environment.",

@@ -52,7 +52,7 @@ void GatherRays::plan(PassPlan& plan) {
     if (plan.get(indirect_).isRead && noisy.spacing > 1)
         throw Error(
             "gather_rays: blocks of {0}x{0} texels have {1} rays, which leaves texels without any; let "
-            "filter_irradiance follow, or raise 'rays' of trace_gather_rays to {2}",
+            "filter_irradiance follow, or raise 'rays_per_block' of trace_gather_rays to {2}",
             hits.layout.blockSize, hits.layout.raysPerBlock, texelsPerBlock);
     plan.image(noisy.irradiance, "noisy irradiance",
                NoisyIrradiance::desc(plan.frame, plan.get(gbuffer_).samples));

@@ -30,7 +30,8 @@ class GatherRays final : public Pass {
         "Indirect light: shades the hits of trace_gather_rays with the irradiance of the voxels there and "
         "their own albedo. "
         "Biased by: voxel size (light at the hits is as coarse as voxels, not at the pixel; with "
-        "`direct_at_hits: shadow_rays` only indirect light is). Noisy by: rays; filter_irradiance lowers "
+        "`direct_at_hits: shadow_rays` only indirect light is). Noisy by: rays_per_block; filter_irradiance "
+        "lowers "
         "that. Lambert surfaces only.";
     struct Params {
         DirectAtHits directAtHits = DirectAtHits::Voxels;

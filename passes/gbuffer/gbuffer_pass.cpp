@@ -80,8 +80,8 @@ void GBufferPass::declare(PassBuilder& builder) {
 
 void GBufferPass::plan(PassPlan& plan) {
     GBuffer& g = plan.get(gbuffer_);
-    g.samples = params_.samples;
-    const glm::uvec2 extent = gbufferExtent(plan.frame, params_.samples);
+    g.samples = params_.samplesPerPixelEdge;
+    const glm::uvec2 extent = gbufferExtent(plan.frame, params_.samplesPerPixelEdge);
     for (const Target& t : kTargets) plan.image(g.*t.image, t.name, targetDesc(extent, t.format));
     if (params_.method == GBufferMethod::Raster) {
         plan.image(depth_, "gbuffer depth", depthTarget(extent));
@@ -119,7 +119,7 @@ void GBufferPass::record(PassContext& context) {
 
 void GBufferPass::trace(PassContext& context) {
     const GBuffer& g = context.get(gbuffer_);
-    const glm::uvec2 extent = gbufferExtent(context.frame, params_.samples);
+    const glm::uvec2 extent = gbufferExtent(context.frame, params_.samplesPerPixelEdge);
     const View view = viewOf(context.frame, extent);
     const uint32_t texels = extent.x * extent.y;
     for (uint32_t first = 0; first < texels; first += kBatchRays) {
@@ -143,7 +143,7 @@ void GBufferPass::trace(PassContext& context) {
 void GBufferPass::rasterize(PassContext& context) {
     const GBuffer& g = context.get(gbuffer_);
     const Frame& frame = context.frame;
-    const glm::uvec2 extent = gbufferExtent(frame, params_.samples);
+    const glm::uvec2 extent = gbufferExtent(frame, params_.samplesPerPixelEdge);
     const View view = viewOf(frame, extent);
 
     // The environment behind everything.

@@ -34,21 +34,21 @@ class GBufferPass final : public Pass {
         "less so the more samples.";
     struct Params {
         GBufferMethod method = GBufferMethod::Rays;
-        uint32_t samples = 1;
+        uint32_t samplesPerPixelEdge = 1;
         NormalMaps normalMaps = NormalMaps::Filtered;
         static constexpr auto schema() {
             return std::tuple{
                 field("method", &Params::method,
                       "rays: camera rays, which meet the same surfaces as every other ray; on a CPU a tenth "
                       "of raster's time in a large scene. raster: for GPUs whose rays are slow or missing."),
-                field("samples", &Params::samples,
+                field("samples_per_pixel_edge", &Params::samplesPerPixelEdge,
                       "Samples along each side of a pixel: 2 takes 4 a pixel, on a regular grid. Passes that "
                       "read the g-buffer do their work for each.",
                       1u, 8u),
                 field("normal_maps", &Params::normalMaps,
                       "filtered: the mean normal of a sample's footprint, which is flatter than each of "
-                      "them: a "
-                      "bias. sharp: the normal at the very point: noise instead, which `samples` lower.")};
+                      "them: a bias. sharp: the normal at the very point: noise instead, which "
+                      "samples_per_pixel_edge lowers.")};
         }
     };
 

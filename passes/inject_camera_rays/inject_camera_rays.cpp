@@ -35,7 +35,7 @@ void InjectCameraRays::plan(PassPlan& plan) {
     const SurfaceVoxels& voxels = plan.get(voxels_);
     plan.reserve("voxel samples (estimated)", 2 * VoxelAccumulator::plan(plan, kName, params_, voxels));
     plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
-    const uint32_t batch = std::min(params_.rays, kBatchRays);
+    const uint32_t batch = std::min(params_.raysPerImage, kBatchRays);
     paths_.plan(plan, {params_.write, batch, params_.bounces, params_.lightSamples, true});
     plan.buffer(rays_, "camera rays", batch * sizeof(Ray));
     plan.buffer(hits_, "camera hits", batch * sizeof(Hit));
@@ -63,10 +63,10 @@ void InjectCameraRays::record(PassContext& context) {
     const double face = double(voxels.grid.voxelSize) * voxels.grid.voxelSize;
     const SurfelPaths::CameraFootprint footprint{
         camera.forward, float(4 * glm::length(camera.right) * glm::length(camera.up) / surfaces),
-        float(std::numbers::sqrt2 * face * params_.rays / surfaces)};
+        float(std::numbers::sqrt2 * face * params_.raysPerImage / surfaces)};
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
-    for (uint32_t first = 0; first < params_.rays; first += kBatchRays) {
-        const uint32_t batch = std::min(kBatchRays, params_.rays - first);
+    for (uint32_t first = 0; first < params_.raysPerImage; first += kBatchRays) {
+        const uint32_t batch = std::min(kBatchRays, params_.raysPerImage - first);
         stream.dispatch(emit_, {{"rays", rays_}},
                         EmitPush{camera.origin, first, camera.forward, batch, camera.right, seed, camera.up},
                         linearGroups(batch));

@@ -16,20 +16,22 @@ class InjectCameraRays final : public Pass {
         "each, and each counts by the area that it stands for. Leaves unlit: what neither the view nor its "
         "secondary rays reach. Biased by: voxel size; "
         "voxels "
-        "seen in part count the part that is seen. Noisy by: rays. Source: Magalhães 2020, section 3.3.2.";
+        "seen in part count the part that is seen. Noisy by: rays_per_image. Source: Magalhães 2020, section "
+        "3.3.2.";
     struct Params : WriteParams {
-        uint32_t rays = 262144;
+        uint32_t raysPerImage = 262144;
         uint32_t bounces = 8;
         uint32_t lightSamples = 1;
         static constexpr auto schema() {
             return std::tuple_cat(
                 WriteParams::schema(),
-                std::tuple{field("rays", &Params::rays, "Rays from the camera.", 1u, 1u << 26),
-                           field("bounces", &Params::bounces,
-                                 "Bounces of light; Russian roulette by albedo ends paths early.", 0u, 32u),
-                           field("light_samples", &Params::lightSamples,
-                                 "Shadow rays at each hit to the emissive surfaces, and to the environment.",
-                                 1u, 64u)});
+                std::tuple{
+                    field("rays_per_image", &Params::raysPerImage, "Rays from the camera.", 1u, 1u << 26),
+                    field("bounces", &Params::bounces,
+                          "Bounces of light; Russian roulette by albedo ends paths early.", 0u, 32u),
+                    field("light_samples", &Params::lightSamples,
+                          "Shadow rays at each hit to the emissive surfaces, and to the environment.", 1u,
+                          64u)});
         }
     };
 

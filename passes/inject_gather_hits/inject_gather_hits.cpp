@@ -99,7 +99,7 @@ void InjectGatherHits::lightFaces(PassContext& context) {
             {{"surfels", chunk.surfels}, {"asked", faces_}, {"selected", paths_.first()}, {"count", count_}},
             chunk.count, linearGroups(chunk.count));
         const uint32_t count = stream.readAs<uint32_t>(count_, 1)[0];
-        for (uint32_t ray = 0; ray < params_.rays && count > 0; ++ray)
+        for (uint32_t ray = 0; ray < params_.pathsPerPoint && count > 0; ++ray)
             paths_.run(context, sources_, count, seed + ray * 0xc2b2ae35u, {voxels, direct_, indirect_});
     }
 }

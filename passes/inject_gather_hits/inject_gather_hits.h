@@ -16,17 +16,18 @@ class InjectGatherHits final : public Pass {
     static constexpr const char* kHelp =
         "Lights the voxel faces that the rays of trace_gather_rays hit, in each frame, by paths from points "
         "on "
-        "them (place_surfels). Biased by: voxel size. Noisy by: points, rays. Leaves unlit: all that "
+        "them (place_surfels). Biased by: voxel size. Noisy by: points_per_voxel, "
+        "paths_per_point. Leaves unlit: all that "
         "trace_gather_rays (which must come before) does not hit.";
     struct Params : WriteParams {
-        uint32_t rays = 1;
+        uint32_t pathsPerPoint = 1;
         uint32_t bounces = 8;
         uint32_t lightSamples = 1;
         static constexpr auto schema() {
             return std::tuple_cat(
                 WriteParams::schema(),
                 std::tuple{
-                    field("rays", &Params::rays, "Paths from each point.", 1u, 1024u),
+                    field("paths_per_point", &Params::pathsPerPoint, "Paths from each point.", 1u, 1024u),
                     field("bounces", &Params::bounces, "Bounces of light.", 0u, 32u),
                     field("light_samples", &Params::lightSamples,
                           "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u,

@@ -47,8 +47,8 @@ void InjectRsm::declare(PassBuilder& builder) {
 
 void InjectRsm::plan(PassPlan& plan) {
     const std::vector<LightSource> sources = requireViewpoints(*plan.frame.scene, kName);
-    plan.image(seen_, "shadow map hits", seenDesc(params_.resolution));
-    plan.image(depth_, "shadow map depth", depthDesc(params_.resolution));
+    plan.image(seen_, "shadow map hits", seenDesc(params_.rsmResolution));
+    plan.image(depth_, "shadow map depth", depthDesc(params_.rsmResolution));
     paths_.plan(plan, kName, params_, std::min(texels(), kMaxBatchTexels), plan.get(voxels_), sources);
 }
 
@@ -78,7 +78,7 @@ void InjectRsm::record(PassContext& context) {
             std::ranges::fill(nothing.uint32, Hit::kMiss);
             targets.colors = {{&seen_, nothing}};
             targets.depth = &depth_;
-            targets.extent = {params_.resolution, params_.resolution, 1};
+            targets.extent = {params_.rsmResolution, params_.rsmResolution, 1};
             context.stream.draw(rasterize_, context.scene.bindings({}), views[v], targets,
                                 context.scene.triangleCount * 3);
 
@@ -91,7 +91,7 @@ void InjectRsm::record(PassContext& context) {
                                             {"hits", paths_.hits()},
                                             {"paths", paths_.paths()},
                                             {"seen", seen_}}),
-                    RaysPush{views[v], sources[s].light, params_.resolution, first, batch},
+                    RaysPush{views[v], sources[s].light, params_.rsmResolution, first, batch},
                     linearGroups(batch));
                 paths_.follow(context, voxels, {seed, v * texels() + first, batch, true});
             }

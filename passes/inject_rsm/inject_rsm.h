@@ -14,13 +14,13 @@ class InjectRsm final : public Pass {
         "Rasterises the scene from every light and leaves the light through each texel in the voxel that the "
         "texel sees; then rays bounce. Point lights take a cube of six views, spots one (wider than 90° "
         "across: the cube), directional lights one over the scene's bounding sphere. No emissive surfaces "
-        "and no environment: they have no single viewpoint. Biased by: voxel size; resolution (texels "
+        "and no environment: they have no single viewpoint. Biased by: voxel size; rsm_resolution (texels "
         "larger than voxels leave gaps). Noisy by: bounces alone. Leaves unlit: what lies nearer to a light "
         "than 0.0001 of the scene's extent. Source: Dachsbacher and Stamminger 2005.";
     struct Params : LightPathParams {
-        uint32_t resolution = 512;
+        uint32_t rsmResolution = 512;
         static constexpr auto schema() {
-            return std::tuple_cat(std::tuple{field("resolution", &Params::resolution,
+            return std::tuple_cat(std::tuple{field("rsm_resolution", &Params::rsmResolution,
                                                    "Texels along a side of each view.", 1u, 4096u)},
                                   LightPathParams::schema());
         }
@@ -33,7 +33,7 @@ class InjectRsm final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    uint32_t texels() const { return params_.resolution * params_.resolution; }
+    uint32_t texels() const { return params_.rsmResolution * params_.rsmResolution; }
 
     Params params_;
     Port<const SurfaceVoxels> voxels_;

@@ -27,7 +27,7 @@ void InjectShadowMap::declare(PassBuilder& builder) {
 void InjectShadowMap::plan(PassPlan& plan) {
     sources_ = requireViewpoints(*plan.frame.scene, kName);
     feedback_.plan(plan, kName, params_, plan.get(voxels_));
-    shadowMap_.plan(plan, params_.resolution);
+    shadowMap_.plan(plan, params_.shadowResolution);
     plan.reserveScratch("surfels' direct irradiance (estimated)",
                         plan.get(surfels_).most * 4 * sizeof(float));
 }
@@ -62,7 +62,7 @@ void InjectShadowMap::record(PassContext& context) {
                     lightSurfels_,
                     context.scene.bindings(
                         {{"surfels", chunk.surfels}, {"direct", direct[c]}, shadowMap_.binding()}),
-                    LightPush{views[v], source.light, params_.resolution, side, chunk.count},
+                    LightPush{views[v], source.light, params_.shadowResolution, side, chunk.count},
                     linearGroups(chunk.count));
             }
         }

@@ -16,13 +16,15 @@ class InjectShadowMap final : public Pass {
         "Tests points on the voxels' surfaces (place_surfels) against a shadow map of every light; bounces "
         "by feedback of the voxels' own light. Point lights take a cube of six maps, spots one (wider than "
         "90° across: the cube), directional lights one over the scene's bounding sphere. No emissive "
-        "surfaces and no environment: they have no single viewpoint. Biased by: voxel size; resolution "
-        "(shadow edges and gaps below a texel). Noisy by: points, rays. Leaves unlit: nothing; what lies "
+        "surfaces and no environment: they have no single viewpoint. Biased by: voxel size; "
+        "shadow_resolution "
+        "(shadow edges and gaps below a texel). Noisy by: points_per_voxel, rays_per_point. Leaves unlit: "
+        "nothing; what lies "
         "nearer to a light than 0.0001 of the scene's extent casts no shadow.";
     struct Params : FeedbackParams {
-        uint32_t resolution = 1024;
+        uint32_t shadowResolution = 1024;
         static constexpr auto schema() {
-            return std::tuple_cat(std::tuple{field("resolution", &Params::resolution,
+            return std::tuple_cat(std::tuple{field("shadow_resolution", &Params::shadowResolution,
                                                    "Texels along a side of each shadow map.", 2u, 8192u)},
                                   FeedbackParams::schema());
         }

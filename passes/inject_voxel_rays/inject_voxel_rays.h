@@ -14,7 +14,8 @@ class InjectVoxelRays final : public Pass {
     static constexpr const char* kHelp =
         "Shadow rays and gather rays from points on the voxels' surfaces (place_surfels); bounces by "
         "feedback "
-        "of the voxels' own light. Biased by: voxel size. Noisy by: points, rays. Leaves unlit: nothing.";
+        "of the voxels' own light. Biased by: voxel size. Noisy by: points_per_voxel, "
+        "rays_per_point. Leaves unlit: nothing.";
     struct Params : FeedbackParams {
         uint32_t lightSamples = 1;
         static constexpr auto schema() {

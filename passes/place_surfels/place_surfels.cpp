@@ -28,7 +28,8 @@ void PlaceSurfels::declare(PassBuilder& builder) {
 }
 
 void PlaceSurfels::plan(PassPlan& plan) {
-    const uint64_t points = std::min(uint64_t(plan.get(voxels_).voxelCount) * params_.points, kMaxPoints);
+    const uint64_t points =
+        std::min(uint64_t(plan.get(voxels_).voxelCount) * params_.pointsPerVoxel, kMaxPoints);
     Surfels& surfels = plan.get(surfels_);
     surfels.most = 2 * points;
     plan.reserve("surfels (estimated)", surfels.most * sizeof(gpu::Surfel));
@@ -51,7 +52,7 @@ void PlaceSurfels::record(PassContext& context) {
     CommandStream& stream = context.stream;
     surfels.chunks.clear();
     // No more than planned: the number of voxels was estimated.
-    const uint64_t points = std::min(uint64_t(voxels.voxelCount) * params_.points, surfels.most / 2);
+    const uint64_t points = std::min(uint64_t(voxels.voxelCount) * params_.pointsPerVoxel, surfels.most / 2);
     const std::vector<uint32_t> triangles = spreadPoints(context.frame.scene->geometry, points);
     for (uint64_t first = 0; first < points; first += kBatchPoints) {
         const uint32_t batch = uint32_t(std::min<uint64_t>(kBatchPoints, points - first));

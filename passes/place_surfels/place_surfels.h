@@ -13,14 +13,15 @@ class PlaceSurfels final : public Pass {
     static constexpr const char* kName = "place_surfels";
     static constexpr const char* kHelp =
         "Spreads points evenly over the surfaces, where inject_voxel_rays, inject_gather_hits and "
-        "inject_shadow_map measure the irradiance of voxels. Depends on geometry alone. Noisy by: points. "
+        "inject_shadow_map measure the irradiance of voxels. Depends on geometry alone. Noisy by: "
+        "points_per_voxel. "
         "Misses: voxels that hold little "
         "surface may get no point.";
     struct Params {
-        uint32_t points = 4;
+        uint32_t pointsPerVoxel = 4;
         static constexpr auto schema() {
-            return std::tuple{
-                field("points", &Params::points, "Points for each surface voxel, on average.", 1u, 256u)};
+            return std::tuple{field("points_per_voxel", &Params::pointsPerVoxel,
+                                    "Points for each surface voxel, on average.", 1u, 256u)};
         }
     };
 

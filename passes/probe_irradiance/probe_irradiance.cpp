@@ -31,7 +31,7 @@ void ProbeIrradiance::declare(PassBuilder& builder) {
 }
 
 uint32_t ProbeIrradiance::stride(const Surfels& surfels) const {
-    return uint32_t((surfels.most + params_.points - 1) / params_.points) | 1u;
+    return uint32_t((surfels.most + params_.maxPoints - 1) / params_.maxPoints) | 1u;
 }
 
 void ProbeIrradiance::plan(PassPlan& plan) {
@@ -63,7 +63,7 @@ void ProbeIrradiance::record(PassContext& context) {
         bindings.insert(bindings.end(),
                         {{"cones", cones_}, {"surfels", chunk.surfels}, {"irradiance", irradiance_}});
         context.stream.dispatch(gather_, bindings,
-                                GatherPush{chunk.count, stride(surfels), params_.cones, params_.samples},
+                                GatherPush{chunk.count, stride(surfels), params_.cones, params_.coneSets},
                                 linearGroups(chunk.count));
     }
     const std::vector<glm::vec4> now =

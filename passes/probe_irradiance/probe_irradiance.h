@@ -17,15 +17,15 @@ class ProbeIrradiance final : public Pass {
         "and where it is largest. Tests stability: with a moving camera and all else at rest the change is "
         "the method's own. Surfaces may not move: points could not be told apart.";
     struct Params {
-        uint32_t points = 1024;
+        uint32_t maxPoints = 1024;
         uint32_t cones = 6;
-        uint32_t samples = 16;
+        uint32_t coneSets = 16;
         static constexpr auto schema() {
             return std::tuple{
-                field("points", &Params::points, "Points, at most, out of those of place_surfels.", 1u,
+                field("max_points", &Params::maxPoints, "Points, at most, out of those of place_surfels.", 1u,
                       1u << 20),
                 field("cones", &Params::cones, "Cones from each point: 5, 6, 16 or 36.", 5u, 36u),
-                field("samples", &Params::samples,
+                field("cone_sets", &Params::coneSets,
                       "Sets of cones from each point, whose directions and levels are shifted against each "
                       "other. gather_cones sends one from a texel and takes the mean over some 25 texels.",
                       1u, 256u)};

@@ -31,13 +31,14 @@ void TraceGatherRays::plan(PassPlan& plan) {
         throw Error("trace_gather_rays: block is {}; it must be 1, 2, 4 or 8", params_.block);
     GatherHits& hits = plan.get(hits_);
     const glm::uvec2 texels = glm::uvec2(plan.frame.width, plan.frame.height) * plan.get(gbuffer_).samples;
-    hits.layout = {texels, (texels + params_.block - 1u) / params_.block, params_.block, params_.rays, 0};
-    hits.blocksPerBatch = std::clamp(kBatchRays / params_.rays, 1u, hits.blocks());
+    hits.layout = {texels, (texels + params_.block - 1u) / params_.block, params_.block, params_.raysPerBlock,
+                   0};
+    hits.blocksPerBatch = std::clamp(kBatchRays / params_.raysPerBlock, 1u, hits.blocks());
     hits.batches = std::vector<Buffer>((hits.blocks() + hits.blocksPerBatch - 1) / hits.blocksPerBatch);
     for (uint32_t b = 0; b < hits.batches.size(); ++b)
         plan.buffer(hits.batches[b], "gather hits",
-                    uint64_t(hits.batchBlocks(b)) * params_.rays * sizeof(Hit));
-    plan.buffer(rays_, "gather rays", uint64_t(hits.blocksPerBatch) * params_.rays * sizeof(Ray));
+                    uint64_t(hits.batchBlocks(b)) * params_.raysPerBlock * sizeof(Hit));
+    plan.buffer(rays_, "gather rays", uint64_t(hits.blocksPerBatch) * params_.raysPerBlock * sizeof(Ray));
 }
 
 void TraceGatherRays::prepare(PassSetup& setup) {
@@ -50,7 +51,7 @@ void TraceGatherRays::record(PassContext& context) {
     GatherHits& hits = context.get(hits_);
     hits.layout.seed = randomSeed(context.frame, context.frameIndex);
     for (uint32_t b = 0; b < hits.batches.size(); ++b) {
-        const uint32_t blocks = hits.batchBlocks(b), rays = blocks * params_.rays;
+        const uint32_t blocks = hits.batchBlocks(b), rays = blocks * params_.raysPerBlock;
         context.stream.dispatch(emit_,
                                 {{"position", gbuffer.position, sampler_},
                                  {"normal", gbuffer.normal, sampler_},

@@ -17,12 +17,13 @@ class TraceGatherRays final : public Pass {
         "texels "
         "without any.";
     struct Params {
-        uint32_t rays = 16;
+        uint32_t raysPerBlock = 16;
         uint32_t block = 1;
         static constexpr auto schema() {
-            return std::tuple{field("rays", &Params::rays, "Rays of each block.", 1u, 65536u),
-                              field("block", &Params::block,
-                                    "Texels of the G-buffer along a block's edge: 1, 2, 4 or 8.", 1u, 8u)};
+            return std::tuple{
+                field("rays_per_block", &Params::raysPerBlock, "Rays of each block.", 1u, 65536u),
+                field("block", &Params::block, "Texels of the G-buffer along a block's edge: 1, 2, 4 or 8.",
+                      1u, 8u)};
         }
     };
 

@@ -9,7 +9,7 @@ namespace {
 std::unique_ptr<TriangleWalk> makeWalk(const VoxelizePass::Params& params) {
     switch (params.method) {
         case VoxelizeMethodName::ThreeAxis:
-            return makeThreeAxisWalk(params.samples);
+            return makeThreeAxisWalk(params.samplesPerVoxelEdge);
         case VoxelizeMethodName::DominantAxis:
             return makeDominantAxisWalk();
         default:
@@ -56,8 +56,7 @@ void VoxelizePass::record(PassContext& context) {
     if (v.voxelCount == 0)
         throw Error(
             "voxelize: no surface meets the grid of {}x{}x{} voxels; the scene needs triangles with an area, "
-            "and "
-            "three_axis more 'samples'",
+            "and three_axis more 'samples_per_voxel_edge'",
             v.grid.resolution.x, v.grid.resolution.y, v.grid.resolution.z);
 }
 

@@ -21,13 +21,13 @@ class VoxelizePass final : public Pass {
         "method exact tests triangles against voxels' boxes; dominant_axis rasterises once and "
         "conservatively: "
         "it adds voxels that are only grazed, and samples areas; three_axis rasterises three times and "
-        "misses "
-        "surfaces between its sample points: those thinner than a voxel / samples in two directions. "
+        "misses surfaces between its sample points: those thinner than a voxel / samples_per_voxel_edge in "
+        "two directions. "
         "Source: Magalhães 2020, section 3.2; Schwarz and Seidel 2010 (exact).";
     struct Params : VoxelBuildParams {
         VoxelizeMethodName method = VoxelizeMethodName::Exact;
         uint32_t resolution = 128;
-        uint32_t samples = 2;
+        uint32_t samplesPerVoxelEdge = 2;
         static constexpr auto schema() {
             return std::tuple_cat(
                 std::tuple{
@@ -37,7 +37,7 @@ class VoxelizePass final : public Pass {
                           "dominant_axis (one conservative raster pass), three_axis (three raster passes)."),
                     field("resolution", &Params::resolution, "Voxels along the scene's longest side.", 1u,
                           1024u),
-                    field("samples", &Params::samples,
+                    field("samples_per_voxel_edge", &Params::samplesPerVoxelEdge,
                           "three_axis: sample points along a voxel's edge, in each of the three projections.",
                           1u, 16u)},
                 VoxelBuildParams::schema());

@@ -8,8 +8,8 @@ namespace voxray::test {
 namespace {
 
 std::string graphOf(const Injection& injection) {
-    return graphYaml({"gbuffer", "voxelize", "place_surfels, points: 8", "trace_gather_rays, rays: 32",
-                      injection.withBounces(3), "gather_rays"});
+    return graphYaml({"gbuffer", "voxelize", "place_surfels, points_per_voxel: 8",
+                      "trace_gather_rays, rays_per_block: 32", injection.withBounces(3), "gather_rays"});
 }
 
 /// The Cornell box, lit by a point light of 1 W/sr.

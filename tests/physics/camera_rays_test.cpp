@@ -33,7 +33,7 @@ double seenAtAGrazingAngle(const std::string& write) {
     camera.verticalFovRadians = 1.9f;
     Chain chain(std::make_shared<SceneState>(state),
                 graphYaml({"voxelize, resolution: 4",
-                           "inject_camera_rays, rays: 262144, bounces: 0, write: " + write}),
+                           "inject_camera_rays, rays_per_image: 262144, bounces: 0, write: " + write}),
                 32, 32, 1);
     const Voxels voxels(chain);
     const glm::ivec3 cell(

@@ -193,8 +193,8 @@ TEST(ClipmapVoxels, HoldWhatAGridOfTheSceneHolds) {
                          "light_clipmap, shadow_resolution: 1024"}),
               8, 8);
     Chain whole("cornell", scene,
-                graphYaml({"voxelize, resolution: 48", "place_surfels, points: 64",
-                           "inject_shadow_map, bounces: 0, resolution: 1024",
+                graphYaml({"voxelize, resolution: 48", "place_surfels, points_per_voxel: 64",
+                           "inject_shadow_map, bounces: 0, shadow_resolution: 1024",
                            "filter_voxels, layout: clipmap, clipmap_resolution: 64"}),
                 8, 8);
     const std::vector<glm::dvec4> a = finestLevel(own), b = finestLevel(whole);

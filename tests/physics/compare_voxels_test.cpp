@@ -19,13 +19,14 @@ TEST(CompareVoxels, CountsWhatIsMissedAndAdded) {
     const auto graph = [](const std::string& truth, const std::string& voxels) {
         return graphYaml(
             {"voxelize, id: a, visibility_rays: 0, method: exact",
-             "voxelize, id: b, visibility_rays: 0, method: three_axis, samples: 1",
+             "voxelize, id: b, visibility_rays: 0, method: three_axis, samples_per_voxel_edge: 1",
              "compare_voxels, inputs: {truth: " + truth + ".voxels, voxels: " + voxels + ".voxels}"});
     };
     Chain chain("furnace", "{}", graph("a", "b"));
     std::map<std::string, double> counted = reported(chain);
     Chain exact("furnace", "{}", graphYaml({"voxelize, visibility_rays: 0, method: exact"}));
-    Chain other("furnace", "{}", graphYaml({"voxelize, visibility_rays: 0, method: three_axis, samples: 1"}));
+    Chain other("furnace", "{}",
+                graphYaml({"voxelize, visibility_rays: 0, method: three_axis, samples_per_voxel_edge: 1"}));
     const Voxels truth(exact), found(other);
     int missed = 0, added = 0;
     truth.forEach([&](glm::ivec3 v) {

@@ -10,7 +10,7 @@ namespace voxray::test {
 namespace {
 
 struct Setting {
-    std::string gbuffer = "samples: 1";
+    std::string gbuffer = "samples_per_pixel_edge: 1";
     std::string resolution = "32";
     std::string inject = "rays_per_light: 131072, bounces: 0";
     std::string filter = "bounces: 3";
@@ -60,7 +60,7 @@ TEST(ConeBounces, AgreeWithTheReferenceOnCornell) {
     Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 512, bounces: 4"}));
     const ImageF expected = reference.image("indirect");
     Setting s;
-    s.gbuffer = "samples: 3";
+    s.gbuffer = "samples_per_pixel_edge: 3";
     s.gather = "cones: 16, stride: 16";
     s.resolution = "48";
     s.inject = "rays_per_light: 524288, bounces: 0";

@@ -10,7 +10,7 @@ namespace voxray::test {
 namespace {
 
 struct Setting {
-    std::string gbuffer = "samples: 1";
+    std::string gbuffer = "samples_per_pixel_edge: 1";
     std::string voxelize = "resolution: 32";
     std::string inject = "rays_per_light: 131072, bounces: 3";
     std::string filter = "emission: false";
@@ -109,7 +109,7 @@ TEST(ConeTracing, ConvergesToTheReferenceOnCornell) {
     const ImageF expected = reference.image("indirect");
     const auto error = [&](const std::string& resolution, const std::string& cones) {
         Setting s;
-        s.gbuffer = "samples: 3";
+        s.gbuffer = "samples_per_pixel_edge: 3";
         s.voxelize = "resolution: " + resolution;
         s.inject = "rays_per_light: 524288, bounces: 3";
         s.gather = "cones: " + cones + ", stride: 3";

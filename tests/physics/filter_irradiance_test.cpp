@@ -64,8 +64,8 @@ class KnownIrradiance final : public Pass {
 ImageF filterKnown(const std::string& source, const std::string& filter, const std::string& scene,
                    const std::string& samples = "1") {
     Chain chain(scene, scene == "white_room" ? "{albedo: 0.5}" : "{}",
-                "[{pass: gbuffer, samples: " + samples + "}, {pass: known_irradiance, " + source +
-                    "}, {pass: filter_irradiance, " + filter + "}]",
+                "[{pass: gbuffer, samples_per_pixel_edge: " + samples + "}, {pass: known_irradiance, " +
+                    source + "}, {pass: filter_irradiance, " + filter + "}]",
                 48, 48, 1, [](Registry& registry) { registry.add<KnownIrradiance>(); });
     return chain.image("indirect");
 }
@@ -130,8 +130,9 @@ const std::string kFilter = ", {pass: filter_irradiance}, {pass: composite}]";
 TEST(FilterIrradiance, PathsIrradianceTimesAlbedoIsTheirRadiance) {
     // One albedo everywhere: a pixel's indirect light is albedo / pi times the mean irradiance of its texels,
     // by their numbers of paths.
-    Chain chain("white_room", "{albedo: 0.5}",
-                "[{pass: gbuffer, samples: 2}, " + kPaths + "spp: 16}, " + "{pass: composite}]");
+    Chain chain(
+        "white_room", "{albedo: 0.5}",
+        "[{pass: gbuffer, samples_per_pixel_edge: 2}, " + kPaths + "spp: 16}, " + "{pass: composite}]");
     const ImageF indirect = chain.image("indirect");
     const NoisyIrradiance& noisy = *chain.graph().resource<NoisyIrradiance>("noisy_irradiance");
     const std::vector<glm::vec4> texels = chain.readImage<glm::vec4>(noisy.irradiance);
@@ -176,7 +177,8 @@ TEST(FilterIrradiance, KeepsTheEnergyOfAPathTracedFurnace) {
     // own variance bounds the error, as in KeepsTheMeanOfNoise.
     for (const std::string samples : {"1", "2"}) {
         Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
-                    "[{pass: gbuffer, samples: " + samples + "}, " + kPaths + "spp: 4, bounces: 2}" + kFilter,
+                    "[{pass: gbuffer, samples_per_pixel_edge: " + samples + "}, " + kPaths +
+                        "spp: 4, bounces: 2}" + kFilter,
                     48, 48);
         const ImageF variance = chain.image("indirect_variance");
         const double noise = std::sqrt(mean(variance) / double(variance.pixelCount()));
@@ -191,9 +193,9 @@ TEST(FilterIrradiance, FollowsAnySource) {
     const ImageF expected = reference.image("indirect");
     const auto image = [](const std::string& source, const std::string& end) {
         return Chain("cornell", "{lights: point}",
-                     "[{pass: gbuffer, samples: 2}, {pass: voxelize, resolution: 48}, {pass: "
+                     "[{pass: gbuffer, samples_per_pixel_edge: 2}, {pass: voxelize, resolution: 48}, {pass: "
                      "inject_light_rays, "
-                     "rays_per_light: 131072, bounces: 3}, {pass: trace_gather_rays, rays: 4}, " +
+                     "rays_per_light: 131072, bounces: 3}, {pass: trace_gather_rays, rays_per_block: 4}, " +
                          source + end,
                      64, 64)
             .image("indirect");

@@ -41,8 +41,9 @@ std::string gatherGraph(const std::string& inject, const std::string& trace, con
     const bool atSurfels = inject.starts_with("inject_voxel_rays") ||
                            inject.starts_with("inject_shadow_map") ||
                            inject.starts_with("inject_gather_hits");
-    Passes passes{"gbuffer, samples: " + samples, "voxelize, " + voxelize,
-                  atSurfels ? "place_surfels, points: 8" : "", "trace_gather_rays, " + trace, inject};
+    Passes passes{"gbuffer, samples_per_pixel_edge: " + samples, "voxelize, " + voxelize,
+                  atSurfels ? "place_surfels, points_per_voxel: 8" : "", "trace_gather_rays, " + trace,
+                  inject};
     passes.insert(passes.end(), gather.begin(), gather.end());
     return graphYaml(passes);
 }
@@ -61,7 +62,7 @@ TEST(FinalGather, FollowsALightThatMoves) {
     // What is kept from frame to frame is made anew: the image is that of a graph made where the light is.
     for (const Injection& injection : kInjections) {
         SCOPED_TRACE(injection.pass);
-        const std::string graph = gatherGraph(injection.withBounces(1), "rays: 4", filtered(1));
+        const std::string graph = gatherGraph(injection.withBounces(1), "rays_per_block: 4", filtered(1));
         const auto before = std::make_shared<SceneState>(
             evaluate(makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")), 0.0));
         const auto after = std::make_shared<SceneState>(*before);
@@ -81,19 +82,20 @@ TEST(VoxelRays, ClosedRoomCatchesAllLight) {
     // A point light of 2 W/sr in a closed room: 8 pi W arrive, and albedo's part of that again with each
     // bounce.
     Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
-                graphYaml({"voxelize, resolution: 24", "place_surfels, points: 16",
-                           "inject_voxel_rays, rays: 4, bounces: 3"}));
+                graphYaml({"voxelize, resolution: 24", "place_surfels, points_per_voxel: 16",
+                           "inject_voxel_rays, rays_per_point: 4, bounces: 3"}));
     EXPECT_NEAR(total(chain, irradiance(chain).direct) / (8 * kPi), 1.0, 0.01);
     EXPECT_NEAR(total(chain, irradiance(chain).indirect) / (8 * kPi * 0.875), 1.0, 0.02);
 }
 
 TEST(VoxelRays, AreDeterministic) {
     const auto run = [](const std::string& inject) {
-        Chain chain("cornell", "{lights: point}", gatherGraph(inject, "rays: 4", kRaw, "resolution: 24"));
+        Chain chain("cornell", "{lights: point}",
+                    gatherGraph(inject, "rays_per_block: 4", kRaw, "resolution: 24"));
         return chain.image("indirect").data;
     };
     for (const std::string inject :
-         {"inject_voxel_rays, bounces: 2", "inject_gather_hits", "inject_camera_rays, rays: 8192"})
+         {"inject_voxel_rays, bounces: 2", "inject_gather_hits", "inject_camera_rays, rays_per_image: 8192"})
         EXPECT_EQ(run(inject), run(inject)) << inject;
 }
 
@@ -114,7 +116,8 @@ TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAFurnace) {
         if (!injection.takesEmission) continue;
         const bool fromLights = injection.pass.starts_with("inject_light_rays");
         const std::string inject = injection.withBounces(2) + (fromLights ? "" : ", light_samples: 16");
-        Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}", gatherGraph(inject, "rays: 64"));
+        Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
+                    gatherGraph(inject, "rays_per_block: 64"));
         EXPECT_NEAR(mean(chain.image("indirect")), 0.36 + 0.216 + 0.1296, 0.02 * 0.7056) << injection.pass;
     }
 }
@@ -129,7 +132,7 @@ TEST(FinalGather, EveryStrategyKeepsTheEnergyOfALitSphere) {
         std::make_shared<SceneState>(evaluate(std::make_shared<Scene>(std::move(sphere)), 0.0));
     const double expected = 0.6 / kPi * (0.6 + 0.36 + 0.216);
     for (const Injection& injection : kInjections) {
-        Chain chain(state, gatherGraph(injection.withBounces(2), "rays: 64"), 32, 32, 1);
+        Chain chain(state, gatherGraph(injection.withBounces(2), "rays_per_block: 64"), 32, 32, 1);
         const double ratio = mean(chain.image("indirect")) / expected;
         std::printf("%s: %.4f of the closed form\n", injection.pass.c_str(), ratio);
         EXPECT_NEAR(ratio, 1.0, 0.005) << injection.pass;  // Noise of 64 rays a pixel: up to 0.0012.
@@ -138,7 +141,7 @@ TEST(FinalGather, EveryStrategyKeepsTheEnergyOfALitSphere) {
 
 TEST(FinalGather, ShadowRaysAtHitsKeepTheEnergyOfAFurnace) {
     Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
-                gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 2", "rays: 64",
+                gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 2", "rays_per_block: 64",
                             {"gather_rays, direct_at_hits: shadow_rays, light_samples: 4"}));
     EXPECT_NEAR(mean(chain.image("indirect")), 0.36 + 0.216 + 0.1296, 0.02 * 0.7056);
 }
@@ -148,7 +151,8 @@ TEST(FinalGather, ShadowRaysAtHitsKeepTheEnergyOfAWhiteRoom) {
     const std::string exact = "gather_rays, direct_at_hits: shadow_rays";
     const auto image = [](const std::string& intensity, const Passes& gather) {
         Chain chain("white_room", "{albedo: 0.5, intensity: " + intensity + "}",
-                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 3", "rays: 64", gather));
+                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 3", "rays_per_block: 64",
+                                gather));
         return mean(chain.image("indirect"));
     };
     EXPECT_NEAR(image("1", {exact}) / mean(reference.image("indirect")), 1.0, 0.02);
@@ -162,7 +166,7 @@ TEST(FinalGather, ShadowRaysAtHitsKnowNoVoxels) {
     Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 1024, bounces: 1"}));
     const auto error = [&](const std::string& gather) {
         Chain chain("white_room", "{albedo: 0.5}",
-                    gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 0", "rays: 256",
+                    gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 0", "rays_per_block: 256",
                                 {"gather_rays, direct_at_hits: " + gather},
                                 "resolution: 3, visibility_rays: 0", "2"));
         return difference(chain.image("indirect"), reference.image("indirect"));
@@ -177,8 +181,8 @@ TEST(FinalGather, FilterKeepsAUniformImage) {
     // included.
     const auto image = [](int levels) {
         Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
-                    gatherGraph("inject_light_rays, rays_per_light: 524288, bounces: 2", "rays: 16, block: 4",
-                                filtered(levels), "resolution: 4"));
+                    gatherGraph("inject_light_rays, rays_per_light: 524288, bounces: 2",
+                                "rays_per_block: 16, block: 4", filtered(levels), "resolution: 4"));
         return chain.image("indirect");
     };
     EXPECT_LT(difference(image(5), image(1)), 0.01);
@@ -190,7 +194,8 @@ TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAWhiteRoom) {
     // the path tracer is the reference.
     Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 256, bounces: 4"}));
     for (const Injection& injection : kInjections) {
-        Chain chain("white_room", "{albedo: 0.5}", gatherGraph(injection.withBounces(3), "rays: 64"));
+        Chain chain("white_room", "{albedo: 0.5}",
+                    gatherGraph(injection.withBounces(3), "rays_per_block: 64"));
         EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.02)
             << injection.pass;
     }
@@ -200,7 +205,7 @@ TEST(FinalGather, AllPairsOfStrategiesAgreeOnCornell) {
     std::vector<double> means;
     for (const Injection& injection : kInjections) {
         Chain chain("cornell", "{lights: point}",
-                    gatherGraph(injection.withBounces(3), "rays: 64", kRaw, "resolution: 48"));
+                    gatherGraph(injection.withBounces(3), "rays_per_block: 64", kRaw, "resolution: 48"));
         means.push_back(mean(chain.image("indirect")));
         std::printf("%s: %.5f\n", injection.pass.c_str(), means.back());
     }
@@ -214,8 +219,8 @@ TEST(FinalGather, ConvergesToTheReference) {
     Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 1024, bounces: 6"}));
     const auto error = [&](const std::string& rays) {
         Chain chain("cornell", "{lights: point}",
-                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5", "rays: " + rays,
-                                kRaw, "resolution: 64", "3"));
+                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5",
+                                "rays_per_block: " + rays, kRaw, "resolution: 64", "3"));
         return difference(chain.image("indirect"), reference.image("indirect"));
     };
     const double few = error("1"), many = error("32");
@@ -233,8 +238,9 @@ TEST(FinalGather, BlocksShareRaysWithoutLosingEnergy) {
                     48, 48);
         return mean(chain.image("indirect"));
     };
-    const double expected = image("rays: 32");
-    for (const std::string trace : {"rays: 24, block: 4", "rays: 8, block: 4", "rays: 3, block: 2"})
+    const double expected = image("rays_per_block: 32");
+    for (const std::string trace :
+         {"rays_per_block: 24, block: 4", "rays_per_block: 8, block: 4", "rays_per_block: 3, block: 2"})
         EXPECT_NEAR(image(trace) / expected, 1.0, 0.02) << trace;
 }
 
@@ -242,8 +248,8 @@ TEST(FinalGather, FilterLowersTheError) {
     Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 128, bounces: 6"}), 64, 64);
     const auto error = [&](const Passes& gather) {
         Chain chain("cornell", "{lights: point}",
-                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5", "rays: 4", gather,
-                                "resolution: 48"),
+                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5", "rays_per_block: 4",
+                                gather, "resolution: 48"),
                     64, 64);
         return difference(chain.image("indirect"), reference.image("indirect"));
     };
@@ -253,8 +259,8 @@ TEST(FinalGather, FilterLowersTheError) {
 TEST(FinalGather, SubPixelsAreAveraged) {
     const auto image = [](const std::string& samples, const std::string& rays) {
         Chain chain("cornell", "{lights: point}",
-                    graphYaml({"gbuffer, samples: " + samples, "voxelize", "inject_light_rays",
-                               "trace_gather_rays, rays: " + rays, "gather_rays"}));
+                    graphYaml({"gbuffer, samples_per_pixel_edge: " + samples, "voxelize", "inject_light_rays",
+                               "trace_gather_rays, rays_per_block: " + rays, "gather_rays"}));
         return mean(chain.image("indirect"));
     };
     EXPECT_NEAR(image("3", "16") / image("1", "64"), 1.0, 0.03);
@@ -262,10 +268,10 @@ TEST(FinalGather, SubPixelsAreAveraged) {
 
 TEST(FinalGather, MorePathsOnDemandLowerTheNoise) {
     const auto image = [](const std::string& rays) {
-        Chain chain(
-            "cornell", "{lights: point}",
-            graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels, points: 2",
-                       "trace_gather_rays, rays: 64", "inject_gather_hits, rays: " + rays, "gather_rays"}));
+        Chain chain("cornell", "{lights: point}",
+                    graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels, points_per_voxel: 2",
+                               "trace_gather_rays, rays_per_block: 64",
+                               "inject_gather_hits, paths_per_point: " + rays, "gather_rays"}));
         return chain.image("indirect");
     };
     const ImageF expected = image("64");
@@ -275,17 +281,18 @@ TEST(FinalGather, MorePathsOnDemandLowerTheNoise) {
 
 TEST(FinalGather, BadInputIsNamed) {
     const std::string scene = "cornell";
-    EXPECT_CONTAINS(messageOf(scene, gatherGraph("inject_light_rays", "rays: 4, block: 3")),
+    EXPECT_CONTAINS(messageOf(scene, gatherGraph("inject_light_rays", "rays_per_block: 4, block: 3")),
                     "block is 3; it must be 1, 2, 4 or 8");
-    EXPECT_CONTAINS(messageOf(scene, gatherGraph("inject_light_rays", "rays: 2, block: 4")),
+    EXPECT_CONTAINS(messageOf(scene, gatherGraph("inject_light_rays", "rays_per_block: 2, block: 4")),
                     "leaves texels without any; let filter_irradiance follow");
-    EXPECT_CONTAINS(messageOf(scene, gatherGraph("inject_light_rays", "rays: 2, block: 4", filtered(1))),
-                    "raise 'levels' to 3");
+    EXPECT_CONTAINS(
+        messageOf(scene, gatherGraph("inject_light_rays", "rays_per_block: 2, block: 4", filtered(1))),
+        "raise 'levels' to 3");
     EXPECT_CONTAINS(
         messageOf(scene, graphYaml({"gbuffer", "voxelize", "place_surfels", "inject_gather_hits"})),
         "gather_hits");
     EXPECT_CONTAINS(
-        messageOf("white_room", gatherGraph("inject_voxel_rays", "rays: 4", kRaw, "resolution: 1")),
+        messageOf("white_room", gatherGraph("inject_voxel_rays", "rays_per_block: 4", kRaw, "resolution: 1")),
         "raise voxelize's 'resolution'");
     for (const std::string inject : {"inject_voxel_rays", "inject_camera_rays"}) {
         SCOPED_TRACE(inject);
@@ -311,9 +318,9 @@ TEST(FinalGather, GridOfOneVoxel) {
         {"inject_rsm", {0.5, 0.02}},          {"inject_shadow_map", {halved, 0.02}}};
     Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 16, bounces: 4"}));
     for (const Injection& injection : kInjections) {
-        Chain chain(
-            "white_room", "{albedo: 0.5}",
-            gatherGraph(injection.withBounces(3), "rays: 16", kRaw, "resolution: 1, visibility_rays: 0"));
+        Chain chain("white_room", "{albedo: 0.5}",
+                    gatherGraph(injection.withBounces(3), "rays_per_block: 16", kRaw,
+                                "resolution: 1, visibility_rays: 0"));
         const double ratio = mean(chain.image("indirect")) / mean(reference.image("indirect"));
         std::printf("%s: %.4f\n", injection.pass.c_str(), ratio);
         const auto [value, tolerance] = expected.at(injection.pass.substr(0, injection.pass.find(',')));

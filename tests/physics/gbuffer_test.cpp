@@ -110,7 +110,7 @@ TEST(GBuffer, NoTexelSeesABodyFromInside) {
             builder.box("box", {0, 0, 0}, {1, 1, 1}, 0.1f + 0.25f * float(turn), glowing);
             builder.camera({0, 2, 4}, {0, 0.5f, 0}, 25);
             Chain chain(std::make_shared<SceneState>(evaluate(builder.finish(), 0.0)),
-                        graphYaml({"gbuffer, samples: 4, method: " + method}), 96, 96, 1);
+                        graphYaml({"gbuffer, samples_per_pixel_edge: 4, method: " + method}), 96, 96, 1);
             const auto emission = texels(chain, gbuffer(chain).emission);
             const auto positions = chain.readImage<glm::vec4>(gbuffer(chain).position);
             for (size_t i = 0; i < positions.size(); ++i) {
@@ -156,7 +156,7 @@ TEST(GBuffer, TexturesAreSeenAtTheFootprintOfAPixel) {
 
 TEST(GBuffer, AovsAgreeWithWhatTheHostSees) {
     // Depth and numbers in the files of --aovs are the host's, positions and albedo the pass's own.
-    Chain chain("cornell", "{lights: point}", "[{pass: gbuffer, samples: 2}]", 48, 32);
+    Chain chain("cornell", "{lights: point}", "[{pass: gbuffer, samples_per_pixel_edge: 2}]", 48, 32);
     const std::vector<Aov> aovs = gbuffer(chain).aovs();
     ASSERT_EQ(aovs.at(0).channels, (std::vector<std::string>{"P.X", "P.Y", "P.Z"}));
     ASSERT_EQ(aovs.at(3).channels.at(0), "albedo.R");
@@ -185,8 +185,8 @@ TEST(GBuffer, AovsAgreeWithWhatTheHostSees) {
 TEST(GBuffer, SubPixelsApproachPixelMeans) {
     const auto direct = [](const std::string& samples, const std::string& method) {
         Chain chain("cornell", "{lights: point}",
-                    graphYaml({"gbuffer, samples: " + samples + ", method: " + method, "direct_shadow_rays",
-                               "composite"}),
+                    graphYaml({"gbuffer, samples_per_pixel_edge: " + samples + ", method: " + method,
+                               "direct_shadow_rays", "composite"}),
                     48, 48);
         return chain.image("final");
     };

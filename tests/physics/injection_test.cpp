@@ -46,7 +46,7 @@ TEST(Injection, EmissiveFurnaceReachesItsClosedForm) {
     // Every surface emits e and reflects a: the irradiance is pi e / (1 - a) everywhere, of which pi e is
     // direct.
     Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
-                graphYaml({"gbuffer", "voxelize, resolution: 16, samples: 4",
+                graphYaml({"gbuffer", "voxelize, resolution: 16, samples_per_voxel_edge: 4",
                            "inject_light_rays, rays_per_light: 1048576, bounces: 24",
                            "gather_irradiance, radius: 2", "direct_voxels, radius: 2", "composite"}));
     EXPECT_NEAR(mean(chain.image("direct")), 0.6, 0.02 * 0.6);
@@ -83,8 +83,8 @@ TEST(DirectShadowRays, MatchClosedFormsOnAPlane) {
 
 TEST(DirectShadowRays, AreaLightConvergesToTheReference) {
     // Pixel centers against pixel means: edges of the light weigh less the more pixels there are.
-    Chain chain("quad_light", "{}", graphYaml({"gbuffer", "direct_shadow_rays, samples: 64", "composite"}),
-                96, 96);
+    Chain chain("quad_light", "{}",
+                graphYaml({"gbuffer", "direct_shadow_rays, light_samples: 64", "composite"}), 96, 96);
     Chain reference("quad_light", "{}", graphYaml({"path_trace, spp: 64, bounces: 0"}), 96, 96);
     EXPECT_NEAR(mean(chain.image("final")) / mean(reference.image("final")), 1.0, 0.01);
 }
@@ -95,8 +95,10 @@ TEST(DirectShadowRays, EnvironmentConvergesToTheReference) {
     scene.lights.clear();
     scene.environment.radiance = glm::vec3(1.0f);
     const auto state = std::make_shared<SceneState>(evaluate(std::make_shared<Scene>(scene), 0.0));
-    Chain chain(state, graphYaml({"gbuffer, samples: 2", "direct_shadow_rays, samples: 32", "composite"}), 64,
-                48, 1);
+    Chain chain(state,
+                graphYaml({"gbuffer, samples_per_pixel_edge: 2", "direct_shadow_rays, light_samples: 32",
+                           "composite"}),
+                64, 48, 1);
     Chain reference(state, graphYaml({"path_trace, spp: 128, bounces: 0"}), 64, 48, 1);
     const ImageF image = chain.image("final"), truth = reference.image("final");
     EXPECT_NEAR(mean(image) / mean(truth), 1.0, 0.003);
@@ -106,10 +108,11 @@ TEST(DirectShadowRays, EnvironmentConvergesToTheReference) {
 
 TEST(DirectVoxels, ApproachShadowRaysAsVoxelsShrink) {
     const auto error = [](uint32_t resolution) {
-        Chain chain("plane", "{light: point}",
-                    graphYaml({"gbuffer", "voxelize, samples: 4, resolution: " + std::to_string(resolution),
-                               "inject_light_rays, rays_per_light: 1048576, bounces: 0", "direct_voxels",
-                               "composite"}));
+        Chain chain(
+            "plane", "{light: point}",
+            graphYaml(
+                {"gbuffer", "voxelize, samples_per_voxel_edge: 4, resolution: " + std::to_string(resolution),
+                 "inject_light_rays, rays_per_light: 1048576, bounces: 0", "direct_voxels", "composite"}));
         Chain exact("plane", "{light: point}", graphYaml({"gbuffer", "direct_shadow_rays", "composite"}));
         const ImageF a = chain.image("final"), b = exact.image("final");
         double sum = 0;
@@ -125,7 +128,7 @@ TEST(VoxelLookup, SevenTapKeepsAConstantAndBlursAnEdge) {
     const auto direct = [](const std::string& scene, const std::string& parameters,
                            const std::string& lookup) {
         Chain chain(scene, parameters,
-                    graphYaml({"gbuffer", "voxelize, resolution: 16, samples: 4",
+                    graphYaml({"gbuffer", "voxelize, resolution: 16, samples_per_voxel_edge: 4",
                                "inject_light_rays, rays_per_light: 1048576, bounces: 0",
                                "direct_voxels, lookup: " + lookup}),
                     48, 48);

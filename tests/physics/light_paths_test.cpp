@@ -109,8 +109,8 @@ TEST(LightPaths, BeamsWidenOverMirrorBounces) {
 TEST(LightPaths, MaxIsTheIrradianceAtTheNearestPoint) {
     // Over the plane, 1 m below the light: 1 / d³ at the point of each voxel that is nearest to the light.
     const std::string inject = "inject_light_rays, rays_per_light: 1048576, secondary: none, write: ";
-    Lit average("plane", "{}", "resolution: 24, samples: 4", inject + "average");
-    Lit max("plane", "{}", "resolution: 24, samples: 4", inject + "max");
+    Lit average("plane", "{}", "resolution: 24, samples_per_voxel_edge: 4", inject + "average");
+    Lit max("plane", "{}", "resolution: 24, samples_per_voxel_edge: 4", inject + "max");
     const float half = 0.5f * max.voxels->grid.voxelSize;
     double expected = 0;
     for (int x = 0; x < 24; ++x)
@@ -157,7 +157,7 @@ TEST(LightPaths, WhatHasNoIrradianceIsRefused) {
 
 TEST(InjectRsm, ClosedRoomCatchesAllLight) {
     Lit lit("white_room", "{albedo: 0.5, intensity: 2}", "resolution: 24",
-            "inject_rsm, resolution: 128, bounces: 2");
+            "inject_rsm, rsm_resolution: 128, bounces: 2");
     EXPECT_NEAR(sum(lit.direct) / (4 * kPi * 2), 1.0, 0.005);
     EXPECT_NEAR(sum(lit.indirect) / (4 * kPi * 2 * 0.75), 1.0, 0.01);
 }
@@ -166,13 +166,13 @@ TEST(InjectRsm, AgreesWithLightRays) {
     // Totals agree closely; voxel by voxel some twenty rows of texels, one more or less, make the difference.
     for (const std::string light : {"point", "spot", "directional"}) {
         const std::string scene = "{light: " + light + "}";
-        Lit rsm("plane", scene, "resolution: 16", "inject_rsm, secondary: none, resolution: 512");
+        Lit rsm("plane", scene, "resolution: 16", "inject_rsm, secondary: none, rsm_resolution: 512");
         Lit rays("plane", scene, "resolution: 16",
                  "inject_light_rays, secondary: none, rays_per_light: 262144");
         EXPECT_NEAR(sum(rsm.direct) / sum(rays.direct), 1.0, 0.005) << light;
         EXPECT_LT(difference(rsm.direct, rays.direct), 0.03) << light;
     }
-    Lit rsm("cornell", "{lights: point}", "resolution: 16", "inject_rsm, resolution: 256, bounces: 3");
+    Lit rsm("cornell", "{lights: point}", "resolution: 16", "inject_rsm, rsm_resolution: 256, bounces: 3");
     Lit rays("cornell", "{lights: point}", "resolution: 16",
              "inject_light_rays, rays_per_light: 524288, bounces: 3");
     EXPECT_NEAR(sum(rsm.direct) / sum(rays.direct), 1.0, 0.005);

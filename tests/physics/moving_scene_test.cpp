@@ -28,7 +28,7 @@ bool sameImage(const ImageF& a, const ImageF& b) {
 }
 
 std::string graphOf(const std::string& inject, const std::string& filter) {
-    return graphYaml({"gbuffer", "voxelize, resolution: 8", "place_surfels, points: 1", inject,
+    return graphYaml({"gbuffer", "voxelize, resolution: 8", "place_surfels, points_per_voxel: 1", inject,
                       "filter_voxels, " + filter, "gather_cones", "direct_shadow_rays", "composite"});
 }
 
@@ -49,13 +49,14 @@ void expectAsMadeThere(const std::string& graph) {
 
 TEST(MovingScene, EveryLayoutIsAsMadeThere) {
     for (const char* layout : {"dense", "clipmap", "svo"})
-        expectAsMadeThere(graphOf("inject_shadow_map, resolution: 64, rays: 2, bounces: 1",
+        expectAsMadeThere(graphOf("inject_shadow_map, shadow_resolution: 64, rays_per_point: 2, bounces: 1",
                                   std::string("layout: ") + layout));
 }
 
 TEST(MovingScene, EveryInjectionIsAsMadeThere) {
-    for (const char* inject : {"inject_light_rays, rays_per_light: 1024",
-                               "inject_voxel_rays, rays: 2, bounces: 1", "inject_rsm, resolution: 64"})
+    for (const char* inject :
+         {"inject_light_rays, rays_per_light: 1024", "inject_voxel_rays, rays_per_point: 2, bounces: 1",
+          "inject_rsm, rsm_resolution: 64"})
         expectAsMadeThere(graphOf(inject, "layout: dense"));
 }
 
@@ -76,8 +77,9 @@ TEST(MovingScene, LightsMoveWithoutSurfaces) {
     const auto there = at(scene, 0);
     lightAt(*there);
     for (const char* layout : {"clipmap", "svo"}) {
-        const std::string graph = graphOf("inject_shadow_map, resolution: 64, rays: 2, bounces: 1",
-                                          std::string("layout: ") + layout);
+        const std::string graph =
+            graphOf("inject_shadow_map, shadow_resolution: 64, rays_per_point: 2, bounces: 1",
+                    std::string("layout: ") + layout);
         Chain moved(at(scene, 0), graph, 16, 16, 1);
         moved.update(lightAt);
         EXPECT_TRUE(sameImage(moved.image("final"), Chain(there, graph, 16, 16, 1).image("final"))) << layout;

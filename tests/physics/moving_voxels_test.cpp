@@ -86,7 +86,7 @@ TEST(MovingVoxels, AreThoseThatAreMadeAnew) {
 TEST(MovingVoxels, CarryTheSameLightInEachLayout) {
     // The octree also where it is kept for light of each frame.
     const std::string once = "inject_light_rays, rays_per_light: 8192, bounces: 1";
-    const std::string eachFrame = "inject_camera_rays, rays: 8192, bounces: 1";
+    const std::string eachFrame = "inject_camera_rays, rays_per_image: 8192, bounces: 1";
     const std::vector<std::pair<std::string, std::string>> cases{
         {once, "dense"}, {once, "svo"}, {eachFrame, "svo"}, {once, "clipmap, clipmap_resolution: 16"}};
     for (const auto& [light, layout] : cases) {

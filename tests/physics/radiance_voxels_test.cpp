@@ -71,7 +71,7 @@ TEST(RadianceVoxels, AreFilteredInThePhaseOfTheirLight) {
                           graphYaml({"voxelize, resolution: 8", inject, "filter_voxels"}));
         return chain.graph().passes().back().phase;
     };
-    EXPECT_EQ(phaseWith("inject_camera_rays, rays: 64"), Phase::Frame);
+    EXPECT_EQ(phaseWith("inject_camera_rays, rays_per_image: 64"), Phase::Frame);
     EXPECT_EQ(phaseWith("inject_light_rays, rays_per_light: 64"), Phase::Build);
 }
 

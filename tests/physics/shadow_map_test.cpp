@@ -15,7 +15,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 std::string injectGraph(const std::string& inject, const std::string& resolution = "24") {
-    return graphYaml({"voxelize, resolution: " + resolution, "place_surfels, points: 16", inject});
+    return graphYaml({"voxelize, resolution: " + resolution, "place_surfels, points_per_voxel: 16", inject});
 }
 
 /// Flux of each face, W, green channel.
@@ -54,7 +54,7 @@ TEST(ShadowMap, ClosedRoomCatchesAllLight) {
     // A point light of 2 W/sr in a closed room: 8 pi W arrive, and the albedo's part of that again with each
     // bounce.
     Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
-                injectGraph("inject_shadow_map, rays: 4, bounces: 2"));
+                injectGraph("inject_shadow_map, rays_per_point: 4, bounces: 2"));
     EXPECT_NEAR(sum(directFlux(chain)) / (8 * kPi), 1.0, 0.01);
     const auto* irradiance = chain.graph().resource<VoxelIrradiance>("irradiance");
     double indirect = 0;
@@ -76,8 +76,8 @@ TEST(ShadowMap, FlatSurfacesDoNotShadeThemselves) {
     // at up to 82°, with texels of up to half a metre.
     for (const std::string resolution : {"64", "1024"}) {
         Chain chain("plane", "{}",
-                    graphYaml({"voxelize, resolution: 24", "place_surfels, points: 256",
-                               "inject_shadow_map, bounces: 0, resolution: " + resolution}));
+                    graphYaml({"voxelize, resolution: 24", "place_surfels, points_per_voxel: 256",
+                               "inject_shadow_map, bounces: 0, shadow_resolution: " + resolution}));
         const auto& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
         const std::vector<float> area =
             readAreas(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->area);
@@ -139,8 +139,8 @@ TEST(ShadowMap, WhatAMaskCutsCastsNoShadow) {
 TEST(ShadowMap, IndirectLightOfCornellIsThatOfVoxelRays) {
     const auto indirect = [](const std::string& inject) {
         Chain chain("cornell", "{lights: point}",
-                    graphYaml({"gbuffer", "voxelize", "place_surfels, points: 8", inject + ", bounces: 4",
-                               "gather_irradiance"}));
+                    graphYaml({"gbuffer", "voxelize", "place_surfels, points_per_voxel: 8",
+                               inject + ", bounces: 4", "gather_irradiance"}));
         return mean(chain.image("indirect"));
     };
     EXPECT_NEAR(indirect("inject_shadow_map") / indirect("inject_voxel_rays"), 1.0, 0.02);
@@ -164,8 +164,8 @@ TEST(ShadowMap, BadInputIsNamed) {
     sky.scene = std::make_shared<Scene>(scene);
     expectError(std::make_shared<SceneState>(sky), "", "an environment has no single viewpoint");
     expectError(state("white_room", "{intensity: 0}"), "", "inject_shadow_map: the scene has no lights");
-    expectError(state("white_room", "{}"), ", resolution: 0", "out of range");
-    expectError(state("white_room", "{}"), ", rays: 0", "out of range");
+    expectError(state("white_room", "{}"), ", shadow_resolution: 0", "out of range");
+    expectError(state("white_room", "{}"), ", rays_per_point: 0", "out of range");
 }
 
 }  // namespace

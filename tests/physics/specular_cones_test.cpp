@@ -33,10 +33,10 @@ void expectFurnace(const std::string& name, const std::function<void(Material&)>
     const auto state = changed("furnace", "{shape: box, albedo: 1, emission: 1}", change);
     Chain reference(state, graphYaml({"path_trace, spp: 1024, bounces: 0"}), 16, 16, 1);
     const double expected = mean(reference.image("final")) - 1.0;
-    Chain cones(
-        state,
-        coneGraph("samples: 1", "32", "rays_per_light: 65536, bounces: 0", "emission: true", "cones: 16"), 16,
-        16, 1);
+    Chain cones(state,
+                coneGraph("samples_per_pixel_edge: 1", "32", "rays_per_light: 65536, bounces: 0",
+                          "emission: true", "cones: 16"),
+                16, 16, 1);
     const Material& wall = state->scene->materials[0];
     const double seen = 1.0 + wall.baseColor.r * (1.0 - wall.metallic);
     EXPECT_NEAR(mean(cones.image("indirect")) / (expected * seen), 1.0, 0.02) << name << " " << expected;
@@ -64,8 +64,8 @@ TEST(SpecularCones, KeepTheEnergyOfAFurnaceOfVarnish) {
 TEST(SpecularCones, LeaveLambertSurfacesAlone) {
     const auto run = [](const std::string& cones) {
         Chain chain("cornell", "{lights: point}",
-                    coneGraph("samples: 2", "32", "rays_per_light: 65536, bounces: 2", "emission: false",
-                              "cones: 6, specular: " + cones));
+                    coneGraph("samples_per_pixel_edge: 2", "32", "rays_per_light: 65536, bounces: 2",
+                              "emission: false", "cones: 6, specular: " + cones));
         return chain.image("indirect").data;
     };
     EXPECT_EQ(run("7"), run("0"));
@@ -93,8 +93,8 @@ std::pair<double, double> mirrorError(float roughness, const std::string& cones,
                                       const std::string& resolution, const std::string& layout,
                                       const ImageF& expected) {
     Chain chain(mirrorRoom(roughness),
-                coneGraph("samples: 2", resolution, "rays_per_light: 524288, bounces: 0", "layout: " + layout,
-                          "cones: 5, stride: 16, specular: " + cones),
+                coneGraph("samples_per_pixel_edge: 2", resolution, "rays_per_light: 524288, bounces: 0",
+                          "layout: " + layout, "cones: 5, stride: 16, specular: " + cones),
                 32, 32, 1);
     const ImageF image = chain.image("indirect");
     const auto positions = chain.readImage<glm::vec4>(chain.graph().resource<GBuffer>("gbuffer")->position);
@@ -137,7 +137,8 @@ TEST(SpecularCones, DirectLightHasHighlights) {
     for (const float roughness : {0.3f, 0.7f}) {
         const auto state = mirrorRoom(roughness);
         Chain reference(state, graphYaml({"path_trace, spp: 256, bounces: 0"}), 32, 32, 1);
-        Chain chain(state, graphYaml({"gbuffer, samples: 8", "direct_shadow_rays"}), 32, 32, 1);
+        Chain chain(state, graphYaml({"gbuffer, samples_per_pixel_edge: 8", "direct_shadow_rays"}), 32, 32,
+                    1);
         const ImageF expected = reference.image("final"), direct = chain.image("direct");
         double difference = 0;
         for (size_t i = 0; i < direct.data.size(); ++i)
@@ -147,12 +148,12 @@ TEST(SpecularCones, DirectLightHasHighlights) {
 }
 
 TEST(SpecularCones, AnUnknownSetIsNamed) {
-    EXPECT_CONTAINS(
-        errorOf([&] {
-            Chain("cornell", "{lights: point}",
-                  coneGraph("samples: 1", "16", "rays_per_light: 16", "emission: false", "specular: 3"));
-        }),
-        "specular is 3; lobes are shared out between 1, 7 or 19");
+    EXPECT_CONTAINS(errorOf([&] {
+                        Chain("cornell", "{lights: point}",
+                              coneGraph("samples_per_pixel_edge: 1", "16", "rays_per_light: 16",
+                                        "emission: false", "specular: 3"));
+                    }),
+                    "specular is 3; lobes are shared out between 1, 7 or 19");
 }
 
 }  // namespace

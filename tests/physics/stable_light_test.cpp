@@ -22,8 +22,8 @@ Values reported(const Chain& chain) {
 std::string probeGraph(uint32_t resolution, const std::string& filter, uint32_t points = 1000,
                        uint32_t samples = 4) {
     return graphYaml({fmt::format("voxelize, resolution: {}", resolution), "inject_light_rays, bounces: 3",
-                      "place_surfels, points: 1", "filter_voxels, " + filter,
-                      fmt::format("probe_irradiance, points: {}, samples: {}", points, samples)});
+                      "place_surfels, points_per_voxel: 1", "filter_voxels, " + filter,
+                      fmt::format("probe_irradiance, max_points: {}, cone_sets: {}", points, samples)});
 }
 
 TEST(StableLight, ProbesMeasureTheIrradianceOfAFurnace) {

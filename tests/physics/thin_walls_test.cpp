@@ -70,9 +70,10 @@ TEST(ThinWalls, OneDirectionMakesThemBrown) {
 /// one.
 double leakOfGatherRays(const std::string& inject) {
     const auto seen = [&](const std::string& view) {
-        Chain chain("thin_wall", "{thickness: 0.05, view: " + view + "}",
-                    graphYaml({"gbuffer", "voxelize, resolution: 64", "place_surfels",
-                               inject + ", bounces: 3", "trace_gather_rays, rays: 64", "gather_rays"}));
+        Chain chain(
+            "thin_wall", "{thickness: 0.05, view: " + view + "}",
+            graphYaml({"gbuffer", "voxelize, resolution: 64", "place_surfels", inject + ", bounces: 3",
+                       "trace_gather_rays, rays_per_block: 64", "gather_rays"}));
         return mean(chain.image("indirect"));
     };
     return seen("dark") / seen("lit");
@@ -82,7 +83,7 @@ TEST(ThinWalls, RaysLeakWhereVoxelsAreShared) {
     // Light rays never enter the dark room. Voxel rays light a voxel's side by points all over it: where
     // floor and ceiling of both rooms share voxels, by those of the lit room, too.
     EXPECT_EQ(leakOfGatherRays("inject_light_rays, rays_per_light: 262144"), 0.0);
-    EXPECT_LT(leakOfGatherRays("inject_voxel_rays, rays: 16"), 0.005);
+    EXPECT_LT(leakOfGatherRays("inject_voxel_rays, rays_per_point: 16"), 0.005);
 }
 
 }  // namespace

@@ -131,8 +131,9 @@ TEST(VoxelizeMaterial, AlphaMasksLeaveHoles) {
     m.baseColorTexture.texture = 0;
     m.alphaMode = AlphaMode::Mask;
     for (const std::string method : kMethods) {
-        const Voxels voxels = voxelize(square(m, {stripes}),
-                                       "resolution: 16, visibility_rays: 0, samples: 4, method: " + method);
+        const Voxels voxels =
+            voxelize(square(m, {stripes}),
+                     "resolution: 16, visibility_rays: 0, samples_per_voxel_edge: 4, method: " + method);
         double area = 0, opacity = 0;
         int count = 0;
         voxels.forEach([&](glm::ivec3 v) {

@@ -92,7 +92,7 @@ double missedPoints(const std::shared_ptr<const Scene>& scene, const std::string
 TEST(VoxelizeMethods, NoPointOfAnArchIsInAnEmptyVoxel) {
     // Where three projections sample the surface only at pixels' centers, voxels that it cuts near a corner
     // stay empty. Magalhães 2020 (section 5.1.3) filtered across them and saw streaks.
-    EXPECT_GT(missedPoints(arch(), "method: three_axis, samples: 1, resolution: 40"), 0.005);
+    EXPECT_GT(missedPoints(arch(), "method: three_axis, samples_per_voxel_edge: 1, resolution: 40"), 0.005);
     EXPECT_EQ(missedPoints(arch(), "method: dominant_axis, resolution: 40"), 0.0);
     EXPECT_EQ(missedPoints(arch(), "method: exact, resolution: 40"), 0.0);
     const auto cornell = makeBuiltinScene("cornell", Value());

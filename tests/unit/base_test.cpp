@@ -79,6 +79,12 @@ TEST(Suggest, NearestWord) {
     EXPECT_EQ(nearest("widht", words), "width");
     EXPECT_EQ(nearest("ray", words), "rays");
     EXPECT_EQ(nearest("banana", words), "");
+    const std::vector<std::string> longer{"block", "max_rays_per_block", "points_per_voxel"};
+    EXPECT_EQ(nearest("rays", longer), "max_rays_per_block");
+    EXPECT_EQ(nearest("points", longer), "points_per_voxel");
+    EXPECT_EQ(nearest("voxel", longer), "points_per_voxel");
+    EXPECT_EQ(nearest("ray", longer), "") << "a word, not any letters";
+    EXPECT_EQ(nearest("", longer), "");
     EXPECT_EQ(didYouMean("widht", words), "; did you mean 'width'?");
     EXPECT_EQ(didYouMean("banana", words), "; one of: resolution, width, height, rays");
     EXPECT_EQ(didYouMean("x", {}), "");

@@ -23,7 +23,7 @@ seed: 7
 graph:
   - {pass: gbuffer}
   - {pass: voxelize, resolution: 64}
-  - {pass: inject_light_rays, id: inject, rays: 100}
+  - {pass: inject_light_rays, id: inject, rays_per_light: 100}
 reference: {pass: path_trace, spp: 16}
 sweep:
   voxelize.resolution: [32, 64]
@@ -33,7 +33,7 @@ profiles:
     image: {width: 16}
     reference.spp: 4
     sweep.voxelize.resolution: [8, 16]
-    sweep.inject.rays: [1, 2]
+    sweep.inject.rays_per_light: [1, 2]
 )";
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -169,7 +169,7 @@ TEST(Config, ProfileMergesMapsAndFollowsPaths) {
     EXPECT_EQ(e.setup.image.height, 32u);
     EXPECT_EQ(e.reference.find("spp")->scalar, "4");
     EXPECT_EQ(e.sweep.find("voxelize.resolution")->text(), "[8, 16]");
-    EXPECT_EQ(e.sweep.find("inject.rays")->text(), "[1, 2]");
+    EXPECT_EQ(e.sweep.find("inject.rays_per_light")->text(), "[1, 2]");
 
     expectError(kValid, {"demo.yaml:16: ", "no profile 'smal'", "did you mean 'small'?"}, {"smal", {}});
     // A broken profile is found without being asked for

@@ -79,10 +79,10 @@ void SurfelFeedback::finish(PassContext& context, const SurfaceVoxels& voxels, c
         faces_.update(stream, voxels, irradiance);
         indirect_.begin(context.device, stream, voxels, typicalIrradiance_);
         for (const Surfels::Chunk& chunk : surfels.chunks) {
-            for (uint32_t ray = 0; ray < params_.rays; ++ray) {
+            for (uint32_t ray = 0; ray < params_.raysPerPoint; ++ray) {
                 stream.dispatch(
                     gather_, {{"surfels", chunk.surfels}, {"rays", rays_}},
-                    GatherPush{chunk.count, ray, params_.rays, seed + 0x51u + bounce * 0x9e3779b9u},
+                    GatherPush{chunk.count, ray, params_.raysPerPoint, seed + 0x51u + bounce * 0x9e3779b9u},
                     linearGroups(chunk.count));
                 context.tracer.closestHit(stream, rays_, hits_, chunk.count);
                 std::vector<Binding> bindings = context.scene.bindings({{"voxelOccupancy", voxels.occupancy},

@@ -11,13 +11,13 @@ namespace voxray {
 
 /// The parameters of a pass whose light bounces by feedback.
 struct FeedbackParams : WriteParams {
-    uint32_t rays = 1;
+    uint32_t raysPerPoint = 1;
     uint32_t bounces = 8;
     static constexpr auto schema() {
         return std::tuple_cat(
             WriteParams::schema(),
-            std::tuple{field("rays", &FeedbackParams::rays, "Gather rays from each point in each iteration.",
-                             1u, 1024u),
+            std::tuple{field("rays_per_point", &FeedbackParams::raysPerPoint,
+                             "Gather rays from each point in each iteration.", 1u, 1024u),
                        field("bounces", &FeedbackParams::bounces, "Bounces of light.", 0u, 32u)});
     }
 };
