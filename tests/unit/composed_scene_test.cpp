@@ -71,6 +71,20 @@ TEST(ComposedSceneLoader, LambertLeavesWhatTheConfigSays) {
     EXPECT_EQ(materialOf(prepared, "green").specular, 0);
 }
 
+TEST(ComposedSceneLoader, AddedAnimationsPlay) {
+    SceneLoader loader({});
+    const auto at = [](const char* time) {
+        return settingsOf(
+            std::string("  time_step: 0.5\n  time: ") + time +
+            "\n  add: [{builtin: spheres, count: 2, transform: {translate: [0, 1, 0], scale: 0.5}}]\n");
+    };
+    PreparedScene moved = loader.prepare(at("0"));
+    const PreparedScene there = loader.prepare(at("1.5"));
+    EXPECT_NE(moved.state.geometry.positions, there.state.geometry.positions);
+    EXPECT_EQ(SceneLoader::goToFrame(moved, at("0"), 3).size(), 4u);  // Two spheres, before and after.
+    EXPECT_EQ(moved.state.geometry.positions, there.state.geometry.positions);
+}
+
 TEST(ComposedSceneLoader, KeysTellCompositionsApart) {
     SceneLoader loader({});
     std::set<std::string> keys;

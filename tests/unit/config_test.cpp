@@ -196,6 +196,13 @@ TEST(Config, Assignments) {
     EXPECT_EQ(e.measure.metrics.size(), 2u);
     EXPECT_TRUE(parseExperiment(kValid, "x", {"", {"reference=null"}}).reference.isNull());
 
+    // A chain of passes
+    const Experiment chain = parseExperiment(
+        kValid, "x", {"", {"inject=[place_surfels, {pass: inject_voxel_rays}]", "inject.bounces=2"}});
+    ASSERT_EQ(chain.setup.graph.items.size(), 4u);
+    EXPECT_EQ(chain.setup.graph.items[2].text(), "{pass: place_surfels}");
+    EXPECT_EQ(chain.setup.graph.items[3].text(), "{pass: inject_voxel_rays, id: inject, bounces: 2}");
+
     expectError(kValid, {"--set voxelise.resolution=1: ", "did you mean 'voxelize'?"},
                 {"", {"voxelise.resolution=1"}});
     expectError(kValid, {"--set image.widht=1: ", "did you mean 'width'?"}, {"", {"image.widht=1"}});
