@@ -20,14 +20,20 @@
 // So are places within VoxelSegment::near units of a plane: this part of the longest run, and what is cut off.
 #define MARCH_ROUNDING 1.2e-6
 
+// Places are floats from here on to twice that, which all have the same exponent: their bits are whole numbers of 2^-13 of a voxel.
+// That saves a conversion, which lavapipe takes lane by lane. What it cuts off is within VoxelSegment::near too.
+#define MARCH_PLACE_OFFSET 1024.0
+#define MARCH_PLACE_FRACTION 13
+
 struct VoxelSegment {
     ivec3 start;  // Units.
     vec3 run;     // Units from start to end, by axis: whole numbers, not negative.
     vec3 perRun;  // 1 / run; a large number where run is 0.
     ivec3 last;   // The voxel that holds the end.
     int near;     // Units by which a place on the way may be off.
-    int nearWidth;    // Twice that.
-    ivec3 nearStart;  // start + near.
+    // For places in floats: way and start in voxels, the latter `near` units on and offset (MARCH_PLACE_OFFSET).
+    vec3 runVoxels;
+    vec3 placeStart;
     ivec3 flip;   // By axis: side - 1 where it is mirrored, else 0. An exclusive or with it mirrors a voxel, and back.
 };
 
@@ -36,16 +42,16 @@ VoxelSegment makeSegment(vec3 from, vec3 to, uvec3 resolution) {
     const ivec3 largest = ivec3(resolution << MARCH_FRACTION) - 1;
     const ivec3 start = clamp(ivec3(floor(from * float(MARCH_UNITS))), ivec3(0), largest);
     const ivec3 end = clamp(ivec3(floor(to * float(MARCH_UNITS))), ivec3(0), largest);
-    const int side = 2 << findMSB(max(resolution.x, max(resolution.y, resolution.z)));
+    const int side = 2 << findMSB(max(max(resolution.x, resolution.y), max(resolution.z, 2u)) - 1u);
     const bvec3 isDown = lessThan(end, start);
     VoxelSegment s;
     s.start = mix(start, (side << MARCH_FRACTION) - 1 - start, isDown);
     s.run = vec3(abs(end - start));
     s.perRun = mix(1.0 / s.run, vec3(1.0e30), equal(start, end));
     s.flip = mix(ivec3(0), ivec3(side - 1), isDown);
-    s.near = 2 + int(MARCH_ROUNDING * max(s.run.x, max(s.run.y, s.run.z)));
-    s.nearWidth = 2 * s.near;
-    s.nearStart = s.start + s.near;
+    s.near = 4 + int(MARCH_ROUNDING * max(s.run.x, max(s.run.y, s.run.z)));
+    s.runVoxels = s.run / float(MARCH_UNITS);
+    s.placeStart = vec3(s.start + s.near) / float(MARCH_UNITS) + MARCH_PLACE_OFFSET;
     s.last = (end >> MARCH_FRACTION) ^ s.flip;
     return s;
 }
@@ -91,10 +97,9 @@ int voxelAfterPlane(int units, float run, int flip, int place, int near, int sta
     return own <= 0 || orderOfPlanes(units, run, flip, own, ownRun, ownFlip) >= 0 ? plane : plane - 1;
 }
 
-// Moves to the first voxel after a cube around `voxel`, of cube + 1 voxels, a power of two, along each axis. False where the segment
-// ends in the cube.
-bool leaveCubeExactly(VoxelSegment s, int cube, inout ivec3 voxel) {
-    const ivec3 planes = (voxel | cube) + 1, units = unitsTo(s, planes);
+// Moves to the first voxel after an empty box that ends at `planes`. False where the segment ends in the box.
+bool leaveBoxExactly(VoxelSegment s, ivec3 planes, inout ivec3 voxel) {
+    const ivec3 units = unitsTo(s, planes);
     if (all(greaterThan(units, ivec3(s.run)))) return false;
     const bvec3 passed = firstPlanes(s, units);
     const vec3 parts = partsTo(s, units);
@@ -111,16 +116,16 @@ bool leaveCubeExactly(VoxelSegment s, int cube, inout ivec3 voxel) {
 // What floats can tell of a step.
 #define MARCH_MOVED 0   // To the next voxel.
 #define MARCH_ENDED 1   // The segment ends before.
-#define MARCH_UNSURE 2  // Nothing: leaveCubeExactly() takes this step.
+#define MARCH_UNSURE 2  // Nothing: leaveBoxExactly() takes this step.
 
 // The same in floats, without branches: this is where the time of a walk goes. Where it is not MARCH_MOVED, `voxel` is undefined.
-int leaveCube(VoxelSegment s, int cube, inout ivec3 voxel) {
-    const vec3 parts = partsTo(s, unitsTo(s, (voxel | cube) + 1));
+int leaveBox(VoxelSegment s, ivec3 planes, inout ivec3 voxel) {
+    const vec3 parts = partsTo(s, unitsTo(s, planes));
     const float part = min(parts.x, min(parts.y, parts.z));
-    const ivec3 place = s.nearStart + ivec3(s.run * part);
-    voxel = place >> MARCH_FRACTION;
+    const ivec3 place = floatBitsToInt(s.placeStart + s.runVoxels * part);
+    voxel = place >> MARCH_PLACE_FRACTION & 1023;
     // The place is near the plane that is passed. Near those of two axes it could be before or after either.
-    const ivec3 isNear = ivec3(lessThanEqual(place & (MARCH_UNITS - 1), ivec3(s.nearWidth)));
+    const ivec3 isNear = ivec3(lessThanEqual(place & ((1 << MARCH_PLACE_FRACTION) - 1), ivec3(s.near + 1)));
     const bool isSure = isNear.x + isNear.y + isNear.z == 1 && part < 1.0 - MARCH_TIE;
     return part > 1.0 + MARCH_TIE ? MARCH_ENDED : isSure ? MARCH_MOVED : MARCH_UNSURE;
 }

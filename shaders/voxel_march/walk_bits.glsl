@@ -1,5 +1,5 @@
-// Voxel by voxel over the occupancy bits: a digital differential analyser (Amanatides and Woo 1987). Steps are as in leaveCube(),
-// less what cubes of one voxel don't need.
+// Voxel by voxel over the occupancy bits: a digital differential analyser (Amanatides and Woo 1987). Steps are as in leaveBox(),
+// less what boxes of one voxel don't need.
 bool walkVoxels(VoxelGrid g, VoxelSegment s, out ivec3 voxel) {
     const uint bound = voxelsBetween(s);
     ivec3 at = firstVoxel(s);
@@ -20,7 +20,7 @@ bool walkVoxels(VoxelGrid g, VoxelSegment s, out ivec3 voxel) {
             at += state == MARCH_MOVED ? passed : ivec3(0);
             units += passed << MARCH_FRACTION;
         }
-        if (state == MARCH_UNSURE && !leaveCubeExactly(s, 0, at)) state = MARCH_ENDED;
+        if (state == MARCH_UNSURE && !leaveBoxExactly(s, at + 1, at)) state = MARCH_ENDED;
     }
     marchSteps += tests - 1u;
     marchVisits += tests;

@@ -1,26 +1,19 @@
-// Over bits with a coarser level (shaders/voxel_march/bricks.glsl): empty cubes of 8, 4 and 2 voxels are left in one step.
+// By the distances of bricks (shaders/voxel_march/distances.glsl), and within a brick by empty cubes of 2 voxels and of one. Both reads
+// are taken in each step: neither waits for the other.
+#include "shaders/octree/octree_cells.glsl"
 #include "shaders/voxel_march/bricks.glsl"
+#include "shaders/voxel_march/distance_walk.glsl"
 
-// Words from one block or brick to the next, and to the first brick: worked out once.
-uvec3 blockStride, brickStride;
-uint firstBrickWord;
+void beginWalk(VoxelGrid g, VoxelSegment s) { beginCells(g, s, BRICK_LEVEL); }
 
-void beginWalk(VoxelGrid g) {
-    const uvec3 blocks = blockCount(g.resolution), bricks = brickCount(g.resolution);
-    blockStride = 2u * uvec3(1u, blocks.x, blocks.x * blocks.y);
-    brickStride = 2u * uvec3(1u, bricks.x, bricks.x * bricks.y);
-    firstBrickWord = brickWord(g.resolution, uvec3(0u));
-}
-
-uint wordIndex(uvec3 at, uvec3 stride) { return at.x * stride.x + at.y * stride.y + at.z * stride.z; }
-
-int emptyCube(ivec3 voxel) {
-    const ivec3 brick = voxel >> 2;
-    const uint bricks = voxelBricks.words[wordIndex(uvec3(voxel >> 4), blockStride) + wordOf(brick)];
-    const uint voxels = voxelBricks.words[firstBrickWord + wordIndex(uvec3(brick), brickStride) + wordOf(voxel)];
+bool emptyBox(ivec3 at, out ivec3 planes) {
+    const ivec3 brick = at >> BRICK_LEVEL, voxel = at ^ walkFlip;
+    const uint index = cellIndex(brick);
+    const uint word = voxelDistances.words[index], bits = voxelBricks.words[2u * index + wordOf(voxel)];
     marchVisits += 2u;
-    const int cube = isOctantSet(bricks, brick) ? 3 : 7, voxelCube = isOctantSet(voxels, voxel) ? 0 : 1;
-    return !isElementSet(bricks, brick) ? cube : isElementSet(voxels, voxel) ? -1 : voxelCube;
+    const ivec3 inBrick = ((word >> octantOf(voxel >> 1) & 1u) != 0u ? at : at | 1) + 1;
+    planes = isCellEmpty(word) ? planesAfterCells(brick, word) : inBrick;
+    return (bits >> bitOf(voxel) & 1u) == 0u;
 }
 
-#include "shaders/voxel_march/walk_cubes.glsl"
+#include "shaders/voxel_march/walk_boxes.glsl"

@@ -2,8 +2,11 @@
 // figure 3).
 #include "shaders/octree/octree.glsl"
 
-void beginWalk(VoxelGrid g) {}
+ivec3 walkFlip;
 
+void beginWalk(VoxelGrid g, VoxelSegment s) { walkFlip = s.flip; }
+
+// The width less 1 of the largest empty node around a voxel; -1 where the voxel is occupied.
 int emptyCube(ivec3 voxel) {
     uint node = 1u;
     for (int level = int(octree.shape.levels) - 1; level > 0; --level) {
@@ -39,5 +42,11 @@ bool walkVoxels(VoxelGrid g, VoxelSegment s, out ivec3 voxel) {
     return false;
 }
 #else
-#include "shaders/voxel_march/walk_cubes.glsl"
+bool emptyBox(ivec3 at, out ivec3 planes) {
+    const int cube = emptyCube(at ^ walkFlip);
+    planes = (at | cube) + 1;
+    return cube >= 0;
+}
+
+#include "shaders/voxel_march/walk_boxes.glsl"
 #endif

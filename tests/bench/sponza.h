@@ -20,6 +20,7 @@ inline std::filesystem::path scenesFolder() {
 
 /// Sponza's surface voxels, under a sun; `more`: passes after voxelization.
 inline test::Chain& sponza(uint32_t resolution, uint32_t directions = 6, const std::string& more = "") {
+    test::device();  // Made before the chains, so that it goes after them.
     static std::map<std::tuple<uint32_t, uint32_t, std::string>, std::unique_ptr<test::Chain>> chains;
     std::unique_ptr<test::Chain>& chain = chains[{resolution, directions, more}];
     if (chain) return *chain;

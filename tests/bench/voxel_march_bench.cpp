@@ -59,7 +59,8 @@ std::vector<Ray> shadowRays(const Geometry& geometry, float voxelSize, uint32_t 
 }
 
 /// Visibility between random surface points of Sponza by every walk, one after another in each iteration:
-/// rays a second of CPU time, steps and visits a ray, and how much faster the faster walks are.
+/// rays a second of CPU time, steps and visits a ray, how much faster the faster walks are, and what each
+/// builds besides the voxels.
 void voxelMarch(benchmark::State& state) {
     constexpr uint32_t kRays = 1u << 19;
     constexpr size_t kWalks = EnumNames<VoxelWalk>::names.size();
@@ -77,7 +78,11 @@ void voxelMarch(benchmark::State& state) {
     for (const auto& [walk, name] : EnumNames<VoxelWalk>::names) {
         VoxelTracer& tracer =
             *tracers.emplace_back(std::make_unique<VoxelTracer>(test::device(), compiler, walk));
+        const double begin = cpuSeconds();
         tracer.begin(stream, voxels);
+        stream.finish();
+        state.counters[std::string(name) + "_build_ms"] = 1e3 * (cpuSeconds() - begin);
+        state.counters[std::string(name) + "_KiB"] = double(tracer.memoryBytes()) / 1024;
         tracer.occluded(stream, rays, results, kRays);
         const std::vector<uint32_t> answers = stream.readAs<uint32_t>(results, kRays);
         if (first.empty()) first = answers;

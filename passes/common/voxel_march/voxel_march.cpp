@@ -8,6 +8,7 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kMaxResolution = 1024;  // shaders/voxel_march/segment.glsl
+constexpr uint32_t kBrickLevel = 2;        // shaders/voxel_march/bricks.glsl
 constexpr uint64_t kCountBytes = 2 * sizeof(uint64_t);
 
 /// Cubes of `width` voxels.
@@ -17,11 +18,30 @@ uint64_t cubes(glm::uvec3 resolution, uint32_t width) {
 }
 
 uint64_t brickBytes(glm::uvec3 resolution) {
-    return (cubes(resolution, 16) + cubes(resolution, 4)) * sizeof(glm::uvec2);
+    return cubes(resolution, 1u << kBrickLevel) * sizeof(glm::uvec2);
 }
+
+/// A word a cell of 2^level voxels (shaders/voxel_march/distances.glsl).
+uint64_t distanceBytes(glm::uvec3 resolution, uint32_t level) {
+    return cubes(resolution, 1u << level) * sizeof(uint32_t);
+}
+
+/// As in shaders/voxel_march/distances.glsl.
+uint32_t distanceLevel(const OctreeSize& size) {
+    return std::min(size.tableLevel() + 1, size.levels());
+}
+
+struct DistancesPush {
+    gpu::VoxelGrid grid;
+    int32_t level;
+};
 
 bool isOctree(VoxelWalk walk) {
     return walk == VoxelWalk::OctreeRestart || walk == VoxelWalk::Octree;
+}
+
+bool hasDistances(VoxelWalk walk) {
+    return walk == VoxelWalk::Bricks || walk == VoxelWalk::Octree;
 }
 
 /// @throws Error for voxels that no walk takes.
@@ -40,21 +60,28 @@ void require(const gpu::VoxelGrid& grid) {
 VoxelMarch::VoxelMarch(Device& device, const ShaderCompiler& compiler, VoxelWalk walk, float epsilon)
     : walk_(walk), epsilon_(epsilon), counts_(device, "voxel march counts", kCountBytes) {
     if (isOctree(walk)) builder_.emplace(device, compiler);
-    if (walk != VoxelWalk::Bricks) return;
-    const char* file = "passes/common/voxel_march/bricks.comp";
-    bricksOf_ = makeComputeProgram(device, compiler.compile(file, {{"BRICKS", "1"}}));
-    blocksOf_ = makeComputeProgram(device, compiler.compile(file, {{"BLOCKS", "1"}}));
+    if (!hasDistances(walk)) return;
+    const char* file = "passes/common/voxel_march/distances.comp";
+    const char* of = isOctree(walk) ? "OF_NODES" : "OF_VOXELS";
+    cells_ = makeComputeProgram(device, compiler.compile(file, {{of, "1"}}));
+    for (size_t axis = 0; axis < 3; ++axis)
+        along_[axis] = makeComputeProgram(device, compiler.compile(file, {{"AXIS", std::to_string(axis)}}));
 }
 
 void VoxelMarch::plan(PassPlan& plan, const SurfaceVoxels& voxels, VoxelWalk walk) {
     require(voxels.grid);
     plan.reserve("voxel march counts", kCountBytes);
-    if (walk == VoxelWalk::Bricks) plan.reserve("bricks of voxels", brickBytes(voxels.grid.resolution));
+    const glm::uvec3 resolution = voxels.grid.resolution;
+    if (walk == VoxelWalk::Bricks) {
+        const uint64_t bytes = distanceBytes(resolution, kBrickLevel);
+        plan.reserve("bricks of voxels", brickBytes(resolution) + bytes);
+        plan.reserveScratch("building", bytes);
+    }
     if (!isOctree(walk)) return;
-    const OctreeSize size{voxels.grid.resolution,
-                          countSurfaceVoxels(plan.frame.scene->geometry, voxels.grid)};
-    plan.reserve("octree (estimated)", size.bytes());
-    plan.reserveScratch("building (estimated)", size.leafBytes() + OctreeBuilder::scratchBytes(size));
+    const OctreeSize size{resolution, countSurfaceVoxels(plan.frame.scene->geometry, voxels.grid)};
+    const uint64_t bytes = hasDistances(walk) ? distanceBytes(resolution, distanceLevel(size)) : 0;
+    plan.reserve("octree (estimated)", size.bytes() + bytes);
+    plan.reserveScratch("building (estimated)", size.leafBytes() + OctreeBuilder::scratchBytes(size) + bytes);
 }
 
 void VoxelMarch::begin(CommandStream& stream, const SurfaceVoxels& voxels) {
@@ -67,15 +94,34 @@ void VoxelMarch::begin(CommandStream& stream, const SurfaceVoxels& voxels) {
         octree_ = builder_->build(stream, voxels);
         octree_.leafVoxels = {};
     }
-    if (walk_ == VoxelWalk::Bricks) {
-        const glm::uvec3 size = voxels.grid.resolution;
-        bricks_ = {};
-        bricks_ = Buffer(stream.device(), "bricks of voxels", brickBytes(size));
-        stream.dispatch(bricksOf_, {{"voxelOccupancy", voxels.occupancy}, {"voxelBricks", bricks_}},
-                        voxels.grid, linearGroups(cubes(size, 4)));
-        stream.dispatch(blocksOf_, {{"voxelBricks", bricks_}}, voxels.grid, linearGroups(cubes(size, 16)));
-    }
+    if (hasDistances(walk_)) measureDistances(stream);
+    octree_.table = {};  // No walk reads it.
     version_ = voxels.version;
+}
+
+void VoxelMarch::measureDistances(CommandStream& stream) {
+    Device& device = stream.device();
+    const gpu::VoxelGrid& grid = voxels_->grid;
+    const uint32_t level = isOctree(walk_) ? distanceLevel(octree_.size) : kBrickLevel;
+    const DistancesPush push{grid, int32_t(level)};
+    const glm::uvec3 groups = linearGroups(cubes(grid.resolution, 1u << level));
+    distances_ = {};
+    distances_ = Buffer(device, "distances between voxels", distanceBytes(grid.resolution, level));
+    const Buffer other(device, "distances along fewer axes", distances_.bytes());
+    if (isOctree(walk_)) {
+        stream.dispatch(cells_, {{"octree", octree_.header}, {"target", other}}, push, groups);
+    } else {
+        bricks_ = {};
+        bricks_ = Buffer(device, "bricks of voxels", brickBytes(grid.resolution));
+        stream.dispatch(cells_,
+                        {{"voxelOccupancy", voxels_->occupancy}, {"voxelBricks", bricks_}, {"target", other}},
+                        push, groups);
+    }
+    for (size_t axis = 0; axis < 3; ++axis) {
+        const Buffer &source = axis == 1 ? distances_ : other, &target = axis == 1 ? other : distances_;
+        stream.dispatch(along_[axis], {{"source", source}, {"target", target}}, push, groups);
+    }
+    stream.finish();
 }
 
 Defines VoxelMarch::defines() const {
@@ -99,12 +145,14 @@ std::vector<Binding> VoxelMarch::bindings() const {
     std::vector<Binding> all{ifUsed({"voxelOccupancy", voxels_->occupancy}),
                              ifUsed({"voxelRank", voxels_->rank}), ifUsed({"voxelMarchCounts", counts_})};
     if (isOctree(walk_)) all.push_back({"octree", octree_.header});
+    if (hasDistances(walk_)) all.push_back({"voxelDistances", distances_});
     if (walk_ == VoxelWalk::Bricks) all.push_back({"voxelBricks", bricks_});
+    if (walk_ == VoxelWalk::Octree) all.push_back({"voxelNodes", octree_.nodes});
     return all;
 }
 
 uint64_t VoxelMarch::memoryBytes() const {
-    return octree_.header.bytes() + octree_.table.bytes() + octree_.nodes.bytes() + bricks_.bytes();
+    return octree_.header.bytes() + octree_.nodes.bytes() + distances_.bytes() + bricks_.bytes();
 }
 
 }  // namespace voxray

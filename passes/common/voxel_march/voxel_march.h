@@ -13,9 +13,9 @@ namespace voxray {
 /// How a ray finds the occupied voxels on its way. All find the same ones.
 enum class VoxelWalk {
     Bits,           ///< Voxel by voxel over the occupancy bits.
-    Bricks,         ///< Bits with coarser ones for 4^3 and 16^3 voxels: empty space in larger steps.
+    Bricks,         ///< Bits by bricks of 4^3 voxels, and how far space is empty before each.
     OctreeRestart,  ///< The octree, from its root down in each step (Sun and Agu 2015, figure 3).
-    Octree,         ///< The octree, from the smallest node that holds both ends of the step.
+    Octree,         ///< The octree, from a level with distances on down.
 };
 template <>
 struct EnumNames<VoxelWalk> {
@@ -50,14 +50,18 @@ class VoxelMarch {
     uint64_t memoryBytes() const;
 
  private:
+    /// Makes what shaders/voxel_march/distances.glsl tells of the voxels or of the octree.
+    void measureDistances(CommandStream& stream);
+
     VoxelWalk walk_ = VoxelWalk::Bits;
     float epsilon_ = 0;
     std::optional<OctreeBuilder> builder_;
-    Program bricksOf_, blocksOf_;
+    Program cells_;
+    std::array<Program, 3> along_;  ///< The axes.
     const SurfaceVoxels* voxels_ = nullptr;
     std::optional<uint64_t> version_;  ///< Of the voxels that bricks or octree are built of.
     Octree octree_;
-    Buffer bricks_;
+    Buffer bricks_, distances_;
     Buffer counts_;
 };
 

@@ -1,0 +1,72 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Distances between cells that are not empty (shaders/voxel_march/distances.glsl): first which ones are, of voxels or of an octree's
+// nodes; then along one axis after the other, each time from the distances along those before. A thread takes a cell.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/voxel_march/distances.glsl"
+#include "shaders/voxels/voxel_types.h"
+layout(local_size_x = 64) in;
+
+#if defined(OF_VOXELS)
+#include "shaders/octree/octree_cells.glsl"
+#include "shaders/voxel_march/bricks.glsl"
+#include "shaders/voxels/voxels.glsl"
+#elif defined(OF_NODES)
+#include "shaders/octree/octree.glsl"
+#else
+readonly buffer Source { uint words[]; } source;
+#endif
+writeonly buffer Target { uint words[]; } target;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    int level;
+} push;
+
+#if defined(OF_VOXELS)
+// Writes the brick's bits too.
+uint cellWord(ivec3 cell, uint index) {
+    uvec2 bits = uvec2(0u);
+    uint mask = 0u;
+    for (uint bit = 0u; bit < 64u; ++bit) {
+        const ivec3 at = ivec3(bit, bit >> 2, bit >> 4) & 3;
+        if (!isOccupied(push.grid, 4 * cell + at)) continue;
+        bits[bit >> 5] |= 1u << (bit & 31u);
+        mask |= 1u << octantOf(at >> 1);
+    }
+    voxelBricks.words[2u * index] = bits.x;
+    voxelBricks.words[2u * index + 1u] = bits.y;
+    return mask == 0u ? FAR_FROM_ALL : mask;
+}
+#elif defined(OF_NODES)
+uint cellWord(ivec3 cell, uint index) {
+    const uint word = octree.table.data[octreeTableEntry(cell, uint(push.level))];
+    return word == 0u ? FAR_FROM_ALL : word;
+}
+#else
+// The square, or cube, before a cell is empty as far as those before each of the cells along the axis are, and these themselves.
+uint cellWord(ivec3 cell, uint index) {
+    uint word = source.words[index];
+    if (!isCellEmpty(word)) return word;
+    const ivec3 count = cellCount(push.grid.resolution, push.level), stride = ivec3(1, count.x, count.x * count.y);
+    for (uint down = 0u; down < 2u; ++down) {
+        const int cells = down == 1u ? cell[AXIS] : count[AXIS] - 1 - cell[AXIS], next = down == 1u ? -stride[AXIS] : stride[AXIS];
+        for (int k = 1; k <= min(MAX_DISTANCE - 1, cells); ++k) {
+            const uint other = source.words[uint(int(index) + k * next)];
+            for (uint i = 0u; i < 4u; ++i) {
+                const uint below = i & ((1u << AXIS) - 1u), octant = below | down << AXIS | (i - below) << 1;
+                const int nearest = min(distanceOf(word, octant), max(k, distanceOf(other, octant)));
+                word = bitfieldInsert(word, uint(nearest), distanceShift(octant), 3);
+            }
+        }
+    }
+    return word;
+}
+#endif
+
+void main() {
+    const uvec3 count = uvec3(cellCount(push.grid.resolution, push.level));
+    const uint i = linearIndex();
+    if (i >= count.x * count.y * count.z) return;
+    target.words[i] = cellWord(ivec3(i % count.x, i / count.x % count.y, i / count.x / count.y), i);
+}
