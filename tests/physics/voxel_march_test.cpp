@@ -400,18 +400,19 @@ TEST(VoxelMarch, RefusesGridsThatItCantWalkThrough) {
 
 TEST(VoxelMarch, ShadowsNarrowToThoseOfSurfaces) {
     // Direct light of a room with two blocks under a point light, by shadow rays through voxels and through
-    // triangles: what differs are bands along shadows and edges, as wide as voxels.
+    // triangles: what differs are bands along shadows and edges, as wide as voxels. Pixels are smaller: else
+    // a band shows or doesn't for a whole line of them.
     const auto chain = [](const std::string& visibility, int resolution) {
         return Chain("cornell", "{lights: point}",
                      fmt::format("[{{pass: gbuffer}}, {{pass: voxelize, resolution: {}}}, "
                                  "{{pass: direct_shadow_rays, visibility: {}}}]",
                                  resolution, visibility),
-                     96, 96);
+                     384, 384);
     };
     Chain exact = chain("exact", 16);
     const ImageF expected = exact.image("direct");
     EXPECT_EQ(exact.frameSamples.back().voxelSteps, 0u);
-    double before = 1;
+    double before = 0.1;
     for (const int resolution : {32, 64, 128, 256}) {
         Chain voxels = chain("voxels", resolution);
         const ImageF image = voxels.image("direct");
@@ -421,7 +422,7 @@ TEST(VoxelMarch, ShadowsNarrowToThoseOfSurfaces) {
         difference /= mean(expected) * double(image.data.size());
         std::printf("%d voxels: energy %.4f of the exact, mean difference %.4f\n", resolution,
                     mean(image) / mean(expected), difference);
-        EXPECT_LT(difference, before);
+        EXPECT_LT(difference, 0.6 * before);
         EXPECT_LT(mean(image), 1.01 * mean(expected)) << "voxels enclose the surfaces";
         before = difference;
 
