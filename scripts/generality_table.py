@@ -33,15 +33,14 @@ def swept(row):
 def table(folder):
     with open(os.path.join(folder, "results.csv"), newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    voxels = sorted({int(row[VOXELS]) for row in rows})
-    yield "| " + " | ".join(["", "injection", "gather"] + [f"{count}³" for count in voxels]) + " |"
-    yield "|" + " --- |" * (3 + len(voxels))
-    cells = {}
-    for row in rows:
-        cells.setdefault((swept(row), row["inject"], row["gather"]), {})[int(row[VOXELS])] = cell(row)
-    for (variant, inject, gather), found in cells.items():
-        yield "| " + " | ".join([variant, f"`{inject}`", f"`{gather}`"] +
-                                [found.get(count, "") for count in voxels]) + " |"
+    cells = {(swept(row), row["inject"], row["gather"], int(row[VOXELS])): cell(row) for row in rows}
+    lines = dict.fromkeys((key[0], key[1]) for key in cells)
+    columns = sorted({(key[2], key[3]) for key in cells}, key=lambda column: (column[0] != "gather_rays", column))
+    yield "| injection | " + " | ".join(f"`{gather}`, {voxels}³" for gather, voxels in columns) + " |"
+    yield "|" + " --- |" * (1 + len(columns))
+    for variant, inject in lines:
+        found = [cells.get((variant, inject, *column), "") for column in columns]
+        yield f"| `{inject}`{', ' + variant if variant else ''} | " + " | ".join(found) + " |"
 
 
 if __name__ == "__main__":
