@@ -91,8 +91,8 @@ void GatherRays::record(PassContext& context) {
     const SurfaceVoxels& voxels = context.get(voxels_);
     const VoxelIrradiance& light = context.get(irradiance_);
     if (const std::pair version{voxels.version, light.version}; facesVersion_ != version) {
-        faces_.update(context.stream, voxels, light,
-                      shadowRays() ? FaceIrradiance::Light::Indirect : FaceIrradiance::Light::Total);
+        faces_.update(context.stream, voxels, light.area, light.indirect,
+                      shadowRays() ? nullptr : &light.direct);
         facesVersion_ = version;
     }
     for (uint32_t b = 0; b < context.get(hits_).batches.size(); ++b) gather(context, b);

@@ -34,6 +34,7 @@ void InjectGatherHits::plan(PassPlan& plan) {
     plan.reserve("voxel samples (estimated)", 2 * VoxelAccumulator::plan(plan, kName, params_, voxels));
     plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
     plan.reserve("faces to light (estimated)", faceBytes(voxels));
+    plan.reserve("faces with surfels (estimated)", faceBytes(voxels));
     plan.buffer(count_, "number of surfels to light", sizeof(uint32_t));
     paths_.plan(plan, {params_.write, Surfels::kChunk, params_.bounces, params_.lightSamples, false});
 }
@@ -42,6 +43,7 @@ void InjectGatherHits::prepare(PassSetup& setup) {
     const auto program = [&](const char* file) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file));
     };
+    measure_ = program("passes/inject_gather_hits/measured_faces.comp");
     mark_ = program("passes/inject_gather_hits/mark.comp");
     select_ = program("passes/inject_gather_hits/select.comp");
     direct_ = VoxelAccumulator(setup.device, setup.compiler, params_);
@@ -69,11 +71,18 @@ void InjectGatherHits::record(PassContext& context) {
 void InjectGatherHits::markFaces(PassContext& context) {
     const SurfaceVoxels& voxels = context.get(voxels_);
     const GatherHits& hits = context.get(hits_);
-    if (!faces_ || faces_.bytes() != faceBytes(voxels)) {
-        faces_ = {};
-        faces_ = Buffer(context.device, "faces to light", faceBytes(voxels));
-    }
-    context.stream.fill(faces_, 0);
+    const auto clear = [&](Buffer& buffer, const char* name) {
+        if (!buffer || buffer.bytes() != faceBytes(voxels)) {
+            buffer = {};
+            buffer = Buffer(context.device, name, faceBytes(voxels));
+        }
+        context.stream.fill(buffer, 0);
+    };
+    clear(faces_, "faces to light");
+    clear(measured_, "faces with surfels");
+    for (const Surfels::Chunk& chunk : context.get(surfels_).chunks)
+        context.stream.dispatch(measure_, {{"surfels", chunk.surfels}, {"measured", measured_}}, chunk.count,
+                                linearGroups(chunk.count));
     for (uint32_t b = 0; b < hits.batches.size(); ++b) {
         const uint32_t rays = hits.batchBlocks(b) * hits.layout.raysPerBlock;
         context.stream.dispatch(
@@ -83,7 +92,8 @@ void InjectGatherHits::markFaces(PassContext& context) {
                                     {"VoxelMaterialsAt", voxels.materials.at()},
                                     {"hits", hits.batches[b]},
                                     {"position", context.get(gbuffer_).position, sampler_},
-                                    {"asked", faces_}}),
+                                    {"asked", faces_},
+                                    {"measured", measured_}}),
             MarkPush{voxels.grid, hits.layout, b * hits.blocksPerBatch, rays}, linearGroups(rays));
     }
 }

@@ -54,9 +54,10 @@ class InjectGatherHits final : public Pass {
     std::vector<LightSource> sources_;
     VoxelAccumulator direct_, indirect_;
     SurfelPaths paths_;
-    Program mark_, select_;
+    Program measure_, mark_, select_;
     Buffer count_;
-    Buffer faces_;  ///< A bit for each face that is read, in a word for each voxel.
+    Buffer faces_;     ///< A bit for each face that is read, in a word for each voxel.
+    Buffer measured_;  ///< The same for each face that has surfels.
     Sampler sampler_;
 };
 

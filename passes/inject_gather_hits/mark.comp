@@ -11,7 +11,8 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 uniform sampler2D position;
-buffer Asked { uint data[]; } asked;
+buffer Asked { uint data[]; } asked;             // A bit a face, by voxel.
+readonly buffer Measured { uint data[]; } measured;  // The same: faces that have surfels.
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     GatherLayout layout_;
@@ -19,10 +20,20 @@ layout(push_constant, scalar) uniform Push {
     uint rays;
 } push;
 
-float faceArea(uint voxel, vec3 normal) {
+// The area that irradianceAt() will find: a face without surfels stays unknown.
+float knownArea(uint voxel, vec3 normal) {
     const VoxelMaterial m = voxelMaterial(voxel);
-    if (push.grid.directions == 1u) return dot(m.unoccludedPositive + m.unoccludedNegative, vec3(1.0));
-    return dot(normal * normal, mix(m.unoccludedPositive, m.unoccludedNegative, lessThan(normal, vec3(0.0))));
+    const uint known = measured.data[voxel];
+    float area = 0.0;
+    for (uint face = 0u; face < 6u; ++face) {
+        if ((known >> face & 1u) == 0u) continue;
+        const uint axis = face >> 1;
+        if (push.grid.directions == 1u)
+            area += unoccluded(m, face);
+        else if (face == faceOf(normal, axis))
+            area += normal[axis] * normal[axis] * unoccluded(m, face);
+    }
+    return area;
 }
 
 // Few voxels are asked for by many rays: look before the atomic.
@@ -50,12 +61,12 @@ void main() {
     float area = 0.0;
     if (own != NO_VOXEL) {
         mark(own, faces);
-        area = faceArea(own, normal);
+        area = knownArea(own, normal);
     }
     for (int k = 0; k < 27 && area < 0.05; ++k) {
         const uint voxel = voxelNumber(push.grid, cell + ivec3(k % 3, (k / 3) % 3, k / 9) - 1);
         if (k == 13 || voxel == NO_VOXEL) continue;
         mark(voxel, faces);
-        area += faceArea(voxel, normal);
+        area += knownArea(voxel, normal);
     }
 }

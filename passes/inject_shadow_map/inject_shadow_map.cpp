@@ -26,7 +26,7 @@ void InjectShadowMap::declare(PassBuilder& builder) {
 
 void InjectShadowMap::plan(PassPlan& plan) {
     sources_ = requireViewpoints(*plan.frame.scene, kName);
-    feedback_.plan(plan, kName, params_, plan.get(voxels_));
+    feedback_.plan(plan, kName, params_, 1, plan.get(voxels_));
     shadowMap_.plan(plan, params_.shadowResolution);
     plan.reserveScratch("surfels' direct irradiance (estimated)",
                         plan.get(surfels_).most * 4 * sizeof(float));
@@ -71,7 +71,7 @@ void InjectShadowMap::record(PassContext& context) {
     for (size_t c = 0; c < surfels.chunks.size(); ++c)
         feedback_.addDirect(context, surfels.chunks[c], direct[c]);
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
-    feedback_.finish(context, voxels, surfels, seed, context.get(irradiance_));
+    feedback_.finish(context, voxels, surfels, sources_, seed, context.get(irradiance_));
     stream.finish();
 }
 

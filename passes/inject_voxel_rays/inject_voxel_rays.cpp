@@ -12,13 +12,10 @@ void InjectVoxelRays::declare(PassBuilder& builder) {
 
 void InjectVoxelRays::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
-    feedback_.plan(plan, kName, params_, plan.get(voxels_));
-    light_.plan(plan, Surfels::kChunk);
-    plan.buffer(surfelDirect_, "surfels' direct irradiance", Surfels::kChunk * 4 * sizeof(float));
+    feedback_.plan(plan, kName, params_, params_.lightSamples, plan.get(voxels_));
 }
 
 void InjectVoxelRays::prepare(PassSetup& setup) {
-    light_.prepare(setup);
     feedback_.prepare(setup);
 }
 
@@ -28,12 +25,9 @@ void InjectVoxelRays::record(PassContext& context) {
     const Surfels& surfels = context.get(surfels_);
     VoxelIrradiance& irradiance = context.get(irradiance_);
     feedback_.begin(context, voxels, sources_, irradiance);
-    for (const Surfels::Chunk& chunk : surfels.chunks) {
-        light_.measure(context, sources_, chunk.surfels, chunk.count, params_.lightSamples, seed,
-                       surfelDirect_);
-        feedback_.addDirect(context, chunk, surfelDirect_);
-    }
-    feedback_.finish(context, voxels, surfels, seed, irradiance);
+    for (const Surfels::Chunk& chunk : surfels.chunks)
+        feedback_.measureDirect(context, chunk, sources_, seed);
+    feedback_.finish(context, voxels, surfels, sources_, seed, irradiance);
     context.stream.finish();
 }
 

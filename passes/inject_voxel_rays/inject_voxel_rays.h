@@ -1,13 +1,12 @@
 #pragma once
 
 #include "passes/common/surfels/surfel_feedback.h"
-#include "passes/common/surfels/surfel_light.h"
 
 namespace voxray {
 
-/// Rays from the voxels' surfaces: shadow rays to the lights, and gather rays whose hits read what the last
-/// iteration left in the voxels, one bounce of light an iteration. Source: Magalhães 2020, section 6.1;
-/// radiosity by iteration: Goral et al. 1984.
+/// Rays from the voxels' surfaces: shadow rays to the lights; gather rays, one bounce of light an iteration,
+/// with shadow rays at the hits of the first, and of the others what the last iteration left in the voxels.
+/// Source: Magalhães 2020, section 6.1; radiosity by iteration: Goral et al. 1984.
 class InjectVoxelRays final : public Pass {
  public:
     static constexpr const char* kName = "inject_voxel_rays";
@@ -40,9 +39,7 @@ class InjectVoxelRays final : public Pass {
     Port<const Surfels> surfels_;
     Port<VoxelIrradiance> irradiance_;
     std::vector<LightSource> sources_;
-    SurfelLight light_;
     SurfelFeedback feedback_;
-    Buffer surfelDirect_;
 };
 
 }  // namespace voxray

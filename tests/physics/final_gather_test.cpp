@@ -308,10 +308,10 @@ TEST(FinalGather, BadInputIsNamed) {
 TEST(FinalGather, GridOfOneVoxel) {
     // One voxel knows neither the walls' inner faces from their outer ones nor one point from another. Light
     // that is measured over all surfaces falls on twice the area that is lit: half the irradiance. Where
-    // bounces start from what voxels hold, each is halved again: (1 + a/2 + a²/4 + a³/8) / (1 + a + a² + a³)
-    // of that half. The camera's rays measure lit faces alone. One voxel's gather hits share a few paths,
-    // which are noisy.
-    const double halved = 0.5 * (1 + 0.25 + 0.0625 + 0.015625) / 1.875;
+    // bounces after the first start from what voxels hold, each is halved again: (1 + a + a²/2 + a³/4) /
+    // (1 + a + a² + a³) of that half. The camera's rays measure lit faces alone. One voxel's gather hits
+    // share a few paths, which are noisy.
+    const double halved = 0.5 * (1 + 0.5 + 0.125 + 0.03125) / 1.875;
     const std::map<std::string, std::pair<double, double>> expected{
         {"inject_light_rays", {0.5, 0.02}},   {"inject_voxel_rays", {halved, 0.02}},
         {"inject_gather_hits", {0.42, 0.08}}, {"inject_camera_rays", {1.0, 0.05}},

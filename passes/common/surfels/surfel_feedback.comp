@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Indirect irradiance of each surfel by its ray: what the hit surface reflects of the light that the last iteration left there.
+// A later bounce: what the surface at the hit of each surfel's ray reflects of the light that the last bounce left there.
 #include "shaders/voxels/face_irradiance.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"

@@ -1,25 +1,25 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Flux over area: the irradiance of each voxel's faces, indirect with or without the direct one, and the area.
+// Flux over area: the irradiance of each voxel's faces, of one kind of light or of two, and the area.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/packed_flux.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) buffer DirectAt { LargeUints direct; };
-layout(scalar) buffer IndirectAt { LargeUints indirect; };
+layout(scalar) buffer FluxAt { LargeUints flux; };
+layout(scalar) buffer AddedAt { LargeUints added; };
 layout(scalar) readonly buffer Area { uint data[]; } area;
 layout(scalar) writeonly buffer Faces { vec4 data[]; } faces;
 layout(push_constant) uniform Push {
     uint count;           // Faces.
     float voxelFaceArea;  // m²
-    float directWeight;    // 1 or 0.
+    float addedWeight;    // 1 or 0.
 } push;
 
 void main() {
     const uint face = linearIndex();
     if (face >= push.count) return;
     const float a = areaOf(area.data[face / 2u], face);
-    const vec3 flux = push.directWeight * loadFlux(direct, face) + loadFlux(indirect, face);
-    faces.data[face] = a > 0.0 ? vec4(flux / (a * push.voxelFaceArea), a) : vec4(0.0);
+    const vec3 sum = loadFlux(flux, face) + push.addedWeight * loadFlux(added, face);
+    faces.data[face] = a > 0.0 ? vec4(sum / (a * push.voxelFaceArea), a) : vec4(0.0);
 }

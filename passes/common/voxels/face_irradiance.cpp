@@ -8,7 +8,7 @@ namespace {
 struct Push {
     uint32_t count;
     float voxelFaceArea;
-    float directWeight;
+    float addedWeight;
 };
 
 }  // namespace
@@ -16,8 +16,8 @@ struct Push {
 FaceIrradiance::FaceIrradiance(Device& device, const ShaderCompiler& compiler)
     : program_(makeComputeProgram(device, compiler.compile("passes/common/voxels/face_irradiance.comp"))) {}
 
-void FaceIrradiance::update(CommandStream& stream, const SurfaceVoxels& voxels,
-                            const VoxelIrradiance& irradiance, Light light) {
+void FaceIrradiance::update(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& area,
+                            const LargeBuffer& flux, const LargeBuffer* added) {
     if (!faces_ || faces_.bytes() != bytes(voxels.voxelCount)) {
         faces_ = {};
         faces_ = Buffer(stream.device(), "face irradiance", bytes(voxels.voxelCount));
@@ -25,12 +25,8 @@ void FaceIrradiance::update(CommandStream& stream, const SurfaceVoxels& voxels,
     const uint32_t faces = voxels.voxelCount * kFaces;
     stream.dispatch(
         program_,
-        {{"DirectAt", irradiance.direct.at()},
-         {"IndirectAt", irradiance.indirect.at()},
-         {"area", irradiance.area},
-         {"faces", faces_}},
-        Push{faces, voxels.grid.voxelSize * voxels.grid.voxelSize, light == Light::Total ? 1.0f : 0.0f},
-        linearGroups(faces));
+        {{"FluxAt", flux.at()}, {"AddedAt", (added ? *added : flux).at()}, {"area", area}, {"faces", faces_}},
+        Push{faces, voxels.grid.voxelSize * voxels.grid.voxelSize, added ? 1.0f : 0.0f}, linearGroups(faces));
 }
 
 }  // namespace voxray

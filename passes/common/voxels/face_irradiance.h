@@ -13,11 +13,10 @@ class FaceIrradiance {
 
     /// Bytes that update() allocates.
     static uint64_t bytes(uint32_t voxelCount) { return uint64_t(voxelCount) * 4 * kFaces * sizeof(float); }
-    /// Which of the voxels' light to hold.
-    enum class Light { Indirect, Total };
-    /// Divides flux by area; allocates on the first call and where the number of voxels has changed.
-    void update(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
-                Light light = Light::Total);
+    /// Divides flux, and with `added` the sum of both, by area; allocates on the first call and where the
+    /// number of voxels has changed. @param area, flux: as VoxelIrradiance holds them.
+    void update(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& area,
+                const LargeBuffer& flux, const LargeBuffer* added = nullptr);
     /// Frees the irradiance, once the stream has finished.
     void end() { faces_ = {}; }
     const Buffer& buffer() const { return faces_; }
