@@ -9,6 +9,7 @@ Exit status 1 where results differ or are missing on one side. Times are printed
 """
 import argparse
 import csv
+import dataclasses
 import json
 import os
 import re
@@ -102,8 +103,19 @@ def paired(rows_a, rows_b):
         f"variant {row['variant']} only in b" for row in left_b]
 
 
-def compare_images(path_a, path_b):
-    """What differs between two EXR files, None where all pixels have the same bits."""
+@dataclasses.dataclass
+class Change:
+    """How far images of two builds are apart, as parts of 1; of several images the largest."""
+    nrmse: float = 0.0  # Root mean square of the difference over the first image's mean.
+    mean: float = 0.0  # Difference of means over the first image's.
+    error: float = 0.0  # Change of a score (nrmse against the reference) over the first build's.
+
+    def widen(self, nrmse=0.0, mean=0.0, error=0.0):
+        self.nrmse, self.mean, self.error = max(self.nrmse, nrmse), max(self.mean, mean), max(self.error, error)
+
+
+def compare_images(path_a, path_b, change):
+    """What differs between two EXR files, None where all pixels have the same bits. Widens `change`."""
     with open(path_a, "rb") as a, open(path_b, "rb") as b:
         if a.read() == b.read():
             return None
@@ -114,15 +126,19 @@ def compare_images(path_a, path_b):
     if shapes[0] != shapes[1]:
         return f"{shapes[0][1]} x {shapes[0][0]} and {shapes[1][1]} x {shapes[1][0]} pixels"
     differing = numpy.zeros(shapes[0], bool)
-    largest = average = mean = 0.0
+    largest = average = squares = mean = mean_b = 0.0
     for name in a:
         differing |= a[name].view(f"u{a[name].itemsize}") != b[name].view(f"u{b[name].itemsize}")
         difference = numpy.abs(a[name].astype(float) - b[name].astype(float))
         largest = max(largest, float(numpy.nanmax(difference)))
         average += float(numpy.nanmean(difference)) / len(a)
+        squares += float(numpy.nanmean(difference ** 2)) / len(a)
         mean += float(numpy.nanmean(numpy.abs(a[name].astype(float)))) / len(a)
+        mean_b += float(numpy.nanmean(numpy.abs(b[name].astype(float)))) / len(a)
     if not differing.any():
         return None
+    if mean > 0:
+        change.widen(nrmse=squares ** 0.5 / mean, mean=abs(mean_b / mean - 1))
     return f"{differing.sum()} of {differing.size} pixels, by at most {largest:.3g}, on average {average:.3g} (mean {mean:.3g})"
 
 
@@ -148,12 +164,12 @@ def image_folder(folder, variant):
 
 
 def compare_config(folder_a, folder_b, ignored):
-    """Returns (images compared, differences that count, remarks)."""
+    """Returns (images compared, differences that count, remarks, their Change)."""
     rows = [read_rows(folder) for folder in (folder_a, folder_b)]
     if None in rows:
-        return 0, [f"no results.csv in {'a' if rows[0] is None else 'b'}"], []
+        return 0, [f"no results.csv in {'a' if rows[0] is None else 'b'}"], [], Change()
     pairs, differences = paired(*rows)
-    remarks, images = [], 0
+    remarks, images, change = [], 0, Change()
     folders = [(image_folder(folder_a, a["variant"]), image_folder(folder_b, b["variant"]), a["variant"])
                for a, b in pairs]
     references = sorted({name for folder in (folder_a, folder_b) if os.path.isdir(os.path.join(folder, "images"))
@@ -167,6 +183,8 @@ def compare_config(folder_a, folder_b, ignored):
             if column in TIMES or column in ("variant", "error", "device", "tracer") or column not in b:
                 continue
             if a[column] != b[column]:
+                if column.endswith("nrmse") and float(a[column] or 0) > 0 and b[column]:
+                    change.widen(error=abs(float(b[column]) / float(a[column]) - 1))
                 text = f"{a['variant']}: {column} is {a[column] or 'empty'} in a, {b[column] or 'empty'} in b"
                 is_ignored = column in ignored or ("memory" in ignored and column in MEMORY)
                 (remarks if is_ignored else differences).append(text)
@@ -178,12 +196,12 @@ def compare_config(folder_a, folder_b, ignored):
             differences.append(f"{name}: {file} only in {'a' if file in files_a else 'b'}")
         for file in sorted(files_a & files_b):
             images += 1
-            found = compare_images(os.path.join(path_a, file), os.path.join(path_b, file))
+            found = compare_images(os.path.join(path_a, file), os.path.join(path_b, file), change)
             if found:
                 differences.append(f"{name}: {file}: {found}")
     only = [sorted(set(x[0]) - set(y[0])) for x, y in (rows, rows[::-1])] if all(rows) else [[], []]
     remarks += [f"columns only in {side}: {', '.join(names)}" for side, names in zip("ab", only) if names]
-    return images, differences, remarks
+    return images, differences, remarks, change
 
 
 def time_ratio(rounds, column):
@@ -203,14 +221,14 @@ def compare(options, folder_a, folder_b, rounds):
     if not names:
         sys.exit("no results to compare")
     width = max(map(len, names))
-    print(f"{'config':{width}}  images  differences  frame b/a  build b/a")
+    print(f"{'config':{width}}  images  differences    nRMSE     mean    error  frame b/a  build b/a")
     listed = []
     for name in names:
         a, b = os.path.join(folder_a, name), os.path.join(folder_b, name)
-        images, differences, remarks = compare_config(a, b, options.ignore)
+        images, differences, remarks, change = compare_config(a, b, options.ignore)
         times = rounds.get(name) or [(read_rows(a), read_rows(b))]
-        print(f"{name:{width}}  {images:6}  {len(differences):11}  {time_ratio(times, 'frame_ms_median'):>9}  "
-              f"{time_ratio(times, 'build_ms'):>9}")
+        print(f"{name:{width}}  {images:6}  {len(differences):11}  {change.nrmse:7.1e}  {change.mean:7.1e}  "
+              f"{change.error:7.1e}  {time_ratio(times, 'frame_ms_median'):>9}  {time_ratio(times, 'build_ms'):>9}")
         listed += [(name, differences, remarks)]
     for name, differences, remarks in listed:
         lines = ["  " + text for text in differences] + ["  (" + text + ")" for text in remarks]

@@ -15,7 +15,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import compare_builds  # noqa: E402
 import exr_pixels  # noqa: E402
 
-HEADER = "variant,status,error,device,tracer,x.size,build_ms,frame_ms_median,memory_bytes,rays,flip"
+HEADER = "variant,status,error,device,tracer,x.size,build_ms,frame_ms_median,memory_bytes,rays,flip,nrmse"
 
 
 def exr(image, zipped):
@@ -77,46 +77,51 @@ class CompareBuilds(unittest.TestCase):
                 self.assertTrue((channels[name] == self.image[:, :, i]).all())
 
     def test_clocks_do_not_count(self):
-        self.write("a", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5"])
-        self.write("b", ["size-1,ok,,gpu,embree,1,20,30,100,7,0.5"])
+        self.write("a", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5,0.2"])
+        self.write("b", ["size-1,ok,,gpu,embree,1,20,30,100,7,0.5,0.2"])
         differ, text = self.compare()
         self.assertFalse(differ)
-        self.assertRegex(text, r"configs_one +1 +0 +1\.500 +2\.000")
+        self.assertRegex(text, r"configs_one +1 +0 +0\.0e\+00 +0\.0e\+00 +0\.0e\+00 +1\.500 +2\.000")
 
     def test_one_bit_of_a_pixel_counts(self):
         changed = self.image.copy()
         changed[30, 2, 1] = numpy.nextafter(changed[30, 2, 1], numpy.float32(2))
-        self.write("a", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5"])
-        self.write("b", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5"], changed)
+        self.write("a", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5,0.2"])
+        self.write("b", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5,0.2"], changed)
         differ, text = self.compare()
         self.assertTrue(differ)
         self.assertIn("final.exr: 1 of 185 pixels", text)
 
     def test_numbers_count_unless_ignored(self):
-        self.write("a", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5"])
-        self.write("b", ["size-1,ok,,gpu,embree,1,10,20,101,7,0.5"])
+        self.write("a", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5,0.2"])
+        self.write("b", ["size-1,ok,,gpu,embree,1,10,20,101,7,0.5,0.2"])
         self.assertTrue(self.compare()[0])
         self.assertFalse(self.compare(ignore=["memory"])[0])
-        self.write("b", ["size-1,ok,,gpu,embree,1,10,20,100,8,0.5"])
+        self.write("b", ["size-1,ok,,gpu,embree,1,10,20,100,8,0.5,0.2"])
         self.assertTrue(self.compare()[0])
-        self.write("b", ["size-1,failed,why,gpu,embree,1,,,,,"])
+        self.write("b", ["size-1,failed,why,gpu,embree,1,,,,,,"])
         self.assertTrue(self.compare()[0])
 
+    def test_changes_are_relative(self):
+        self.write("a", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5,0.2"], 2 * numpy.ones_like(self.image))
+        self.write("b", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5,0.3"], 3 * numpy.ones_like(self.image))
+        self.assertRegex(self.compare()[1], r"configs_one +1 +2 +5\.0e-01 +5\.0e-01 +5\.0e-01 ")
+
     def test_variants_with_other_names_are_paired_in_order(self):
-        self.write("a", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5"])
-        self.write("b", ["width-1,ok,,gpu,embree,1,10,20,100,7,0.5"], variant="width-1")
+        self.write("a", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5,0.2"])
+        self.write("b", ["width-1,ok,,gpu,embree,1,10,20,100,7,0.5,0.2"], variant="width-1")
         differ, text = self.compare()
         self.assertFalse(differ)
         self.assertIn("paired by order: size-1 and width-1", text)
 
     def test_what_is_missing_counts(self):
-        self.write("a", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5"])
-        self.write("b", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5"])
+        self.write("a", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5,0.2"])
+        self.write("b", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5,0.2"])
         os.remove(os.path.join(self.root, "b", "configs_one", "images", "size-1", "final.exr"))
         self.assertTrue(self.compare()[0])
-        self.write("b", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5", "size-2,ok,,gpu,embree,2,10,20,100,7,0.5"])
+        self.write("b", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5,0.2", "size-2,ok,,gpu,embree,2,10,20,100,7,0.5,0.2"])
         self.assertTrue(self.compare()[0])
-        self.write("a", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5"], config="configs_two")
+        self.write("a", ["size-1,ok,,gpu,embree,1,10,20,100,7,0.5,0.2"], config="configs_two")
         self.assertIn("no results.csv in b", self.compare()[1])
 
     def test_small_profiles_are_found(self):
