@@ -1,5 +1,8 @@
 #pragma once
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -8,6 +11,7 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/suggest.h"
@@ -17,9 +21,10 @@
 /// JSON Schema all come from that list:
 ///
 ///     struct Params {
-///         uint32_t rays = 1024;
+///         uint32_t raysPerLight = 1024;
 ///         static constexpr auto schema() {
-///             return std::tuple{field("rays", &Params::rays, "Rays per light.", 1u, 1u << 26)};
+///             return std::tuple{
+///                 field("rays_per_light", &Params::raysPerLight, "Rays of each light.", 1u, 1u << 26)};
 ///         }
 ///     };
 namespace voxray {
@@ -30,7 +35,7 @@ namespace voxray {
 template <typename E>
 struct EnumNames;
 
-/// One parameter. `min` and `max` are inclusive.
+/// One parameter. `min` and `max` are inclusive; `allowed` are the only values it may have, empty: any.
 template <typename Owner, typename T>
 struct Field {
     const char* name;
@@ -39,6 +44,7 @@ struct Field {
     T min;
     T max;
     bool ranged;
+    std::vector<T> allowed = {};
 };
 
 template <typename Owner, typename T>
@@ -50,15 +56,28 @@ constexpr Field<Owner, T> field(const char* name, T Owner::*member, const char* 
                                 std::type_identity_t<T> min, std::type_identity_t<T> max) {
     return {name, member, help, min, max, true};
 }
+/// A parameter that has to be one of some values: field("block", &Params::block, "...", {1, 2, 4, 8}).
+template <typename Owner, typename T>
+constexpr Field<Owner, T> field(const char* name, T Owner::*member, const char* help,
+                                std::type_identity_t<std::vector<T>> allowed) {
+    return {name, member, help, T{}, T{}, false, std::move(allowed)};
+}
+
+/// The powers of two from `min` to `max`, which are two of them.
+constexpr std::vector<uint32_t> powersOfTwo(uint32_t min, uint32_t max) {
+    std::vector<uint32_t> powers{min};
+    while (powers.back() < max) powers.push_back(2 * powers.back());
+    return powers;
+}
 
 /// What help pages and JSON Schema say of one parameter.
 struct ParameterDoc {
     std::string name;
     std::string type;  ///< "boolean", "integer", "number", "string", "choice", "rgb"
     std::string help;
-    std::string defaults;  ///< Default as YAML text.
-    std::string min, max;  ///< Empty where there is no range.
-    std::vector<std::string> choices;
+    std::string defaults;              ///< Default as YAML text.
+    std::string min, max;              ///< Empty where there is no range.
+    std::vector<std::string> choices;  ///< The only values; empty: any of the type and range.
 };
 
 namespace schema_detail {
@@ -149,6 +168,20 @@ void checkRange(const T& value, const T& min, const T& max, const Value& at, con
     }
 }
 
+template <typename T>
+std::vector<std::string> textsOf(const std::vector<T>& values) {
+    std::vector<std::string> texts;
+    for (const T& value : values) texts.push_back(textOf(value));
+    return texts;
+}
+
+template <typename T>
+void checkAllowed(const T& value, const std::vector<T>& allowed, const Value& at, const std::string& what) {
+    if (!allowed.empty() && std::ranges::find(allowed, value) == allowed.end())
+        throw UsageError(at.where, "{}: {} is not allowed; one of: {}", what, textOf(value),
+                         fmt::join(textsOf(allowed), ", "));
+}
+
 }  // namespace schema_detail
 
 template <typename P, typename Visitor>
@@ -184,6 +217,7 @@ P readParams(const Value& map, const std::string& owner, const std::vector<std::
             const std::string what = owner + "." + key;
             schema_detail::readInto(params.*(f.member), value, what);
             if (f.ranged) schema_detail::checkRange(params.*(f.member), f.min, f.max, value, what);
+            schema_detail::checkAllowed(params.*(f.member), f.allowed, value, what);
         });
     }
     return params;
@@ -224,7 +258,10 @@ std::vector<ParameterDoc> describeParams() {
             doc.min = schema_detail::textOf(f.min);
             doc.max = schema_detail::textOf(f.max);
         }
-        if constexpr (std::is_enum_v<T>) doc.choices = schema_detail::choicesOf<T>();
+        if constexpr (std::is_enum_v<T>)
+            doc.choices = schema_detail::choicesOf<T>();
+        else
+            doc.choices = schema_detail::textsOf(f.allowed);
         docs.push_back(doc);
     });
     return docs;

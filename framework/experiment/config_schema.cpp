@@ -21,9 +21,9 @@ Value object(std::initializer_list<std::pair<const char*, Value>> members) {
     return map;
 }
 
-Value listOf(const std::vector<std::string>& words) {
+Value listOf(const std::vector<std::string>& words, Value (*toValue)(const std::string&) = text) {
     Value list = Value::list();
-    for (const std::string& word : words) list.items.push_back(text(word));
+    for (const std::string& word : words) list.items.push_back(toValue(word));
     return list;
 }
 
@@ -64,6 +64,7 @@ Value parameterSchema(const ParameterDoc& doc) {
     else if (doc.type != "rgb")
         schema.set("type", text(doc.type));
     schema.set("description", text(doc.help));
+    if (isNumber && !doc.choices.empty()) schema.set("enum", listOf(doc.choices, literal));
     if (isNumber && !doc.min.empty()) {
         schema.set("minimum", literal(doc.min));
         schema.set("maximum", literal(doc.max));

@@ -22,7 +22,6 @@ class ClipmapStorage final : public RadianceStorage {
     explicit ClipmapStorage(uint32_t side) : side_(side) {}
 
     void plan(PassPlan& plan, const SurfaceVoxels&, RadianceVoxels& radiance) override {
-        requirePowerOfTwo("filter_voxels", side_);
         clipmap_ = RadianceClipmap(radiance.grid, side_);
         clipmap_.plan(plan, "filter_voxels", radiance);
     }

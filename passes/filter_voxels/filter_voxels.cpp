@@ -29,7 +29,7 @@ float radianceUnit(const SceneState& state) {
 }  // namespace
 
 FilterVoxels::FilterVoxels(const Params& params)
-    : params_(params), storage_(makeStorage(params)), bounces_(kName, params.bounceCones) {}
+    : params_(params), storage_(makeStorage(params)), bounces_(params.bounceCones) {}
 
 void FilterVoxels::declare(PassBuilder& builder) {
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");

@@ -1,7 +1,6 @@
 #include "passes/gather_cones/gather_cones.h"
 
 #include "passes/common/compute/dispatch.h"
-#include "passes/common/radiance/cone_sets.h"
 #include "passes/common/view/frame_image.h"
 
 namespace voxray {
@@ -35,11 +34,11 @@ void GatherCones::declare(PassBuilder& builder) {
 }
 
 void GatherCones::plan(PassPlan& plan) {
-    plan.buffer(cones_, "cones", coneSet(kName, params_.cones).size() * sizeof(gpu::Cone));
+    plan.buffer(cones_, "cones", coneSet(params_.cones).size() * sizeof(gpu::Cone));
     plan.image(plan.get(indirect_).image, "indirect", frameImageDesc(plan.frame));
     plan.image(irradiance_, "gathered irradiance",
                tracedImage(plan.frame, plan.get(gbuffer_).samples, params_.stride));
-    if (params_.specular > 0) specular_.plan(plan, kName, plan.get(gbuffer_), params_.specular);
+    if (params_.specular > 0) specular_.plan(plan, plan.get(gbuffer_), params_.specular);
 }
 
 void GatherCones::prepare(PassSetup& setup) {
@@ -52,7 +51,7 @@ void GatherCones::prepare(PassSetup& setup) {
                        params_.specular > 0 ? Defines{{"SPECULAR", "1"}} : Defines{});
     if (params_.specular > 0) specular_.prepare(setup, radiance);
     sampler_ = texelSampler(setup.device);
-    setup.stream.upload(cones_, coneSet(kName, params_.cones));
+    setup.stream.upload(cones_, coneSet(params_.cones));
 }
 
 void GatherCones::record(PassContext& context) {

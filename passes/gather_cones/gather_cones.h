@@ -1,5 +1,6 @@
 #pragma once
 
+#include "passes/common/radiance/cone_sets.h"
 #include "passes/common/radiance/radiance_voxels.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/gather_cones/specular_cones.h"
@@ -23,15 +24,16 @@ class GatherCones final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("cones", &Params::cones,
-                      "Cones that share out the hemisphere: 5, 6 (Arnebäck 2017), 16 or 36.", 5u, 36u),
+                      "Cones that divide up the hemisphere; the set of 6 is that of Arnebäck 2017.",
+                      coneSetSizes()),
                 field("stride", &Params::stride,
                       "Traces every n-th texel of the g-buffer; the others take what those round them "
                       "see that lie on the same surface.",
                       1u, 64u),
                 field("specular", &Params::specular,
-                      "Cones that share out the specular lobe of each texel of the g-buffer: 1, 7 or 19; a "
-                      "mirror takes one. 0: surfaces reflect by their diffuse albedo alone.",
-                      0u, 19u)};
+                      "Cones that divide up the specular lobe of each texel of the g-buffer; a mirror takes "
+                      "one. 0: surfaces reflect by their diffuse albedo alone.",
+                      {0, 1, 7, 19})};
         }
     };
 

@@ -1,6 +1,5 @@
 #include "passes/gather_cones/specular_cones.h"
 
-#include "base/error.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/view/frame_image.h"
 #include "passes/gather_cones/lobe_types.h"
@@ -28,10 +27,7 @@ ImageDesc reflectedImage(const Frame& frame, const GBuffer& gbuffer) {
 
 }  // namespace
 
-void SpecularCones::plan(PassPlan& plan, const char* pass, const GBuffer& gbuffer, uint32_t strata) {
-    if (strata != 1 && strata != 7 && strata != 19)
-        throw Error("{}: specular is {}; lobes are shared out between 1, 7 or 19 cones, 0 leaves them out",
-                    pass, strata);
+void SpecularCones::plan(PassPlan& plan, const GBuffer& gbuffer, uint32_t strata) {
     strata_ = strata;
     plan.buffer(table_, "specular lobes", uint64_t(LOBES) * strata * sizeof(gpu::LobeStratum));
     plan.image(reflected_, "specular reflection", reflectedImage(plan.frame, gbuffer));

@@ -9,8 +9,8 @@ namespace voxray {
 /// Docs: docs/cone-tracing.md.
 class SpecularCones {
  public:
-    /// @param strata of a lobe: 1, 7 or 19. @throws Error for any other, naming `pass` and these.
-    void plan(PassPlan& plan, const char* pass, const GBuffer& gbuffer, uint32_t strata);
+    /// @param strata of a lobe: 1, 7 or 19.
+    void plan(PassPlan& plan, const GBuffer& gbuffer, uint32_t strata);
     void prepare(PassSetup& setup, const RadianceVoxels& radiance);
     void record(PassContext& context, const GBuffer& gbuffer, const RadianceVoxels& radiance) const;
     /// RGBA32F: radiance reflected, W/(m² sr); the share of light that is left to the diffuse lobe below.

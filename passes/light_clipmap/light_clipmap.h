@@ -36,7 +36,7 @@ class LightClipmap final : public Pass {
     };
 
     explicit LightClipmap(const Params& params)
-        : params_(params), walk_(makeExactWalk()), bounces_(kName, params.bounceCones) {}
+        : params_(params), walk_(makeExactWalk()), bounces_(params.bounceCones) {}
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;

@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
-#include "passes/common/radiance/cone_sets.h"
 
 namespace voxray {
 namespace {
@@ -41,14 +40,14 @@ void ProbeIrradiance::plan(PassPlan& plan) {
             "take "
             "out scene.moving_spheres",
             kName);
-    plan.buffer(cones_, "cones", coneSet(kName, params_.cones).size() * sizeof(gpu::Cone));
+    plan.buffer(cones_, "cones", coneSet(params_.cones).size() * sizeof(gpu::Cone));
     const Surfels& surfels = plan.get(surfels_);
     plan.buffer(irradiance_, "irradiance of points",
                 (surfels.most / stride(surfels) + 1) * sizeof(glm::vec4));
 }
 
 void ProbeIrradiance::prepare(PassSetup& setup) {
-    setup.stream.upload(cones_, coneSet(kName, params_.cones));
+    setup.stream.upload(cones_, coneSet(params_.cones));
     gather_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/probe_irradiance/gather.comp",
                                                                       setup.get(radiance_).defines()));
     last_.clear();

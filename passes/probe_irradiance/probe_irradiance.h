@@ -1,5 +1,6 @@
 #pragma once
 
+#include "passes/common/radiance/cone_sets.h"
 #include "passes/common/radiance/radiance_voxels.h"
 #include "passes/common/surfels/surfels.h"
 
@@ -24,7 +25,7 @@ class ProbeIrradiance final : public Pass {
             return std::tuple{
                 field("max_points", &Params::maxPoints, "Points, at most, out of those of place_surfels.", 1u,
                       1u << 20),
-                field("cones", &Params::cones, "Cones from each point: 5, 6, 16 or 36.", 5u, 36u),
+                field("cones", &Params::cones, "Cones from each point.", coneSetSizes()),
                 field("cone_sets", &Params::coneSets,
                       "Sets of cones from each point, whose directions and levels are shifted against each "
                       "other. gather_cones sends one from a texel and takes the mean over some 25 texels.",

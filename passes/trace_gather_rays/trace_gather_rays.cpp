@@ -1,7 +1,6 @@
 #include "passes/trace_gather_rays/trace_gather_rays.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
@@ -27,8 +26,6 @@ void TraceGatherRays::declare(PassBuilder& builder) {
 }
 
 void TraceGatherRays::plan(PassPlan& plan) {
-    if (!std::has_single_bit(params_.block))
-        throw Error("trace_gather_rays: block is {}; it must be 1, 2, 4 or 8", params_.block);
     GatherHits& hits = plan.get(hits_);
     const glm::uvec2 texels = glm::uvec2(plan.frame.width, plan.frame.height) * plan.get(gbuffer_).samples;
     hits.layout = {texels, (texels + params_.block - 1u) / params_.block, params_.block, params_.raysPerBlock,

@@ -22,8 +22,8 @@ class TraceGatherRays final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("rays_per_block", &Params::raysPerBlock, "Rays of each block.", 1u, 65536u),
-                field("block", &Params::block, "Texels of the G-buffer along a block's edge: 1, 2, 4 or 8.",
-                      1u, 8u)};
+                field("block", &Params::block, "Texels of the G-buffer along a block's edge.",
+                      powersOfTwo(1, 8))};
         }
     };
 

@@ -27,7 +27,6 @@ void VoxelizePass::declare(PassBuilder& builder) {
 }
 
 void VoxelizePass::plan(PassPlan& plan) {
-    params_.check(kName);
     const Geometry& geometry = plan.frame.scene->geometry;
     SurfaceVoxels& v = plan.get(voxels_);
     v.unoccludedOnly = params_.visibilityRays > 0;

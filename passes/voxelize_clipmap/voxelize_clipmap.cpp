@@ -28,8 +28,6 @@ void VoxelizeClipmap::declare(PassBuilder& builder) {
 }
 
 void VoxelizeClipmap::plan(PassPlan& plan) {
-    params_.check(kName);
-    requirePowerOfTwo(kName, params_.clipmapResolution);
     const Geometry& geometry = plan.frame.scene->geometry;
     gpu::VoxelGrid finest = makeVoxelGrid(geometry.boundsMin, geometry.boundsMax, params_.resolution);
     finest.directions = params_.directions;

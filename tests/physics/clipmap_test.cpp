@@ -7,7 +7,6 @@
 
 #include "passes/common/clipmap/clipmap_windows.h"
 #include "tests/gpu/radiance_samples.h"
-#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -224,14 +223,6 @@ TEST(Clipmap, ConesKeepTheEnergyOfAFurnace) {
                            "gather_cones, cones: 6"}),
                 16, 16);
     EXPECT_NEAR(mean(chain.image("indirect")) / (0.5 * 1.875), 1.0, 0.03);
-}
-
-TEST(Clipmap, BadSidesAreNamed) {
-    EXPECT_CONTAINS(
-        errorOf([&] {
-            Chain(cornellFrom({0, 0, 0}), litVoxels(16, "layout: clipmap, clipmap_resolution: 48"), 8, 8, 1);
-        }),
-        "power of two, such as 32");
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "tests/gpu/chain.h"
-#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -126,13 +125,6 @@ TEST(ConeTracing, ConvergesToTheReferenceOnCornell) {
     const double fine = error("64", "16");
     EXPECT_LT(fine, 0.85 * error("16", "5"));
     EXPECT_LT(fine, 0.12);
-}
-
-TEST(ConeTracing, BadInputIsNamed) {
-    Setting s;
-    s.gather = "cones: 7";
-    EXPECT_CONTAINS(errorOf([&] { Chain("cornell", "{lights: point}", coneGraph(s)); }),
-                    "cones is 7; there are sets of 5, 6, 16 and 36");
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "passes/common/view/gbuffer.h"
 #include "scene/shapes.h"
 #include "tests/gpu/chain.h"
-#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -145,15 +144,6 @@ TEST(SpecularCones, DirectLightHasHighlights) {
             difference += std::abs(double(direct.data[i]) - expected.data[i]);
         EXPECT_LT(difference / double(direct.data.size()), 0.005 * mean(expected)) << roughness;
     }
-}
-
-TEST(SpecularCones, AnUnknownSetIsNamed) {
-    EXPECT_CONTAINS(errorOf([&] {
-                        Chain("cornell", "{lights: point}",
-                              coneGraph("samples_per_pixel_edge: 1", "16", "rays_per_light: 16",
-                                        "emission: false", "specular: 3"));
-                    }),
-                    "specular is 3; lobes are shared out between 1, 7 or 19");
 }
 
 }  // namespace

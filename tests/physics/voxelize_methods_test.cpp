@@ -157,11 +157,6 @@ TEST(VoxelizeMethods, RefuseGridsBeyondMemoryBeforeAllocation) {
     device().setMemoryLimitBytes(limit);
 }
 
-TEST(VoxelizeMethods, DirectionsAreOneOrSix) {
-    const auto make = [] { voxelize(makeBuiltinScene("cornell", Value()), "resolution: 4, directions: 3"); };
-    EXPECT_CONTAINS(errorOf(make), "1 or 6");
-}
-
 TEST(VoxelizeMethods, OneDirectionLetsLightThroughThinWalls) {
     // A room without light behind a wall of 2 cm, at voxels of 13 cm: one value a voxel mixes both sides.
     const auto leak = [](int directions) {

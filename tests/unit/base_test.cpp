@@ -27,6 +27,7 @@ struct Params {
     glm::vec3 color{1, 2, 3};
     Fruit fruit = Fruit::Pear;
     std::string label = "x";
+    uint32_t edge = 4;
     static constexpr auto schema() {
         return std::tuple{field("flag", &Params::flag, "A flag."),
                           field("count", &Params::count, "How many.", 1u, 10u),
@@ -34,7 +35,8 @@ struct Params {
                           field("scale", &Params::scale, "How large.", 0.0f, 2.0f),
                           field("color", &Params::color, "Which.", glm::vec3(0.0f), glm::vec3(9.0f)),
                           field("fruit", &Params::fruit, "Which one."),
-                          field("label", &Params::label, "Name.")};
+                          field("label", &Params::label, "Name."),
+                          field("edge", &Params::edge, "How long.", powersOfTwo(1, 8))};
     }
 };
 
@@ -164,17 +166,23 @@ TEST(Schema, ErrorsNamePlaceKeyAndNearestWord) {
     EXPECT_EQ(paramsError(mapOf({{"flag", "maybe"}})),
               "f.yaml:3: demo.flag: expected true or false, not 'maybe'");
     EXPECT_CONTAINS(paramsError(mapOf({{"color", "10"}})), "out of range");
+    for (const char* edge : {"0", "3", "16"})
+        EXPECT_EQ(paramsError(mapOf({{"edge", edge}})),
+                  fmt::format("f.yaml:3: demo.edge: {} is not allowed; one of: 1, 2, 4, 8", edge));
 }
 
 TEST(Schema, DescribesItself) {
     const std::vector<ParameterDoc> docs = describeParams<Params>();
-    ASSERT_EQ(docs.size(), 7u);
+    ASSERT_EQ(docs.size(), 8u);
     EXPECT_EQ(docs[1].type, "integer");
     EXPECT_EQ(docs[1].defaults, "4");
     EXPECT_EQ(docs[1].min, "1");
     EXPECT_EQ(docs[1].max, "10");
     EXPECT_EQ(docs[5].choices, (std::vector<std::string>{"apple", "pear"}));
     EXPECT_EQ(docs[5].defaults, "pear");
+    EXPECT_EQ(docs[7].type, "integer");
+    EXPECT_EQ(docs[7].choices, (std::vector<std::string>{"1", "2", "4", "8"}));
+    EXPECT_TRUE(docs[7].min.empty());
 }
 
 TEST(Hasher, SeparatesTexts) {

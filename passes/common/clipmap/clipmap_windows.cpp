@@ -1,11 +1,9 @@
 #include "passes/common/clipmap/clipmap_windows.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "base/error.h"
 #include "passes/common/radiance/radiance_voxels.h"
 
 namespace voxray {
@@ -22,12 +20,6 @@ constexpr float kTransition = 1.0f / 8;
 constexpr float kEndless = 1e30f;
 
 }  // namespace
-
-void requirePowerOfTwo(const std::string& pass, uint32_t side) {
-    if (!std::has_single_bit(side))
-        throw Error("{}: clipmap_resolution is {}; it has to be a power of two, such as {}", pass, side,
-                    std::bit_floor(side));
-}
 
 ClipmapWindows::ClipmapWindows(const gpu::RadianceGrid& grid, uint32_t side) : grid_(grid), side_(side) {
     for (uint32_t level = 0; level < grid.levels; ++level) {

@@ -16,12 +16,9 @@ struct ClipmapParams {
     uint32_t clipmapResolution = 64;
     static constexpr auto schema() {
         return std::tuple{field("clipmap_resolution", &ClipmapParams::clipmapResolution,
-                                "Voxels along the side of a clipmap's window, a power of two.", 16u, 1024u)};
+                                "Voxels along an edge of a clipmap's window.", powersOfTwo(16, 1024))};
     }
 };
-
-/// @throws Error naming `pass` where a window's side isn't a power of two.
-void requirePowerOfTwo(const std::string& pass, uint32_t side);
 
 /// What a clipmap over `grid` holds: of each level at most `side` voxels along an axis, round the camera.
 /// Levels that are no larger than that are held whole. `side`: a power of two, 16 or more.

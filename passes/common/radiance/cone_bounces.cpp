@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "passes/common/compute/dispatch.h"
-#include "passes/common/radiance/cone_sets.h"
 
 namespace voxray {
 namespace {
@@ -34,7 +33,7 @@ uint64_t fluxBytes(uint64_t voxels) {
 }  // namespace
 
 void ConeBounces::plan(PassPlan& plan, uint64_t voxels, bool keeps) {
-    plan.buffer(coneSet_, "cones", coneSet(pass_, cones_).size() * sizeof(gpu::Cone));
+    plan.buffer(coneSet_, "cones", coneSet(cones_).size() * sizeof(gpu::Cone));
     const uint64_t light = coordinateBytes(voxels) + fluxBytes(voxels);
     if (keeps)
         plan.reserve("bounced light (estimated)", light);
@@ -48,7 +47,7 @@ void ConeBounces::prepare(PassSetup& setup, const RadianceVoxels& radiance) {
     };
     list_ = program("passes/common/radiance/cone_bounces_list.comp", {});
     gather_ = program("passes/common/radiance/cone_bounces_gather.comp", radiance.defines());
-    setup.stream.upload(coneSet_, coneSet(pass_, cones_));
+    setup.stream.upload(coneSet_, coneSet(cones_));
 }
 
 void ConeBounces::list(PassContext& context, const SurfaceVoxels& voxels) {

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "passes/common/radiance/cone_sets.h"
 #include "passes/common/radiance/radiance_voxels.h"
 #include "passes/common/voxels/voxels.h"
 
@@ -19,7 +20,7 @@ struct ConeBounceParams {
                   "Bounces of light from voxel to voxel by cones, on top of those that the light has made.",
                   0u, 32u),
             field("bounce_cones", &ConeBounceParams::bounceCones,
-                  "Cones from each side of a voxel in a bounce: 5, 6, 16 or 36.", 5u, 36u)};
+                  "Cones from each face of a voxel in a bounce.", coneSetSizes())};
     }
 };
 
@@ -27,8 +28,8 @@ struct ConeBounceParams {
 /// voxels. Docs: docs/cone-tracing.md.
 class ConeBounces {
  public:
-    /// @param cones of the set, see coneSet(). @throws Error naming `pass` for a number without a set.
-    ConeBounces(const char* pass, uint32_t cones) : pass_(pass), cones_(cones) {}
+    /// @param cones of the set, see coneSet().
+    explicit ConeBounces(uint32_t cones) : cones_(cones) {}
 
     /// @param voxels in all lists that light is gathered for.
     /// @param keeps whether memory is kept from frame to frame; else it is scratch, for release() to free.
@@ -48,7 +49,6 @@ class ConeBounces {
  private:
     void list(PassContext& context, const SurfaceVoxels& voxels);
 
-    const char* pass_;
     uint32_t cones_;
     Program list_, gather_;
     Buffer coneSet_, voxelCoordinates_;

@@ -4,8 +4,6 @@
 #include <map>
 #include <numbers>
 
-#include "base/error.h"
-
 namespace voxray {
 namespace {
 
@@ -30,12 +28,10 @@ const std::map<uint32_t, std::vector<Ring>>& sets() {
 
 }  // namespace
 
-std::vector<gpu::Cone> coneSet(const char* pass, uint32_t count) {
-    const auto found = sets().find(count);
-    if (found == sets().end()) throw Error("{}: cones is {}; there are sets of 5, 6, 16 and 36", pass, count);
+std::vector<gpu::Cone> coneSet(uint32_t count) {
     std::vector<gpu::Cone> cones;
     double inner = 0;
-    for (const Ring& ring : found->second) {
+    for (const Ring& ring : sets().at(count)) {
         // Half as wide as a circular cone of the stratum's solid angle, 2 pi (1 - cosine): directions wander
         // through the whole stratum, and what a cone blurs comes on top of that.
         const double cosine = 1 - (std::sqrt(1 - inner) - std::sqrt(1 - ring.within)) / ring.cones;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/error.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/voxel_builder/surface_accumulator.h"
 
@@ -15,11 +14,6 @@ struct ResolvePush {
 };
 
 }  // namespace
-
-void VoxelBuildParams::check(const std::string& pass) const {
-    if (directions != 1 && directions != 6)
-        throw Error("{}: directions is {}; it can be 1 or 6", pass, directions);
-}
 
 void VoxelBuilder::planVoxels(PassPlan& plan, const SurfaceVoxels& voxels) {
     plan.reserve("occupancy and ranks", voxels.words() * 2 * sizeof(uint32_t));

@@ -22,9 +22,8 @@ struct VoxelBuildParams {
         return std::tuple{
             field("directions", &VoxelBuildParams::directions,
                   "6: a voxel has light of its own for each of its six faces. 1: one value for all of a "
-                  "voxel, so "
-                  "that light from both sides of a thin wall mixes.",
-                  1u, 6u),
+                  "voxel, so that light from both sides of a thin wall mixes.",
+                  {1, 6}),
             field("visibility_rays", &VoxelBuildParams::visibilityRays,
                   "Visibility probes on a surface as large as a voxel's face: points that look for open "
                   "space in "
@@ -32,8 +31,6 @@ struct VoxelBuildParams {
                   "which darkens thin closed walls.",
                   0u, 256u)};
     }
-    /// @throws Error naming `pass` where directions is neither 1 nor 6.
-    void check(const std::string& pass) const;
 };
 
 /// Builds surface voxels from triangles, in two walks over them: the first marks the voxels that triangles
