@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "base/error.h"
+#include "base/one_line.h"
 #include "base/suggest.h"
 
 namespace {
@@ -18,7 +19,7 @@ constexpr int kFailed = 1;
 constexpr int kBadUsage = 2;
 
 int complain(const std::string& message, int status) {
-    fmt::print(stderr, "voxray: error: {}\n", message);
+    fmt::print(stderr, "voxray: error: {}\n", oneLine(message));
     return status;
 }
 
@@ -32,14 +33,6 @@ void checkCommandName(const CLI::App& app, const std::string& word) {
     if (word == "test" || word == "bench")
         throw UsageError("'{0}' is a command of the launcher: ./voxray {0}", word);
     throw UsageError("unknown command '{}'{}", word, didYouMean(word, names));
-}
-
-/// CLI11's messages span lines at times; an error is one line.
-std::string oneLine(std::string text) {
-    for (char& c : text)
-        if (c == '\n') c = ' ';
-    while (!text.empty() && text.back() == ' ') text.pop_back();
-    return text;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "base/files.h"
 #include "base/interrupt.h"
+#include "base/one_line.h"
 #include "experiment/manifest.h"
 #include "experiment/progress.h"
 #include "experiment/report_process.h"
@@ -124,7 +125,7 @@ void Run::openSession() {
     }
     for (const auto& [id, count] : variantsWithout)
         notes_.push_back(
-            fmt::format("'{}' is left out of {} of {} variants: no image that is judged depends on it there",
+            fmt::format("'{}' is left out of {} of {} variants: no image that is compared depends on it there",
                         id, count, variants_.size()));
     if (!wired_.reference.isNull()) manifest_.referencePass = wired_.reference.items[0];
     manifest_.device = session_->device().info();
@@ -260,10 +261,9 @@ void Run::runVariant(size_t index, Progress& progress) {
     } catch (const std::bad_alloc&) {
         failed.error = "out of memory";
     } catch (const std::exception& error) {
-        failed.error = error.what();
+        failed.error = oneLine(error.what());
     }
     if (!rendered) session_->stream().discard();
-    std::replace(failed.error.begin(), failed.error.end(), '\n', ' ');
     if (interruptRequested()) {
         summary_.interrupted = true;
         return;

@@ -21,11 +21,9 @@ namespace {
 constexpr uint64_t maxPixels = 1ull << 28;
 constexpr int maxSide = 1 << 16;
 
-// Reasons of a library can span lines; an Error is one line.
-std::string oneLine(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text.empty() ? "unknown reason" : text;
+// What a library says, which may be nothing.
+std::string reasonOr(const std::string& said) {
+    return said.empty() ? "unknown reason" : said;
 }
 
 void checkSpec(const OIIO::ImageSpec& spec, const std::string& name) {
@@ -70,7 +68,7 @@ std::vector<T> readPixels(OIIO::ImageInput& input, const std::string& name, int 
                                                  spec.z + 1, firstChannel, lastChannel, type, &values[offset])
                               : input.read_scanlines(0, 0, begin, end, spec.z, firstChannel, lastChannel,
                                                      type, &values[offset]);
-        if (!read) throw Error("{}: is broken or truncated: {}", name, oneLine(input.geterror()));
+        if (!read) throw Error("{}: is broken or truncated: {}", name, reasonOr(input.geterror()));
     }
     return values;
 }
@@ -98,9 +96,9 @@ void writeWhole(const fs::path& path, const char* format, const OIIO::ImageSpec&
                 const void* values) {
     writeFileAtomically(path, [&](const fs::path& temporary) {
         const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(format);
-        if (!out) throw Error("{}: no writer for {}: {}", path.string(), format, oneLine(OIIO::geterror()));
+        if (!out) throw Error("{}: no writer for {}: {}", path.string(), format, reasonOr(OIIO::geterror()));
         if (!out->open(temporary.string(), spec) || !out->write_image(type, values) || !out->close())
-            throw Error("{}: {}", path.string(), oneLine(out->geterror()));
+            throw Error("{}: {}", path.string(), reasonOr(out->geterror()));
     });
 }
 
@@ -113,7 +111,8 @@ ImageF readImage(const fs::path& path) {
         // Open, and refuse what is no flat picture before any memory is taken.
         const OIIO::ImageSpec config = openOptions();
         const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &config);
-        if (!input) throw Error("{}: not an image that Voxray can read: {}", name, oneLine(OIIO::geterror()));
+        if (!input)
+            throw Error("{}: not an image that Voxray can read: {}", name, reasonOr(OIIO::geterror()));
         const OIIO::ImageSpec spec = input->spec();
         checkSpec(spec, name);
         const ColourChannels colour = colourChannels(spec);
@@ -141,7 +140,7 @@ ImageF readImage(const fs::path& path) {
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
-        throw Error("{}: is broken: {}", name, oneLine(error.what()));
+        throw Error("{}: is broken: {}", name, reasonOr(error.what()));
     }
 }
 
@@ -156,10 +155,10 @@ DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name) {
         OIIO::ImageSpec config = openOptions();
         config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
         const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(png ? "png" : "jpeg");
-        if (!input) throw Error("{}: no reader: {}", name, oneLine(OIIO::geterror()));
+        if (!input) throw Error("{}: no reader: {}", name, reasonOr(OIIO::geterror()));
         OIIO::ImageSpec opened;
         if (!input->open(name, opened, config))
-            throw Error("{}: is broken: {}", name, oneLine(input->geterror()));
+            throw Error("{}: is broken: {}", name, reasonOr(input->geterror()));
         const OIIO::ImageSpec spec = input->spec();
         checkSpec(spec, name);
         const int channels = std::min(spec.nchannels, 4);
@@ -182,7 +181,7 @@ DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name) {
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
-        throw Error("{}: is broken: {}", name, oneLine(error.what()));
+        throw Error("{}: is broken: {}", name, reasonOr(error.what()));
     }
 }
 
@@ -234,10 +233,10 @@ std::vector<uint8_t> encodePng(const DecodedImage& image) {
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create("png");
-    if (!out) throw Error("no writer for png: {}", oneLine(OIIO::geterror()));
+    if (!out) throw Error("no writer for png: {}", reasonOr(OIIO::geterror()));
     if (!out->open("memory.png", spec) || !out->write_image(OIIO::TypeDesc::UINT8, image.rgba.data()) ||
         !out->close())
-        throw Error("a PNG can't be made: {}", oneLine(out->geterror()));
+        throw Error("a PNG can't be made: {}", reasonOr(out->geterror()));
     return file;
 }
 

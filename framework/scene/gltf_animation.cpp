@@ -65,7 +65,7 @@ void readAnimations(GltfFile& file, const std::vector<int>& fileNodes, Scene& sc
         const tinygltf::Animation& animation = file.model().animations[a];
         for (const tinygltf::AnimationChannel& source : animation.channels) {
             // Find what it moves.
-            const std::string what = fmt::format("animation {} '{}'", a, oneLine(animation.name));
+            const std::string what = fmt::format("animation {} '{}'", a, shortLine(animation.name));
             if (source.target_node < 0) continue;
             file.at(sceneNode, source.target_node, "node");
             if (sceneNode[size_t(source.target_node)] < 0) continue;

@@ -50,18 +50,6 @@ bool keepImage(tinygltf::Image*, int index, std::string*, std::string*, int, int
 
 }  // namespace
 
-std::string oneLine(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-    if (text.size() <= 200) return text;
-
-    // Cut between characters: bytes 10xxxxxx go on with the one before (UTF-8).
-    size_t end = 197;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-    return text.substr(0, end) + "...";
-}
-
 GltfFile::GltfFile(const std::filesystem::path& path) : name_(path.string()) {
     // Check the outside before the parser sees it.
     const std::vector<uint8_t> bytes = readFile(path);

@@ -5,15 +5,19 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
+#include "base/one_line.h"
 #include "scene/tiny_gltf.h"
 
 namespace voxray {
 
-/// The text with control characters replaced by spaces and cut to 200 bytes, so that it fits in one line.
-std::string oneLine(std::string text);
+/// oneLine(), cut to 200 bytes: a name may be as long as its file.
+inline std::string shortLine(std::string_view text) {
+    return oneLine(text, 200);
+}
 
 /// A parsed glTF file, and what all who read from it need: checked indices, errors that name the file,
 /// warnings, and a bound on the memory that a small file can ask for.
@@ -30,13 +34,13 @@ class GltfFile {
 
     template <typename... Args>
     [[noreturn]] void fail(fmt::format_string<Args...> text, Args&&... args) const {
-        throw Error("{}: {}", name_, oneLine(fmt::format(text, std::forward<Args>(args)...)));
+        throw Error("{}: {}", name_, shortLine(fmt::format(text, std::forward<Args>(args)...)));
     }
 
     /// Adds a line to the warnings, once.
     template <typename... Args>
     void warn(fmt::format_string<Args...> text, Args&&... args) {
-        addWarning(oneLine(fmt::format(text, std::forward<Args>(args)...)));
+        addWarning(shortLine(fmt::format(text, std::forward<Args>(args)...)));
     }
     const std::vector<std::string>& warnings() const { return warnings_; }
 

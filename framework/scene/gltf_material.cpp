@@ -51,7 +51,7 @@ TextureRef MaterialReader::texture(int index, int texCoord, const tinygltf::Exte
         textures_.try_emplace({source.source, srgb, wrapU, wrapV}, int32_t(scene_.textures.size()));
     if (added) {
         Texture texture;
-        texture.name = oneLine(model.images[size_t(source.source)].name);
+        texture.name = shortLine(model.images[size_t(source.source)].name);
         texture.srgb = srgb;
         texture.wrapU = wrapU;
         texture.wrapV = wrapV;
@@ -88,7 +88,7 @@ Material MaterialReader::read(int index) {
     }
     const tinygltf::Material& source = file_.at(file_.model().materials, index, "material");
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
-    m.name = oneLine(source.name);
+    m.name = shortLine(source.name);
     const std::string what = fmt::format("material {} '{}'", index, m.name);
 
     // Factors.
@@ -155,7 +155,7 @@ void MaterialReader::decodeTextures() {
         for (size_t i = begin; i < end; ++i) {
             const size_t image = size_t(images[i]);
             const std::string name =
-                oneLine(fmt::format("image {} '{}'", image, file_.model().images[image].name));
+                shortLine(fmt::format("image {} '{}'", image, file_.model().images[image].name));
             const std::vector<uint8_t>& bytes = file_.encodedImage(image);
             try {
                 if (bytes.empty())

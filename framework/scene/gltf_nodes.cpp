@@ -27,7 +27,7 @@ std::vector<int> rootsOf(const GltfFile& file) {
 Node readNode(GltfFile& file, int index, int32_t parent) {
     const tinygltf::Node& source = file.at(file.model().nodes, index, "node");
     Node node;
-    node.name = oneLine(source.name);
+    node.name = shortLine(source.name);
     node.parent = parent;
     const std::string what = fmt::format("node {} '{}'", index, node.name);
     if (!source.matrix.empty()) {
@@ -52,8 +52,8 @@ Node readNode(GltfFile& file, int index, int32_t parent) {
 }
 
 std::string nameOf(const std::string& own, const std::string& nodes, const char* kind, size_t number) {
-    if (!own.empty()) return oneLine(own);
-    return nodes.empty() ? fmt::format("{} {}", kind, number) : oneLine(nodes);
+    if (!own.empty()) return shortLine(own);
+    return nodes.empty() ? fmt::format("{} {}", kind, number) : shortLine(nodes);
 }
 
 void readCamera(GltfFile& file, const tinygltf::Node& node, int32_t nodeIndex, Scene& scene) {

@@ -22,11 +22,11 @@ MeshRange readMesh(GltfFile& file, int index, MaterialReader& materials, Scene& 
     MeshRange range{uint32_t(scene.meshes.size()), 0};
     for (size_t i = 0; i < source.primitives.size(); ++i) {
         const tinygltf::Primitive& primitive = source.primitives[i];
-        const std::string what = fmt::format("mesh {} '{}', primitive {}", index, oneLine(source.name), i);
+        const std::string what = fmt::format("mesh {} '{}', primitive {}", index, shortLine(source.name), i);
         const uint32_t material = materials.material(primitive.material);
         Mesh mesh = readPrimitive(file, primitive, scene.materials[material], what);
         if (mesh.triangles.empty()) continue;
-        mesh.name = oneLine(source.name);
+        mesh.name = shortLine(source.name);
         mesh.material = material;
         scene.meshes.push_back(std::move(mesh));
         ++range.count;
@@ -39,7 +39,7 @@ MeshRange readMesh(GltfFile& file, int index, MaterialReader& materials, Scene& 
 std::shared_ptr<const Scene> load(const std::filesystem::path& path) {
     GltfFile file(path);
     auto scene = std::make_shared<Scene>();
-    scene->name = oneLine(path.filename().string());
+    scene->name = shortLine(path.filename().string());
     MaterialReader materials(file, *scene);
     std::map<int, MeshRange> meshes;
 
@@ -70,7 +70,7 @@ std::shared_ptr<const Scene> loadGltf(const std::filesystem::path& path) {
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
-        throw Error("{}: it can't be loaded: {}", path.string(), oneLine(error.what()));
+        throw Error("{}: it can't be loaded: {}", path.string(), shortLine(error.what()));
     }
 }
 

@@ -65,7 +65,7 @@ void initialiseCompiler() {
     if (!ready) throw Error("glslang can't be initialised");
 }
 
-/// glslang's log as "file:line: message" lines, without its summary and the lines that name no place.
+/// glslang's log as "file:line: message; ...", without its summary and the lines that name no place.
 std::string formatLog(const std::string& file, const std::string& log) {
     static const std::regex place(R"(^(ERROR|WARNING): ([^:]+):(\d+): (.*)$)");
     std::string out;
@@ -74,7 +74,7 @@ std::string formatLog(const std::string& file, const std::string& log) {
         std::smatch match;
         if (!std::regex_match(line, match, place) || match[1] != "ERROR") continue;
         if (match[4].str().find("compilation terminated") != std::string::npos) continue;
-        if (!out.empty()) out += '\n';
+        if (!out.empty()) out += "; ";
         out += fmt::format("{}:{}: {}", match[2].str(), match[3].str(), match[4].str());
     }
     return out.empty() ? fmt::format("{}: {}", file, log) : out;

@@ -116,6 +116,10 @@ class Passes(CommandTest):
         self.assertRegex(" ".join(out.split()), r"rays_per_light Rays .* Default 262144; integer from 1 to 67108864\.")
         self.assertIn("Outputs:", out)
 
+    def test_allowed_values(self):
+        out = self.expect(0, "passes", "gather_cones").stdout
+        self.assertRegex(" ".join(out.split()), r"cones Cones .* Default 16; 5 \| 6 \| 16 \| 36\.")
+
     def test_unknown(self):
         self.assertIn("did you mean 'gbuffer'", self.expect(2, "passes", "gbufer").stderr)
 
@@ -167,6 +171,31 @@ class Validate(CommandTest):
 
     def test_bad_yaml(self):
         self.bad("{width: 32, height: 24}", "{width: 32, height: 24", "bad YAML", line=4)
+
+    def test_bytes_of_files_are_never_echoed(self):
+        with open(self.path("noise.png"), "wb") as file:
+            file.write(b"\x89PNG\x1b[2J\xff")
+        glb = b'{"asset": {"version": "2.0"}, "scenes": [{"name": "\x1b[2J\xff", "nodes": [7]}]}'
+        with open(self.path("a.gltf"), "wb") as file:
+            file.write(glb)
+        configs = [TINY.replace("name: tiny", 'name: "\\e[2J"').encode(),
+                   TINY.replace("width", '"wi\\x9b\\n\\u202edth"').encode(),
+                   TINY.replace("spp: 8", '"spp\\e[2J": 8').encode(),
+                   TINY.replace("builtin: cornell", 'builtin: "cor\\0nell"').encode(),
+                   TINY.encode().replace(b"tiny", b"ti\xff\x1bny"), b"\xff\xfe\x1b[2J: [",
+                   TINY.replace("builtin: cornell", "file: a.gltf").encode()]
+        commands = [["compare", "noise.png", "noise.png"], ["compare", "a\x1b[2J.exr", "b.exr"], ["\x1b[2J"],
+                    ["validate", "--set\x1b[2J"]]
+        for number, config in enumerate(configs):
+            with open(self.path(f"{number}.yaml"), "wb") as file:
+                file.write(config)
+            commands.append(["run", "--dry-run", f"{number}.yaml"])
+        for command in commands:
+            with self.subTest(command):
+                done = subprocess.run([PROGRAM, *command], cwd=self.folder, env=self.environment, capture_output=True)
+                self.assertIn(done.returncode, (1, 2))
+                said = done.stderr.decode("utf-8")
+                self.assertRegex(said, r"\Avoxray: error: [^\x00-\x1f\x7f-\x9f\u2028-\u202e]+\n\Z")
 
     def test_missing_config(self):
         self.assertIn("nowhere.yaml", self.expect(2, "validate", "nowhere.yaml").stderr)
