@@ -92,7 +92,7 @@ void addCompareCommand(CLI::App& app, int&) {
         "compare",
         "Metrics of an image against a reference, with a black and a constant image's beside them.");
     auto options = std::make_shared<CompareOptions>();
-    command->add_option("TEST", options->test, "Image to judge (EXR, HDR, PNG, JPEG).")->required();
+    command->add_option("TEST", options->test, "Image to compare (EXR, HDR, PNG, JPEG).")->required();
     command->add_option("REFERENCE", options->reference, "Image that is right.")->required();
     command->add_flag("--json", options->json, "Print JSON.");
     command->add_option("--flip-map", options->flipMap, "Write the HDR-FLIP error map to this PNG.");

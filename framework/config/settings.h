@@ -79,7 +79,7 @@ struct MaskSettings {
             field("object", &MaskSettings::object,
                   "Name of its mesh or of the node that places it; empty: any."),
             field("min_metallic", &MaskSettings::minMetallic,
-                  "Least metallic value of the material at the point, texture included.", 0.0f, 1.0f),
+                  "Smallest metallic value at the point, texture included.", 0.0f, 1.0f),
             field("max_roughness", &MaskSettings::maxRoughness,
                   "Largest roughness at the point, texture included.", 0.0f, 1.0f)};
     }
@@ -96,7 +96,7 @@ struct MeasureSettings {
     std::vector<MaskSettings> masks;
     static constexpr auto schema() {
         return std::tuple{
-            field("frames", &MeasureSettings::frames, "Frames that are timed. The first of them is judged.",
+            field("frames", &MeasureSettings::frames, "Frames that are timed. The first is compared with the reference.",
                   1u, 100000u),
             field("warmup", &MeasureSettings::warmup, "Frames before them that are not timed.", 0u, 100000u),
             field("compare_every", &MeasureSettings::compareEvery,
@@ -133,7 +133,7 @@ struct SceneOptions {
             field("materials", &SceneOptions::materials,
                   "as_is, or lambert: drop specular and metal of what scenes bring, keep base colour and "
                   "emission."),
-            field("time", &SceneOptions::time, "Time of the judged frame in the animation, seconds.", 0.0,
+            field("time", &SceneOptions::time, "Time of the compared frame in the animation, seconds.", 0.0,
                   1e6),
             field(
                 "time_step", &SceneOptions::timeStep,
@@ -176,7 +176,7 @@ struct DirectionalLightSettings {
                           field("irradiance", &DirectionalLightSettings::irradiance,
                                 "On a surface that faces it, W/m².", glm::vec3(0.0f), glm::vec3(kMaxLight)),
                           field("move", &DirectionalLightSettings::move,
-                                "Added to the direction from one frame to the next; in the judged frame it "
+                                "Added to the direction from one frame to the next; in the compared frame it "
                                 "shines along `directional`.",
                                 glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))};
     }
@@ -192,7 +192,7 @@ struct PointLightSettings {
             field("intensity", &PointLightSettings::intensity, "W/sr.", glm::vec3(0.0f),
                   glm::vec3(kMaxLight)),
             field("move", &PointLightSettings::move,
-                  "How far it moves from one frame to the next, metres: at its place in the judged frame.",
+                  "How far it moves from one frame to the next, metres: at its place in the compared frame.",
                   glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))};
     }
 };
@@ -216,7 +216,7 @@ struct SpotLightSettings {
             field("outer_deg", &SpotLightSettings::outerDegrees,
                   "Angle from the axis, in degrees, beyond which it doesn't shine.", 0.0f, 90.0f),
             field("move", &SpotLightSettings::move,
-                  "How far it moves from one frame to the next, metres: at its place in the judged frame.",
+                  "How far it moves from one frame to the next, metres: at its place in the compared frame.",
                   glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))};
     }
 };
@@ -234,7 +234,7 @@ struct EnvironmentSettings {
     }
 };
 
-/// A light of the config in the judged frame.
+/// A light of the config in the compared frame.
 struct ConfigLight {
     Light light;
     glm::vec3 move{

@@ -115,18 +115,18 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
     for (uint32_t i = 0; i < settings.buildRepeats; ++i) build.add(last = run(Phase::Build, 0, false));
     keepValues(Phase::Build, std::nullopt, last);
 
-    // Frames: the first measured one is judged
-    const auto runFrame = [&](int fromJudged, uint32_t frameIndex, bool checkFinite) {
-        const bool measured = fromJudged >= 0;
+    // Frames: the first measured one is compared
+    const auto runFrame = [&](int fromCompared, uint32_t frameIndex, bool checkFinite) {
+        const bool measured = fromCompared >= 0;
         frame.camera = target.frame.camera;
         std::vector<PassSample> samples;
         if (target.goToFrame) {
-            samples.push_back(timeOnHost(target.stream, [&] { target.goToFrame(frame, fromJudged); }));
+            samples.push_back(timeOnHost(target.stream, [&] { target.goToFrame(frame, fromCompared); }));
             const auto updates = run(Phase::Build, 0, checkFinite);
             if (measured) keepValues(Phase::Build, frameIndex, updates);
             samples.insert(samples.end(), updates.begin(), updates.end());
         }
-        frame.camera.position += float(fromJudged) * frame.cameraMove;
+        frame.camera.position += float(fromCompared) * frame.cameraMove;
         const auto own = run(Phase::Frame, frameIndex, checkFinite);
         if (measured) keepValues(Phase::Frame, frameIndex, own);
         samples.insert(samples.end(), own.begin(), own.end());

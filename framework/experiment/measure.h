@@ -57,7 +57,7 @@ struct GraphTarget {
     CommandStream& stream;
     RayTracer& tracer;
     const GpuScene& scene;
-    /// Takes scene, tracer and the frame's camera and `changed` to a frame, counted from the judged one;
+    /// Takes scene, tracer and the frame's camera and `changed` to a frame, counted from the compared one;
     /// empty: only the camera moves.
     std::function<void(Frame&, int)> goToFrame;
 };

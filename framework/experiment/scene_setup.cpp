@@ -81,7 +81,7 @@ void chooseLightsAndCamera(PreparedScene& prepared, const SceneSettings& setting
             const float length = glm::length(light.direction + way);
             if (!(length > 1e-6f))
                 throw Error(
-                    "{}: 'move' leaves it without a direction {} frames from the judged one; change it or "
+                    "{}: 'move' leaves it without a direction {} frames from the compared one; change it or "
                     "measure fewer frames",
                     light.name, frame);
             light.direction = (light.direction + way) / length;
@@ -168,7 +168,7 @@ std::string SceneLoader::key(const SceneSettings& settings) {
             .add(fmt::format("{}", fmt::join(change.keys, " ")));
     hasher.addPlain(settings.options.keepFileLights).addPlain(settings.options.materials);
     hasher.addPlain(settings.options.time).add(settings.cameraName);
-    // Where all goes from the judged frame on changes nothing in it but the bounds
+    // Where all goes from the compared frame on changes nothing in it but the bounds
     hasher.addPlain(settings.options.timeStep > 0);
     hasher.add(settings.movingSpheres ? writeParams(*settings.movingSpheres).text() : "");
     Value camera = settings.camera ? writeParams(*settings.camera) : Value();

@@ -44,7 +44,7 @@ class SceneLoader {
     /// @throws as key(), and UsageError for a camera that the scene lacks.
     PreparedScene prepare(const SceneSettings& settings);
 
-    /// Takes a prepared scene to a frame, counted from the judged one: animation, lights, and a camera on an
+    /// Takes a prepared scene to a frame, counted from the compared one: animation, lights, and a camera on an
     /// animated node. A camera's own `move` is not applied.
     /// @return where surfaces moved, as `advance`. @throws Error for a light that is left without direction.
     static std::vector<Box> goToFrame(PreparedScene& prepared, const SceneSettings& settings, int frame);

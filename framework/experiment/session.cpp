@@ -46,10 +46,10 @@ SceneOnDevice& Session::scene(const Setup& setup) {
     return *scene_;
 }
 
-void Session::goToFrame(const Setup& setup, Frame& frame, int fromJudged) {
+void Session::goToFrame(const Setup& setup, Frame& frame, int fromCompared) {
     PreparedScene& prepared = scene_->prepared;
     sceneMoved_ = true;
-    frame.changed = SceneLoader::goToFrame(prepared, setup.scene, fromJudged);
+    frame.changed = SceneLoader::goToFrame(prepared, setup.scene, fromCompared);
     ++frame.sceneVersion;
     frame.camera = prepared.camera;
     updateGpuScene(stream_, prepared.state, scene_->gpu);

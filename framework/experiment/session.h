@@ -36,10 +36,10 @@ class Session {
     /// The backend that a variant gets. @throws Error where the device lacks what it needs.
     std::string tracerName(const Setup& setup) const;
 
-    /// The variant's scene in the judged frame; the last one stays on the device until another is asked for.
+    /// The variant's scene in the compared frame; the last one stays on the device until another is asked for.
     SceneOnDevice& scene(const Setup& setup);
-    /// Takes the scene on the device, and a frame of it, to a frame counted from the judged one.
-    void goToFrame(const Setup& setup, Frame& frame, int fromJudged);
+    /// Takes the scene on the device, and a frame of it, to a frame counted from the compared one.
+    void goToFrame(const Setup& setup, Frame& frame, int fromCompared);
 
     /// A frame of the scene's sequence, counted from frame 0, with the scene on the device taken to it. To
     /// whoever begins there everything is new.
@@ -49,7 +49,7 @@ class Session {
     /// @param limitMb the config's limit for the graph in MiB, 0: none.
     std::vector<PassMemory> plan(Graph& graph, const Frame& frame, uint64_t limitMb);
 
-    /// The reference that judges a variant: from memory, from the cache on disk, or rendered now.
+    /// The reference of a variant: from memory, from the cache on disk, or rendered now.
     /// A reference that failed fails again at once. @throws Error, Interrupted.
     const ReferenceImages& reference(const WiredExperiment& experiment, const Setup& setup,
                                      const Registry& registry, const std::function<void(double)>& progress);
@@ -79,7 +79,7 @@ class Session {
     SceneLoader loader_;
     ReferenceCache cache_;
     std::optional<SceneOnDevice> scene_;
-    bool sceneMoved_ = false;  ///< Out of the judged frame.
+    bool sceneMoved_ = false;  ///< Out of the compared frame.
     std::optional<ReferenceImages> reference_;
     std::map<std::string, std::string> failedReferences_;  ///< Hash -> error.
     std::vector<std::string> warnings_;

@@ -41,7 +41,7 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
         Graph graph(registry, variant.setup.graph);
         if (!graph.writes("final"))
             throw UsageError(variant.setup.graph.where,
-                             "graph: no pass writes 'final', the image that is judged");
+                             "graph: no pass writes 'final', the image that is compared");
         std::vector<std::string> leftOut = graph.keepOnly({"final", "indirect"});
         Value resolved = graph.resolved();
         wired.variants.push_back(

@@ -51,8 +51,8 @@ RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experimen
         graph.prepare(frame, device, session.compiler(), session.stream());
         GraphTarget target{frame, device, session.stream(), *scene.tracer, scene.gpu, {}};
         if (changesInTime(variant.setup.scene))
-            target.goToFrame = [&](Frame& moved, int fromJudged) {
-                session.goToFrame(variant.setup, moved, fromJudged);
+            target.goToFrame = [&](Frame& moved, int fromCompared) {
+                session.goToFrame(variant.setup, moved, fromCompared);
             };
         Measurement m =
             measureGraph(graph, target, measure, progress, [&](const Frame& now, uint32_t number) {

@@ -180,7 +180,7 @@ def load(directory: str | Path) -> Results:
     results = Results(directory, variants, passes, values, frames, manifest, metrics, temporal, sweep_keys, warnings)
     if (count := len(results.references())) > 1:
         warnings.append(f"The variants have {count} different references, so their scores are not of one "
-                        "image. Each is judged by its own one's noise, black and constant image; charts "
+                        "image. Each is compared with its own one's noise, black and constant image; charts "
                         "don't show these.")
     return results
 

@@ -10,7 +10,7 @@
 #include "vulkan/device.h"
 #include "vulkan/structure.h"
 
-/// How a device is found and judged. Internal to the vulkan layer.
+/// How a device is found and rated. Internal to the vulkan layer.
 namespace voxray {
 
 /// Warnings and errors of the validation layer, collected from any thread.

@@ -24,7 +24,7 @@ double areaOf(CommandStream& stream, const SurfaceVoxels& voxels) {
 
 void CompareVoxels::declare(PassBuilder& builder) {
     truth_ = builder.read<SurfaceVoxels>("truth", "the voxels that there should be");
-    voxels_ = builder.read<SurfaceVoxels>("voxels", "the voxels to judge");
+    voxels_ = builder.read<SurfaceVoxels>("voxels", "the voxels to compare");
 }
 
 void CompareVoxels::plan(PassPlan& plan) {

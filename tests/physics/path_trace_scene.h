@@ -12,7 +12,7 @@
 
 namespace voxray::test {
 
-/// A scene made by hand, so that these tests judge the path tracer alone.
+/// A scene made by hand, so that these tests check the path tracer alone.
 struct HandScene {
     std::shared_ptr<Scene> scene = std::make_shared<Scene>();
     SceneState state;

@@ -151,7 +151,7 @@ TEST_F(RunTest, TheCameraMovesFromFrameToFrame) {
         return Constant::cameraX;
     };
     EXPECT_EQ(runAndMove(", move: [0.5, 0, 0]"), (std::vector<float>{1.5f, 2, 2.5f, 3}));
-    // The judge stands still: it is the same.
+    // The reference stands still: it is the same.
     const int references = Truth::runs;
     EXPECT_EQ(runAndMove(""), (std::vector<float>{2, 2, 2, 2}));
     EXPECT_EQ(Truth::runs, references);
@@ -170,7 +170,7 @@ TEST_F(RunTest, SurfacesAndLightsMoveFromFrameToFrame) {
     const std::string lights = "lights: [{point: [0, 1, 0], move: [0.5, 0, 0]}]";
     const std::string spheres = "moving_spheres: {count: 9, swing: [1, 0, 0], period: 4}";
 
-    // Two builds in the judged frame, then a frame before it, the frame itself, and one after it.
+    // Two builds in the compared frame, then a frame before it, the frame itself, and one after it.
     const auto moving = runWith(lights + ", time: 0.25, time_step: 0.5, " + spheres);
     ASSERT_EQ(moving.size(), 5u);
     const int changed[] = {-1, -1, 18, 18, 18};
@@ -202,7 +202,7 @@ TEST_F(RunTest, SurfacesAndLightsMoveFromFrameToFrame) {
     EXPECT_EQ(Truth::runs, 2);
 }
 
-TEST_F(RunTest, VariantsOfOneSceneBeginInTheJudgedFrame) {
+TEST_F(RunTest, VariantsOfOneSceneBeginInTheComparedFrame) {
     Witness::sights.clear();
     const std::string text =
         "name: fake\nscene: {builtin: spheres, time_step: 0.5}\nimage: {width: 8, height: 4}\n"

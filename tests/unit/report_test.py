@@ -323,7 +323,7 @@ class Reading(ReportTest):
         self.assertEqual(errors.count("\n"), 1)
 
 
-class Judging(ReportTest):
+class Comparing(ReportTest):
     def results(self, rows, **changes):
         run = made_up.manifest([])
         run.update(changes)
@@ -360,7 +360,7 @@ class Judging(ReportTest):
         self.assertEqual(ranking.beaten_by(results, ssim, "ssim", "a", 0.9), [])
         self.assertEqual(ranking.beaten_by(results, ssim, "ssim", "a", -1.0), ["black", "constant"])
 
-    def test_each_variant_is_judged_by_its_own_reference(self):
+    def test_each_variant_is_compared_with_its_own_reference(self):
         # Noise 0.01 and 0.1; a black image scores 1.6 and 0.3.
         first, run = {"folder": "reference", "nrmse_noise": 0.01, "variants": ["a", "b"]}, made_up.manifest([])
         second = {"folder": "reference.2", "nrmse_noise": 0.1, "variants": ["c"]}
