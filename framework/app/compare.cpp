@@ -90,7 +90,7 @@ void compare(const CompareOptions& options) {
 void addCompareCommand(CLI::App& app, int&) {
     CLI::App* command = app.add_subcommand(
         "compare",
-        "Metrics of an image against a reference, with a black and a constant image's beside them.");
+        "Metrics of an image against a reference, with a black and a constant image's next to them.");
     auto options = std::make_shared<CompareOptions>();
     command->add_option("TEST", options->test, "Image to compare (EXR, HDR, PNG, JPEG).")->required();
     command->add_option("REFERENCE", options->reference, "Image that is right.")->required();

@@ -14,8 +14,8 @@ namespace voxray {
 std::vector<uint8_t> readFile(const std::filesystem::path& path);
 std::string readTextFile(const std::filesystem::path& path);
 
-/// Writes a file whole or not at all: a temporary file beside it (`.stem.PID.tmp.ext`), flushed to disk, then
-/// renamed.
+/// Writes a file whole or not at all: a temporary file next to it (`.stem.PID.tmp.ext`), flushed to disk,
+/// then renamed.
 /// @throws Error naming the file and the system's reason (full disk, no permission).
 void writeFileAtomically(const std::filesystem::path& path, std::string_view content);
 

@@ -22,7 +22,8 @@ struct SceneSource {
     static constexpr auto schema() {
         return std::tuple{
             field("file", &SceneSource::file, "A .glb or .gltf file, looked for in the scene folders."),
-            field("builtin", &SceneSource::builtin, "A built-in scene; its own parameters stand beside it.")};
+            field("builtin", &SceneSource::builtin,
+                  "A built-in scene; its own parameters stand next to it.")};
     }
 
     /// What the scene is called: the file's name without folder and ending, or the built-in scene's name.
@@ -31,7 +32,7 @@ struct SceneSource {
 
 /// Takes the source out of a map: `file`, or `builtin` with every key that is not one of `otherKeys` as a
 /// parameter.
-/// @throws UsageError for an unknown key beside a file, and unless there is exactly one of the two.
+/// @throws UsageError for an unknown key next to a file, and unless there is exactly one of the two.
 SceneSource readSceneSource(const Value& map, const std::string& owner,
                             const std::vector<std::string>& otherKeys);
 

@@ -97,7 +97,7 @@ void readEnvironment(const Value& value, SceneSettings& settings) {
     settings.environment = environment;
 }
 
-/// Keys that any scene may have beside its source.
+/// Keys that any scene may have next to its source.
 std::vector<std::string> sceneKeys() {
     std::vector<std::string> keys = fieldNames<SceneOptions>();
     keys.insert(keys.end(), {"camera", "lights", "environment", "moving_spheres", "add", "override"});

@@ -96,8 +96,8 @@ struct MeasureSettings {
     std::vector<MaskSettings> masks;
     static constexpr auto schema() {
         return std::tuple{
-            field("frames", &MeasureSettings::frames, "Frames that are timed. The first is compared with the reference.",
-                  1u, 100000u),
+            field("frames", &MeasureSettings::frames,
+                  "Frames that are timed. The first is compared with the reference.", 1u, 100000u),
             field("warmup", &MeasureSettings::warmup, "Frames before them that are not timed.", 0u, 100000u),
             field("compare_every", &MeasureSettings::compareEvery,
                   "0: frame 0 alone is compared with a reference. n: every n-th measured frame is, each with "

@@ -105,7 +105,7 @@ Value passSchema(const PassKind& kind) {
     return withRequired(mapSchema(kind.parameters, properties), {"pass"});
 }
 
-/// Properties of a scene's source: parameters of built-in scenes stand beside the keys that every scene has.
+/// Properties of a scene's source: parameters of built-in scenes stand next to the keys that every scene has.
 void addSource(Value& schema) {
     Value& properties = *schema.find("properties");
     for (const ParameterDoc& doc : describeParams<SceneSource>())

@@ -44,7 +44,7 @@ std::string referenceHash(const std::string& sceneKey, const Value& resolvedPass
 class ReferenceCache {
  public:
     explicit ReferenceCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
-    /// Empty where it isn't there, or is damaged or of another size: it is then rendered anew.
+    /// Empty where it isn't there, or is damaged or of another size: it is then rendered again.
     std::optional<ReferenceImages> load(const std::string& hash, uint32_t width, uint32_t height) const;
     /// @throws Error where it can't be written.
     void store(const ReferenceImages& reference) const;

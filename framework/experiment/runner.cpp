@@ -124,9 +124,9 @@ void Run::openSession() {
         for (const std::string& id : variant.leftOut) ++variantsWithout[id];
     }
     for (const auto& [id, count] : variantsWithout)
-        notes_.push_back(
-            fmt::format("'{}' is left out of {} of {} variants: no image that is compared depends on it there",
-                        id, count, variants_.size()));
+        notes_.push_back(fmt::format(
+            "'{}' is left out of {} of {} variants: no image that is compared depends on it there", id, count,
+            variants_.size()));
     if (!wired_.reference.isNull()) manifest_.referencePass = wired_.reference.items[0];
     manifest_.device = session_->device().info();
     manifest_.requestedDevice = options_.deviceName;

@@ -27,7 +27,7 @@ void checkBuiltin(const SceneSource& source) {
         throw UsageError(source.where, "{}.builtin: no built-in scene '{}'{}", source.owner, name,
                          didYouMean(name, names));
 
-    // Its own parameters, and in suggestions the keys that stand beside them
+    // Its own parameters, and in suggestions the keys that stand next to them
     std::vector<std::string> own, all = source.otherKeys;
     for (const ParameterDoc& doc : describeBuiltinScene(name)) own.push_back(doc.name);
     all.insert(all.end(), own.begin(), own.end());

@@ -13,7 +13,7 @@
 namespace voxray {
 
 /// Where scene files and environment maps are looked for, in this order: `scenesOption` (--scenes),
-/// $VOXRAY_SCENES, shared/scenes beside the source root, the config's folder. Empty paths are left out.
+/// $VOXRAY_SCENES, shared/scenes next to the source root, the config's folder. Empty paths are left out.
 std::vector<std::filesystem::path> sceneFolders(const std::filesystem::path& scenesOption,
                                                 const std::filesystem::path& sourceRoot,
                                                 const std::filesystem::path& configFile);
@@ -44,8 +44,8 @@ class SceneLoader {
     /// @throws as key(), and UsageError for a camera that the scene lacks.
     PreparedScene prepare(const SceneSettings& settings);
 
-    /// Takes a prepared scene to a frame, counted from the compared one: animation, lights, and a camera on an
-    /// animated node. A camera's own `move` is not applied.
+    /// Takes a prepared scene to a frame, counted from the compared one: animation, lights, and a camera on
+    /// an animated node. A camera's own `move` is not applied.
     /// @return where surfaces moved, as `advance`. @throws Error for a light that is left without direction.
     static std::vector<Box> goToFrame(PreparedScene& prepared, const SceneSettings& settings, int frame);
 

@@ -36,7 +36,8 @@ class Session {
     /// The backend that a variant gets. @throws Error where the device lacks what it needs.
     std::string tracerName(const Setup& setup) const;
 
-    /// The variant's scene in the compared frame; the last one stays on the device until another is asked for.
+    /// The variant's scene in the compared frame; the last one stays on the device until another is asked
+    /// for.
     SceneOnDevice& scene(const Setup& setup);
     /// Takes the scene on the device, and a frame of it, to a frame counted from the compared one.
     void goToFrame(const Setup& setup, Frame& frame, int fromCompared);

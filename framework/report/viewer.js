@@ -29,7 +29,7 @@
         if (remember) writeAddress();
     }
 
-    // The address holds what differs from the defaults, beside the anchor that it may lead to.
+    // The address holds what differs from the defaults, in addition to the anchor that it may lead to.
     function addressParts() {
         return location.hash.slice(1).split("&");
     }

@@ -34,7 +34,7 @@ struct InstanceRange {
     uint32_t triangleCount = 0;
     uint32_t firstVertex = 0;
     uint32_t vertexCount = 0;
-    bool moves = false;  ///< `advance` places it anew; all others stay where they are.
+    bool moves = false;  ///< `advance` places it again; all others stay where they are.
 };
 
 /// The scene at one time as one list of world-space triangles. A triangle's index here is the primitive

@@ -91,7 +91,7 @@ void readTangents(GltfFile& file, const tinygltf::Primitive& primitive, const Ma
     readAttribute(file, primitive, "TANGENT", 4, 4, 1, mesh.tangents, mesh.positions.size(), what);
     bool make = mesh.tangents.empty();
     if (!mesh.tangents.empty() && !normalizeTangents(mesh)) {
-        file.warn("{}: TANGENT has values that are zero or not finite; computed anew", what);
+        file.warn("{}: TANGENT has values that are zero or not finite; computed instead", what);
         mesh.tangents.clear();
         make = true;
     }

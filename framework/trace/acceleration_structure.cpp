@@ -72,7 +72,7 @@ VkAccelerationStructureBuildGeometryInfoKHR describe(const Build& build) {
 }
 
 /// Builds one structure and waits, so that scratch memory is needed for one at a time. Makes `result` where
-/// it is empty; one of as many primitives is built anew in its place.
+/// it is empty; one of as many primitives is rebuilt in its place.
 void run(Device& device, CommandStream& stream, const char* name, const Build& build,
          AccelerationStructure& result) {
     VkAccelerationStructureBuildGeometryInfoKHR info = describe(build);
@@ -167,7 +167,7 @@ uint64_t SceneStructure::bytes() const {
 }
 
 uint32_t trianglesPerChunk(const Device& device) {
-    constexpr uint64_t kMax = 1u << 22;  // Bounds the memory that a build needs beside the structure.
+    constexpr uint64_t kMax = 1u << 22;  // Bounds the memory that a build needs in addition to the structure.
     return uint32_t(std::min(kMax, device.accelerationStructureProperties().maxPrimitiveCount));
 }
 

@@ -54,7 +54,7 @@ uint32_t trianglesPerChunk(const Device& device);
 SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const SceneState& state,
                                    const TracingOrder& order);
 
-/// Takes over where the moving triangles are now, after `sortMoving`: builds their chunks and the top anew,
+/// Takes over where the moving triangles are now, after `sortMoving`: builds their chunks and the top again,
 /// in place. Records and finishes.
 void updateSceneStructure(Device& device, CommandStream& stream, const SceneState& state,
                           const TracingOrder& order, SceneStructure& scene);

@@ -309,7 +309,7 @@ EmbreeScene::EmbreeScene(const SceneState& state) : impl_(std::make_unique<Impl>
         },
         impl_.get());
 
-    // What moves is built anew in each frame: in less time, and no worse for its few triangles.
+    // What moves is rebuilt in each frame: in less time, and no worse for its few triangles.
     impl_->sort(state);
     impl_->build(impl_->still, RTC_BUILD_QUALITY_HIGH);
     if (!impl_->moving.moving.empty()) impl_->build(impl_->moving, RTC_BUILD_QUALITY_MEDIUM);

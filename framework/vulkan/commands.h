@@ -133,7 +133,7 @@ class CommandStream {
     double millisecondsBetween(uint32_t first, uint32_t second) const;
     void resetTimestamps();
 
-    /// Submits what was recorded and waits; the stream then records anew.
+    /// Submits what was recorded and waits; the stream then records again.
     void finish();
 
     /// Drops what was recorded since the last finish(), open labels and time stamps with it: after an error,

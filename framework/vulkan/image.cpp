@@ -92,12 +92,12 @@ void checkSupported(const Device& device, const std::string& name, const VkImage
     if (result != VK_SUCCESS)
         throw Error("device '{}' can't make image '{}': format {} with usage {:#x}", device.info().name, name,
                     int(create.format), create.usage);
-    const VkExtent3D &wanted = create.extent, &most = offered.maxExtent;
-    if (wanted.width > most.width || wanted.height > most.height || wanted.depth > most.depth ||
+    const VkExtent3D &wanted = create.extent, &largest = offered.maxExtent;
+    if (wanted.width > largest.width || wanted.height > largest.height || wanted.depth > largest.depth ||
         create.mipLevels > offered.maxMipLevels)
         throw Error("image '{}' of {}x{}x{} texels and {} levels is over device '{}''s {}x{}x{} and {}", name,
                     wanted.width, wanted.height, wanted.depth, create.mipLevels, device.info().name,
-                    most.width, most.height, most.depth, offered.maxMipLevels);
+                    largest.width, largest.height, largest.depth, offered.maxMipLevels);
 }
 
 VkImageView makeView(const Device& device, VkImage image, const ImageDesc& desc, uint32_t level,

@@ -19,7 +19,7 @@ class ShaderSources {
     /// Name and text of every file that was read.
     const std::map<std::string, std::string>& files() const { return files_; }
 
-    /// The name of the file that `#include "header"` means in `includer`: beside the includer, else from the
+    /// The name of the file that `#include "header"` means in `includer`: next to the includer, else from the
     /// source root. Empty: there is none.
     std::optional<std::string> resolve(const std::string& header, const std::string& includer) const;
 

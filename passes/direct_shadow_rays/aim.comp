@@ -39,7 +39,7 @@ vec3 reflectance(vec3 diffuseAlbedo_, Specular s, vec3 n, vec3 out_, vec3 direct
     if (!hasSpecular(s)) return diffuse;
     const vec3 half_ = normalize(out_ + direction);
     const float weight = schlickWeight(dot(out_, half_));
-    const vec3 below = diffuseShare(s, weight) * diffuse;
+    const vec3 below = diffuseFraction(s, weight) * diffuse;
     if (isMirror(s)) return below;
     const vec3 across = cross(n, half_);
     return below + specularFresnel(s, weight) * ggx(dot(n, direction), max(dot(n, out_), 1e-5), dot(across, across), specularAlpha(s));

@@ -31,25 +31,25 @@ bool isEmpty(ivec3 voxel, uint level) {
 }
 
 // The value of a voxel of the source level, nothing outside of the grid.
-vec4 sourceValue(ivec3 voxel, uint side) {
+vec4 sourceValue(ivec3 voxel, uint face) {
     if (push.source > 0u) {
         const ClipmapWindow w = radianceVoxels.window[push.source];
-        return inWindow(w, voxel) ? radianceValue(clipmapSlot(w, voxel), side) : vec4(0.0);
+        return inWindow(w, voxel) ? radianceValue(clipmapSlot(w, voxel), face) : vec4(0.0);
     }
     const uint number = voxelNumber(push.grid, voxel);
     if (number == NO_VOXEL) return vec4(0.0);
-    return radianceVoxels.grid.directions == 6u ? faceRadiance(push.grid, number, side, push.emission)
+    return radianceVoxels.grid.directions == 6u ? faceRadiance(push.grid, number, face, push.emission)
                                                 : meanRadiance(push.grid, number, push.emission);
 }
 
-// The descendant of a voxel, `depth` levels below, that comes `index`-th: on each level the four pairs along the side's axis, of
+// The descendant of a voxel, `depth` levels below, that comes `index`-th: on each level the four pairs along the face's axis, of
 // each the front one first.
-ivec3 descendant(ivec3 voxel, uint depth, uint index, uint side) {
-    const uint axis = side >> 1;
+ivec3 descendant(ivec3 voxel, uint depth, uint index, uint face) {
+    const uint axis = face >> 1;
     for (uint d = depth; d-- > 0u;) {
         const uint octant = index >> (3u * d);
         ivec3 step_;
-        step_[axis] = int((octant & 1u) ^ (1u - (side & 1u)));
+        step_[axis] = int((octant & 1u) ^ (1u - (face & 1u)));
         step_[axis == 0u ? 1u : 0u] = int((octant >> 1) & 1u);
         step_[axis == 2u ? 1u : 2u] = int((octant >> 2) & 1u);
         voxel = 2 * voxel + step_;
@@ -59,8 +59,8 @@ ivec3 descendant(ivec3 voxel, uint depth, uint index, uint side) {
 
 // Filters a voxel of what is `depth` levels below: each level's values are rounded as they are stored, as if level had been made of
 // level. Of a voxel in the making, `front` is the front one of a pair, `sum` the pairs before it.
-vec4 filtered(ivec3 voxel, uint depth, uint side) {
-    const bool sides = radianceVoxels.grid.directions == 6u;
+vec4 filtered(ivec3 voxel, uint depth, uint face) {
+    const bool byFace = radianceVoxels.grid.directions == 6u;
     vec4 sum[RADIANCE_CLIPMAP_LEVELS], front[RADIANCE_CLIPMAP_LEVELS];
     for (uint d = 0u; d <= depth; ++d) sum[d] = vec4(0.0);
     vec4 value = vec4(0.0);
@@ -69,8 +69,8 @@ vec4 filtered(ivec3 voxel, uint depth, uint side) {
         // The largest descendant that begins here and is empty, else one of the source level.
         uint d = index == 0u ? depth : uint(findLSB(index)) / 3u;
         if (push.source > 0u) d = 0u;
-        while (d > 0u && !isEmpty(descendant(voxel, depth - d, index >> (3u * d), side), d)) --d;
-        value = d > 0u ? vec4(0.0) : sourceValue(descendant(voxel, depth, index, side), side);
+        while (d > 0u && !isEmpty(descendant(voxel, depth - d, index >> (3u * d), face), d)) --d;
+        value = d > 0u ? vec4(0.0) : sourceValue(descendant(voxel, depth, index, face), face);
         value = unpackRadiance(packRadiance(value));
         const uint taken = 1u << (3u * d);
 
@@ -81,7 +81,7 @@ vec4 filtered(ivec3 voxel, uint depth, uint side) {
                 front[d] = value;
                 break;
             }
-            sum[d] += sides ? inARow(front[d], value) : 0.5 * (front[d] + value);
+            sum[d] += byFace ? inARow(front[d], value) : 0.5 * (front[d] + value);
             if (octant != 7u) break;
             value = unpackRadiance(packRadiance(0.25 * sum[d]));
             sum[d] = vec4(0.0);
@@ -98,6 +98,6 @@ void main() {
     const ivec3 voxel = push.boxFirst + ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
     const uint slot = clipmapSlot(radianceVoxels.window[push.level], voxel);
     const bool empty = push.source == 0u && isEmpty(voxel, push.level);
-    for (uint side = 0u; side < radianceVoxels.grid.directions; ++side)
-        storeRadiance(slot, side, empty ? vec4(0.0) : filtered(voxel, push.level - push.source, side));
+    for (uint face = 0u; face < radianceVoxels.grid.directions; ++face)
+        storeRadiance(slot, face, empty ? vec4(0.0) : filtered(voxel, push.level - push.source, face));
 }

@@ -13,14 +13,14 @@ void main() {
     const uvec3 size = own.resolution;
     if (i >= size.x * size.y * size.z) return;
     const ivec3 corner = 2 * ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
-    for (uint side = 0u; side < radianceVoxels.grid.directions; ++side) {
+    for (uint face = 0u; face < radianceVoxels.grid.directions; ++face) {
         vec4 child[8];
         for (uint cell = 0u; cell < 8u; ++cell) {
             const ivec3 voxel = corner + ivec3(cell & 1u, (cell >> 1) & 1u, cell >> 2);
             const bool inside = all(lessThan(voxel, ivec3(below.resolution)));
-            child[cell] = inside ? radianceValue(radianceIndex(below, voxel), side) : vec4(0.0);
+            child[cell] = inside ? radianceValue(radianceIndex(below, voxel), face) : vec4(0.0);
         }
-        storeRadiance(own.first + i, side,
-                      radianceVoxels.grid.directions == 6u ? combineFaces(child, side) : combineAll(child));
+        storeRadiance(own.first + i, face,
+                      radianceVoxels.grid.directions == 6u ? combineFaces(child, face) : combineAll(child));
     }
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Level 0 of dense radiance voxels: the surfaces' own radiance and cover; nothing where there are none.
+// Level 0 of dense radiance voxels: the surfaces' own radiance and coverage; nothing where there are none.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance/radiance_voxels.glsl"
 #include "shaders/radiance/surface_radiance.glsl"
@@ -17,11 +17,11 @@ void main() {
     if (i >= size.x * size.y * size.z) return;
     const uint voxel = voxelNumber(push.grid, ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y)));
     const uint directions = radianceVoxels.grid.directions;
-    for (uint side = 0u; side < directions; ++side) {
+    for (uint face = 0u; face < directions; ++face) {
         vec4 value = vec4(0.0);
         if (voxel != NO_VOXEL)
-            value = directions == 6u ? faceRadiance(push.grid, voxel, side, push.emission)
+            value = directions == 6u ? faceRadiance(push.grid, voxel, face, push.emission)
                                      : meanRadiance(push.grid, voxel, push.emission);
-        storeRadiance(i, side, value / vec4(vec3(radianceVoxels.grid.unit), 1.0));
+        storeRadiance(i, face, value / vec4(vec3(radianceVoxels.grid.unit), 1.0));
     }
 }

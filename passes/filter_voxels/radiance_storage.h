@@ -12,7 +12,7 @@ struct SurfaceLight {
     const LargeBuffer& direct;
     const LargeBuffer& indirect;
     const Buffer& area;
-    uint64_t version;  ///< Another one whenever the light has been measured anew.
+    uint64_t version;  ///< Another one whenever the light has been measured again.
 };
 
 /// A way of storing radiance voxels: makes them of surface voxels and the light that they catch.

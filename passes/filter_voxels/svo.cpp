@@ -34,7 +34,7 @@ class SvoStorage final : public RadianceStorage {
             plan.reserve("leaves and changes (estimated)", lists);
             plan.reserveScratch("building (estimated)", building);
         } else {
-            // A collapsed octree beside the first one.
+            // A collapsed octree next to the first one.
             const uint64_t collapsing = octree + SvoCollapse::scratchBytes(size);
             plan.reserveScratch("leaves and changes (estimated)", lists);
             plan.reserveScratch("building, then collapsing (at most)", std::max(building, collapsing));

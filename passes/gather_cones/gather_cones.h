@@ -15,7 +15,7 @@ class GatherCones final : public Pass {
         "Indirect light: a few cones from each pixel through prefiltered voxels (filter_voxels). "
         "Biased by: voxel size; the number of cones; a mean over some 25 pixels of the same surface, which "
         "evens "
-        "out the fixed pattern of directions; the shape of specular lobes. No noise beside that. "
+        "out the fixed pattern of directions; the shape of specular lobes. No other noise. "
         "Source: Crassin et al. 2011; Arnebäck 2017, section 3.1.5.";
     struct Params {
         uint32_t cones = 16;

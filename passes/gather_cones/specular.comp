@@ -25,9 +25,9 @@ LobeStratum mixStrata(LobeStratum a, LobeStratum b, float t) {
 
 // The table's, linear between its places.
 LobeStratum stratumAt(float cosOut, float roughness, uint stratum) {
-    const vec2 most = vec2(LOBE_COSINES - 1, LOBE_ROUGHNESSES - 1);
-    const vec2 at = clamp(vec2(sqrt(cosOut), roughness), 0.0, 1.0) * most;
-    const uvec2 corner = uvec2(min(at, most - 1.0));
+    const vec2 last = vec2(LOBE_COSINES - 1, LOBE_ROUGHNESSES - 1);
+    const vec2 at = clamp(vec2(sqrt(cosOut), roughness), 0.0, 1.0) * last;
+    const uvec2 corner = uvec2(min(at, last - 1.0));
     const vec2 part = at - vec2(corner);
     const uint n = push.strata, first = (corner.y * LOBE_COSINES + corner.x) * n + stratum, next = first + LOBE_COSINES * n;
     return mixStrata(mixStrata(strata.data[first], strata.data[first + n], part.x),
@@ -55,7 +55,7 @@ void main() {
     const vec3 n = specularNormal(normalize(texelFetch(normal, texel, 0).xyz), out_);
     const float cosOut = min(dot(n, out_), 1.0);
     const ConeBase base = coneBase(p.xyz, side, 0.5);
-    const float left = diffuseShare(s, stratumAt(cosOut, s.roughness, 0u).grazing);
+    const float left = diffuseFraction(s, stratumAt(cosOut, s.roughness, 0u).grazing);
 
     // A mirror: one thin cone. Directions that a shading normal sends below the surface are lost, as in the reference.
     vec3 sum = vec3(0.0);

@@ -13,7 +13,7 @@ class SpecularCones {
     void plan(PassPlan& plan, const GBuffer& gbuffer, uint32_t strata);
     void prepare(PassSetup& setup, const RadianceVoxels& radiance);
     void record(PassContext& context, const GBuffer& gbuffer, const RadianceVoxels& radiance) const;
-    /// RGBA32F: radiance reflected, W/(m² sr); the share of light that is left to the diffuse lobe below.
+    /// RGBA32F: radiance reflected, W/(m² sr); the fraction of light that is left to the diffuse lobe below.
     const Image& reflected() const { return reflected_; }
 
  private:

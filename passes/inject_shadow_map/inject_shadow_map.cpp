@@ -29,7 +29,7 @@ void InjectShadowMap::plan(PassPlan& plan) {
     feedback_.plan(plan, kName, params_, 1, plan.get(voxels_));
     shadowMap_.plan(plan, params_.shadowResolution);
     plan.reserveScratch("surfels' direct irradiance (estimated)",
-                        plan.get(surfels_).most * 4 * sizeof(float));
+                        plan.get(surfels_).maxCount * 4 * sizeof(float));
 }
 
 void InjectShadowMap::prepare(PassSetup& setup) {

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Adds the light of one view of a light to the surfels in it, by the share of the four nearest texels, weighted bilinearly,
+// Adds the light of one view of a light to the surfels in it, by the fraction of the four nearest texels, weighted bilinearly,
 // that see the surfel.
 #include "shaders/lights/light_view.glsl"
 #include "shaders/lights/lights.glsl"
@@ -37,11 +37,11 @@ void main() {
     // In texels from the center of the first; within half a texel of the border there is none further out.
     const vec2 at = inTexels(view, push.resolution, s.position) - 0.5;
     const ivec2 first = clamp(ivec2(floor(at)), ivec2(0), ivec2(push.resolution) - 2);
-    const vec2 share = clamp(at - vec2(first), 0.0, 1.0);
+    const vec2 along = clamp(at - vec2(first), 0.0, 1.0);
     float visible = 0.0;
     for (int k = 0; k < 4; ++k) {
         const ivec2 corner = ivec2(k & 1, k >> 1);
-        const vec2 weight = mix(1.0 - share, share, vec2(corner));
+        const vec2 weight = mix(1.0 - along, along, vec2(corner));
         if (seen(first + corner, s)) visible += weight.x * weight.y;
     }
     direct.data[i] += vec4(visible * irradiance, 0.0);

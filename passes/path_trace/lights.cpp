@@ -29,7 +29,7 @@ double areaOf(const SurfaceTriangle& t) {
 }
 
 /// Mean luminance of what a triangle emits. A part of the brightest sample is mixed in, so that a lamp
-/// between the samples still gets its share; reflection sampling meets what all samples miss.
+/// between the samples still gets its part; reflection sampling meets what all samples miss.
 double meanEmission(const SurfaceTable& surfaces, uint32_t triangle) {
     constexpr int kSide = 8;
     double sum = 0.0, largest = 0.0;

@@ -16,7 +16,8 @@ struct EnumNames<PathLight> {
 };
 
 /// The reference path tracer (path_tracer.h) as a pass: many samples make it the reference of all others, few
-/// make it the baseline on the chart. It shares no shader and no stream with the methods that it is compared with.
+/// make it the baseline on the chart. It shares no shader and no stream with the methods that it is compared
+/// with.
 class PathTracePass final : public Pass {
  public:
     static constexpr const char* kName = "path_trace";

@@ -182,7 +182,7 @@ PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const
     const Integrator integrator(state, tracer, options.bounces, strategy, options.light);
     const PinholeCamera pinhole(camera, width, height);
 
-    // Share the samples out to independent batches.
+    // Divide the samples among independent batches.
     Job job{.integrator = integrator, .camera = pinhole, .options = options, .result = result};
     job.batches = std::min(options.spp, kBatches);
     for (uint32_t b = 0; b < job.batches; ++b)

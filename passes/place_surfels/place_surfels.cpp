@@ -31,8 +31,8 @@ void PlaceSurfels::plan(PassPlan& plan) {
     const uint64_t points =
         std::min(uint64_t(plan.get(voxels_).voxelCount) * params_.pointsPerVoxel, kMaxPoints);
     Surfels& surfels = plan.get(surfels_);
-    surfels.most = 2 * points;
-    plan.reserve("surfels (estimated)", surfels.most * sizeof(gpu::Surfel));
+    surfels.maxCount = 2 * points;
+    plan.reserve("surfels (estimated)", surfels.maxCount * sizeof(gpu::Surfel));
     plan.scratchBuffer(triangles_, "surfels' triangles", kBatchPoints * sizeof(uint32_t));
     plan.scratchBuffer(rays_, "visibility rays", Surfels::kChunk * sizeof(Ray));
     plan.scratchBuffer(occluded_, "visibility results", Surfels::kChunk * sizeof(uint32_t));
@@ -52,7 +52,8 @@ void PlaceSurfels::record(PassContext& context) {
     CommandStream& stream = context.stream;
     surfels.chunks.clear();
     // No more than planned: the number of voxels was estimated.
-    const uint64_t points = std::min(uint64_t(voxels.voxelCount) * params_.pointsPerVoxel, surfels.most / 2);
+    const uint64_t points =
+        std::min(uint64_t(voxels.voxelCount) * params_.pointsPerVoxel, surfels.maxCount / 2);
     const std::vector<uint32_t> triangles = spreadPoints(context.frame.scene->geometry, points);
     for (uint64_t first = 0; first < points; first += kBatchPoints) {
         const uint32_t batch = uint32_t(std::min<uint64_t>(kBatchPoints, points - first));

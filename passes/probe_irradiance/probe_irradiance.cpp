@@ -30,7 +30,7 @@ void ProbeIrradiance::declare(PassBuilder& builder) {
 }
 
 uint32_t ProbeIrradiance::stride(const Surfels& surfels) const {
-    return uint32_t((surfels.most + params_.maxPoints - 1) / params_.maxPoints) | 1u;
+    return uint32_t((surfels.maxCount + params_.maxPoints - 1) / params_.maxPoints) | 1u;
 }
 
 void ProbeIrradiance::plan(PassPlan& plan) {
@@ -43,7 +43,7 @@ void ProbeIrradiance::plan(PassPlan& plan) {
     plan.buffer(cones_, "cones", coneSet(params_.cones).size() * sizeof(gpu::Cone));
     const Surfels& surfels = plan.get(surfels_);
     plan.buffer(irradiance_, "irradiance of points",
-                (surfels.most / stride(surfels) + 1) * sizeof(glm::vec4));
+                (surfels.maxCount / stride(surfels) + 1) * sizeof(glm::vec4));
 }
 
 void ProbeIrradiance::prepare(PassSetup& setup) {

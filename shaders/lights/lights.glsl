@@ -33,7 +33,7 @@ LightSample samplePunctual(GpuLight light, vec3 position) {
     return s;
 }
 
-// The emissive triangle whose share of the power contains u.
+// The emissive triangle whose part of the power contains u.
 uint pickEmitter(uint emitterCount, float u) {
     uint low = 0u, high = emitterCount - 1u;
     while (low < high) {

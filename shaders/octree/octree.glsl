@@ -43,7 +43,7 @@ uint octreeChild(uint word, uint octant) {
 // Voxels of a level along each axis.
 ivec3 octreeSize(uint level) { return ivec3((octree.shape.resolution + ((1u << level) - 1u)) >> level); }
 
-// Whether a voxel is in a level or one beside it.
+// Whether a voxel is in a level or an adjacent one.
 bool inOctreeBorder(ivec3 voxel, uint level) {
     return all(greaterThanEqual(voxel, ivec3(-1))) && all(lessThanEqual(voxel, octreeSize(level)));
 }

@@ -15,8 +15,8 @@
 // A layout declares `radianceVoxels`, a buffer whose first member is a RadianceGrid named `grid`, and defines, for a position in
 // metres:
 //  - vec4 sampleLevel(uint level, vec3 position, vec3 direction): what a ray along `direction` (unit) meets in a cube of a
-//    voxel's side round `position`, interpolated linearly in space: rgb, the radiance that surfaces there send against
-//    `direction`, weighted by the part of the beam that they cover, W/(m² sr); a, that cover over one voxel's length: 0 where
+//    voxel's face round `position`, interpolated linearly in space: rgb, the radiance that surfaces there send against
+//    `direction`, weighted by the part of the beam that they cover, W/(m² sr); a, that coverage over one voxel's length: 0 where
 //    there is nothing; above 1 where surfaces hide each other;
 //  - uint startLevel(vec3 position, float dither): the level whose voxels a cone that starts there has to be clear of; between
 //    levels it is drawn by `dither`, 0 to 1.

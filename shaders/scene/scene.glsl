@@ -81,7 +81,7 @@ bool alphaCut(GpuMaterial m, SurfacePoint s) {
     return m.alphaMode == ALPHA_MASK && baseColor(m, s, 0.0).a < m.alphaCutoff;
 }
 
-// Share of the light that the surface reflects diffusely: base colour less what the metal takes.
+// Fraction of the light that the surface reflects diffusely: base colour less what the metal takes.
 vec3 diffuseAlbedo(GpuMaterial m, SurfacePoint s, float level) {
     const float metallic = m.metallic * lookup(m.metallicRoughnessTexture, s.texCoords, level).b;
     return baseColor(m, s, level).rgb * (1.0 - metallic);

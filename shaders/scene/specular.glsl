@@ -41,7 +41,7 @@ float schlickWeight(float cosHalf) {
 }
 vec3 specularFresnel(Specular s, float weight) { return mix(s.f0, vec3(s.f90), weight); }
 // What the dielectric layer lets through to the diffuse lobe.
-float diffuseShare(Specular s, float weight) { return 1.0 - mix(s.dielectricF0, s.dielectricF90, weight); }
+float diffuseFraction(Specular s, float weight) { return 1.0 - mix(s.dielectricF0, s.dielectricF90, weight); }
 
 // sqrt(alpha² + (1 - alpha²) cos²): what Smith's masking terms are made of.
 float smithRoot(float cosine, float alpha) {
@@ -59,8 +59,8 @@ float ggx(float cosIn, float cosOut, float sin2Half, float alpha) {
 
 // The shading normal for a surface seen from `out_`: one that leans away has no specular lobe, and is bent back.
 vec3 specularNormal(vec3 normal, vec3 out_) {
-    const float least = 1e-3, cosOut = dot(normal, out_);
-    return cosOut < least ? normalize(normal + out_ * (least - cosOut)) : normal;
+    const float minCosine = 1e-3, cosOut = dot(normal, out_);
+    return cosOut < minCosine ? normalize(normal + out_ * (minCosine - cosOut)) : normal;
 }
 
 #endif

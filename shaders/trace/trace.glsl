@@ -36,7 +36,7 @@ uint tracingIndex(uint instance, uint primitive) {
     return Words(call.chunkFirst).data[instance] + primitive;
 }
 
-// The hit that a backend found, with its distance taken anew from the triangle's plane: backends measure from the
+// The hit that a backend found, with its distance taken again from the triangle's plane: backends measure from the
 // scene's origin, which loses a hit's digits close to the ray's origin.
 Hit makeHit(vec3 origin, vec3 direction, float t, uint instance, uint primitive, vec2 barycentrics) {
     const uint index = tracingIndex(instance, primitive);

@@ -1,4 +1,4 @@
-// The device's building blocks beside the standard library on the host, 2^24 keys.
+// The device's building blocks against the standard library on the host, 2^24 keys.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

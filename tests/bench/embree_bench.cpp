@@ -22,7 +22,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr size_t kRays = 1 << 20;
 constexpr size_t kGrain = 4096;
 
-/// sponza.glb where $VOXRAY_SCENES or the shared folder beside the repository has it.
+/// sponza.glb where $VOXRAY_SCENES or the shared folder next to the repository has it.
 std::filesystem::path sponzaPath() {
     const char* folder = std::getenv("VOXRAY_SCENES");
     return (folder ? std::filesystem::path(folder)

@@ -48,9 +48,9 @@ BENCHMARK(octreeBuild)
     ->MeasureProcessCPUTime()
     ->Unit(benchmark::kMillisecond);
 
-/// Voxels and octree of Sponza made anew, and following spheres of 0.5 m that move by 5 cm: CPU time of both,
-/// and how they compare. The update has that of scene and ray tracer too. The octree's structure is built
-/// anew in either case; light is left out.
+/// Voxels and octree of Sponza made again, and following spheres of 0.5 m that move by 5 cm: CPU time of
+/// both, and how they compare. The update has that of scene and ray tracer too. The octree's structure is
+/// built again in either case; light is left out.
 void octreeUpdate(benchmark::State& state) {
     auto scene = std::make_shared<Scene>(*loadGltf(scenesFolder() / "sponza.glb"));
     MovingSpheres spheres;
@@ -138,9 +138,9 @@ void thinCone(benchmark::State& state) {
         stream.dispatch(program, bindings, push, linearGroups(kCones));
         stream.finish();
     }
-    double cover = 0;
-    for (const glm::vec4& sum : stream.readAs<glm::vec4>(met, kCones)) cover += sum.a / kCones;
-    state.counters["cover"] = cover;
+    double coverage = 0;
+    for (const glm::vec4& sum : stream.readAs<glm::vec4>(met, kCones)) coverage += sum.a / kCones;
+    state.counters["coverage"] = coverage;
 }
 BENCHMARK(thinCone)
     ->ArgNames({"resolution", "directions", "layout", "width_percent"})

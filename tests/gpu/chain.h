@@ -70,7 +70,7 @@ class Chain {
         buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
     }
 
-    /// The build phase once more with surfaces as they are: light is injected anew.
+    /// The build phase once more with surfaces as they are: light is injected again.
     void relight() {
         frame_.changed.emplace();
         ++frame_.sceneVersion;

@@ -5,7 +5,7 @@
 #include "shaders/radiance/radiance_voxels.glsl"
 
 // What a ray along `direction` (unit) meets in a cube of side `footprint` (m) round `position`: rgb, the radiance that surfaces
-// there send against `direction`, weighted by the part of the beam that they cover, W/(m² sr); a, that cover over one footprint's
+// there send against `direction`, weighted by the part of the beam that they cover, W/(m² sr); a, that coverage over one footprint's
 // length: 0 where there is nothing; above 1 where surfaces hide each other. Linear in space and between levels, by density along
 // the ray: a surface covers the same in both.
 vec4 sampleRadiance(vec3 position, float footprint, vec3 direction) {

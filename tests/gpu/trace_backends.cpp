@@ -120,7 +120,7 @@ TEST_F(TraceBackends, HitOnOneTriangleHasItsClosedForm) {
     const std::vector<Ray> rays{
         {{0.25f, 0.5f, 2}, 0, {0, 0, -4}, 10},         // From the front: t counts in directions.
         {{0.25f, 0.5f, -2}, 0, {0, 0, 1}, kInfinity},  // From behind.
-        {{0.75f, 0.75f, 2}, 0, {0, 0, -1}, 10},        // Beside it.
+        {{0.75f, 0.75f, 2}, 0, {0, 0, -1}, 10},        // Next to it.
         {{0.25f, 0.25f, 2}, 0, {0, 0, -1}, 1.5f},      // Ends before it.
         {{0.25f, 0.25f, 2}, 2.5f, {0, 0, -1}, 10},     // Begins behind it.
     };

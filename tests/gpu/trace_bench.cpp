@@ -57,7 +57,7 @@ double cosineAt(const Geometry& g, const Ray& ray, uint32_t triangle) {
     return length > 0 ? std::abs(glm::dot(normal, glm::dvec3(ray.direction))) / length : 1.0;
 }
 
-/// Agreement with Embree: the share of rays with the same triangle (or a miss in both), the number with
+/// Agreement with Embree: the fraction of rays with the same triangle (or a miss in both), the number with
 /// another triangle at the same distance (shared edges, coincident triangles), the rest, and the largest
 /// relative difference of t among the first. A ray that grazes its triangle meets it at a distance that
 /// rounding moves by 1 / cos: `off_plane` is the largest difference of t times that cosine, how far one hit

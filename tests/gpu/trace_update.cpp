@@ -142,7 +142,7 @@ TEST_F(TraceUpdate, CoherentStreamsHitTheSame) {
     }
 }
 
-TEST_F(TraceUpdate, ManyChunksAreBuiltAnewInTheirPlaces) {
+TEST_F(TraceUpdate, ManyChunksAreRebuiltInTheirPlaces) {
     if (!device().info().rayQuery) GTEST_SKIP() << "no ray queries";
     const auto scene = movingSoup();
     const std::vector<Ray> rays = randomRays(2000, 9);

@@ -44,7 +44,7 @@ class ShaderCompile : public testing::Test {
     std::filesystem::path root_;
 };
 
-TEST_F(ShaderCompile, IncludesAreFoundBesideTheFileAndFromTheRoot) {
+TEST_F(ShaderCompile, IncludesAreFoundNextToTheFileAndFromTheRoot) {
     const ShaderModule module = compile();
     EXPECT_EQ(module.stage, VK_SHADER_STAGE_COMPUTE_BIT);
     ASSERT_EQ(module.bindings.size(), 1u);

@@ -261,7 +261,10 @@ class Words(Tree):
     def test_words_of_our_own(self):
         for text in ("// In the middle of a voxel.", "vec3 voxelMiddle;", "int MIDDLE_VOXEL;", "// The sphere's Centre.",
                      "glm::vec3 sceneCentre;", "float formerLevel;", "// Formerly dark.", "// Voxels are renewed.",
-                     "constexpr int kMostRays = 3;", "int LEAST_LEVEL;", "FluxSums sums;", "int rays_at_least;"):
+                     "constexpr int kMostRays = 3;", "int LEAST_LEVEL;", "FluxSums sums;", "int rays_at_least;",
+                     "// Built anew.", "// The file beside it.", "// What judges.", "// The lobe's cells.", "vec4 cover;",
+                     "// Radiance and cover.", "// Its share of light.", "float diffuseShare;", "// A voxel's side.",
+                     "// Many pieces.", "// Exposed faces.", "int levelAhead;"):
             problems = self.problems(text)
             self.assertEqual(len(problems), 1, (text, problems))
             self.assertTrue(problems[0].startswith("passes/x.cpp:2: "), problems)
@@ -271,7 +274,8 @@ class Words(Tree):
             os.remove(os.path.join(self.root, path))
 
     def test_words_of_the_field_and_of_english(self):
-        for text in ("vec3 center;", "// At most three rays, at least one.", "int maxRays;",
+        for text in ("// Triangles cover it; they share a voxel. Surfaces covered by both sides.", "// All in one piece.",
+                     "// A cell of the octree; the exposure.", "bool sharesMemory;", "vec3 center;", "// At most three rays, at least one.", "int maxRays;",
                      "// performer, transformed, reformer"):
             self.assertEqual(self.problems(text), [], text)
 

@@ -22,12 +22,28 @@ WORDS = [
     (r"renew(?:ed|s|al|ing)?", "updated or rebuilt", ()),
     (r"flux sums?", "accumulator", ()),
     (r"voxel writes?", "accumulator", ()),
+    (r"anew", "again or rebuilt", ()),
+    (r"beside", "next to or adjacent", ()),
+    (r"exposed", "unoccluded or visible", ()),
+    (r"judg(?:e[ds]?|ing|ments?)", "reference or compare", ()),
+    (r"strictness", "edge-stopping scale", ()),
+    (r"(?:an?|the|its|their|each|every|ray's|\w+ed) shares?(?: of)?", "part, fraction or weight", ()),
+    (r"shar(?:es?|ed|ing) out", "divide up", ()),
+    (r"(?:lobe|cone|hemisphere)s?(?:'s?)? cells?|cells? of (?:a|the) (?:lobe|cone|hemisphere)", "stratum", ()),
+    (r"voxel(?:'s)? sides?|sides? of (?:a|the|each) voxels?", "face", ()),
+    (r"pieces?", "fragment or part", ("in one piece", "piece of furniture")),
+    (r"cover", "coverage or opacity",
+     (r"(?:to|they|that|can|will|not|together|n't|surfaces|cells|triangles|voxels) cover",)),
+    (r"covers (?:add|of|that|a ray collects)|(?:whose|the|of) covers", "coverages", ()),
 ]
 
 # The same for identifiers alone: in prose the words are English.
 IDENTIFIERS = [
     (r"most", "max", ()),
     (r"least", "min", ("at_least",)),
+    (r"ahead", "forward", ()),
+    (r"cover", "coverage", ()),
+    (r"shares?$", "fraction, weight or part", ()),
 ]
 
 IDENTIFIER = re.compile(r"[A-Za-z_]\w*")

@@ -22,7 +22,7 @@ double meanIndirect(const SceneState& state, const std::string& graph) {
 }
 
 TEST(AwkwardViews, LightOutsideTheGridShinesIntoIt) {
-    // Beside the camera, 2 m before the box's open side.
+    // Next to the camera, 2 m before the box's open side.
     SceneState state = cornell();
     state.lights.at(0).position = state.cameras.at(0).position + glm::vec3(0.5f, 0, 0);
     const double expected = meanIndirect(state, graphYaml({"path_trace, spp: 256, bounces: 4"}));

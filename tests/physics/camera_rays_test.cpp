@@ -20,7 +20,7 @@ double meanIrradianceOf(glm::dvec2 low, glm::dvec2 high) {
     return sum / (double(kSteps) * kSteps);
 }
 
-/// Mean irradiance, W/m², that inject_camera_rays finds on the upper side of the voxel with the corner at the
+/// Mean irradiance, W/m², that inject_camera_rays finds on the upper face of the voxel with the corner at the
 /// origin, over the mean by quadrature. The camera looks along the plane from 1.5 m before the voxel, which
 /// is 2.7 m wide: rays are some twenty times as dense at the near edge, below the light, as at the far one.
 double seenAtAGrazingAngle(const std::string& write) {

@@ -39,8 +39,8 @@ float minimumLevel(const ClipmapWindows& windows, const gpu::RadianceGrid& grid,
     for (uint32_t level = 0; level < windows.firstWhole(); ++level) {
         const gpu::ClipmapWindow w = windows.window(level, camera);
         const glm::vec3 left = w.reach - glm::abs(position - w.center);
-        const float share = std::min({left.x, left.y, left.z}) * w.fall;
-        if (share > 0) return float(level) + std::max(1 - share, 0.0f);
+        const float weight = std::min({left.x, left.y, left.z}) * w.fall;
+        if (weight > 0) return float(level) + std::max(1 - weight, 0.0f);
     }
     return float(windows.firstWhole());
 }
@@ -85,18 +85,18 @@ TEST(Clipmap, SamplesAgreeWithFullGrids) {
         const std::vector<RadianceQuery> queries = heldQueries(radiance(dense).grid, 16, camera, 100000);
         const std::vector<glm::vec4> expected = sampleRadiance(radiance(dense), queries);
         const std::vector<glm::vec4> answers = sampleRadiance(radiance(clipmap), queries);
-        float brightest = 0, worst = 0, worstCover = 0;
+        float brightest = 0, worst = 0, worstCoverage = 0;
         for (size_t i = 0; i < queries.size(); ++i) {
             const glm::vec3 difference = glm::abs(glm::vec3(answers[i] - expected[i]));
             brightest = std::max(brightest, expected[i].r);
             worst = std::max({worst, difference.r, difference.g, difference.b});
-            worstCover = std::max(worstCover, std::abs(answers[i].a - expected[i].a));
+            worstCoverage = std::max(worstCoverage, std::abs(answers[i].a - expected[i].a));
         }
-        std::printf("directions %u: radiance %.2g of the brightest, cover %.2g\n", directions,
-                    worst / brightest, worstCover);
+        std::printf("directions %u: radiance %.2g of the brightest, coverage %.2g\n", directions,
+                    worst / brightest, worstCoverage);
         EXPECT_GT(brightest, 0);
         EXPECT_LT(worst, 4 * std::exp2(-11) * brightest);
-        EXPECT_LT(worstCover, 4 * std::exp2(-11));
+        EXPECT_LT(worstCoverage, 4 * std::exp2(-11));
     }
 }
 
@@ -208,7 +208,7 @@ TEST(Clipmap, NothingJumpsWhenWindowsScroll) {
             brightest = std::max(brightest, before[i].r);
         }
         std::printf("largest change of a sample: %.2g of the brightest\n", largest / brightest);
-        // The transition is an eighth of 16 voxels: so much changes shares by half the step.
+        // The transition is an eighth of 16 voxels: so much changes weights by half the step.
         EXPECT_LE(largest, 0.5f * kStep * brightest);
     }
 }

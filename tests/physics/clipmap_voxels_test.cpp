@@ -158,7 +158,7 @@ glm::dvec4 unpack(glm::uvec2 t) {
             scale * double(bits >> 28 & 16383), double(bits >> 50) / 16383};
 }
 
-/// Radiance times cover summed over the finest level's values, and each of them.
+/// Radiance times coverage summed over the finest level's values, and each of them.
 std::vector<glm::dvec4> finestLevel(Chain& chain) {
     const gpu::RadianceGrid& grid = radiance(chain).grid;
     const ClipmapWindows windows(grid, 64);
@@ -173,8 +173,8 @@ std::vector<glm::dvec4> finestLevel(Chain& chain) {
 }
 
 TEST(ClipmapVoxels, ClosedRoomCatchesAllLight) {
-    // 8 pi W of a point light in a closed room of albedo 0.5. Each side of a voxel in a wall holds albedo /
-    // pi E times its area, but along the room's edges, where covers add up to more than the area.
+    // 8 pi W of a point light in a closed room of albedo 0.5. Each face of a voxel in a wall holds albedo /
+    // pi E times its area, but along the room's edges, where coverages add up to more than the area.
     Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
                 graphYaml({"voxelize_clipmap, resolution: 60, clipmap_resolution: 64", "light_clipmap"}), 8,
                 8);
@@ -185,8 +185,8 @@ TEST(ClipmapVoxels, ClosedRoomCatchesAllLight) {
 }
 
 TEST(ClipmapVoxels, HoldWhatAGridOfTheSceneHolds) {
-    // Materials are the same to the bit, and so is cover but where one route finds a sliver lit and the other
-    // dark, at the back of what is lit. Light differs by how finely the edges of shadows are sampled.
+    // Materials are the same to the bit, and so is coverage but where one route finds a sliver lit and the
+    // other dark, at the back of what is lit. Light differs by how finely the edges of shadows are sampled.
     const std::string scene = "{lights: point}";
     Chain own("cornell", scene,
               graphYaml({"voxelize_clipmap, resolution: 48, clipmap_resolution: 64",
@@ -200,16 +200,16 @@ TEST(ClipmapVoxels, HoldWhatAGridOfTheSceneHolds) {
     const std::vector<glm::dvec4> a = finestLevel(own), b = finestLevel(whole);
     ASSERT_EQ(a.size(), b.size());
     double difference = 0, sum = 0, ownSum = 0;
-    size_t otherCover = 0;
+    size_t otherCoverage = 0;
     for (size_t i = 0; i < a.size(); ++i) {
-        otherCover += a[i].a != b[i].a;
+        otherCoverage += a[i].a != b[i].a;
         difference += std::abs(a[i].g - b[i].g);
         sum += b[i].g;
         ownSum += a[i].g;
     }
-    std::printf("mean difference %.3f, ratio %.4f, other cover %zu of %zu\n", difference / sum, ownSum / sum,
-                otherCover, a.size());
-    EXPECT_LT(double(otherCover) / double(a.size()), 0.001);
+    std::printf("mean difference %.3f, ratio %.4f, other coverage %zu of %zu\n", difference / sum,
+                ownSum / sum, otherCoverage, a.size());
+    EXPECT_LT(double(otherCoverage) / double(a.size()), 0.001);
     EXPECT_LT(difference / sum, 0.01);
     EXPECT_NEAR(ownSum / sum, 1.0, 0.01);
 }
@@ -254,16 +254,16 @@ TEST(ClipmapVoxels, TakeMemoryByTheWindows) {
     Chain chain(cornellFrom({0, 1, 0}), kGraph, 8, 8, 1);
     const gpu::VoxelGrid finest =
         makeVoxelGrid(chain.state().geometry.boundsMin, chain.state().geometry.boundsMax, 80);
-    const std::vector<uint32_t> most = countWindowVoxels(chain.state().geometry, finest, 16);
+    const std::vector<uint32_t> maxVoxels = countWindowVoxels(chain.state().geometry, finest, 16);
     for (const glm::vec3 camera :
          {glm::vec3(0, 1, 0), glm::vec3(0.9f, 0.1f, -0.9f), glm::vec3(-0.4f, 0.6f, -0.3f)}) {
         chain.runFrameFrom(camera);
         for (size_t level = 0; level < clipmap(chain).levels.size(); ++level)
-            EXPECT_LE(clipmap(chain).levels[level].voxels.voxelCount, most[level]) << level;
+            EXPECT_LE(clipmap(chain).levels[level].voxels.voxelCount, maxVoxels[level]) << level;
     }
     // 80, 40 and 20 voxels a side in windows, 10 whole.
     EXPECT_EQ(clipmap(chain).levels.size(), 4u);
-    EXPECT_LT(most[0], countSurfaceVoxels(chain.state().geometry, finest).front() / 8);
+    EXPECT_LT(maxVoxels[0], countSurfaceVoxels(chain.state().geometry, finest).front() / 8);
 }
 
 TEST(ClipmapVoxels, BadInputIsNamed) {

@@ -59,7 +59,7 @@ double difference(const ImageF& a, const ImageF& b) {
 }
 
 TEST(FinalGather, FollowsALightThatMoves) {
-    // What is kept from frame to frame is made anew: the image is that of a graph made where the light is.
+    // What is kept from frame to frame is made again: the image is that of a graph made where the light is.
     for (const Injection& injection : kInjections) {
         SCOPED_TRACE(injection.pass);
         const std::string graph = gatherGraph(injection.withBounces(1), "rays_per_block: 4", filtered(1));

@@ -100,7 +100,7 @@ TEST(LightPaths, EveryWriteGivesTheClosedFormBeforeAWall) {
 
 TEST(LightPaths, BeamsWidenOverMirrorBounces) {
     // One mirror bounce in a room of albedo 0.5: the light's image behind the far wall is 3 m from a wall's
-    // center, its four images beside it are further off the normal; the largest is 0.5 * 2 / 9 W/m².
+    // center, its four images next to it are further off the normal; the largest is 0.5 * 2 / 9 W/m².
     Lit lit("white_room", "{albedo: 0.5, intensity: 2}", "resolution: 25",
             "inject_light_rays, rays_per_light: 1048576, secondary: mirror, bounces: 1, write: max");
     EXPECT_NEAR(lit.mean(lit.indirect, lit.face({0, -0.999f, 0}, 2)), 1.0 / 9, 0.02 / 9);

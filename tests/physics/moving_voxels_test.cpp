@@ -66,7 +66,7 @@ void followWalk(const std::string& graph, size_t stride, const Compare& compare)
     }
 }
 
-TEST(MovingVoxels, AreThoseThatAreMadeAnew) {
+TEST(MovingVoxels, AreThoseThatAreRebuilt) {
     for (const char* method : {"exact", "dominant_axis", "three_axis"}) {
         SCOPED_TRACE(method);
         const std::string graph = graphYaml({std::string("voxelize, resolution: 40, method: ") + method});

@@ -90,7 +90,7 @@ class Content {
         return result;
     }
 
-    /// Two voxels in a row: what has no room beside the front one is hidden.
+    /// Two voxels in a row: what has no room next to the front one is hidden.
     static glm::dvec4 inARow(const glm::dvec4& front, const glm::dvec4& rear) {
         return front + rear * (rear.a > 0 ? std::clamp((1 - front.a) / rear.a, 0.0, 1.0) : 0.0);
     }

@@ -15,13 +15,13 @@ Faces grey(double radiance, double opacity) {
     return faces;
 }
 
-/// A share of all voxels, with random light.
-Content randomContent(glm::uvec3 resolution, uint32_t directions, double share, uint32_t seed = 1) {
+/// A fraction of all voxels, with random light.
+Content randomContent(glm::uvec3 resolution, uint32_t directions, double fraction, uint32_t seed = 1) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
     return Content(resolution, directions, [&](glm::ivec3) {
         Faces faces{};
-        if (uniform(random) >= share) return faces;
+        if (uniform(random) >= fraction) return faces;
         for (glm::dvec4& face : faces) {
             face.a = 0.05 + 0.95 * uniform(random);
             for (int c = 0; c < 3; ++c) face[c] = face.a * 30 * uniform(random);
@@ -217,11 +217,11 @@ TEST(Octree, HasNoSeams) {
 }
 
 TEST(Octree, UniformPartsCollapse) {
-    // A solid block, uniform but for one voxel, and something random beside it.
+    // A solid block, uniform but for one voxel, and something random next to it.
     for (const uint32_t directions : {1u, 6u}) {
-        const Content beside = randomContent({64, 32, 32}, directions, 0.1);
+        const Content neighbour = randomContent({64, 32, 32}, directions, 0.1);
         const Content content({64, 32, 32}, directions, [&](glm::ivec3 v) {
-            if (v.x >= 32) return beside.at(0, v);
+            if (v.x >= 32) return neighbour.at(0, v);
             // What hides what is behind it stays the same in each direction at every size; of a mean all
             // does.
             return grey(v == glm::ivec3(9, 20, 30) ? 3.0 : 2.0, directions == 1 ? 0.75 : 1.0);
@@ -233,8 +233,8 @@ TEST(Octree, UniformPartsCollapse) {
         tree.collapse();
         const OctreeSize& size = tree.size;
 
-        // Of the block's 32^3 leaves those beside the odd one stay: eight; on each level above seven siblings
-        // of its parent.
+        // Of the block's 32^3 leaves those next to the odd one stay: eight; on each level above seven
+        // siblings of its parent.
         EXPECT_EQ(size.nodes[0], full.nodes[0] - 32768 + 8);
         for (uint32_t level = 1; level < 5; ++level)
             EXPECT_EQ(size.nodes[level], full.nodes[level] - (32768u >> 3 * level) + 8) << "level " << level;

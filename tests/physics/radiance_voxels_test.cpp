@@ -1,4 +1,4 @@
-// Radiance voxels: what surfaces send and cover, at all scales, against closed forms.
+// Radiance voxels: what surfaces send and how much of a beam they cover, at all scales, against closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,8 +16,9 @@ std::string filterGraph(const std::string& voxelize, const std::string& filter =
     return graphYaml({"voxelize, " + voxelize, "inject_light_rays, bounces: 0", "filter_voxels, " + filter});
 }
 
-/// Covers that a ray collects from `from` on, in steps of half a footprint.
-double coverAlong(const Chain& chain, glm::vec3 from, glm::vec3 direction, double length, float footprint) {
+/// Coverages that a ray collects from `from` on, in steps of half a footprint.
+double coverageAlong(const Chain& chain, glm::vec3 from, glm::vec3 direction, double length,
+                     float footprint) {
     std::vector<RadianceQuery> queries;
     for (float t = 0; t < length; t += 0.5f * footprint)
         queries.push_back({from + t * direction, footprint, direction});
@@ -33,7 +34,7 @@ TEST(RadianceVoxels, AWallCoversARayOnceAtEveryScaleAndAngle) {
     for (const glm::vec3 towards :
          {glm::vec3(1, 0, 0), glm::vec3(0.8f, 0.36f, 0.48f), glm::vec3(0.3f, 0, -0.9f)})
         for (const float footprint : {voxel, 1.5f * voxel, 2 * voxel, 5 * voxel})
-            EXPECT_NEAR(coverAlong(chain, {0, 0, 0}, glm::normalize(towards), 3.0, footprint), 1.0, 0.05)
+            EXPECT_NEAR(coverageAlong(chain, {0, 0, 0}, glm::normalize(towards), 3.0, footprint), 1.0, 0.05)
                 << towards.x << ' ' << towards.y << ' ' << towards.z << ", footprint " << footprint / voxel;
 }
 

@@ -1,4 +1,4 @@
-// The layout svo of filter_voxels in the whole chain, beside full grids.
+// The layout svo of filter_voxels in the whole chain, next to full grids.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,17 +37,17 @@ TEST(SvoLayout, AgreesWithTheDenseLayout) {
                                                                  directions == "1" ? 200000 : 1000000);
         const std::vector<glm::vec4> a = sampleRadiance(denseVoxels, queries),
                                      b = sampleRadiance(octree, queries);
-        double worst = 0, worstCover = 0, brightest = 0;
+        double worst = 0, worstCoverage = 0, brightest = 0;
         for (size_t i = 0; i < queries.size(); ++i) {
             brightest = std::max<double>(brightest, glm::compMax(glm::vec3(a[i])));
             worst = std::max<double>(worst, glm::compMax(glm::abs(glm::vec3(a[i] - b[i]))));
-            worstCover = std::max<double>(worstCover, std::abs(a[i].a - b[i].a));
+            worstCoverage = std::max<double>(worstCoverage, std::abs(a[i].a - b[i].a));
         }
         EXPECT_GT(brightest, 0.05);
         EXPECT_LT(worst, 3 * std::exp2(-11) * brightest);
-        EXPECT_LT(worstCover, 3 * std::exp2(-11) * 2);
-        std::printf("directions %s: radiance differs by %.2g of the brightest, cover by %.2g\n",
-                    directions.c_str(), worst / brightest, worstCover);
+        EXPECT_LT(worstCoverage, 3 * std::exp2(-11) * 2);
+        std::printf("directions %s: radiance differs by %.2g of the brightest, coverage by %.2g\n",
+                    directions.c_str(), worst / brightest, worstCoverage);
     }
 }
 

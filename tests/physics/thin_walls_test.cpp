@@ -66,7 +66,7 @@ TEST(ThinWalls, OneDirectionMakesThemBrown) {
     }
 }
 
-/// Indirect light by gather rays in a dark room beside a lit one, 5 cm apart, relative to that in the lit
+/// Indirect light by gather rays in a dark room next to a lit one, 5 cm apart, relative to that in the lit
 /// one.
 double leakOfGatherRays(const std::string& inject) {
     const auto seen = [&](const std::string& view) {
@@ -80,7 +80,7 @@ double leakOfGatherRays(const std::string& inject) {
 }
 
 TEST(ThinWalls, RaysLeakWhereVoxelsAreShared) {
-    // Light rays never enter the dark room. Voxel rays light a voxel's side by points all over it: where
+    // Light rays never enter the dark room. Voxel rays light a voxel's face by points all over it: where
     // floor and ceiling of both rooms share voxels, by those of the lit room, too.
     EXPECT_EQ(leakOfGatherRays("inject_light_rays, rays_per_light: 262144"), 0.0);
     EXPECT_LT(leakOfGatherRays("inject_voxel_rays, rays_per_point: 16"), 0.005);

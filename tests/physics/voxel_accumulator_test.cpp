@@ -47,18 +47,19 @@ struct Merged {
     /// Largest distance of any lit face's irradiance from `expected` (of the first channel; the others' is
     /// 2 and 4 times that), relative to the channel's.
     double worst(double expected) const {
-        double most = 0;
+        double largest = 0;
         int faces = 0;
         for (size_t face = 0; face < area.size(); ++face) {
             if (area[face] <= 0) continue;
             ++faces;
             for (size_t c = 0; c < 3; ++c) {
                 const double channel = expected * double(1u << c);
-                most = std::max(most, std::abs(flux[face * 3 + c] / (area[face] * faceArea) / channel - 1));
+                largest =
+                    std::max(largest, std::abs(flux[face * 3 + c] / (area[face] * faceArea) / channel - 1));
             }
         }
         EXPECT_GT(faces, 100);
-        return most;
+        return largest;
     }
     std::vector<float> flux, area;
     std::vector<gpu::VoxelMaterial> materials;
@@ -106,7 +107,7 @@ TEST(VoxelAccumulator, WhiteBoundsTheMovingAverage) {
     }
 }
 
-TEST(VoxelAccumulator, AreaIsExposedWhereSamplesFell) {
+TEST(VoxelAccumulator, AreaIsUnoccludedWhereSamplesFell) {
     for (const Write write : {Write::Average, Write::Max, Write::MovingAverage, Write::None}) {
         const Merged merged(write, 3, 1, 0);
         for (size_t voxel = 0; voxel < merged.materials.size(); ++voxel)

@@ -101,8 +101,8 @@ struct Found {
     uint32_t steps = 0;  ///< Voxels before it.
 };
 
-/// The first occupied voxel between two points in units. Voxel by voxel: of the planes ahead the one reached
-/// first, upwards before downwards, several where they are reached at once.
+/// The first occupied voxel between two points in units. Voxel by voxel: of the planes in front the one
+/// reached first, upwards before downwards, several where they are reached at once.
 Found bruteForce(const Voxels& voxels, glm::dvec3 start, glm::dvec3 end, double unit) {
     Found found;
     found.voxel = glm::ivec3(glm::floor(start / unit));
@@ -151,8 +151,8 @@ std::vector<Ray> randomRays(const gpu::VoxelGrid& grid, size_t count, uint32_t s
 std::vector<Ray> adversarialRays(const gpu::VoxelGrid& grid, size_t count) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> uniform(0, 1);
-    const auto any = [&](int least, int largest) {
-        return std::uniform_int_distribution<int>(least, largest)(random);
+    const auto any = [&](int smallest, int largest) {
+        return std::uniform_int_distribution<int>(smallest, largest)(random);
     };
     std::vector<Ray> rays(count);
     for (size_t i = 0; i < count; ++i) {

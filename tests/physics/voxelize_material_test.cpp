@@ -151,7 +151,7 @@ TEST(VoxelizeMaterial, AlphaMasksLeaveHoles) {
     }
 }
 
-TEST(VoxelizeMaterial, OpacityIsTheShareOfSubSamples) {
+TEST(VoxelizeMaterial, OpacityIsTheFractionOfSubSamples) {
     // A square that covers the lower left quarter of one voxel, in a grid that a far speck makes 4 voxels
     // long.
     const float voxel = 1 / 3.75f;

@@ -1,4 +1,4 @@
-// The three methods of voxelization beside each other: what each misses or adds, and what they agree on.
+// The three methods of voxelization next to each other: what each misses or adds, and what they agree on.
 //
 //     build/release/tests/tests_chain --gtest_filter='VoxelizeMethods.*'
 //
@@ -73,7 +73,7 @@ std::shared_ptr<const Scene> arch() {
     return triangleScene(corners);
 }
 
-/// Share of points spread over all triangles that lie in empty voxels.
+/// Fraction of points spread over all triangles that lie in empty voxels.
 double missedPoints(const std::shared_ptr<const Scene>& scene, const std::string& parameters) {
     const Voxels voxels = voxelize(scene, parameters + ", visibility_rays: 0");
     const Geometry g = evaluate(scene, 0.0).geometry;

@@ -32,7 +32,7 @@ profiles:
   small: {image: {width: 160}, reference.spp: 64, sweep.voxelize.resolution: [32], scene.time: 1}
 )";
 
-/// One or two changes: a byte, a cut, a doubled piece, or a word of YAML somewhere.
+/// One or two changes: a byte, a cut, a doubled range, or a word of YAML somewhere.
 std::string mutate(std::mt19937& random) {
     static const std::vector<std::string> words{"[",
                                                 "]",

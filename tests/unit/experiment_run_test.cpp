@@ -132,7 +132,7 @@ TEST_F(RunTest, ReferenceIsCachedByWhatItDependsOn) {
         EXPECT_EQ(Truth::runs, ++runs) << change;
     }
 
-    // What the graph does is not part of it, and a damaged cache is rendered anew
+    // What the graph does is not part of it, and a damaged cache is rendered again
     runExperiment(parseExperiment(config(""), "fake.yaml", {"", {"constant.value=2"}}), options(),
                   registry());
     EXPECT_EQ(Truth::runs, runs);

@@ -92,7 +92,7 @@ TEST_F(ImageFiles, PngRoundsAndReadsBackAsLinear) {
     EXPECT_NEAR(linear.data[6], 10 / 255.0 / 12.92, 1e-6);
 }
 
-TEST_F(ImageFiles, PreviewIsClampedSrgbOfTheExposedImage) {
+TEST_F(ImageFiles, PreviewIsClampedSrgbOfTheImageAtItsExposure) {
     ImageF linear(4, 1, 1);
     linear.data = {0.09f, -3.0f, 7.0f, 0.001f};
     const ImageF display = preview(linear, 1.0f);

@@ -83,8 +83,8 @@ def passes(rows: list[dict]) -> list[dict]:
              ("gather", "frame", 0.7), ("composite", "frame", 0.05))
     table = []
     for row in rows:
-        for name, phase, share in parts if row["status"] == "ok" else ():
-            ms = share * row["build_ms" if phase == "build" else "frame_ms_median"]
+        for name, phase, fraction in parts if row["status"] == "ok" else ():
+            ms = fraction * row["build_ms" if phase == "build" else "frame_ms_median"]
             table.append({"variant": row["variant"], "pass": name, "phase": phase, "ms_median": ms,
                           "ms_p05": 0.9 * ms, "ms_p95": 1.1 * ms, "rays": 1000, "voxel_steps": 0,
                           "memory_bytes": 2**20, "scratch_bytes": 2**19})

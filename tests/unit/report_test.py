@@ -248,7 +248,7 @@ class PartOfARun(ReportTest):
         self.assertEqual(ranking.score_marks(results, _NRMSE, "nrmse@floor"), {"b": "best", "a": "tie"})
         self.assertEqual(ranking.beaten_by(results, _NRMSE, "nrmse@floor", "a", 0.7), ["black"])
 
-    def test_each_variant_is_shown_beside_its_own_reference(self):
+    def test_each_variant_is_shown_next_to_its_own_reference(self):
         run = made_up.manifest([])
         run["references"] = [{**run["reference"], "folder": "reference", "variants": ["a"]},
                              {**run["reference"], "folder": "reference.2", "variants": ["b"]}]

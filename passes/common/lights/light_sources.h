@@ -28,7 +28,7 @@ double surfaceArea(const Geometry& geometry);
 /// W, an upper bound over the colour channels.
 double totalPower(const std::vector<LightSource>& sources);
 
-/// Irradiance of the scene's surfaces, W/m², if each caught its share by area of all power: a scale for sums.
+/// Irradiance of the scene's surfaces, W/m², if each caught its part by area of all power: a scale for sums.
 float meanIrradiance(const std::vector<LightSource>& sources, const Geometry& geometry);
 
 /// The scene's bounding sphere, a little larger, from which parallel light and the environment shine.

@@ -24,7 +24,7 @@ struct ConeBounceParams {
     }
 };
 
-/// Light that voxels throw at each other: irradiance of each voxel's sides by a set of cones through radiance
+/// Light that voxels throw at each other: irradiance of each voxel's faces by a set of cones through radiance
 /// voxels. Docs: docs/cone-tracing.md.
 class ConeBounces {
  public:
@@ -35,13 +35,13 @@ class ConeBounces {
     /// @param keeps whether memory is kept from frame to frame; else it is scratch, for release() to free.
     void plan(PassPlan& plan, uint64_t voxels, bool keeps);
     void prepare(PassSetup& setup, const RadianceVoxels& radiance);
-    /// Flux that arrives at the voxels' sides from what `radiance` holds now, into `flux()`.
+    /// Flux that arrives at the voxels' faces from what `radiance` holds now, into `flux()`.
     /// @param injected light, which tells the insides of solids.
     void gather(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& injected,
                 const RadianceVoxels& radiance);
     /// As VoxelIrradiance::indirect.
     const LargeBuffer& flux() const { return flux_; }
-    /// The same, to keep: the next gather() begins anew.
+    /// The same, to keep: the next gather() begins again.
     LargeBuffer takeFlux() { return std::move(flux_); }
     /// Frees what gather() took. Waits for the device.
     void release(CommandStream& stream);

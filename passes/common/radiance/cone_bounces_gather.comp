@@ -17,26 +17,26 @@ layout(push_constant, scalar) uniform Push {
     uint cones;
 } push;
 
-// The normal of a voxel's surfaces that face `axis` (unit). Of one plane it is their mean normal, on that side. The length of the
+// The normal of a voxel's surfaces that face `axis` (unit). Of one plane it is their mean normal, towards `axis`. The length of the
 // mean tells how far normals are spread: where it is the root of 1/2, as where two planes at right angles meet, or less, surfaces
 // are taken to face along the axis.
-vec3 sideNormal(vec3 mean, vec3 axis) {
+vec3 meanNormal(vec3 mean, vec3 axis) {
     const float flatness = clamp(2.0 * dot(mean, mean) - 1.0, 0.0, 1.0);
     return flatness > 0.0 ? normalize(mix(axis, normalize(dot(mean, axis) < 0.0 ? -mean : mean), flatness)) : axis;
 }
 
 // W
-vec3 gather(uint voxel, uint side) {
-    const uint face = 6u * voxel + side;
-    const float area = faceArea(face) * push.grid.voxelSize * push.grid.voxelSize;
+vec3 gather(uint voxel, uint face) {
+    const uint number = 6u * voxel + face;
+    const float area = faceArea(number) * push.grid.voxelSize * push.grid.voxelSize;
     const VoxelMaterial m = voxelMaterial(voxel);
     // What counts as the inside of a solid by the injected light, whose rays know what is hidden, stays dark.
-    const bool inside = faceFlux(face) == vec3(0.0) && isBackOfLit(m, voxel, side, 0.0);
+    const bool inside = faceFlux(number) == vec3(0.0) && isBackOfLit(m, voxel, face, 0.0);
     if (area == 0.0 || inside) return vec3(0.0);
     const uvec3 coordinates = voxelCoordinates.data[voxel];
-    const vec3 normal = sideNormal(m.normal, faceNormal(side));
+    const vec3 normal = meanNormal(m.normal, faceNormal(face));
     const vec3 center = push.grid.origin + (vec3(coordinates) + 0.5) * push.grid.voxelSize;
-    // Where cones stand in their cells wanders from voxel to voxel: the additive recurrence of Roberts 2018, along each axis.
+    // Where cones stand in their strata wanders from voxel to voxel: the additive recurrence of Roberts 2018, along each axis.
     const vec3 dither = fract(vec3(0.5) + float(coordinates.x) * vec3(0.754877666, 0.569840296, 0.819172513) +
                               float(coordinates.y) * vec3(0.569840296, 0.754877666, 0.671043607) +
                               float(coordinates.z) * vec3(0.671043607, 0.819172513, 0.549700478));

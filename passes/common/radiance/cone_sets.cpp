@@ -7,7 +7,7 @@
 namespace voxray {
 namespace {
 
-/// Cells side by side round the normal.
+/// Strata next to each other round the normal.
 struct Ring {
     uint32_t cones;
     double within;  ///< The part of an even hemisphere's irradiance that comes from this ring and those in

@@ -6,7 +6,7 @@
 
 namespace voxray {
 
-/// Cones that share out the hemisphere over a surface, in rings round its normal. Weights are exact: each
+/// Cones that divide up the hemisphere over a surface, in rings round its normal. Weights are exact: each
 /// cone stands for a stratum of its ring, and weighs as the stratum's cosine-weighted solid angle does.
 /// @param count one of coneSetSizes().
 std::vector<gpu::Cone> coneSet(uint32_t count);

@@ -3,7 +3,7 @@
 // Makes a surfel of each hit, on the side that the ray came from. Russian roulette by albedo ends rays early; survivors'
 // reflectance and area make up for those. Surfels are appended in any order; nothing that follows depends on it.
 //
-// Camera rays are spread evenly over the image, so the surface that one stands for is the solid angle of its share of the image,
+// Camera rays are spread evenly over the image, so the surface that one stands for is the solid angle of its part of the image,
 // times distance², over the cosine to the surface. Points that are spread evenly over surfaces send cosine-distributed rays that
 // arrive evenly over what they reach (the kernel cos cos / distance² is the same from both ends): a ray hands its area on.
 #include "shaders/compute/linear_index.glsl"

@@ -25,9 +25,9 @@ struct FeedbackParams : WriteParams {
 
 /// Light of surfels into voxels: their direct irradiance is merged; then, one bounce an iteration, rays from
 /// every surfel find what reflects light to it. In the first iteration that is direct light, measured at the
-/// hits by shadow rays: it differs most within a voxel (a sill in the sun beside a dark floor), and a voxel's
-/// mean of it would lead light through walls. Later iterations read at their hits the indirect light that
-/// the one before left in the voxels. Source: radiosity by iteration, Goral et al. 1984.
+/// hits by shadow rays: it differs most within a voxel (a sill in the sun next to a dark floor), and a
+/// voxel's mean of it would lead light through walls. Later iterations read at their hits the indirect light
+/// that the one before left in the voxels. Source: radiosity by iteration, Goral et al. 1984.
 class SurfelFeedback {
  public:
     /// Describes the memory, the result's included. @param lightSamples shadow rays from each point to the
