@@ -98,7 +98,8 @@ struct MeasureSettings {
         return std::tuple{
             field("frames", &MeasureSettings::frames,
                   "Frames that are timed. The first is compared with the reference.", 1u, 100000u),
-            field("warmup", &MeasureSettings::warmup, "Frames before them that are not timed.", 0u, 100000u),
+            field("warmup", &MeasureSettings::warmup, "Frames before the measured ones, not timed.", 0u,
+                  100000u),
             field("compare_every", &MeasureSettings::compareEvery,
                   "0: frame 0 alone is compared with a reference. n: every n-th measured frame is, each with "
                   "the "
@@ -155,7 +156,7 @@ struct CameraSettings {
         return std::tuple{
             field("position", &CameraSettings::position, "Where the camera stands, metres.", low, high),
             field("target", &CameraSettings::target, "The point that it looks at, metres.", low, high),
-            field("up", &CameraSettings::up, "Which way is up in the picture.", low, high),
+            field("up", &CameraSettings::up, "The direction that is up in the image.", low, high),
             field("fov_deg", &CameraSettings::fovDegrees, "Vertical field of view in degrees.", 1.0f, 179.0f),
             field("move", &CameraSettings::move,
                   "How far the camera moves from one frame to the next, metres: warm-up frames lead up to "

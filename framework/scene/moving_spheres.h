@@ -26,7 +26,8 @@ struct MovingSpheres {
             field("swing", &MovingSpheres::swing,
                   "How far each moves from its place, to this side and then as far to the other, metres.",
                   glm::vec3(-1e4f), glm::vec3(1e4f)),
-            field("period", &MovingSpheres::period, "Seconds to both sides and back.", 0.001f, 1e6f),
+            field("period", &MovingSpheres::period, "Seconds of a whole swing, to both sides and back.",
+                  0.001f, 1e6f),
             field("albedo", &MovingSpheres::albedo, "Of all spheres.", glm::vec3(0.0f), glm::vec3(1.0f))};
     }
 };

@@ -27,8 +27,8 @@ class GatherCones final : public Pass {
                       "Cones that divide up the hemisphere; the set of 6 is that of Arnebäck 2017.",
                       coneSetSizes()),
                 field("stride", &Params::stride,
-                      "Traces every n-th texel of the g-buffer; the others take what those round them "
-                      "see that lie on the same surface.",
+                      "Traces every n-th texel of the g-buffer; the others take the mean of the traced ones "
+                      "around them that lie on the same surface.",
                       1u, 64u),
                 field("specular", &Params::specular,
                       "Cones that divide up the specular lobe of each texel of the g-buffer; a mirror takes "

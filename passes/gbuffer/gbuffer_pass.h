@@ -42,7 +42,7 @@ class GBufferPass final : public Pass {
                       "rays: camera rays, which meet the same surfaces as every other ray; on a CPU a tenth "
                       "of raster's time in a large scene. raster: for GPUs whose rays are slow or missing."),
                 field("samples_per_pixel_edge", &Params::samplesPerPixelEdge,
-                      "Samples along each side of a pixel: 2 takes 4 a pixel, on a regular grid. Passes that "
+                      "Samples along each edge of a pixel: 2 takes 4 a pixel, on a regular grid. Passes that "
                       "read the g-buffer do their work for each.",
                       1u, 8u),
                 field("normal_maps", &Params::normalMaps,

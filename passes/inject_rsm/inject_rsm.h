@@ -21,7 +21,7 @@ class InjectRsm final : public Pass {
         uint32_t rsmResolution = 512;
         static constexpr auto schema() {
             return std::tuple_cat(std::tuple{field("rsm_resolution", &Params::rsmResolution,
-                                                   "Texels along a side of each view.", 1u, 4096u)},
+                                                   "Texels along an edge of each view.", 1u, 4096u)},
                                   LightPathParams::schema());
         }
     };

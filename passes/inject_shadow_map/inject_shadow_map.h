@@ -25,7 +25,7 @@ class InjectShadowMap final : public Pass {
         uint32_t shadowResolution = 1024;
         static constexpr auto schema() {
             return std::tuple_cat(std::tuple{field("shadow_resolution", &Params::shadowResolution,
-                                                   "Texels along a side of each shadow map.", 2u, 8192u)},
+                                                   "Texels along an edge of each shadow map.", 2u, 8192u)},
                                   FeedbackParams::schema());
         }
     };

@@ -29,7 +29,7 @@ class LightClipmap final : public Pass {
         static constexpr auto schema() {
             return std::tuple_cat(
                 std::tuple{field("shadow_resolution", &Params::shadowResolution,
-                                 "Texels along a side of each shadow map; a point light has six.", 2u,
+                                 "Texels along an edge of each shadow map; a point light has six.", 2u,
                                  4096u)},
                 ConeBounceParams::schema());
         }

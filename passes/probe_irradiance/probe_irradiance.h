@@ -23,8 +23,8 @@ class ProbeIrradiance final : public Pass {
         uint32_t coneSets = 16;
         static constexpr auto schema() {
             return std::tuple{
-                field("max_points", &Params::maxPoints, "Points, at most, out of those of place_surfels.", 1u,
-                      1u << 20),
+                field("max_points", &Params::maxPoints,
+                      "Largest number of points, taken from those of place_surfels.", 1u, 1u << 20),
                 field("cones", &Params::cones, "Cones from each point.", coneSetSizes()),
                 field("cone_sets", &Params::coneSets,
                       "Sets of cones from each point, whose directions and levels are shifted against each "

@@ -27,7 +27,7 @@ struct LightPathParams : WriteParams {
         return std::tuple_cat(
             WriteParams::schema(),
             std::tuple{field("secondary", &LightPathParams::secondary,
-                             "How rays go on from what they hit: none gives direct light only; mirror is the "
+                             "How rays continue after a hit: none gives direct light only; mirror is the "
                              "thesis's, about the normal and times the albedo; diffuse is a Lambert "
                              "surface's, with Russian roulette by albedo."),
                        field("bounces", &LightPathParams::bounces,

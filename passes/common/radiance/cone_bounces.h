@@ -17,8 +17,8 @@ struct ConeBounceParams {
     static constexpr auto schema() {
         return std::tuple{
             field("bounces", &ConeBounceParams::bounces,
-                  "Bounces of light from voxel to voxel by cones, on top of those that the light has made.",
-                  0u, 32u),
+                  "Bounces of light from voxel to voxel by cones, in addition to those of the injection.", 0u,
+                  32u),
             field("bounce_cones", &ConeBounceParams::bounceCones,
                   "Cones from each face of a voxel in a bounce.", coneSetSizes())};
     }

@@ -33,7 +33,7 @@ struct WriteParams {
                   "and loses writes."),
             field("white", &WriteParams::white,
                   "Irradiance, W/m², that white stands for in the 8 bits of moving_average; what is brighter "
-                  "is cut off.",
+                  "is clamped.",
                   1e-6f, 1e9f)};
     }
 };

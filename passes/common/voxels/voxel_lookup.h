@@ -31,7 +31,7 @@ class VoxelLookupPass : public Pass {
                 field("lookup", &Params::lookup,
                       "trilinear: at the surface. seven_tap: there and at one voxel's distance along each "
                       "axis, which hides holes in the voxels and blurs (Magalhães 2020, listing 4.8; there "
-                      "empty voxels count as black, here they have no say).")};
+                      "empty voxels count as black, here they are left out).")};
         }
     };
 
