@@ -1,6 +1,6 @@
 """Scenes that nobody tuned for, small: no cell of scene × injection × gather is worse than generality.csv has it.
 
-`generality_test.py record` (with the program in VOXRAY_PROGRAM, the repository in VOXRAY_SOURCE) writes that table anew:
+`generality_test.py record` (with the program in VOXRAY_PROGRAM, the repository in VOXRAY_SOURCE) writes that table again:
 the scores of the config's own seed, and how far they may move when random numbers change. That is five times their
 standard deviation over three seeds, its relative size pooled over the gathers of an injection.
 """

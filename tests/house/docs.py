@@ -2,13 +2,14 @@
 """Checks the documentation against the tree.
 
 Links to files lead somewhere; every package has its reason in docs/dependencies.md; a block of code under
-"<!-- file: PATH -->" is that file, word for word. docs.py [ROOT]; exit status 1 where one is not so.
+"<!-- file: PATH -->" is that file, word for word; text ends at column 120 (tables and code may be wider). docs.py [ROOT]; exit status 1 where one is not so.
 """
 import os
 import re
 import sys
 
 LINK = re.compile(r"\]\(([^)\s]+)\)")
+COLUMNS = 120
 QUOTED = re.compile(r"<!-- file: (\S+) -->\n```\w*\n(.*?)```\n", re.S)
 
 
@@ -24,10 +25,20 @@ def read(root, path):
         return file.read()
 
 
+def long_lines(text):
+    """Numbers of the lines of text, not of tables and code, that are too long."""
+    is_code = False
+    for number, line in enumerate(text.splitlines(), 1):
+        is_code ^= line.lstrip().startswith("```")
+        if len(line) > COLUMNS and not is_code and not line.lstrip().startswith("|"):
+            yield number
+
+
 def check(root):
     problems = []
     for page in pages(root):
         text = read(root, page)
+        problems += [f"{page}:{number}: a line longer than {COLUMNS} columns" for number in long_lines(text)]
         for target in LINK.findall(text):
             path = target.split("#")[0]
             if re.match(r"\w+:", target) or not path:

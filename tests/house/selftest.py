@@ -178,6 +178,13 @@ class Docs(Tree):
         self.write("docs/papers/page.md", "See [this](nowhere.md).\n")
         self.assertEqual(len(docs.check(self.root)), 1)
 
+    def test_long_lines_of_text(self):
+        wide = 121 * "x"
+        self.write("docs/page.md", f"| {wide} |\n```\n{wide}\n```\n{wide[1:]}\n")
+        self.assertEqual(docs.check(self.root), [])
+        self.write("docs/page.md", f"fine\n{wide}\n")
+        self.assertEqual(docs.check(self.root), ["docs/page.md:2: a line longer than 120 columns"])
+
     def test_package_without_a_reason(self):
         self.write("docs/dependencies.md", "| `gcc` | compiles |\n")
         self.assertEqual(len(docs.check(self.root)), 1)

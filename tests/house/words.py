@@ -33,7 +33,7 @@ WORDS = [
     (r"voxel(?:'s)? sides?|sides? of (?:a|the|each) voxels?", "face", ()),
     (r"pieces?", "fragment or part", ("in one piece", "piece of furniture")),
     (r"cover", "coverage or opacity",
-     (r"(?:to|they|that|can|will|not|together|n't|surfaces|cells|triangles|voxels) cover",)),
+     (r"(?:to|they|that|can|will|not|together|n't|surfaces|cells|triangles|voxels) cover", r"^\W*cover")),
     (r"covers (?:add|of|that|a ray collects)|(?:whose|the|of) covers", "coverages", ()),
 ]
 
