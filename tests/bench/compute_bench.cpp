@@ -1,4 +1,4 @@
-// The device's building blocks against the standard library on the host, 2^24 keys.
+// The device's building blocks against the standard library on the host, 2^24 keys, same answers.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -37,11 +37,28 @@ void report(benchmark::State& state) {
         benchmark::Counter(double(state.iterations()) * kCount * 1e-6, benchmark::Counter::kIsRate);
 }
 
+/// Bits set in the words before each.
+void scanOnHost(const std::vector<uint32_t>& words, std::vector<uint32_t>& before) {
+    std::transform_exclusive_scan(words.begin(), words.end(), before.begin(), 0u, std::plus<>(),
+                                  [](uint32_t word) { return uint32_t(std::popcount(word)); });
+}
+
+/// The indices of the set bits of the first kCount. @return their number.
+size_t compactOnHost(const std::vector<uint32_t>& words, std::vector<uint32_t>& indices) {
+    size_t count = 0;
+    for (uint32_t i = 0; i < kCount; ++i)
+        if (words[i / 32] >> (i % 32) & 1u) indices[count++] = i;
+    return count;
+}
+
 void computeScanOnDevice(benchmark::State& state) {
     OnDevice d;
     const PrefixSum prefixSum(d.device, d.compiler, PrefixSum::Of::SetBits);
     const Buffer before(d.device, "before", d.buffer.bytes());
     for (auto _ : state) benchmark::DoNotOptimize(prefixSum.run(d.stream, d.buffer, before, kCount));
+    std::vector<uint32_t> expected(kCount);
+    scanOnHost(d.keys, expected);
+    if (d.stream.readAs<uint32_t>(before, kCount) != expected) state.SkipWithError("the sums differ");
     report(state);
 }
 BENCHMARK(computeScanOnDevice)->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -50,8 +67,7 @@ void computeScanOnHost(benchmark::State& state) {
     const std::vector<uint32_t> keys = randomKeys();
     std::vector<uint32_t> before(kCount);
     for (auto _ : state) {
-        std::transform_exclusive_scan(keys.begin(), keys.end(), before.begin(), 0u, std::plus<>(),
-                                      [](uint32_t word) { return uint32_t(std::popcount(word)); });
+        scanOnHost(keys, before);
         benchmark::DoNotOptimize(before.back());
     }
     report(state);
@@ -62,8 +78,12 @@ void computeCompactOnDevice(benchmark::State& state) {
     OnDevice d;
     const Compaction compaction(d.device, d.compiler);
     const Buffer indices(d.device, "indices", d.buffer.bytes());
-    // Random words have half of their bits set: as many items as keys.
-    for (auto _ : state) benchmark::DoNotOptimize(compaction.run(d.stream, d.buffer, indices, kCount / 32));
+    // kCount items, half of them flagged.
+    uint32_t count = 0;
+    for (auto _ : state) count = compaction.run(d.stream, d.buffer, indices, kCount / 32);
+    std::vector<uint32_t> expected(kCount);
+    expected.resize(compactOnHost(d.keys, expected));
+    if (d.stream.readAs<uint32_t>(indices, count) != expected) state.SkipWithError("the indices differ");
     report(state);
 }
 BENCHMARK(computeCompactOnDevice)->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -71,12 +91,7 @@ BENCHMARK(computeCompactOnDevice)->Unit(benchmark::kMillisecond)->UseRealTime();
 void computeCompactOnHost(benchmark::State& state) {
     const std::vector<uint32_t> words = randomKeys();
     std::vector<uint32_t> indices(kCount);
-    for (auto _ : state) {
-        size_t count = 0;
-        for (uint32_t i = 0; i < kCount; ++i)
-            if (words[i / 32] >> (i % 32) & 1u) indices[count++] = i;
-        benchmark::DoNotOptimize(count);
-    }
+    for (auto _ : state) benchmark::DoNotOptimize(compactOnHost(words, indices));
     report(state);
 }
 BENCHMARK(computeCompactOnHost)->Unit(benchmark::kMillisecond)->UseRealTime();
