@@ -9,8 +9,7 @@
 namespace voxray {
 namespace {
 
-constexpr VoxelWalk kWalk = VoxelWalk::Bricks;  // All give the same answers (docs/voxel-march.md).
-constexpr uint32_t kBatchRays = 1u << 20;       // Bounds the memory of rays and what they carry to 52 MiB.
+constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays and what they carry to 52 MiB.
 enum TargetKind : uint32_t { kPunctual = 0, kEmitters = 1, kEnvironment = 2 };  // As in aim.comp.
 
 struct AimPush {
@@ -55,15 +54,15 @@ void DirectShadowRays::plan(PassPlan& plan) {
     plan.buffer(carried_, "shadow ray radiance", rays * 4 * sizeof(float));
     plan.buffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
     plan.image(plan.get(direct_).image, "direct", frameImageDesc(plan.frame));
-    if (params_.visibility == Visibility::Voxels) VoxelMarch::plan(plan, plan.get(voxels_), kWalk);
+    if (params_.visibility == Visibility::Voxels)
+        voxelTracer_.plan(plan, plan.frame.scene->geometry, plan.get(voxels_));
 }
 
 void DirectShadowRays::prepare(PassSetup& setup) {
     aim_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/direct_shadow_rays/aim.comp"));
     add_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/direct_shadow_rays/add.comp"));
     sampler_ = texelSampler(setup.device);
-    if (params_.visibility == Visibility::Voxels)
-        voxelTracer_ = std::make_unique<VoxelTracer>(setup.device, setup.compiler, kWalk);
+    if (params_.visibility == Visibility::Voxels) voxelTracer_.prepare(setup.device, setup.compiler);
 }
 
 void DirectShadowRays::record(PassContext& context) {
@@ -80,8 +79,8 @@ void DirectShadowRays::record(PassContext& context) {
     if (params_.visibility == Visibility::Voxels) {
         const SurfaceVoxels& voxels = context.get(voxels_);
         minOffset = kVoxelsOffSurface * voxels.grid.voxelSize;
-        voxelTracer_->begin(stream, voxels);
-        tracer = voxelTracer_.get();
+        voxelTracer_.begin(stream, voxels);
+        tracer = &voxelTracer_;
     }
     const uint64_t raysBefore = tracer->raysTraced();
 
@@ -116,7 +115,7 @@ void DirectShadowRays::record(PassContext& context) {
     }
     if (params_.visibility == Visibility::Voxels) {
         context.extraRays += tracer->raysTraced() - raysBefore;
-        context.voxelCounts.push_back(&voxelTracer_->march().counts());
+        context.voxelCounts.push_back(&voxelTracer_.march().counts());
     }
 }
 

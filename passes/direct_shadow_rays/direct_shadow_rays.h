@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/voxel_march/voxel_tracer.h"
 
@@ -61,7 +59,7 @@ class DirectShadowRays final : public Pass {
     Program aim_, add_;
     Sampler sampler_;
     Buffer rays_, carried_, occluded_;
-    std::unique_ptr<VoxelTracer> voxelTracer_;  ///< With Visibility::Voxels.
+    VoxelTracer voxelTracer_{VoxelWalk::Bricks};  ///< With Visibility::Voxels. All walks tell the same.
 };
 
 }  // namespace voxray

@@ -38,10 +38,7 @@ void VoxelizePass::plan(PassPlan& plan) {
 }
 
 void VoxelizePass::prepare(PassSetup& setup) {
-    SurfaceVoxels& v = setup.get(voxels_);
-    v.occupancy = {};
-    v.rank = {};
-    v.materials = {};
+    setup.get(voxels_).materials = {};
     builder_.prepare(setup);
 }
 

@@ -45,8 +45,9 @@ void VoxelizeClipmap::plan(PassPlan& plan) {
         voxels.unoccludedOnly = params_.visibilityRays > 0;
         voxels.grid = levelGrid(finest, level, params_.clipmapResolution);
         voxels.voxelCount = counts[level];
-        // Twice: all of it may be updated, and is known as updated up to the next frame.
-        for (int i = 0; i < 2; ++i) VoxelBuilder::planVoxels(plan, voxels);
+        VoxelBuilder::planVoxels(plan, voxels);
+        // Known as updated up to the next frame.
+        plan.reserve("updated voxels (at most)", VoxelBuilder::bytes(voxels));
         largest.voxelCount = std::max(largest.voxelCount, voxels.voxelCount);
     }
     largest.grid = clipmap.levels[0].voxels.grid;
@@ -56,11 +57,7 @@ void VoxelizeClipmap::plan(PassPlan& plan) {
 void VoxelizeClipmap::prepare(PassSetup& setup) {
     builder_.prepare(setup);
     windows_.clear();
-    for (ClipmapVoxels::Level& level : setup.get(clipmap_).levels) {
-        level.voxels.occupancy = {};
-        level.voxels.rank = {};
-        level.voxels.materials = {};
-    }
+    for (ClipmapVoxels::Level& level : setup.get(clipmap_).levels) level.voxels.materials = {};
 }
 
 void VoxelizeClipmap::record(PassContext& context) {

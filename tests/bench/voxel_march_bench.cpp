@@ -6,6 +6,7 @@
 
 #include "passes/common/voxel_march/voxel_tracer.h"
 #include "tests/bench/sponza.h"
+#include "tests/gpu/prepared.h"
 
 namespace voxray {
 namespace {
@@ -76,8 +77,8 @@ void voxelMarch(benchmark::State& state) {
     std::vector<std::unique_ptr<VoxelTracer>> tracers;
     std::vector<uint32_t> first;
     for (const auto& [walk, name] : EnumNames<VoxelWalk>::names) {
-        VoxelTracer& tracer =
-            *tracers.emplace_back(std::make_unique<VoxelTracer>(test::device(), compiler, walk));
+        VoxelTracer& tracer = *tracers.emplace_back(std::make_unique<VoxelTracer>(walk));
+        test::prepare(tracer, voxels, compiler);
         const double begin = cpuSeconds();
         tracer.begin(stream, voxels);
         stream.finish();

@@ -12,7 +12,9 @@
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/voxel_march/voxel_tracer.h"
 #include "tests/gpu/chain.h"
+#include "tests/gpu/prepared.h"
 #include "tests/physics/made_up_voxels.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -53,7 +55,8 @@ class Voxels {
     /// voxel.
     std::vector<Answer> walk(VoxelWalk walk, const std::vector<Ray>& rays, float epsilon = 0,
                              bool segments = false) {
-        VoxelMarch march(device(), compiler_, walk, epsilon);
+        VoxelMarch march(walk, epsilon);
+        prepare(march, voxels_, compiler_);
         march.begin(stream_, voxels_);
         Defines defines = march.defines();
         if (segments) defines["SEGMENTS"] = "1";
@@ -75,7 +78,8 @@ class Voxels {
 
     /// By a stream of rays.
     std::vector<Hit> closestHits(VoxelWalk walk, const std::vector<Ray>& rays) {
-        VoxelTracer tracer(device(), compiler_, walk);
+        VoxelTracer tracer(walk);
+        prepare(tracer, voxels_, compiler_);
         tracer.begin(stream_, voxels_);
         const Buffer in(device(), "rays", rays.size() * sizeof(Ray)),
             out(device(), "hits", rays.size() * sizeof(Hit));
@@ -383,19 +387,12 @@ TEST(VoxelMarch, StreamsHaveTheTracersInterface) {
 }
 
 TEST(VoxelMarch, RefusesGridsThatItCantWalkThrough) {
-    CommandStream stream(device());
-    const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE);
-    VoxelMarch march(device(), compiler, VoxelWalk::Bits);
-    SurfaceVoxels window =
-        madeUpVoxels(stream, madeUpGrid(glm::uvec3(64), 1), [](glm::ivec3) { return false; });
+    VoxelMarch march(VoxelWalk::Bits);
+    SurfaceVoxels window;
+    window.grid = madeUpGrid(glm::uvec3(64), 1);
     window.grid.side = 32;
-    try {
-        march.begin(stream, window);
-        FAIL() << "no error";
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("64x64x64, of which 32 are held"), std::string::npos)
-            << error.what();
-    }
+    MemoryPlan plan;
+    EXPECT_CONTAINS(errorOf([&] { march.plan(plan, Geometry{}, window); }), "64x64x64, of which 32 are held");
 }
 
 TEST(VoxelMarch, ShadowsNarrowToThoseOfSurfaces) {

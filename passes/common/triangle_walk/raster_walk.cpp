@@ -5,14 +5,13 @@
 namespace voxray {
 
 void RasterWalk::plan(PassPlan& plan, const gpu::VoxelGrid&) {
-    plan.reserveScratch("triangles to draw", plan.frame.scene->geometry.triangles.size() * sizeof(uint32_t));
+    const size_t triangles = plan.frame.scene->geometry.triangles.size();
+    plan.scratchBuffer(drawn_, "triangles to draw", std::max<size_t>(triangles, 1) * sizeof(uint32_t));
 }
 
 void RasterWalk::select(PassContext& context, const gpu::VoxelGrid&, const VoxelRegion&,
                         const std::vector<uint32_t>& triangles) {
     corners_ = uint32_t(3 * triangles.size());
-    drawn_ = Buffer(context.device, "triangles to draw",
-                    std::max<size_t>(triangles.size(), 1) * sizeof(triangles[0]));
     if (!triangles.empty()) context.stream.upload(drawn_, triangles);
 }
 

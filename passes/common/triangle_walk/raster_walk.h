@@ -10,7 +10,6 @@ class RasterWalk : public TriangleWalk {
     void plan(PassPlan& plan, const gpu::VoxelGrid& grid) override;
     void select(PassContext& context, const gpu::VoxelGrid& grid, const VoxelRegion& region,
                 const std::vector<uint32_t>& triangles) override;
-    void release() override { drawn_ = {}; }
 
  protected:
     /// The visitor's bindings, the scene's and `drawnTriangles`.

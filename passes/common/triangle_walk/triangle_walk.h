@@ -35,8 +35,8 @@ class TriangleWalk {
     /// `walk.visitorScale`.
     virtual void run(PassContext& context, const Program& visitor, const gpu::VoxelGrid& grid,
                      std::span<const Binding> bindings, float visitorScale) const = 0;
-    /// Frees what select() took, once the stream has finished.
-    virtual void release() = 0;
+    /// Frees what select() counted and took, once the stream has finished.
+    virtual void release() {}
 };
 
 /// Tests triangles against voxels' boxes in a compute shader.

@@ -13,11 +13,20 @@ struct ResolvePush {
     float largestEmission;
 };
 
+uint64_t materialBytes(const SurfaceVoxels& voxels) {
+    return voxels.voxelCount * sizeof(gpu::PackedVoxelMaterial);
+}
+
 }  // namespace
 
-void VoxelBuilder::planVoxels(PassPlan& plan, const SurfaceVoxels& voxels) {
-    plan.reserve("occupancy and ranks", voxels.words() * 2 * sizeof(uint32_t));
-    plan.reserve("surface voxels (estimated)", voxels.voxelCount * sizeof(gpu::PackedVoxelMaterial));
+void VoxelBuilder::planVoxels(PassPlan& plan, SurfaceVoxels& voxels) {
+    plan.buffer(voxels.occupancy, "voxel occupancy", voxels.words() * sizeof(uint32_t));
+    plan.buffer(voxels.rank, "voxel ranks", voxels.words() * sizeof(uint32_t));
+    plan.reserve("surface voxels (estimated)", materialBytes(voxels));
+}
+
+uint64_t VoxelBuilder::bytes(const SurfaceVoxels& voxels) {
+    return 2 * voxels.words() * sizeof(uint32_t) + materialBytes(voxels);
 }
 
 void VoxelBuilder::planWork(PassPlan& plan, const SurfaceVoxels& voxels, bool updates) {
@@ -28,7 +37,7 @@ void VoxelBuilder::planWork(PassPlan& plan, const SurfaceVoxels& voxels, bool up
     // A region's voxels are held together with the previous ones: at worst all of them twice.
     if (updates)
         plan.reserveScratch("update of a region (at most)",
-                            RegionMerge::scratchBytes(voxels) + count * sizeof(gpu::PackedVoxelMaterial));
+                            RegionMerge::scratchBytes(voxels) + materialBytes(voxels));
     walk_->plan(plan, voxels.grid);
     for (const Material& material : plan.frame.scene->scene->materials)
         for (int c = 0; c < 3; ++c) largestEmission_ = std::max(largestEmission_, material.emission[c]);
@@ -54,6 +63,8 @@ SurfaceVoxels VoxelBuilder::update(PassContext& context, const VoxelRegion& regi
     SurfaceVoxels rebuilt;
     rebuilt.grid = voxels.grid;
     rebuilt.unoccludedOnly = voxels.unoccludedOnly;
+    rebuilt.occupancy = Buffer(context.device, "voxel occupancy", voxels.occupancy.bytes());
+    rebuilt.rank = Buffer(context.device, "voxel ranks", voxels.rank.bytes());
     voxelize(context, region, rebuilt, &voxels);
     merge_.materials(context.stream, *prefixSum_, rebuilt, voxels);
     ++voxels.version;
@@ -63,10 +74,6 @@ SurfaceVoxels VoxelBuilder::update(PassContext& context, const VoxelRegion& regi
 void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, SurfaceVoxels& target,
                             const SurfaceVoxels* previous) {
     CommandStream& stream = context.stream;
-    if (!target.occupancy) {
-        target.occupancy = Buffer(context.device, "voxel occupancy", target.words() * sizeof(uint32_t));
-        target.rank = Buffer(context.device, "voxel ranks", target.words() * sizeof(uint32_t));
-    }
     const std::vector<uint32_t> triangles = region.triangles(context.frame.scene->geometry);
     walk_->select(context, target.grid, region, triangles);
 

@@ -42,8 +42,10 @@ class VoxelBuilder {
     VoxelBuilder(std::unique_ptr<TriangleWalk> walk, uint32_t visibilityRays)
         : walk_(std::move(walk)), visibilityRays_(visibilityRays) {}
 
-    /// Reserves memory for `voxels`, whose grid and number are known.
-    static void planVoxels(PassPlan& plan, const SurfaceVoxels& voxels);
+    /// Describes the memory of `voxels`, whose grid is known and whose number is estimated.
+    static void planVoxels(PassPlan& plan, SurfaceVoxels& voxels);
+    /// Bytes of the voxels that update() returns, where the region is all of the grid.
+    static uint64_t bytes(const SurfaceVoxels& voxels);
     /// Reserves scratch memory for building them.
     /// @param updates whether update() will be called.
     void planWork(PassPlan& plan, const SurfaceVoxels& voxels, bool updates);

@@ -10,6 +10,8 @@ namespace {
 constexpr uint32_t kMaxResolution = 1024;  // shaders/voxel_march/segment.glsl
 constexpr uint32_t kBrickLevel = 2;        // shaders/voxel_march/bricks.glsl
 constexpr uint64_t kCountBytes = 2 * sizeof(uint64_t);
+constexpr const char* kDistances = "distances between voxels";
+constexpr const char* kFewerAxes = "distances along fewer axes";
 
 /// Cubes of `width` voxels.
 uint64_t cubes(glm::uvec3 resolution, uint32_t width) {
@@ -57,38 +59,38 @@ void require(const gpu::VoxelGrid& grid) {
 
 }  // namespace
 
-VoxelMarch::VoxelMarch(Device& device, const ShaderCompiler& compiler, VoxelWalk walk, float epsilon)
-    : walk_(walk), epsilon_(epsilon), counts_(device, "voxel march counts", kCountBytes) {
-    if (isOctree(walk)) builder_.emplace(device, compiler);
-    if (!hasDistances(walk)) return;
+void VoxelMarch::plan(MemoryPlan& plan, const Geometry& geometry, const SurfaceVoxels& voxels) {
+    require(voxels.grid);
+    plan.buffer(counts_, "voxel march counts", kCountBytes);
+    const glm::uvec3 resolution = voxels.grid.resolution;
+    if (walk_ == VoxelWalk::Bricks) {
+        const uint64_t bytes = distanceBytes(resolution, kBrickLevel);
+        plan.buffer(bricks_, "bricks of voxels", brickBytes(resolution));
+        plan.buffer(distances_, kDistances, bytes);
+        plan.scratchBuffer(fewerAxes_, kFewerAxes, bytes);
+    }
+    if (!isOctree(walk_)) return;
+    const OctreeSize size{resolution, countSurfaceVoxels(geometry, voxels.grid)};
+    const uint64_t bytes = hasDistances(walk_) ? distanceBytes(resolution, distanceLevel(size)) : 0;
+    plan.reserve("octree (estimated)", size.bytes() + bytes);
+    plan.reserveScratch("building (estimated)", size.leafBytes() + OctreeBuilder::scratchBytes(size) + bytes);
+}
+
+void VoxelMarch::prepare(Device& device, const ShaderCompiler& compiler) {
+    version_.reset();
+    if (isOctree(walk_)) builder_.emplace(device, compiler);
+    if (!hasDistances(walk_)) return;
     const char* file = "passes/common/voxel_march/distances.comp";
-    const char* of = isOctree(walk) ? "OF_NODES" : "OF_VOXELS";
+    const char* of = isOctree(walk_) ? "OF_NODES" : "OF_VOXELS";
     cells_ = makeComputeProgram(device, compiler.compile(file, {{of, "1"}}));
     for (size_t axis = 0; axis < 3; ++axis)
         along_[axis] = makeComputeProgram(device, compiler.compile(file, {{"AXIS", std::to_string(axis)}}));
-}
-
-void VoxelMarch::plan(PassPlan& plan, const SurfaceVoxels& voxels, VoxelWalk walk) {
-    require(voxels.grid);
-    plan.reserve("voxel march counts", kCountBytes);
-    const glm::uvec3 resolution = voxels.grid.resolution;
-    if (walk == VoxelWalk::Bricks) {
-        const uint64_t bytes = distanceBytes(resolution, kBrickLevel);
-        plan.reserve("bricks of voxels", brickBytes(resolution) + bytes);
-        plan.reserveScratch("building", bytes);
-    }
-    if (!isOctree(walk)) return;
-    const OctreeSize size{resolution, countSurfaceVoxels(plan.frame.scene->geometry, voxels.grid)};
-    const uint64_t bytes = hasDistances(walk) ? distanceBytes(resolution, distanceLevel(size)) : 0;
-    plan.reserve("octree (estimated)", size.bytes() + bytes);
-    plan.reserveScratch("building (estimated)", size.leafBytes() + OctreeBuilder::scratchBytes(size) + bytes);
 }
 
 void VoxelMarch::begin(CommandStream& stream, const SurfaceVoxels& voxels) {
     voxels_ = &voxels;
     stream.fill(counts_, 0);
     if (version_ == voxels.version) return;
-    require(voxels.grid);
     if (isOctree(walk_)) {
         octree_ = {};
         octree_ = builder_->build(stream, voxels);
@@ -100,28 +102,29 @@ void VoxelMarch::begin(CommandStream& stream, const SurfaceVoxels& voxels) {
 }
 
 void VoxelMarch::measureDistances(CommandStream& stream) {
-    Device& device = stream.device();
     const gpu::VoxelGrid& grid = voxels_->grid;
     const uint32_t level = isOctree(walk_) ? distanceLevel(octree_.size) : kBrickLevel;
     const DistancesPush push{grid, int32_t(level)};
     const glm::uvec3 groups = linearGroups(cubes(grid.resolution, 1u << level));
-    distances_ = {};
-    distances_ = Buffer(device, "distances between voxels", distanceBytes(grid.resolution, level));
-    const Buffer other(device, "distances along fewer axes", distances_.bytes());
     if (isOctree(walk_)) {
-        stream.dispatch(cells_, {{"octree", octree_.header}, {"target", other}}, push, groups);
+        const uint64_t bytes = distanceBytes(grid.resolution, level);
+        distances_ = {};
+        distances_ = Buffer(stream.device(), kDistances, bytes);
+        fewerAxes_ = Buffer(stream.device(), kFewerAxes, bytes);
+        stream.dispatch(cells_, {{"octree", octree_.header}, {"target", fewerAxes_}}, push, groups);
     } else {
-        bricks_ = {};
-        bricks_ = Buffer(device, "bricks of voxels", brickBytes(grid.resolution));
-        stream.dispatch(cells_,
-                        {{"voxelOccupancy", voxels_->occupancy}, {"voxelBricks", bricks_}, {"target", other}},
-                        push, groups);
+        stream.dispatch(
+            cells_,
+            {{"voxelOccupancy", voxels_->occupancy}, {"voxelBricks", bricks_}, {"target", fewerAxes_}}, push,
+            groups);
     }
     for (size_t axis = 0; axis < 3; ++axis) {
-        const Buffer &source = axis == 1 ? distances_ : other, &target = axis == 1 ? other : distances_;
+        const Buffer& source = axis == 1 ? distances_ : fewerAxes_;
+        const Buffer& target = axis == 1 ? fewerAxes_ : distances_;
         stream.dispatch(along_[axis], {{"source", source}, {"target", target}}, push, groups);
     }
     stream.finish();
+    if (isOctree(walk_)) fewerAxes_ = {};
 }
 
 Defines VoxelMarch::defines() const {

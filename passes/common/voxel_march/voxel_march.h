@@ -26,16 +26,17 @@ struct EnumNames<VoxelWalk> {
 
 /// What rays walk through: surface voxels and what a walk needs besides, built of them. A shader that walks
 /// is compiled with defines(), includes shaders/voxel_march/voxel_march.glsl and is given bindings(): it is
-/// written once for all walks. Docs: docs/voxel-march.md.
+/// written once for all walks. A pass calls plan() and prepare() in its own. Docs: docs/voxel-march.md.
 class VoxelMarch {
  public:
-    VoxelMarch() = default;
     /// @param epsilon for OctreeRestart: steps in floats, past each node by this many voxels, as in the
     /// paper, which skips what is thinner; 0 steps exactly.
-    VoxelMarch(Device& device, const ShaderCompiler& compiler, VoxelWalk walk, float epsilon = 0);
+    explicit VoxelMarch(VoxelWalk walk, float epsilon = 0) : walk_(walk), epsilon_(epsilon) {}
 
-    /// Reserves what a walk takes besides the voxels. @throws Error for a grid that it can't walk through.
-    static void plan(PassPlan& plan, const SurfaceVoxels& voxels, VoxelWalk walk);
+    /// Describes what a walk takes besides the voxels, which stand for `geometry`.
+    /// @throws Error for a grid that it can't walk through.
+    void plan(MemoryPlan& plan, const Geometry& geometry, const SurfaceVoxels& voxels);
+    void prepare(Device& device, const ShaderCompiler& compiler);
 
     /// Takes over the voxels where their content is another one, and sets the counts to 0. `voxels` must
     /// outlive the walks. Waits for the device where it builds.
@@ -53,8 +54,8 @@ class VoxelMarch {
     /// Makes what shaders/voxel_march/distances.glsl tells of the voxels or of the octree.
     void measureDistances(CommandStream& stream);
 
-    VoxelWalk walk_ = VoxelWalk::Bits;
-    float epsilon_ = 0;
+    VoxelWalk walk_;
+    float epsilon_;
     std::optional<OctreeBuilder> builder_;
     Program cells_;
     std::array<Program, 3> along_;  ///< The axes.
@@ -62,6 +63,7 @@ class VoxelMarch {
     std::optional<uint64_t> version_;  ///< Of the voxels that bricks or octree are built of.
     Octree octree_;
     Buffer bricks_, distances_;
+    Buffer fewerAxes_;  ///< Distances along one axis or two, while those along all three are measured.
     Buffer counts_;
 };
 

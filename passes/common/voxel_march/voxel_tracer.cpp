@@ -17,8 +17,8 @@ struct MarchPush {
 
 }  // namespace
 
-VoxelTracer::VoxelTracer(Device& device, const ShaderCompiler& compiler, VoxelWalk walk, float epsilon)
-    : march_(device, compiler, walk, epsilon) {
+void VoxelTracer::prepare(Device& device, const ShaderCompiler& compiler) {
+    march_.prepare(device, compiler);
     const ShaderModule module =
         compiler.compile("passes/common/voxel_march/voxel_tracer.comp", march_.defines());
     closestHit_ = makeComputeProgram(device, module, {{0, 0}});

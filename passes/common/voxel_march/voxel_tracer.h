@@ -11,8 +11,13 @@ namespace voxray {
 /// it: whoever starts them at a surface moves their ends out of its voxels (kVoxelsOffSurface).
 class VoxelTracer final : public RayTracer {
  public:
-    VoxelTracer(Device& device, const ShaderCompiler& compiler, VoxelWalk walk, float epsilon = 0);
+    explicit VoxelTracer(VoxelWalk walk, float epsilon = 0) : march_(walk, epsilon) {}
 
+    /// As VoxelMarch::plan().
+    void plan(MemoryPlan& plan, const Geometry& geometry, const SurfaceVoxels& voxels) {
+        march_.plan(plan, geometry, voxels);
+    }
+    void prepare(Device& device, const ShaderCompiler& compiler);
     std::string_view name() const override { return "voxels"; }
     /// Takes over the voxels, as VoxelMarch::begin(); before the first rays and where the voxels have
     /// changed.
