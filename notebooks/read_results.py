@@ -16,7 +16,7 @@ import pandas as pd
 root = Path(__file__).resolve().parents[1] if "__file__" in globals() else Path.cwd().parent
 sys.path.append(str(root / "framework"))
 from report.ranking import pareto_front  # noqa: E402
-from report.load import load  # noqa: E402
+from report.load import interval_of, load  # noqa: E402
 
 arguments = [a for a in sys.argv[1:] if not a.startswith("-")] if "__file__" in globals() else []
 directory = Path(arguments[0]) if arguments else root / "results" / "quickstart"
@@ -50,8 +50,8 @@ if len(frame):
 
 # %% [markdown]
 # ## Speed against error
-# Left is faster, lower is closer to the reference. The staircase is the Pareto front. An error near the
-# dotted line is mostly the reference's own.
+# Left is faster, lower is closer to the reference. Bars are 95 % confidence intervals; the staircase is the Pareto
+# front of their upper ends: what lies wholly above it is beaten.
 
 # %%
 error = prefix + "nrmse"
@@ -61,19 +61,21 @@ groups = [("all variants", points)]
 if results.sweep_keys:
     groups = points.groupby(results.sweep_keys[0], sort=False)
 for value, group in groups:
-    axes.scatter(group["frame_ms_median"], group[error], label=str(value), zorder=3)
+    ends = [interval_of(row, error) for _, row in group.iterrows()]
+    bars = [(group[error] - [low for low, _ in ends]).clip(lower=0), ([high for _, high in ends] - group[error]).clip(lower=0)]
+    axes.errorbar(group["frame_ms_median"], group[error], bars, fmt="o", label=str(value), zorder=3)
 for _, row in points.iterrows():
     axes.annotate(row["variant"], (row["frame_ms_median"], row[error]), (4, 4),
                   textcoords="offset points", fontsize=8, parse_math=False)
 
-# The Pareto front, the reference's noise, and what a black and a constant image score.
-front = points.iloc[pareto_front(list(zip(points["frame_ms_median"], points[error])))]
-axes.step(front["frame_ms_median"], front[error], where="post", color="grey", zorder=1)
-levels = {"reference's own noise": (results.noise(error, results.only_reference), ":")}
-levels |= {f"{name} image": (results.baseline(name, error, results.only_reference), "--") for name in ("black", "constant")}
-for name, (level, dashes) in levels.items():
+# The Pareto front, and what a black and a constant image score.
+reached = [(row["frame_ms_median"], interval_of(row, error)[1]) for _, row in points.iterrows()]
+front = [reached[i] for i in pareto_front(reached)]
+axes.step([time for time, _ in front], [high for _, high in front], where="post", color="grey", zorder=1)
+levels = {f"{name} image": results.baseline(name, error, results.only_reference) for name in ("black", "constant")}
+for name, level in levels.items():
     if level > 0:
-        axes.axhline(level, color="grey", linestyle=dashes, linewidth=1)
+        axes.axhline(level, color="grey", linestyle="--", linewidth=1)
         axes.annotate(name, (1, level), (-2, 2), xycoords=("axes fraction", "data"), ha="right",
                       textcoords="offset points", fontsize=8, color="grey")
 axes.set(xscale="log", yscale="log", xlabel="time of one frame, ms (median)",

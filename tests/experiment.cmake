@@ -7,7 +7,7 @@ voxray_tests(experiment
   SOURCES unit/composed_scene_test.cpp unit/experiment_run_test.cpp unit/experiment_sequence_test.cpp unit/experiment_validate_test.cpp unit/pixel_masks_test.cpp
   DEPENDS voxray_experiment)
 
-# Every config that is shipped, against the real passes.
+# Every config that is shipped, against the real passes; the reference's noise.
 voxray_tests(configs
-  SOURCES unit/experiment_configs_test.cpp unit/value_sets_test.cpp
+  SOURCES unit/experiment_configs_test.cpp unit/reference_noise_test.cpp unit/value_sets_test.cpp
   DEPENDS voxray_experiment voxray_passes)

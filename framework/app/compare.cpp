@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,9 +36,19 @@ void printTable(const std::vector<Row>& rows) {
     for (const Metric& metric : metrics()) fmt::print(" {:>10}", metric.name);
     fmt::print("\n");
     for (const Row& row : rows) {
-        fmt::print("{:<10}", row.name);
-        for (const Metric& metric : metrics()) fmt::print(" {:>10.5g}", row.scores.at(metric.name));
-        fmt::print("\n");
+        const auto printRow = [&](const std::string& name, const char* end) {
+            fmt::print("{:<10}", name);
+            for (const Metric& metric : metrics()) {
+                const auto score = row.scores.find(std::string(metric.name) + end);
+                fmt::print(" {:>10}", score == row.scores.end() ? "" : fmt::format("{:.5g}", score->second));
+            }
+            fmt::print("\n");
+        };
+        printRow(row.name, "");
+        if (row.name == "test" && row.scores.contains(metrics()[0].name + std::string(kLow))) {
+            printRow("95 % low", kLow);
+            printRow("95 % high", kHigh);
+        }
     }
 }
 
@@ -50,7 +62,11 @@ void printJson(const std::vector<Row>& rows, const CompareOptions& options, cons
     out.set("reference", Value::fromScalar(options.reference.string(), true));
     for (const Row& row : rows) {
         Value scores = Value::map();
-        for (const Metric& metric : metrics()) scores.set(metric.name, number(row.scores.at(metric.name)));
+        for (const Metric& metric : metrics())
+            for (const char* end : {"", kLow, kHigh})
+                if (const auto score = row.scores.find(std::string(metric.name) + end);
+                    score != row.scores.end())
+                    scores.set(score->first, number(score->second));
         out.set(row.name == "test" ? "scores" : row.name, std::move(scores));
     }
     Value range = Value::map();
@@ -62,6 +78,30 @@ void printJson(const std::vector<Row>& rows, const CompareOptions& options, cons
     fmt::print("{}\n", out.json());
 }
 
+/// The halves of a reference X.exr, X_a.exr and X_b.exr next to it, as `run` writes them; empty where they
+/// aren't there. @throws Error where their mean isn't the reference.
+std::vector<ImageF> readHalves(const std::filesystem::path& path, const ImageF& reference) {
+    std::vector<ImageF> halves;
+    std::vector<std::filesystem::path> paths;
+    for (const char* end : {"_a", "_b"}) {
+        paths.push_back(path.parent_path() / (path.stem().string() + end + path.extension().string()));
+        if (!std::filesystem::exists(paths.back())) return {};
+    }
+    for (const std::filesystem::path& half : paths) halves.push_back(readImage(half));
+    double difference = 0, sum = 0;
+    const bool fits = std::ranges::all_of(
+        halves, [&](const ImageF& half) { return half.data.size() == reference.data.size(); });
+    for (size_t i = 0; fits && i < reference.data.size(); ++i) {
+        const double mean = 0.5 * (double(halves[0].data[i]) + double(halves[1].data[i]));
+        difference += std::abs(mean - double(reference.data[i]));
+        sum += std::abs(double(reference.data[i]));
+    }
+    if (!fits || difference > 1e-5 * sum)
+        throw Error("{} isn't the mean of {} and {}, which are named like its halves: rename them",
+                    path.string(), paths[0].filename().string(), paths[1].filename().string());
+    return halves;
+}
+
 void compare(const CompareOptions& options) {
     const ImageF test = readImage(options.test);
     const ImageF reference = readImage(options.reference);
@@ -69,14 +109,20 @@ void compare(const CompareOptions& options) {
         throw Error("{} is {}x{} and {} is {}x{}: images to compare are of one size", options.test.string(),
                     test.width, test.height, options.reference.string(), reference.width, reference.height);
 
-    // The same exposures for all three rows, chosen from the reference alone.
+    // The same exposures for all rows, chosen from the reference alone.
     ScoreOptions scoring;
     scoring.exposureStops = options.exposureStops;
     scoring.flipExposures = flipExposures(reference);
-    const Comparison comparison(test, reference, scoring);
-    const std::vector<Row> rows = {{"test", score(comparison)},
-                                   {"black", score({blackLike(reference), reference, scoring})},
-                                   {"constant", score({constantLike(reference), reference, scoring})}};
+    const std::vector<ImageF> images = readHalves(options.reference, reference);
+    std::optional<ReferenceHalves> halves;
+    if (!images.empty()) halves.emplace(ReferenceHalves{images[0], images[1]});
+    const Comparison comparison(test, reference, scoring, halves);
+    std::vector<Row> rows = {{"test", score(comparison)},
+                             {"black", score({blackLike(reference), reference, scoring, halves})},
+                             {"constant", score({constantLike(reference), reference, scoring, halves})}};
+    if (halves)
+        rows.push_back(
+            {"noise", noiseFloors({halves->a, reference, scoring}, {halves->b, reference, scoring})});
     if (!options.flipMap.empty()) writePng(options.flipMap, comparison.flip.map);
 
     if (options.json)
@@ -93,7 +139,12 @@ void addCompareCommand(CLI::App& app, int&) {
         "Metrics of an image against a reference, with a black and a constant image's next to them.");
     auto options = std::make_shared<CompareOptions>();
     command->add_option("TEST", options->test, "Image to compare (EXR, HDR, PNG, JPEG).")->required();
-    command->add_option("REFERENCE", options->reference, "Image that is right.")->required();
+    command
+        ->add_option(
+            "REFERENCE", options->reference,
+            "Image that is right. Where its halves stand next to it (final_a.exr, final_b.exr), its noise is "
+            "taken off nRMSE and relMSE, which then have 95 % confidence intervals.")
+        ->required();
     command->add_flag("--json", options->json, "Print JSON.");
     command->add_option("--flip-map", options->flipMap, "Write the HDR-FLIP error map to this PNG.");
     command

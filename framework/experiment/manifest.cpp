@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Of the keys under which a reference's noise stands, behind the metric's column.
+/// Of the keys under which a reference's noise floors stand, behind the metric's column.
 constexpr const char* kNoiseSuffix = "_noise";
 
 // JSON has no infinity: it is written as text.
@@ -35,6 +35,7 @@ Json metricsJson(const Infos& infos) {
                         {"label", metric.label},
                         {"unit", metric.unit},
                         {"better", nameOf(metric.better)},
+                        {"interval", metric.hasInterval},
                         {"meaning", metric.meaning}});
     return list;
 }

@@ -19,7 +19,7 @@ struct ReferenceRecord {
     std::string hash;
     double seconds = 0;
     bool cached = false;
-    Scores noise;  ///< Expected scores of the reference's own noise, by column, as far as known.
+    Scores noise;  ///< What a perfect image is expected to score, by column, where noise counts.
     FlipExposures exposures, indirectExposures;
     Scores black, constant;                       ///< By column.
     std::map<std::string, double> maskFractions;  ///< By mask: of the image's pixels, those that it selects.

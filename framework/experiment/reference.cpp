@@ -16,16 +16,27 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Raise it when the reference's meaning changes: older caches are then left alone.
-constexpr int kReferenceVersion = 1;
+constexpr int kReferenceVersion = 2;
 
 struct Part {
     const char* name;  ///< Of the port and of the cached file.
-    ImageF ReferenceImages::*member;
+    ReferenceLight ReferenceImages::*light;
+    ImageF ReferenceLight::*half;
+    ImageF& of(ReferenceImages& reference) const { return reference.*light.*half; }
+    const ImageF& of(const ReferenceImages& reference) const { return reference.*light.*half; }
 };
-constexpr Part kParts[] = {{"final", &ReferenceImages::final},
-                           {"indirect", &ReferenceImages::indirect},
-                           {"variance", &ReferenceImages::variance},
-                           {"indirect_variance", &ReferenceImages::indirectVariance}};
+constexpr Part kParts[] = {{"final_a", &ReferenceImages::final, &ReferenceLight::a},
+                           {"final_b", &ReferenceImages::final, &ReferenceLight::b},
+                           {"indirect_a", &ReferenceImages::indirect, &ReferenceLight::a},
+                           {"indirect_b", &ReferenceImages::indirect, &ReferenceLight::b}};
+
+void setMeans(ReferenceImages& reference) {
+    for (ReferenceLight* light : {&reference.final, &reference.indirect}) {
+        light->mean = light->a;
+        for (size_t i = 0; i < light->mean.data.size(); ++i)
+            light->mean.data[i] = 0.5f * (light->a.data[i] + light->b.data[i]);
+    }
+}
 
 bool isFinite(const ImageF& image) {
     for (const float value : image.data)
@@ -35,22 +46,8 @@ bool isFinite(const ImageF& image) {
 
 }  // namespace
 
-Scores noiseFloor(const ImageF& mean, const ImageF& variance, PixelMask mask) {
-    // As the metrics do, in units of the reference's mean
-    const double scale = meanValue(mean, mask);
-    if (!(scale > 0)) return {};
-    double squares = 0, relative = 0;
-    for (size_t i = 0; i < mean.data.size(); ++i) {
-        if (!mask.empty() && !mask[i / mean.channels]) continue;
-        const double r = mean.data[i] / scale, v = variance.data[i] / (scale * scale);
-        squares += v;
-        relative += v / (r * r + 0.01);
-    }
-    const double count = double(countPixels(mean, mask) * mean.channels);
-    return {{"nrmse", std::sqrt(squares / count)}, {"relmse", relative / count}};
-}
-
 uint64_t referenceSeed(uint64_t seed) {
+    static_assert(0x9e3779b97f4a7c15ull >> 63);
     return seed ^ 0x9e3779b97f4a7c15ull;
 }
 
@@ -76,9 +73,12 @@ ReferenceImages renderReference(Graph& graph, const GraphTarget& target, uint32_
     reference.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (const Part& part : kParts) {
         const Image* image = graph.image(part.name);
-        if (!image || !*image) throw Error("the reference wrote no '{}'", part.name);
-        reference.*(part.member) = downloadImage(target.device, target.stream, *image);
+        if (!image || !*image)
+            throw Error("the reference wrote no '{}': path_trace needs 'spp: 2' or more and 'light: all'",
+                        part.name);
+        part.of(reference) = downloadImage(target.device, target.stream, *image);
     }
+    setMeans(reference);
     return reference;
 }
 
@@ -102,8 +102,9 @@ std::optional<ReferenceImages> ReferenceCache::load(const std::string& hash, uin
             ImageF image = readImage(folder / (std::string(part.name) + ".exr"));
             if (image.width != width || image.height != height || image.channels != 3 || !isFinite(image))
                 return {};
-            reference.*(part.member) = std::move(image);
+            part.of(reference) = std::move(image);
         }
+        setMeans(reference);
         reference.seconds =
             nlohmann::json::parse(readTextFile(folder / "reference.json")).at("seconds").get<double>();
         return reference;
@@ -121,7 +122,7 @@ void ReferenceCache::store(const ReferenceImages& reference) const {
         fs::remove_all(temporary);
         fs::create_directories(temporary);
         for (const Part& part : kParts)
-            writeExr(temporary / (std::string(part.name) + ".exr"), reference.*(part.member));
+            writeExr(temporary / (std::string(part.name) + ".exr"), part.of(reference));
         const nlohmann::json meta{{"seconds", reference.seconds}};
         writeFileAtomically(temporary / "reference.json", meta.dump(1) + "\n");
         fs::remove_all(folder);

@@ -11,26 +11,28 @@
 
 namespace voxray {
 
-/// What variants are compared with. Variances are those of each pixel's mean.
+/// One light of a reference: two independent halves and their mean, 3 channels each.
+struct ReferenceLight {
+    ImageF a, b, mean;
+    ReferenceHalves halves() const { return {a, b}; }
+};
+
+/// What variants are compared with.
 struct ReferenceImages {
-    ImageF final, indirect, variance, indirectVariance;  ///< 3 channels each.
-    double seconds = 0;                                  ///< That rendering took, when it was rendered.
+    ReferenceLight final, indirect;
+    double seconds = 0;  ///< That rendering took, when it was rendered.
     bool cached = false;
     std::string hash;
 };
 
-/// Expected nrmse and relmse of a noisy image against its own expectation, from the variance of each pixel's
-/// mean; both images have 3 channels. Empty where the pixels under the mask are black.
-Scores noiseFloor(const ImageF& mean, const ImageF& variance, PixelMask mask = {});
-
 /// The seed that the reference renders with: not the variants' own, so that a path-traced variant does not
-/// share the reference's samples.
+/// share the reference's samples. Seeds of configs are below 2^63, those of references are not.
 uint64_t referenceSeed(uint64_t seed);
 
 /// The outputs that a reference's pass must write.
 std::vector<std::string> referencePorts();
 
-/// Renders a one-pass graph, prepared, that writes final, indirect, variance and indirect_variance.
+/// Renders a one-pass graph, prepared, that writes the halves final_a, final_b, indirect_a and indirect_b.
 /// @param frameIndex of a sequence: frames draw random numbers of their own, so that their noise is
 /// independent. @param progress called with the fraction done. @throws Interrupted; Error of the pass.
 ReferenceImages renderReference(Graph& graph, const GraphTarget& target, uint32_t frameIndex,

@@ -60,6 +60,14 @@ struct ScoreColumn {
     std::string metric;
 };
 
+/// A metric's column, and those of its interval's ends.
+void addColumns(std::vector<ScoreColumn>& columns, const std::string& light, const MetricInfo& metric,
+                const std::string& region, const std::string& wanted) {
+    columns.push_back({light + metric.name + region, wanted});
+    if (!metric.hasInterval) return;
+    for (const char* end : {kLow, kHigh}) columns.push_back({light + metric.name + end + region, wanted});
+}
+
 /// Of the whole image, then of each mask: the total light's metrics in the order of their table, then the
 /// indirect light's.
 std::vector<ScoreColumn> scoreColumns(const MeasureSettings& measure) {
@@ -68,8 +76,7 @@ std::vector<ScoreColumn> scoreColumns(const MeasureSettings& measure) {
     std::vector<ScoreColumn> columns;
     for (const std::string& region : regions)
         for (const std::string light : kLightPrefixes)
-            for (const Metric& metric : metrics())
-                columns.push_back({light + metric.name + region, metric.name});
+            for (const Metric& metric : metrics()) addColumns(columns, light, metric, region, metric.name);
     return columns;
 }
 
@@ -108,8 +115,7 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
     std::vector<ScoreColumn> columns = scoreColumns(measure);
     for (const std::string light : kLightPrefixes) {
         if (measure.compareEvery == 0) break;
-        for (const MetricInfo& metric : temporalMetrics()) columns.push_back({light + metric.name, ""});
-        columns.push_back({light + kTemporalNoise, ""});
+        for (const MetricInfo& metric : temporalMetrics()) addColumns(columns, light, metric, "", "");
     }
     std::vector<std::string> header{"variant", "status", "error", "device", "tracer"};
     append(header, sweepKeys);

@@ -38,22 +38,23 @@ PreparedReference prepareReference(ReferenceImages images, std::vector<PixelSele
     r.hash = ref.hash;
     r.seconds = ref.seconds;
     r.cached = ref.cached;
-    r.exposures = flipExposures(ref.final);
-    r.indirectExposures = flipExposures(ref.indirect);
+    r.exposures = flipExposures(ref.final.mean);
+    r.indirectExposures = flipExposures(ref.indirect.mean);
     for (const PixelSelection& mask : reference.masks)
-        r.maskFractions[mask.name] = double(mask.count) / double(ref.final.pixelCount());
-    const auto addLight = [&](const std::string& light, const ImageF& mean, const ImageF& variance,
+        r.maskFractions[mask.name] = double(mask.count) / double(ref.final.mean.pixelCount());
+    const auto addLight = [&](const std::string& prefix, const ReferenceLight& light,
                               const FlipExposures& exposures) {
         const ScoreOptions options{image.exposureStops, exposures};
-        const ImageF black = blackLike(mean), constant = constantLike(mean);
-        addScores(r.black, light, {black, mean, options}, reference.masks);
-        addScores(r.constant, light, {constant, mean, options}, reference.masks);
+        const ImageF black = blackLike(light.mean), constant = constantLike(light.mean);
+        addScores(r.black, prefix, {black, light.mean, options, light.halves()}, reference.masks);
+        addScores(r.constant, prefix, {constant, light.mean, options, light.halves()}, reference.masks);
+        const Comparison a(light.a, light.mean, options), b(light.b, light.mean, options);
         forEachRegion(reference.masks, [&](const std::string& region, PixelMask mask) {
-            add(r.noise, light, noiseFloor(mean, variance, mask), region);
+            add(r.noise, prefix, noiseFloors(a, b, mask), region);
         });
     };
-    addLight(kTotal, ref.final, ref.variance, r.exposures);
-    addLight(kIndirect, ref.indirect, ref.indirectVariance, r.indirectExposures);
+    addLight(kTotal, ref.final, r.exposures);
+    addLight(kIndirect, ref.indirect, r.indirectExposures);
     return reference;
 }
 
@@ -61,9 +62,9 @@ ScoredFrame scoreFrame(const FrameImages& test, const ReferenceImages& reference
                        const std::vector<PixelSelection>& masks, const ReferenceRecord& pinned,
                        float exposureStops) {
     ScoredFrame scored;
-    const auto addLight = [&](const std::string& light, const ImageF& image, const ImageF& right,
+    const auto addLight = [&](const std::string& light, const ImageF& image, const ReferenceLight& right,
                               const FlipExposures& exposures) {
-        Comparison comparison(image, right, {exposureStops, exposures});
+        Comparison comparison(image, right.mean, {exposureStops, exposures}, right.halves());
         addScores(scored.scores, light, comparison, masks);
         return std::move(comparison.flip.map);
     };
@@ -88,11 +89,8 @@ void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReferen
         if (test.frame > 0)
             result.frames.back().scores =
                 scoreFrame(test, right, masks, reference.record, exposureStops).scores;
-
-        // The noise of one reference cancels in differences, that of one a frame does not
-        total.add(test.final, right.final, referenceOf ? meanValue(right.variance) : 0);
-        if (test.indirect)
-            indirect.add(*test.indirect, right.indirect, referenceOf ? meanValue(right.indirectVariance) : 0);
+        total.add(test.final, right.final.halves());
+        if (test.indirect) indirect.add(*test.indirect, right.indirect.halves());
     }
     const auto addLight = [&](const std::string& light, const TemporalError& temporal) {
         add(result.scores, light, temporal.scores(), "");

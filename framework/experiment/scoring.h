@@ -17,7 +17,8 @@ struct PreparedReference {
     std::vector<PixelSelection> masks;
     ReferenceRecord record;
 };
-/// Pins the exposures and scores the black and the constant image, on the whole image and under each mask.
+/// Pins the exposures, scores the black and the constant image and finds the noise floors, on the whole image
+/// and under each mask.
 PreparedReference prepareReference(ReferenceImages images, std::vector<PixelSelection> masks,
                                    const ImageSettings& image, const std::string& folder);
 
@@ -49,7 +50,7 @@ struct FrameReference {
 /// Scores each compared frame into `result.frames` and the temporal error of all of them into
 /// `result.scores`.
 /// @param first the scores of frame 0. @param referenceOf the reference of another frame; empty: all frames
-/// share the prepared one, whose noise then cancels in temporal error.
+/// share the prepared one.
 void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReference& reference,
                    const Scores& first, const std::function<FrameReference(uint32_t)>& referenceOf,
                    float exposureStops, VariantResult& result);

@@ -107,14 +107,16 @@ void writeVariantImages(const std::filesystem::path& folder, const RenderedVaria
 void writeReferenceImages(const std::filesystem::path& folder, const PreparedReference& reference,
                           float exposureStops) {
     const ReferenceImages& images = reference.images;
-    writeExr(folder / "final.exr", images.final);
-    writePng(folder / "final.png", preview(images.final, exposureStops));
-    writeExr(folder / "indirect.exr", images.indirect);
-    writePng(folder / "indirect.png", preview(images.indirect, exposureStops));
-    writeExr(folder / "variance.exr", images.variance);
-    writeExr(folder / "indirect_variance.exr", images.indirectVariance);
+    const auto writeLight = [&](const std::string& name, const ReferenceLight& light) {
+        writeExr(folder / (name + ".exr"), light.mean);
+        writeExr(folder / (name + "_a.exr"), light.a);
+        writeExr(folder / (name + "_b.exr"), light.b);
+        writePng(folder / (name + ".png"), preview(light.mean, exposureStops));
+    };
+    writeLight("final", images.final);
+    writeLight("indirect", images.indirect);
     for (const PixelSelection& mask : reference.masks) {
-        ImageF picture(images.final.width, images.final.height, 1);
+        ImageF picture(images.final.mean.width, images.final.mean.height, 1);
         std::ranges::copy(mask.pixels, picture.data.begin());
         writePng(folder / ("mask." + mask.name + ".png"), picture);
     }

@@ -30,7 +30,7 @@ RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experimen
 /// Writes final, indirect and the FLIP maps as EXR and PNG into a folder, AOVs as EXR.
 void writeVariantImages(const std::filesystem::path& folder, const RenderedVariant& variant,
                         float exposureStops);
-/// Writes a reference's images and its masks.
+/// Writes a reference's images, their halves and its masks.
 void writeReferenceImages(const std::filesystem::path& folder, const PreparedReference& reference,
                           float exposureStops);
 

@@ -13,7 +13,7 @@ namespace {
 // Mean of f(test value, reference value) over all values of the pixels that count.
 template <typename F>
 double meanOf(const ImageF& test, const ImageF& reference, PixelMask mask, const F& f) {
-    const size_t count = countPixels(reference, mask);
+    const size_t count = countPixels(reference.width, reference.height, mask);
     const size_t rowValues = size_t(reference.width) * reference.channels;
     const double sum = sumRows(reference.height, [&](size_t y) {
         const float* x = &test.data[y * rowValues];
@@ -27,23 +27,21 @@ double meanOf(const ImageF& test, const ImageF& reference, PixelMask mask, const
     return sum / double(count * reference.channels);
 }
 
-// What both images are multiplied by, so that neither exposure nor light strength changes a score.
-double scaleOf(const ImageF& reference, PixelMask mask) {
-    const double mean = meanValue(reference, mask);
-    return mean > 0 ? 1 / mean : 1;
-}
-
 }  // namespace
 
 double meanValue(const ImageF& image, PixelMask mask) {
     return meanOf(image, image, mask, [](double x, double) { return x; });
 }
 
-size_t countPixels(const ImageF& image, PixelMask mask) {
-    if (mask.empty()) return image.pixelCount();
-    if (mask.size() != image.pixelCount())
-        throw Error("a mask of {} pixels doesn't fit an image of {} x {}", mask.size(), image.width,
-                    image.height);
+double unitScale(double referenceMean) {
+    return referenceMean > 0 ? 1 / referenceMean : 1;
+}
+
+size_t countPixels(uint32_t width, uint32_t height, PixelMask mask) {
+    const size_t pixels = size_t(width) * height;
+    if (mask.empty()) return pixels;
+    if (mask.size() != pixels)
+        throw Error("a mask of {} pixels doesn't fit an image of {} x {}", mask.size(), width, height);
     const size_t count = mask.size() - size_t(std::count(mask.begin(), mask.end(), uint8_t(0)));
     if (count == 0) throw Error("the mask selects no pixel of the image");
     return count;
@@ -63,16 +61,16 @@ double meanRatio(const ImageF& test, const ImageF& reference, PixelMask mask) {
 
 double relMse(const ImageF& test, const ImageF& reference, PixelMask mask) {
     checkPair(test, reference);
-    const double scale = scaleOf(reference, mask);
+    const double scale = unitScale(meanValue(reference, mask));
     return meanOf(test, reference, mask, [scale](double x, double r) {
         const double difference = (x - r) * scale, base = r * scale;
-        return difference * difference / (base * base + 0.01);
+        return difference * difference / (base * base + relMseOffset);
     });
 }
 
 double nRmse(const ImageF& test, const ImageF& reference, PixelMask mask) {
     checkPair(test, reference);
-    const double scale = scaleOf(reference, mask);
+    const double scale = unitScale(meanValue(reference, mask));
     return std::sqrt(meanOf(test, reference, mask, [scale](double x, double r) {
         const double difference = (x - r) * scale;
         return difference * difference;

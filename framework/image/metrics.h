@@ -16,7 +16,7 @@ namespace voxray {
 using PixelMask = std::span<const uint8_t>;
 
 /// Pixels that count. @throws Error where the mask doesn't fit the image or selects no pixel of it.
-size_t countPixels(const ImageF& image, PixelMask mask);
+size_t countPixels(uint32_t width, uint32_t height, PixelMask mask);
 
 /// Mean over all channels.
 double meanValue(const ImageF& image, PixelMask mask = {});
@@ -34,10 +34,16 @@ inline constexpr double psnrCap = 100;
 /// Largest magnitude of meanRatio(), and its value where only the reference is black.
 inline constexpr double meanRatioCap = 1e6;
 
+/// What images are multiplied by, so that neither exposure nor light strength changes a score: one over the
+/// reference's mean, 1 where that is not above 0.
+double unitScale(double referenceMean);
+/// Added to the squared reference in relMse(), in units of the reference's squared mean.
+inline constexpr double relMseOffset = 0.01;
+
 /// Mean of the test over mean of the reference, over all channels, within ±meanRatioCap; 1 where both are 0.
 double meanRatio(const ImageF& test, const ImageF& reference, PixelMask mask = {});
-/// mean((x-r)² / (r²+0.01)) after dividing both images by the reference's mean (by 1 where that is not above
-/// 0).
+/// mean((x-r)² / (r²+relMseOffset)) after dividing both images by the reference's mean (by 1 where that is
+/// not above 0).
 double relMse(const ImageF& test, const ImageF& reference, PixelMask mask = {});
 /// sqrt(mean((x-r)²)) after dividing both images by the reference's mean (by 1 where that is not above 0).
 double nRmse(const ImageF& test, const ImageF& reference, PixelMask mask = {});

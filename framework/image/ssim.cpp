@@ -51,7 +51,7 @@ double ssim(const ImageF& testDisplay, const ImageF& referenceDisplay, PixelMask
 
     // Mean of the index (equation 13 of the paper).
     constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
-    const size_t count = mask.empty() ? columns * rows : countPixels(testDisplay, mask);
+    const size_t count = mask.empty() ? columns * rows : countPixels(test.width, test.height, mask);
     const double sum = sumRows(uint32_t(rows), [&](size_t row) {
         const size_t y = row + cropY;
         double rowSum = 0;

@@ -1,8 +1,5 @@
 #include "image/temporal.h"
 
-#include <cmath>
-#include <numeric>
-
 #include "base/error.h"
 #include "image/plane.h"
 
@@ -11,16 +8,13 @@ namespace {
 
 constexpr MetricInfo kTemporalMetrics[] = {
     {"temporal_nrmse", "temporal nRMSE", "", Better::Lower,
-     "root of the mean squared difference of successive frames' errors, in units of the reference's mean"},
+     "root of the mean squared difference of successive frames' errors, in units of the reference's mean",
+     true},
     {"temporal_bias", "temporal bias", "", Better::Lower,
-     "the part of it that is the same from each frame to the next: error that builds up, as lag does"},
+     "the part of it that is the same from each frame to the next: error that builds up, as lag does", true},
     {"temporal_flicker", "flicker", "", Better::Lower,
-     "the part of it that varies from frame to frame: noise and popping"},
+     "the part of it that varies from frame to frame: noise and popping", true},
 };
-
-double meanOf(const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
-}
 
 }  // namespace
 
@@ -28,61 +22,65 @@ std::span<const MetricInfo> temporalMetrics() {
     return kTemporalMetrics;
 }
 
-void TemporalError::add(const ImageF& test, const ImageF& reference, double referenceVariance) {
-    checkPair(test, reference);
+void TemporalError::add(const ImageF& test, const ReferenceHalves& reference) {
+    checkPair(test, reference.a);
+    checkPair(test, reference.b);
     const size_t count = test.data.size();
-    const bool isFirst = variances_.empty();
-    if (isFirst) {
-        error_.resize(count);
-        mean_.resize(count);
-        squaredSpread_.resize(count);
-    } else if (error_.size() != count) {
-        throw Error("a frame of {} values follows frames of {}", count, error_.size());
+    if (frames_ == 0) {
+        width_ = test.width;
+        height_ = test.height;
+        values_.resize(count);
+    } else if (test.width != width_ || test.height != height_) {
+        throw Error("a frame of {} x {} follows frames of {} x {}", test.width, test.height, width_, height_);
     }
-    const double steps = double(variances_.size());  // That d_t counts with this frame.
+    const double steps = double(frames_);  // That d_t counts with this frame.
     double squares = 0, radiance = 0;
     for (size_t i = 0; i < count; ++i) {
-        const double error = double(test.data[i]) - double(reference.data[i]);
-        radiance += double(reference.data[i]);
-        const double d = error - error_[i];
-        error_[i] = error;
-        if (isFirst) continue;
+        Value& v = values_[i];
+        const double x = test.data[i], a = reference.a.data[i], b = reference.b.data[i];
+        radiance += 0.5 * (a + b);
+        const double stepA = x - a - v.errorA, stepB = x - b - v.errorB;
+        v.errorA = x - a;
+        v.errorB = x - b;
+        if (frames_ == 0) continue;
 
-        // Mean and spread so far (Welford 1962)
-        const double fromOldMean = d - mean_[i];
-        mean_[i] += fromOldMean / steps;
-        squaredSpread_[i] += fromOldMean * (d - mean_[i]);
-        squares += d * d;
+        // Means and spread so far (Welford 1962)
+        const double fromOldMeanA = stepA - v.meanA;
+        v.meanA += fromOldMeanA / steps;
+        v.meanB += (stepB - v.meanB) / steps;
+        v.spread += fromOldMeanA * (stepB - v.meanB);
+        squares += stepA * stepB;
     }
-    if (!isFirst) meanSquares_.push_back(squares / double(count));
-    variances_.push_back(referenceVariance);
+    if (frames_ > 0) meanSquares_.push_back(squares / double(count));
+    ++frames_;
     referenceMeans_ += radiance / double(count);
 }
 
 double TemporalError::scale() const {
-    const double mean = referenceMeans_ / double(variances_.size());
-    return mean > 0 ? 1 / mean : 1;
+    return unitScale(referenceMeans_ / double(frames_));
 }
 
 Scores TemporalError::scores() const {
     if (meanSquares_.empty()) return {};
-    const double steps = double(meanSquares_.size());
-    double bias = 0;
-    for (const double mean : mean_) bias += mean * mean;
-    const double flicker = meanOf(squaredSpread_) / steps;
-
-    // The difference of two independent references has the sum of their variances
-    double noise = 0;
-    for (size_t t = 1; t < variances_.size(); ++t) noise += variances_[t] + variances_[t - 1];
-    return {{"temporal_nrmse", scale() * std::sqrt(meanOf(meanSquares_))},
-            {"temporal_bias", scale() * std::sqrt(bias / double(mean_.size()))},
-            {"temporal_flicker", scale() * std::sqrt(flicker)},
-            {kTemporalNoise, scale() * std::sqrt(noise / steps)}};
+    std::vector<double> bias(values_.size() / 3), flicker(bias.size()), both(bias.size());
+    for (size_t i = 0; i < values_.size(); ++i) {
+        bias[i / 3] += values_[i].meanA * values_[i].meanB / 3;
+        flicker[i / 3] += values_[i].spread / double(meanSquares_.size()) / 3;
+    }
+    for (size_t i = 0; i < both.size(); ++i) both[i] = bias[i] + flicker[i];
+    Scores scores;
+    const auto addRoot = [&](const char* name, const std::vector<double>& squares) {
+        addScore(scores, name, rootOf(meanOverTiles(squares, width_, height_, {}), scale()));
+    };
+    addRoot("temporal_nrmse", both);
+    addRoot("temporal_bias", bias);
+    addRoot("temporal_flicker", flicker);
+    return scores;
 }
 
 std::vector<double> TemporalError::frameErrors() const {
     std::vector<double> errors;
-    for (const double square : meanSquares_) errors.push_back(scale() * std::sqrt(square));
+    for (const double square : meanSquares_) errors.push_back(rootOf(square, scale()).value);
     return errors;
 }
 

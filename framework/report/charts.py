@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from report.ranking import pareto_front
-from report.load import BASELINES, LIGHTS, Metric, Results
+from report.load import BASELINES, LIGHTS, Metric, Results, interval_of
 from report.style import Style
 from report.svg import FONT_SIZE, STAND_INS, drawing, to_svg
 
@@ -18,7 +18,7 @@ _SIDES = ((1, 0), (1, 1), (-1, -1), (1, -1), (-1, 0), (-1, 1), (0, 1), (0, -1)) 
 
 @dataclass(frozen=True)
 class Point:
-    """A variant on a chart: its median cost in ms with the 5th and 95th percentile, and its error."""
+    """A variant on a chart: its median cost in ms with the 5th and 95th percentile, and its error with its interval."""
 
     name: str
     label: str
@@ -27,6 +27,8 @@ class Point:
     low: float
     high: float
     error: float
+    least: float
+    most: float
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,7 @@ def cost_error_chart(results: Results, metric: Metric, light: str, with_build: b
         figure = Figure(figsize=(5.0, 3.7), dpi=72)  # matplotlib's SVG has 72 units an inch
         axes = figure.add_axes((0.14, 0.13, 0.84, 0.85))
         _set_up_axis(axes.xaxis, [p.low for p in points] + [p.high for p in points])
-        _set_up_axis(axes.yaxis, [p.error for p in points] + [level[1] for level in levels])
+        _set_up_axis(axes.yaxis, [p.error for p in points] + [p.most for p in points] + [level[1] for level in levels])
         axes.set_xlabel(f"time of {time}, ms (median; left is faster)")
         axes.set_ylabel(f"{metric.label}, {light} light (lower is better)")
         _draw_levels(axes, levels)
@@ -80,7 +82,7 @@ def _points(results, column, with_build, labels, anchors) -> tuple[list[Point], 
         low, high = (row[c] + build for c in ("frame_ms_p05", "frame_ms_p95"))
         low, high = (value if 0 < value < math.inf else cost for value in (low, high))
         name = row["variant"]
-        points.append(Point(name, labels[name], anchors[name], cost, low, high, error))
+        points.append(Point(name, labels[name], anchors[name], cost, low, high, error, *interval_of(row, column)))
     return points, not_drawn
 
 
@@ -115,13 +117,15 @@ def _draw_levels(axes, levels) -> None:
 
 
 def _draw_points(axes, points: list[Point], styles: dict[str, Style], chart_id: str) -> list[Point]:
-    # The Pareto front is a staircase: what no variant reaches lies below and left of it.
-    front = [points[i] for i in pareto_front([(p.cost, p.error) for p in points])]
-    axes.step([p.cost for p in front], [p.error for p in front], where="post", color=STAND_INS["muted"],
+    # The Pareto front is a staircase of the errors that are surely reached: what lies wholly above it is beaten.
+    front = [points[i] for i in pareto_front([(p.cost, p.most) for p in points])]
+    axes.step([p.cost for p in front], [p.most for p in front], where="post", color=STAND_INS["muted"],
               linewidth=1.2)
     for i, point in enumerate(points):
         ink = STAND_INS[styles[point.name].color]
         axes.plot([point.low, point.high], [point.error] * 2, color=ink, linewidth=1.0)
+        bottom = max(point.least, axes.get_ylim()[0])  # an interval may begin at 0
+        axes.plot([point.cost] * 2, [bottom, point.most], color=ink, linewidth=1.0)
         dot = axes.plot(point.cost, point.error, styles[point.name].marker, color=ink, markersize=7,
                         markeredgecolor=STAND_INS["card"], markeredgewidth=0.8, zorder=3)[0]
         dot.set_gid(f"{chart_id}-point-{i}")
@@ -138,7 +142,7 @@ def _place_labels(axes, points: list[Point], front: list[Point], levels) -> None
         y = axes.transData.transform((1, value))[1]
         width = 0.5 * (FONT_SIZE - 1) * len(name)
         taken += [_Box(frame.x1 - width, y, frame.x1, y + FONT_SIZE), _Box(frame.x0, y - 2, frame.x1, y + 2)]
-    steps = [axes.transData.transform((p.cost, p.error)) for p in front]
+    steps = [axes.transData.transform((p.cost, p.most)) for p in front]
     for (x0, y0), (x1, y1) in zip(steps, steps[1:]):
         taken += [_Box(x0, y0 - 2, x1, y0 + 2), _Box(x1 - 2, y1, x1 + 2, y0)]
     for point, (x, y) in zip(points, centers):

@@ -18,13 +18,14 @@ class ReportError(Exception):
 @dataclass(frozen=True)
 class Metric:
     """One measure of an image against the reference, as the manifest lists it. `better` is one of BETTER: lower,
-    higher, or closer to 1."""
+    higher, or closer to 1. One that has an interval is freed of the reference's noise."""
 
     key: str
     label: str
     unit: str
     better: str
     meaning: str
+    has_interval: bool = False
 
     def rank(self, value: float) -> float:
         """A number that is lower where `value` is better, 0 or more for errors; NaN stays NaN."""
@@ -35,7 +36,7 @@ class Metric:
 
 BETTER = ("low", "high", "one")
 LIGHTS = {"total": "", "indirect": "indirect_"}  # name -> column prefix
-TEMPORAL_NOISE = "temporal_noise"  # the part of temporal_nrmse that the reference's noise adds
+INTERVAL = ("_low", "_high")  # what columns of the ends of a 95 % confidence interval add to the metric's name
 IMAGES = {"total": ("final.png", "flip.png"), "indirect": ("indirect.png", "indirect_flip.png")}
 BASELINES = ("black", "constant")
 
@@ -106,15 +107,19 @@ class Results:
         return None if record is None else str(record.get("folder") or "reference")
 
     def noise(self, column: str, reference: dict | None) -> float:
-        """A reference's own noise in a score's unit, NaN where the run did not measure it."""
+        """About what a perfect image scores against a noisy reference, NaN where the score is freed of noise."""
         return number((reference or {}).get(column + "_noise"))
 
     def baseline(self, name: str, column: str, reference: dict | None) -> float:
         """What the "black" or the "constant" image scores against a reference, NaN where it was not measured."""
+        return number(self.baseline_scores(name, reference).get(column))
+
+    def baseline_scores(self, name: str, reference: dict | None) -> dict:
+        """All scores of the "black" or the "constant" image against a reference."""
         own = section(reference or {}, "baselines")
         if not own and len(self.references()) == 1:
             own = section(self.manifest, "baselines")
-        return number(section(own, name).get(column))
+        return section(own, name)
 
     def masks(self) -> dict[str, dict]:
         """The conditions of each mask by its name. Scores of its pixels have columns that end with @ and the name."""
@@ -134,6 +139,19 @@ class Results:
             return path if path.is_file() and images in path.parents else None
         except (OSError, ValueError):  # a name too long, or with a NUL, names no file
             return None
+
+
+def interval_columns(column: str) -> tuple[str, str]:
+    """The columns of the ends of a score's interval; a mask's name stays last."""
+    name, at, mask = column.partition("@")
+    return name + INTERVAL[0] + at + mask, name + INTERVAL[1] + at + mask
+
+
+def interval_of(scores, column: str) -> tuple[float, float]:
+    """The ends of a score's interval, out of a row or of a baseline's scores; the score itself where there is none."""
+    value = number(scores.get(column))
+    ends = [number(scores.get(name)) for name in interval_columns(column)]
+    return (ends[0], ends[1]) if all(map(math.isfinite, ends)) else (value, value)
 
 
 def number(value) -> float:
@@ -170,9 +188,10 @@ def load(directory: str | Path) -> Results:
     temporal = _metrics_of(manifest, "temporal_metrics")
     regions = ["", *(f"@{name}" for name in _masks_of(manifest))]
     scores = [prefix + metric.key + region for prefix in LIGHTS.values() for metric in metrics for region in regions]
-    over_frames = [prefix + key for prefix in LIGHTS.values() for key in (*(m.key for m in temporal), TEMPORAL_NOISE)]
-    _to_numbers(variants, [*scores, *over_frames])
-    _to_numbers(frames, ["frame", *scores, *over_frames])
+    scores += [prefix + metric.key for prefix in LIGHTS.values() for metric in temporal]
+    scores += [end for column in scores for end in interval_columns(column) if end in variants or end in frames]
+    _to_numbers(variants, scores)
+    _to_numbers(frames, ["frame", *scores])
     declared = manifest.get("sweep_keys")
     sweep_keys = [str(key) for key in declared if str(key) in variants.columns] if isinstance(declared, list) else []
     own = manifest.get("warnings")
@@ -198,7 +217,8 @@ def _metrics_of(manifest: dict, key: str) -> tuple[Metric, ...]:
     known = [entry for entry in (listed if isinstance(listed, list) else []) if isinstance(entry, dict)
              and entry.get("better") in BETTER and isinstance(entry.get("name"), str)]
     return tuple(Metric(entry["name"], str(entry.get("label", entry["name"])), str(entry.get("unit", "")),
-                        entry["better"], str(entry.get("meaning", ""))) for entry in known)
+                        entry["better"], str(entry.get("meaning", "")), entry.get("interval") is True)
+                 for entry in known)
 
 
 def _masks_of(manifest: dict) -> dict[str, dict]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from report import images, table, text
 from report.line_chart import line_chart
-from report.load import LIGHTS, TEMPORAL_NOISE, Metric, Results, number, section
+from report.load import LIGHTS, Results, number, section
 from report.style import Style
 
 
@@ -61,11 +61,7 @@ def sequence(results: Results, lights: list[str], styles: dict[str, Style], numb
     """Temporal error of each variant and its errors over frames; None where one frame alone was compared."""
     if results.frames.empty or not results.temporal_metrics:
         return None
-    noise = Metric(TEMPORAL_NOISE, "reference's noise", "", "low",
-                   "what independent noise of the references adds to temporal nRMSE; squares add")
     columns = table.score_columns(results, lights, results.temporal_metrics)
-    columns += [replace(column, heading=noise.label, is_ranked=False)
-                for column in table.score_columns(results, lights, (noise,))]
     charts = []
     for light in lights:
         for metric in (*results.metrics[:2], results.temporal_metrics[0]):

@@ -6,30 +6,34 @@ import math
 
 import pandas as pd
 
-from report.load import BASELINES, LIGHTS, Metric, Results
+from report.load import BASELINES, LIGHTS, Metric, Results, interval_of
 
 COST_COLUMNS = ("build_ms", "frame_ms_median", "memory_bytes")
 
 
 def score_marks(results: Results, metric: Metric, column: str) -> dict[str, str]:
-    """Marks of one score: variant -> "best" or "tie".
+    """Marks of one score: variant -> "best" or "tie". No marks where fewer than two variants have one.
 
-    A tie differs from the best by no more than the reference's own noise: another reference of the same
-    quality could have ranked the two the other way round. Where the two have different references, the larger
-    noise counts. No marks where fewer than two variants have one.
+    Scores with confidence intervals tie where the best one's interval and theirs overlap; the best is then one of
+    the ties. Others tie where both reach their reference's noise floor: a perfect image would score no better.
+    Scores that are equal to the last digit are all the best.
     """
-    ranks = results.ok.set_index("variant")[column].map(metric.rank).dropna()
+    rows = results.ok.set_index("variant")
+    ranks = rows[column].map(metric.rank).dropna()
     if len(ranks) < 2:
         return {}
-    best = ranks.min()
-    noises = {name: results.noise(column, results.reference_of(name)) for name in ranks.index}
-    noises = {name: noise if math.isfinite(noise) else 0.0 for name, noise in noises.items()}
-    of_best = noises[ranks.idxmin()]
-    marks = {name: "tie" for name, rank in ranks.items() if rank <= best + max(noises[name], of_best)}
-    marks[ranks.idxmin()] = "best"
-    # Equal to the last digit is no less the best.
-    marks.update({name: "best" for name, rank in ranks.items() if rank == best})
-    return marks
+    best = ranks.idxmin()
+    equal = {name for name, rank in ranks.items() if rank == ranks[best]}
+    if metric.has_interval:
+        reach = interval_of(rows.loc[best], column)[1]
+        ties = {name for name in ranks.index if interval_of(rows.loc[name], column)[0] <= reach}
+    else:
+        floors = {name: metric.rank(results.noise(column, results.reference_of(name))) for name in ranks.index}
+        ties = {name for name, rank in ranks.items() if rank <= floors[name]}
+        ties = ties if best in ties else set()
+    if ties - equal:
+        return dict.fromkeys(ties | equal, "tie")
+    return dict.fromkeys(equal, "best")
 
 
 def cost_marks(results: Results, column: str) -> dict[str, str]:
@@ -46,15 +50,18 @@ def cost_marks(results: Results, column: str) -> dict[str, str]:
     return marks
 
 
-def beaten_by(results: Results, metric: Metric, column: str, variant: str, value: float) -> list[str]:
-    """Which of the black and the constant image score better than a variant's `value` against its reference.
+def beaten_by(results: Results, metric: Metric, column: str, row: pd.Series) -> list[str]:
+    """Which of the black and the constant image score better than a variant against its reference, `row` of
+    results.csv; with intervals, those whose interval lies wholly on the better side.
 
     The mean ratio is left out: the constant image has the right mean by construction.
     """
-    if metric.better == "one" or math.isnan(value):
+    if metric.better == "one" or math.isnan(row[column]):
         return []
-    scores = {name: results.baseline(name, column, results.reference_of(variant)) for name in BASELINES}
-    return [name for name, score in scores.items() if metric.rank(score) < metric.rank(value)]
+    reference = results.reference_of(row["variant"])
+    own = min(map(metric.rank, interval_of(row, column)))
+    return [name for name in BASELINES
+            if max(map(metric.rank, interval_of(results.baseline_scores(name, reference), column))) < own]
 
 
 def pareto_front(points: list[tuple[float, float]]) -> list[int]:
@@ -85,12 +92,14 @@ def summary(results: Results, light: str) -> list[str]:
         if scores.empty:
             continue
         best = scores.map(metric.rank).idxmin()
-        ties = [name for name in score_marks(results, metric, column) if name != best]
-        tied = f", which cannot be told from {_names(ties)}" if ties else ""
-        sentences.append(f"Lowest {metric.label} of the {light} light: {best} with {scores[best]:.3g}{tied}.")
-        for name, value in scores.items():
-            if beaten_by(results, metric, column, name, value):
-                worse.setdefault(name, []).append(metric.label)
+        marks = score_marks(results, metric, column)
+        ties = [name for name in scores.index if marks.get(name) == "tie"]
+        found = (f"{_names(ties)} cannot be told apart, from {scores[ties].min():.3g} to {scores[ties].max():.3g}"
+                 if ties else f"{best} with {scores[best]:.3g}")
+        sentences.append(f"Lowest {metric.label} of the {light} light: {found}.")
+        for _, row in results.ok.iterrows():
+            if beaten_by(results, metric, column, row):
+                worse.setdefault(row["variant"], []).append(metric.label)
     for measures in dict.fromkeys(map(tuple, worse.values())):
         names = [name for name, its in worse.items() if tuple(its) == measures]
         better = f"A black or a constant image has a lower {_names(list(measures))}"

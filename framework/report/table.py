@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import pandas as pd
 
 from report import ranking, text
-from report.load import BASELINES, LIGHTS, Metric, Results
+from report.load import BASELINES, LIGHTS, Metric, Results, interval_columns
 
 
 @dataclass(frozen=True)
@@ -32,8 +32,7 @@ _ARROWS = {"low": "↓", "high": "↑", "one": "→1"}
 
 @dataclass(frozen=True)
 class Column:
-    """A column of the results table. Scores have a metric; `light` is "" where it holds for both lights; what is not
-    ranked has no marks."""
+    """A column of the results table. Scores have a metric; `light` is "" where it holds for both lights."""
 
     key: str
     heading: str
@@ -41,12 +40,11 @@ class Column:
     light: str = ""
     align_text: bool = False
     metric: Metric | None = None
-    is_ranked: bool = True
 
 
 @dataclass(frozen=True)
 class Cell:
-    """`sort` is a number or a text to sort by; `mark` is "", "best", "tie" or "worse"."""
+    """`sort` is a number or a text to sort by; `mark` is "", "best", "tie" or "worse"; `interval` is "" for none."""
 
     text: str
     sort: str = ""
@@ -54,6 +52,7 @@ class Cell:
     mark: str = ""
     title: str = ""
     is_text: bool = False
+    interval: str = ""
 
 
 @dataclass(frozen=True)
@@ -106,8 +105,6 @@ def variant_rows(results: Results, columns: list[Column], numbers: dict[str, str
 
 
 def _marks(results: Results, column: Column) -> dict[str, str]:
-    if not column.is_ranked:
-        return {}
     if column.metric:
         return ranking.score_marks(results, column.metric, column.key)
     return ranking.cost_marks(results, column.key) if column.key in ranking.COST_COLUMNS else {}
@@ -116,15 +113,21 @@ def _marks(results: Results, column: Column) -> dict[str, str]:
 def _cell(results: Results, row: pd.Series, column: Column, mark: str) -> Cell:
     value = row[column.key]
     if column.metric:
-        worse = ranking.beaten_by(results, column.metric, column.key, row["variant"], value)
+        worse = ranking.beaten_by(results, column.metric, column.key, row)
         title = f"worse than a {' and a '.join(worse)} image" if worse else ""
-        return Cell(text.figures(value), _sort(value), column.light, "worse" if worse else mark, title)
+        return Cell(text.figures(value), _sort(value), column.light, "worse" if worse else mark, title,
+                    interval=_interval(row, column))
     if column.key in _COSTS:
         spread = f"p05 {text.figures(row['frame_ms_p05'])}, p95 {text.figures(row['frame_ms_p95'])} ms"
         peak = f"{text.size(row['peak_bytes'])} at the most, with scratch memory"
         title = {"frame_ms_median": spread, "memory_bytes": peak}.get(column.key, "")
         return Cell(_COSTS[column.key].write(value), _sort(value), mark=mark, title=title)
     return Cell(value, value, is_text=column.align_text)
+
+
+def _interval(row: pd.Series, column: Column) -> str:
+    ends = [row.get(name, math.nan) for name in interval_columns(column.key)]
+    return text.span(*ends) if all(map(math.isfinite, ends)) else ""
 
 
 def baseline_rows(results: Results, columns: list[Column]) -> list[Row]:
@@ -135,7 +138,7 @@ def baseline_rows(results: Results, columns: list[Column]) -> list[Row]:
 
 
 def noise_rows(results: Results, columns: list[Column]) -> list[Row]:
-    """Each reference's own noise in each score's unit, as far as the run measured it."""
+    """What the noise of each reference alone scores, where it is not taken off."""
     return [row for reference in results.references()
             if (row := _reference_row(f"the reference's own noise{_folder(results, reference)}", columns,
                                       lambda column: results.noise(column, reference)))]

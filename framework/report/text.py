@@ -25,6 +25,12 @@ def figures(value: float, digits: int = 3) -> str:
     return f"{value:,.{max(digits - 1 - exponent, 0)}f}".replace(",", "\u202f")
 
 
+def span(low: float, high: float) -> str:
+    """An interval to two significant digits of its wider end, at least as many as tell its ends apart."""
+    digits = next((d for d in (2, 3, 4) if figures(low, d) != figures(high, d)), 4)
+    return f"{figures(low, digits)}–{figures(high, digits)}"
+
+
 def exact(value: float) -> str:
     """A whole number with all of its digits, any other to four."""
     whole = math.isfinite(value) and value == int(value)

@@ -20,17 +20,29 @@ void upload(CommandStream& stream, const ImageF& from, const Image& to) {
 void PathTracePass::declare(PassBuilder& builder) {
     gbuffer_ =
         builder.readOptional<GBuffer>("gbuffer", "whose texels 'noisy_irradiance' is for; else pixels");
-    final_ = builder.write<FrameImage>("final", "radiance towards the camera");
-    indirect_ = builder.write<FrameImage>("indirect", "the part of it that was scattered more than once");
-    variance_ = builder.write<FrameImage>("variance", "variance of each pixel's mean in 'final'");
-    indirectVariance_ =
-        builder.write<FrameImage>("indirect_variance", "variance of each pixel's mean in 'indirect'");
+    const auto write = [&](const char* name, PathLight light, bool isHalf, const char* help,
+                           const ImageF& (*pixels)(const PathTraceResult&)) {
+        images_.push_back({builder.write<FrameImage>(name, help), name, light, pixels, isHalf});
+    };
+    using Result = PathTraceResult;
+    write("final", PathLight::All, false, "radiance towards the camera",
+          [](const Result& r) -> const ImageF& { return r.total; });
+    write("indirect", PathLight::Indirect, false, "the part of it that was scattered more than once",
+          [](const Result& r) -> const ImageF& { return r.indirect; });
+    write("final_a", PathLight::All, true, "'final' of one half of the samples",
+          [](const Result& r) -> const ImageF& { return r.totalHalves[0]; });
+    write("final_b", PathLight::All, true, "'final' of the other half, independent of the first",
+          [](const Result& r) -> const ImageF& { return r.totalHalves[1]; });
+    write("indirect_a", PathLight::Indirect, true, "'indirect' of one half of the samples",
+          [](const Result& r) -> const ImageF& { return r.indirectHalves[0]; });
+    write("indirect_b", PathLight::Indirect, true, "'indirect' of the other half",
+          [](const Result& r) -> const ImageF& { return r.indirectHalves[1]; });
     noisy_ = builder.write<NoisyIrradiance>("noisy_irradiance",
                                             "irradiance of indirect light, before the first hit reflects it");
 }
 
 void PathTracePass::plan(PassPlan& plan) {
-    if (params_.light == PathLight::Indirect && plan.get(final_).isRead)
+    if (params_.light == PathLight::Indirect && plan.get(images_[0].port).isRead)
         throw Error("path_trace: with 'light: indirect' it writes no 'final'; let composite follow");
     options_ = {.width = plan.frame.width,
                 .height = plan.frame.height,
@@ -38,8 +50,8 @@ void PathTracePass::plan(PassPlan& plan) {
                 .bounces = params_.bounces,
                 .light = params_.light};
     uint64_t largest = 0;
-    for (const auto& [port, image] : frameImages())
-        if (FrameImage& frame = plan.get(port); frame.isRead) {
+    for (const RenderedImage& image : images_)
+        if (FrameImage& frame = plan.get(image.port); frame.isRead && isRendered(image)) {
             plan.image(frame.image, image.name, frameImageDesc(plan.frame));
             largest = imageBytes(frameImageDesc(plan.frame));
         }
@@ -67,23 +79,13 @@ void PathTracePass::record(PassContext& context) {
     if (frame.changed && !frame.changed->empty()) embree_->update();
     const PathTraceResult result = pathTrace(*frame.scene, *embree_, frame.camera, options_, frame.progress);
     context.extraRays = result.rays;
-    for (const auto& [port, image] : frameImages())
-        if (const FrameImage& to = context.get(port); to.isRead)
-            upload(context.stream, result.*image.pixels, to.image);
+    for (const RenderedImage& image : images_)
+        if (const FrameImage& to = context.get(image.port); to.isRead && isRendered(image))
+            upload(context.stream, image.pixels(result), to.image);
     if (const NoisyIrradiance& noisy = context.get(noisy_); noisy.isRead) {
         upload(context.stream, result.irradiance, noisy.irradiance);
         context.stream.upload(noisy.moments, result.moments);
     }
-}
-
-std::vector<std::pair<Port<FrameImage>, PathTracePass::RenderedImage>> PathTracePass::frameImages() const {
-    std::vector<std::pair<Port<FrameImage>, RenderedImage>> images{
-        {indirect_, {"path traced indirect", &PathTraceResult::indirect}},
-        {indirectVariance_, {"path traced indirect variance", &PathTraceResult::indirectVariance}}};
-    if (params_.light == PathLight::Indirect) return images;
-    images.push_back({final_, {"path traced", &PathTraceResult::total}});
-    images.push_back({variance_, {"path traced variance", &PathTraceResult::totalVariance}});
-    return images;
 }
 
 }  // namespace voxray

@@ -24,8 +24,8 @@ class PathTracePass final : public Pass {
     static constexpr const char* kHelp =
         "Path tracer on the CPU (Embree): next-event estimation and multiple importance sampling, "
         "Owen-scrambled Sobol "
-        "points. Unbiased for the bounces that it is given; noisy by: spp. Writes total and indirect light "
-        "and the variance of each pixel's mean, and irradiance at the g-buffer's texels for "
+        "points. Unbiased for the bounces that it is given; noisy by: spp. Writes total and indirect light, "
+        "each also as two independent halves, and irradiance at the g-buffer's texels for "
         "filter_irradiance.";
     struct Params {
         uint32_t spp = 64;
@@ -53,15 +53,22 @@ class PathTracePass final : public Pass {
 
  private:
     Params params_;
+    /// An output and what is rendered for it; 'final' is the first.
     struct RenderedImage {
+        Port<FrameImage> port;
         const char* name;
-        ImageF PathTraceResult::*pixels;
+        PathLight light;  ///< Where paths are spent on this light alone, it is written.
+        const ImageF& (*pixels)(const PathTraceResult&);
+        bool isHalf;
     };
-    /// What is rendered for each output; with `light: indirect` nothing for 'final' and 'variance'.
-    std::vector<std::pair<Port<FrameImage>, RenderedImage>> frameImages() const;
+    /// With `light: indirect` nothing but indirect light is; of a single sample there are no halves.
+    bool isRendered(const RenderedImage& image) const {
+        return (image.light == PathLight::Indirect || params_.light == PathLight::All) &&
+               (!image.isHalf || params_.spp > 1);
+    }
 
     Port<const GBuffer> gbuffer_;
-    Port<FrameImage> final_, indirect_, variance_, indirectVariance_;
+    std::vector<RenderedImage> images_;
     Port<NoisyIrradiance> noisy_;
     PathTraceOptions options_;
     std::unique_ptr<EmbreeScene> embree_;

@@ -46,25 +46,17 @@ class PinholeCamera {
 struct PixelSums {
     std::array<glm::dvec3, kBatches> batch{};
 
-    /// Writes the mean and the variance of the mean, from the spread between batches of `sizes` samples.
-    void write(const std::array<uint32_t, kBatches>& sizes, uint32_t batches, uint32_t spp, float* mean,
-               float* variance) const {
-        for (int c = 0; c < 3; ++c) {
-            double sum = 0.0;
-            for (uint32_t b = 0; b < batches; ++b) sum += batch[b][c];
-            const double average = sum / spp;
-            double spread = average * average;
-            if (batches > 1) {
-                spread = 0.0;
-                for (uint32_t b = 0; b < batches; ++b) {
-                    const double deviation = batch[b][c] - average * sizes[b];
-                    spread += deviation * deviation;
-                }
-                spread *= double(batches) / (double(batches - 1) * spp * spp);
-            }
-            mean[c] = float(average);
-            variance[c] = float(spread);
+    /// Writes the mean of all samples and that of each batch.
+    void write(const std::array<uint32_t, kBatches>& sizes, uint32_t batches, uint32_t x, uint32_t y,
+               ImageF& all, std::array<ImageF, kBatches>& halves) const {
+        glm::dvec3 sum(0.0);
+        uint32_t samples = 0;
+        for (uint32_t b = 0; b < batches; ++b) {
+            sum += batch[b];
+            samples += sizes[b];
+            for (int c = 0; c < 3; ++c) halves[b].pixel(x, y)[c] = float(batch[b][c] / sizes[b]);
         }
+        for (int c = 0; c < 3; ++c) all.pixel(x, y)[c] = float(sum[c] / samples);
     }
 };
 
@@ -135,10 +127,8 @@ struct Job {
             }
         }
         finishIrradiance(x, y);
-        total.write(batchSizes, batches, options.spp, result.total.pixel(x, y),
-                    result.totalVariance.pixel(x, y));
-        indirect.write(batchSizes, batches, options.spp, result.indirect.pixel(x, y),
-                       result.indirectVariance.pixel(x, y));
+        total.write(batchSizes, batches, x, y, result.total, result.totalHalves);
+        indirect.write(batchSizes, batches, x, y, result.indirect, result.indirectHalves);
         return rays;
     }
 };
@@ -172,8 +162,7 @@ PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const
     if (options.spp == 0) throw Error("path tracing: spp must be at least 1");
 
     PathTraceResult result;
-    for (ImageF* image : {&result.total, &result.indirect, &result.totalVariance, &result.indirectVariance})
-        *image = ImageF(width, height, 3);
+    result.total = result.indirect = ImageF(width, height, 3);
     if (options.irradianceTexels > 0) {
         result.irradiance = ImageF(width * options.irradianceTexels, height * options.irradianceTexels, 4);
         const uint32_t block = options.momentsPixels();
@@ -185,9 +174,11 @@ PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const
     // Divide the samples among independent batches.
     Job job{.integrator = integrator, .camera = pinhole, .options = options, .result = result};
     job.batches = std::min(options.spp, kBatches);
-    for (uint32_t b = 0; b < job.batches; ++b)
+    for (uint32_t b = 0; b < job.batches; ++b) {
+        result.totalHalves[b] = result.indirectHalves[b] = ImageF(width, height, 3);
         job.batchSizes[b] = uint32_t((uint64_t(options.spp) * (b + 1)) / job.batches -
                                      (uint64_t(options.spp) * b) / job.batches);
+    }
 
     // Every pixel is computed alone, so tiles may run in any order.
     const size_t tilesX = (width + kTile - 1) / kTile, tiles = tilesX * ((height + kTile - 1) / kTile);

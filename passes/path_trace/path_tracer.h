@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -30,15 +31,13 @@ struct PathTraceOptions {
     uint32_t momentsPixels() const { return spp >= 16 ? 1 : spp >= 4 ? 2 : 4; }
 };
 
-/// Radiance, 3 channels, W/(m² sr), and the variance of each pixel's mean. The variance is measured between
-/// two halves of the samples, randomised independently: unbiased for low-discrepancy samples too, but with
-/// one degree of freedom a pixel, so average it over a region. With 1 spp nothing is known: it is the mean
-/// squared, an error of 100 %.
+/// Radiance, 3 channels, W/(m² sr), and the means of two halves of the samples, randomised independently:
+/// their difference tells the noise, of low-discrepancy samples too. With 1 spp there is no second half: it
+/// is empty.
 struct PathTraceResult {
     ImageF total;
     ImageF indirect;  ///< Total less emission and direct light at the first hit.
-    ImageF totalVariance;
-    ImageF indirectVariance;
+    std::array<ImageF, 2> totalHalves, indirectHalves;
     uint64_t rays = 0;
 
     /// Indirect light that arrives at first hits, before they reflect it. 4 channels, irradianceTexels texels

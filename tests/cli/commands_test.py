@@ -87,6 +87,22 @@ class Compare(CommandTest):
         self.assertEqual(lines[0].split(), ["nrmse", "relmse", "flip", "flip_ldr", "ssim", "psnr_db", "mean_ratio"])
         self.assertEqual([line.split()[0] for line in lines[1:]], ["test", "black", "constant"])
 
+    def test_halves_next_to_the_reference_take_its_noise_off(self):
+        for name, value in (("test", 90), ("reference", 180), ("reference_a", 180), ("reference_b", 180)):
+            self.image(f"{name}.png", value)
+        result = self.scores("test.png", "reference.png")
+        error = 1 - linear(90) / linear(180)
+        for key in ("nrmse", "nrmse_low", "nrmse_high"):
+            self.assertAlmostEqual(result["scores"][key], error, places=5)
+        self.assertEqual(result["noise"], {"flip": 0, "flip_ldr": 0, "ssim": 1, "psnr_db": 100})
+        lines = self.expect(0, "compare", "test.png", "reference.png").stdout.splitlines()
+        self.assertEqual([line.split()[0] for line in lines[1:]], ["test", "95", "95", "black", "constant", "noise"])
+
+        # What isn't their mean is no half of it
+        self.image("reference_b.png", 181)
+        self.assertIn("reference.png isn't the mean of reference_a.png and reference_b.png",
+                      self.expect(1, "compare", "test.png", "reference.png").stderr)
+
     def test_flip_map(self):
         self.image("test.png", 90)
         self.image("reference.png", 180)

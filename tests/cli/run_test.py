@@ -9,9 +9,10 @@ import unittest
 from support import TINY, CommandTest
 
 METRICS = ["nrmse", "relmse", "flip", "flip_ldr", "ssim", "psnr_db", "mean_ratio"]
+SCORES = [metric + end for metric in METRICS for end in (("", "_low", "_high") if metric in METRICS[:2] else ("",))]
 RESULT_COLUMNS = (["variant", "status", "error", "device", "tracer", "voxelize.resolution", "build_ms",
-                   "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays"] + METRICS +
-                  ["indirect_" + metric for metric in METRICS])
+                   "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays"] + SCORES +
+                  ["indirect_" + score for score in SCORES])
 PASS_COLUMNS = ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes",
                 "scratch_bytes"]
 VARIANTS = ["resolution-8", "resolution-16"]

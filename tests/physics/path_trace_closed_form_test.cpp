@@ -102,7 +102,7 @@ TEST(PathTraceClosedForm, FurnaceOfAnySizeAndPlaceNeitherLeaksNorShadowsItself) 
             const PathTraceResult r = s.render(camera, options(64, bounces));
             const double count = double(r.total.pixelCount());
             for (const auto& [channel, albedo] : {std::pair{0u, 0.5}, std::pair{1u, 0.9}}) {
-                const double deviation = std::sqrt(meanOf(r.totalVariance, channel) / count);
+                const double deviation = std::sqrt(meanOf(varianceOf(r.totalHalves), channel) / count);
                 const double expected = furnaceSum(albedo, bounces) * (channel + 1);
                 EXPECT_LT(deviation, 0.02 * expected);
                 EXPECT_NEAR(meanOf(r.total, channel), expected, 4 * deviation);

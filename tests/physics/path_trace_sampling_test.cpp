@@ -82,18 +82,20 @@ TEST(PathTraceSampling, StrategiesAgree) {
     const PathTraceResult mis = s.render(roomCamera(), options);
     for (const Strategy strategy : {Strategy::ReflectionOnly, Strategy::LightsOnly}) {
         const PathTraceResult other = s.render(roomCamera(), options, strategy);
-        for (const auto& [image, variance] :
-             {std::pair{&PathTraceResult::total, &PathTraceResult::totalVariance},
-              std::pair{&PathTraceResult::indirect, &PathTraceResult::indirectVariance}})
+        for (const auto& [image, halves] :
+             {std::pair{&PathTraceResult::total, &PathTraceResult::totalHalves},
+              std::pair{&PathTraceResult::indirect, &PathTraceResult::indirectHalves}}) {
+            const ImageF misVariance = varianceOf(mis.*halves), otherVariance = varianceOf(other.*halves);
             for (uint32_t c = 0; c < 3; ++c) {
                 const double a = meanOf(mis.*image, c), b = meanOf(other.*image, c);
                 const double count = double(mis.total.pixelCount());
                 const double deviation =
-                    std::sqrt((meanOf(mis.*variance, c) + meanOf(other.*variance, c)) / count);
+                    std::sqrt((meanOf(misVariance, c) + meanOf(otherVariance, c)) / count);
                 EXPECT_NEAR(a, b, 4 * deviation);
                 EXPECT_LT(deviation, 0.03 * a);
-                EXPECT_LE(meanOf(mis.*variance, c), 1.2 * meanOf(other.*variance, c));
+                EXPECT_LE(meanOf(misVariance, c), 1.2 * meanOf(otherVariance, c));
             }
+        }
     }
 }
 
@@ -105,7 +107,7 @@ TEST(PathTraceSampling, SameImageOnAnyNumberOfThreads) {
     tbb::task_arena(1).execute([&] { one = s.render(roomCamera(), options); });
     EXPECT_EQ(many.total.data, one.total.data);
     EXPECT_EQ(many.indirect.data, one.indirect.data);
-    EXPECT_EQ(many.totalVariance.data, one.totalVariance.data);
+    for (size_t half : {0, 1}) EXPECT_EQ(many.totalHalves[half].data, one.totalHalves[half].data);
     EXPECT_EQ(many.rays, one.rays);
     PathTraceOptions other = options;
     other.seed = 6;
@@ -131,10 +133,11 @@ TEST(PathTraceSampling, VarianceIsTheSpreadBetweenSeeds) {
         double predicted = 0, spread = 0;
         for (; options.seed < kSeeds; ++options.seed) {
             const PathTraceResult r = s.render(roomCamera(), options);
+            const ImageF variance = varianceOf(r.totalHalves);
             for (size_t i = 0; i < sum.size(); ++i) {
                 sum[i] += r.total.data[i];
                 squares[i] += double(r.total.data[i]) * r.total.data[i];
-                predicted += double(r.totalVariance.data[i]) / kSeeds;
+                predicted += double(variance.data[i]) / kSeeds;
             }
         }
         for (size_t i = 0; i < sum.size(); ++i)
@@ -143,15 +146,30 @@ TEST(PathTraceSampling, VarianceIsTheSpreadBetweenSeeds) {
     }
 }
 
+TEST(PathTraceSampling, HalvesMakeTheMeanAndASingleSampleHasNone) {
+    const HandScene s = glossyRoom();
+    PathTraceOptions options{.width = 8, .height = 8, .spp = 6, .bounces = 2, .seed = 4};
+    const PathTraceResult r = s.render(roomCamera(), options);
+    EXPECT_NE(r.totalHalves[0].data, r.totalHalves[1].data);
+    for (size_t i = 0; i < r.total.data.size(); ++i) {
+        EXPECT_NEAR(r.total.data[i], 0.5f * (r.totalHalves[0].data[i] + r.totalHalves[1].data[i]),
+                    1e-5f * r.total.data[i]);
+        EXPECT_NEAR(r.indirect.data[i], 0.5f * (r.indirectHalves[0].data[i] + r.indirectHalves[1].data[i]),
+                    1e-5f * r.total.data[i]);
+    }
+    options.spp = 1;
+    EXPECT_EQ(s.render(roomCamera(), options).totalHalves[1].pixelCount(), 0u);
+}
+
 TEST(PathTraceSampling, LowDiscrepancyBeatsIndependentSamples) {
     // A pixel's error under an area light falls faster than 1 / sqrt(n).
     HandScene s;
     s.ground(s.lambert(glm::vec3(0.5f)));
     s.quad({-0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1}, s.lambert({}, glm::vec3(2)));
     PathTraceOptions options{.width = 16, .height = 16, .spp = 16, .bounces = 0, .seed = 0};
-    const double few = meanOf(s.render(downCamera(0.9f, 0.4f), options).totalVariance);
+    const double few = meanOf(varianceOf(s.render(downCamera(0.9f, 0.4f), options).totalHalves));
     options.spp = 256;
-    const double many = meanOf(s.render(downCamera(0.9f, 0.4f), options).totalVariance);
+    const double many = meanOf(varianceOf(s.render(downCamera(0.9f, 0.4f), options).totalHalves));
     EXPECT_GT(few / many, 32);
 }
 
@@ -163,7 +181,7 @@ TEST(PathTraceSampling, HardGeometryStaysFinite) {
     for (VertexAttributes& a : s.state.geometry.attributes) a.normal = glm::vec3(0, 1, 0);
     const PathTraceResult r =
         s.render(roomCamera(), {.width = 32, .height = 32, .spp = 16, .bounces = 6, .seed = 1});
-    for (const ImageF* image : {&r.total, &r.indirect, &r.totalVariance, &r.indirectVariance})
+    for (const ImageF* image : {&r.total, &r.indirect, &r.totalHalves[0], &r.indirectHalves[1]})
         for (const float x : image->data) ASSERT_TRUE(std::isfinite(x) && x >= 0);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -11,6 +12,16 @@
 #include "scene/geometry.h"
 
 namespace voxray::test {
+
+/// Variance of each pixel's mean, from its two halves of equal size: unbiased, with one degree of freedom.
+inline ImageF varianceOf(const std::array<ImageF, 2>& halves) {
+    ImageF variance = halves[0];
+    for (size_t i = 0; i < variance.data.size(); ++i) {
+        const float deviation = 0.5f * (halves[0].data[i] - halves[1].data[i]);
+        variance.data[i] = deviation * deviation;
+    }
+    return variance;
+}
 
 /// A scene made by hand, so that these tests check the path tracer alone.
 struct HandScene {

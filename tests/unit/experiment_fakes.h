@@ -98,21 +98,23 @@ class Constant : public Pass {
     Image notToBeCleared_;
 };
 
-/// A reference of radiance 1 with a variance of 0.01.
+/// A reference of radiance 1, whose halves are 1 - noise and 1 + noise.
 class Truth : public Pass {
  public:
     static constexpr const char* kName = "truth";
     static constexpr const char* kHelp = "A constant reference.";
     struct Params {
         uint32_t spp = 4;
+        float noise = 0;
         static constexpr auto schema() {
-            return std::tuple{field("spp", &Params::spp, "Samples.", 1u, 1000u)};
+            return std::tuple{field("spp", &Params::spp, "Samples.", 1u, 1000u),
+                              field("noise", &Params::noise, "Of each half.", 0.0f, 1.0f)};
         }
     };
     static inline int runs = 0;
     static inline std::vector<uint64_t> seeds;  ///< Of each run.
 
-    explicit Truth(const Params&) {}
+    explicit Truth(const Params& params) : params_(params) {}
     Phase phase() const override { return Phase::Frame; }
     void declare(PassBuilder& b) override {
         for (int i = 0; i < 4; ++i) images_[i] = b.write<FrameImage>(kNames[i], "A constant.");
@@ -124,15 +126,15 @@ class Truth : public Pass {
     void record(PassContext& context) override {
         ++runs;
         seeds.push_back(context.frame.seed + context.frameIndex);
-        constexpr float kValues[] = {1.0f, 0.5f, 0.01f, 0.0025f};
         for (int i = 0; i < 4; ++i) {
-            const float v = kValues[i];
+            const float v = (i < 2 ? 1.0f : 0.5f) * (1 + (i % 2 ? params_.noise : -params_.noise));
             context.stream.clear(context.get(images_[i]).image, {{v, v, v, 1}});
         }
     }
 
  private:
-    static constexpr const char* kNames[] = {"final", "indirect", "variance", "indirect_variance"};
+    static constexpr const char* kNames[] = {"final_a", "final_b", "indirect_a", "indirect_b"};
+    Params params_;
     Port<FrameImage> images_[4];
 };
 

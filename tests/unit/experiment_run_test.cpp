@@ -30,16 +30,19 @@ TEST_F(RunTest, WritesResultsWithTheScoresOfClosedForms) {
     for (const char* name : {"final.exr", "indirect.exr", "final.png", "indirect.png", "flip.png",
                              "indirect_flip.png", "result.json"})
         EXPECT_TRUE(fs::exists(out / "images" / "value-0.5" / name)) << name;
-    for (const char* name : {"final.exr", "indirect.exr", "final.png", "indirect.png"})
+    for (const char* name :
+         {"final.exr", "indirect.exr", "final.png", "indirect.png", "final_a.exr", "indirect_b.exr"})
         EXPECT_TRUE(fs::exists(out / "images" / "reference" / name)) << name;
     EXPECT_EQ(readImage(out / "images" / "value-0.5" / "final.exr").data[0], 0.5f);
     EXPECT_CONTAINS(readTextFile(out / "passes.csv"), "value-0.5,constant,frame,");
 
-    // The reference's own noise: sqrt(0.01), 0.01 / 1.01
+    // Halves without noise: it is no floor, and intervals are points
     const auto manifest = nlohmann::json::parse(readTextFile(out / "manifest.json"));
-    EXPECT_NEAR(manifest["reference"]["nrmse_noise"].get<double>(), 0.1, 1e-6);
-    EXPECT_NEAR(manifest["reference"]["relmse_noise"].get<double>(), 0.01 / 1.01, 1e-6);
-    EXPECT_NEAR(manifest["reference"]["indirect_nrmse_noise"].get<double>(), 0.1, 1e-6);
+    EXPECT_EQ(manifest["reference"]["flip_noise"], 0);
+    EXPECT_EQ(manifest["reference"]["indirect_psnr_db_noise"], 100);
+    EXPECT_FALSE(manifest["reference"].contains("nrmse_noise"));
+    EXPECT_NEAR(std::stod(cell("value-0.5", "nrmse_low")), 0.5, 1e-6);
+    EXPECT_NEAR(std::stod(cell("value-0.5", "indirect_relmse_high")), 0.25 / 1.01, 1e-6);
     EXPECT_EQ(manifest["reference"]["spp"], 4);
     EXPECT_NEAR(manifest["baselines"]["black"]["nrmse"].get<double>(), 1, 1e-6);
     EXPECT_NEAR(manifest["baselines"]["constant"]["nrmse"].get<double>(), 0, 1e-6);
@@ -47,6 +50,8 @@ TEST_F(RunTest, WritesResultsWithTheScoresOfClosedForms) {
     EXPECT_EQ(manifest["metrics"].size(), metrics().size());
     EXPECT_EQ(manifest["metrics"][0]["name"], "nrmse");
     EXPECT_EQ(manifest["metrics"][0]["better"], "low");
+    EXPECT_EQ(manifest["metrics"][0]["interval"], true);
+    EXPECT_EQ(manifest["metrics"][2]["interval"], false);
     EXPECT_EQ(manifest["sweep_keys"][0], "constant.value");
     EXPECT_TRUE(manifest["finished"].is_string());
 }
@@ -58,8 +63,28 @@ TEST_F(RunTest, ColumnsAreTheDocumentedOnes) {
         text.substr(0, text.find('\n')),
         "variant,status,error,device,tracer,constant.value,build_ms,frame_ms_median,frame_ms_p05,frame_ms_"
         "p95,"
-        "memory_bytes,peak_bytes,rays,nrmse,relmse,flip,flip_ldr,ssim,psnr_db,mean_ratio,indirect_nrmse,"
-        "indirect_relmse,indirect_flip,indirect_flip_ldr,indirect_ssim,indirect_psnr_db,indirect_mean_ratio");
+        "memory_bytes,peak_bytes,rays,nrmse,nrmse_low,nrmse_high,relmse,relmse_low,relmse_high,flip,flip_ldr,"
+        "ssim,psnr_db,mean_ratio,indirect_nrmse,indirect_nrmse_low,indirect_nrmse_high,indirect_relmse,"
+        "indirect_relmse_low,indirect_relmse_high,indirect_flip,indirect_flip_ldr,indirect_ssim,"
+        "indirect_psnr_db,indirect_mean_ratio");
+}
+
+TEST_F(RunTest, NoiseOfTheReferenceIsTakenOffOrIsAFloor) {
+    const Experiment noisy = parseExperiment(config("sweep: {constant.value: [1, 0.5]}\n"), "fake.yaml",
+                                             {"", {"reference.noise=0.25"}});
+    EXPECT_EQ(runExperiment(noisy, options(), registry()).exitStatus(), 0);
+
+    // (0.5 - 0.75) (0.5 - 1.25); for a perfect image the product is negative and counts as 0
+    EXPECT_NEAR(std::stod(cell("value-0.5", "nrmse")), std::sqrt(0.25 * 0.75), 1e-6);
+    EXPECT_NEAR(std::stod(cell("value-0.5", "indirect_nrmse")), std::sqrt(0.25 * 0.75), 1e-6);
+    for (const char* column : {"nrmse", "nrmse_low", "nrmse_high", "relmse"})
+        EXPECT_EQ(cell("value-1", column), "0") << column;
+
+    // Those that noise isn't taken off have a floor
+    const auto reference = nlohmann::json::parse(readTextFile(root_ / "out" / "manifest.json"))["reference"];
+    EXPECT_GT(reference["flip_noise"].get<double>(), 0.01);
+    EXPECT_LT(reference["ssim_noise"].get<double>(), 0.999);
+    EXPECT_FALSE(reference.contains("mean_ratio_noise"));
 }
 
 TEST_F(RunTest, NanFailsItsVariantAndNamesThePass) {
@@ -137,7 +162,7 @@ TEST_F(RunTest, ReferenceIsCachedByWhatItDependsOn) {
                   registry());
     EXPECT_EQ(Truth::runs, runs);
     for (const auto& entry : fs::recursive_directory_iterator(root_ / "cache" / "references"))
-        if (entry.path().filename() == "final.exr") std::ofstream(entry.path()) << "broken";
+        if (entry.path().filename() == "final_a.exr") std::ofstream(entry.path()) << "broken";
     run("");
     EXPECT_EQ(Truth::runs, runs + 1);
 }

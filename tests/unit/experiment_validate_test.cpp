@@ -54,7 +54,7 @@ TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
     expectError("graph:\n  - {pass: constant}\nreference: {pass: truth, ssp: 3}\n",
                 {"x.yaml:5: ", "did you mean 'spp'?"});
     expectError("graph:\n  - {pass: constant}\nreference: {pass: constant}\n",
-                {"x.yaml:5: ", "writes no 'variance'"});
+                {"x.yaml:5: ", "writes no 'final_a'"});
     expectError("graph:\n  - {pass: relay, inputs: {extra: relay}}\n", {"x.yaml:4: "});
 }
 
@@ -111,7 +111,7 @@ TEST(Results, MetricsThatWereNotAskedForStayEmpty) {
     MeasureSettings measure;
     measure.metrics = {"nrmse"};
     const std::string text = resultsCsv({r}, {}, measure);
-    EXPECT_CONTAINS(text, "v,ok,,,,0,0,0,0,0,0,0,0.5,,,,,,,0.75,,,,,,\n");
+    EXPECT_CONTAINS(text, "v,ok,,,,0,0,0,0,0,0,0,0.5,,,,,,,,,,,0.75,,,,,,,,,,\n");
 }
 
 TEST(Results, JsonSurvivesTheRoundTrip) {

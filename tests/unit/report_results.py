@@ -10,12 +10,14 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-METRICS = [{"name": name, "label": label, "unit": unit, "better": better, "meaning": f"what {label} measures"}
+METRICS = [{"name": name, "label": label, "unit": unit, "better": better, "meaning": f"what {label} measures",
+            "interval": name in ("nrmse", "relmse")}
            for name, label, unit, better in (
                ("nrmse", "nRMSE", "", "low"), ("relmse", "relMSE", "", "low"), ("flip", "HDR-FLIP", "", "low"),
                ("flip_ldr", "LDR-FLIP", "", "low"), ("ssim", "SSIM", "", "high"), ("psnr_db", "PSNR", "dB", "high"),
                ("mean_ratio", "mean ratio", "", "one"))]
-TEMPORAL_METRICS = [{"name": name, "label": label, "unit": "", "better": "low", "meaning": f"what {label} measures"}
+TEMPORAL_METRICS = [{"name": name, "label": label, "unit": "", "better": "low", "meaning": f"what {label} measures",
+                     "interval": True}
                     for name, label in (("temporal_nrmse", "temporal nRMSE"), ("temporal_bias", "temporal bias"),
                                         ("temporal_flicker", "flicker"))]
 SCORES = tuple(metric["name"] for metric in METRICS)
@@ -27,6 +29,11 @@ def scores(error: float) -> dict[str, float]:
     """Scores that all worsen with `error`."""
     return {"flip": 0.5 * error, "ssim": 1 - 0.5 * error, "psnr_db": 30 - 20 * error, "nrmse": error,
             "relmse": error * error, "mean_ratio": 1 - 0.1 * error, "flip_ldr": 0.4 * error}
+
+
+def spread(column: str, low: float, high: float) -> dict[str, float]:
+    """The ends of a score's interval."""
+    return {f"{column}_low": low, f"{column}_high": high}
 
 
 def variant(name: str, frame_ms: float, error: float, indirect: float | None = None, **sweep) -> dict:
@@ -52,7 +59,7 @@ def with_sequence(rows: list[dict], frames: int) -> list[dict]:
     for row in rows:
         error = row["nrmse"]
         row.update({"temporal_nrmse": error / 2, "temporal_bias": error / 10, "temporal_flicker": error * 0.49,
-                    "temporal_noise": 0.001})
+                    **spread("temporal_nrmse", 0.4 * error, 0.6 * error)})
         for frame in range(frames):
             table.append({"variant": row["variant"], "frame": frame, **scores(error * (1 + 0.1 * frame)),
                           "temporal_nrmse": error / 2 if frame else ""})
@@ -71,8 +78,8 @@ def manifest(sweep_keys: list[str]) -> dict:
             "image": {"width": SIZE[0], "height": SIZE[1]}, "exposure_stops": 0.0,
             "metrics": METRICS, "temporal_metrics": TEMPORAL_METRICS, "flip_exposures": {"start": -2.0, "stop": 3.0, "count": 5},
             "reference": {"pass": "path_trace", "spp": 64, "seconds": 12.5, "cached": False,
-                          "hash": "0123abcd", "nrmse_noise": 0.01, "relmse_noise": 0.001,
-                          "indirect_nrmse_noise": 0.02, "indirect_relmse_noise": 0.002},
+                          "hash": "0123abcd", "flip_noise": 0.01, "ssim_noise": 0.98,
+                          "indirect_flip_noise": 0.02},
             "baselines": baselines, "auto": {"tracer": "embree"}, "warnings": [],
             "versions": {"glslang": "15"}, "machine": {"cpu": "a CPU", "cores": 2}}
 
@@ -107,7 +114,9 @@ def write_results(directory: Path, rows: list[dict], run: dict | None, *, refere
     """Writes a results folder; `run` is its manifest, None for none."""
     text = ("variant", "status", "error", "device", "tracer")
     numbers = [*COSTS, *SCORES, *(f"indirect_{key}" for key in SCORES)]
-    numbers += [key for row in rows[:1] for key in row if "@" in key or key.startswith("temporal_")]
+    ends = ("_low", "_high")
+    numbers += [key for row in rows[:1] for key in row
+                if "@" in key or key.startswith("temporal_") or (key.endswith(ends) and key not in numbers)]
     sweep = [key for row in rows[:1] for key in row if key not in (*text, *numbers)]
     columns = [*text, *sweep, *numbers]
     directory.mkdir(parents=True, exist_ok=True)
@@ -141,6 +150,9 @@ def sweep_of_two_keys() -> list[dict]:
              (128, "rsm", 16.0, 0.44, 0.61), (256, "rsm", 44.0, 0.217, 0.310))
     rows = [variant(f"{inject}-{resolution}", ms, error, indirect, **{"voxelize.resolution": resolution,
                     "inject": inject}) for resolution, inject, ms, error, indirect in table]
+    for row in rows:
+        for light in ("", "indirect_"):
+            row.update(spread(f"{light}nrmse", 0.97 * row[f"{light}nrmse"], 1.03 * row[f"{light}nrmse"]))
     error = "pass 'voxelize': needs 34.4 GiB, the device has 7.7 GiB; lower resolution"
     return rows + [failed("rsm-2048", error, **{"voxelize.resolution": 2048, "inject": "rsm"})]
 

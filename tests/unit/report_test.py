@@ -22,11 +22,12 @@ sys.path += [str(_ROOT / "framework"), str(_ROOT / "tests" / "unit")]
 
 import report_results as made_up  # noqa: E402
 from report import images, make_report, page, ranking, text  # noqa: E402
-from report.load import Metric, ReportError, load  # noqa: E402
+from report.load import Metric, ReportError, interval_of, load  # noqa: E402
 from PIL import Image  # noqa: E402
 
 _VOID = {"meta", "img", "input", "br", "wbr", "path", "rect", "use", "hr", "link"}
-_NRMSE = Metric("nrmse", "nRMSE", "", "low", "")
+_NRMSE = Metric("nrmse", "nRMSE", "", "low", "", True)
+_FLIP = Metric("flip", "HDR-FLIP", "", "low", "")
 
 
 class Page(HTMLParser):
@@ -105,7 +106,7 @@ class FullRun(unittest.TestCase):
         self.assertEqual(len(sources), 26)
         self.assertTrue(all(source.startswith("data:image/png;base64,") for source in sources))
         for words in ("6 of 7 variants finished. 1 variant failed", "needs 34.4 GiB", "a constant image",
-                      "light_rays-256 with 0.3, which cannot be told from rsm-256",
+                      "light_rays-256 and rsm-256 cannot be told apart, from 0.3 to 0.31", "0.29–0.31",
                       "Fastest frame: rsm-64 with 9 ms"):
             self.assertIn(words, self.page.text)
 
@@ -221,7 +222,7 @@ class PartOfARun(ReportTest):
         made_up.write_csv(self.directory / "frames.csv", list(frames[1]), frames)
         self.assertEqual(self.run_program()[0], 0)
         shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
-        for words in ("Over frames", "temporal bias", "reference's noise", "calm: 0.220 on average"):
+        for words in ("Over frames", "temporal bias", "0.080–0.12", "calm: 0.220 on average"):
             self.assertIn(words, shown.text)
         self.assertEqual(shown.count("svg", "chart"), 6 + 3)
         (self.directory / "frames.csv").write_text("what,is\nthis,here\n")
@@ -232,21 +233,23 @@ class PartOfARun(ReportTest):
         rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.4))]
         for row, value in zip(rows, (0.7, 0.609)):
             row["nrmse@floor"] = value
+            row.update({"nrmse_low@floor": value - 0.06, "nrmse_high@floor": value + 0.06, "flip@floor": 0.2})
         run = made_up.manifest([])
         run["config"]["measure"] = {"masks": {"floor": {"material": "stone"}}}
-        run["reference"] |= {"nrmse@floor_noise": 0.1, "mask_fractions": {"floor": 0.25}}
-        run["baselines"]["black"]["nrmse@floor"] = 0.65
+        run["reference"] |= {"flip@floor_noise": 0.123, "mask_fractions": {"floor": 0.25}}
+        run["baselines"]["black"]["nrmse@floor"] = 0.63
         path = self.directory / "images/reference/mask.floor.png"
         path.parent.mkdir(parents=True)
         Image.new("L", (4, 2), 255).save(path)
         shown = self.make(rows, run, indirect=False)
-        for words in ("Under masks", "material stone", "25.0 % of the pixels", "0.609", "0.700"):
+        for words in ("Under masks", "material stone", "25.0 % of the pixels", "0.609", "0.700", "0.64–0.76", "0.123"):
             self.assertIn(words, shown.text)
         self.assertEqual(shown.text.count("a black image"), 2)  # in both tables
-        # Within the mask's noise b is the best and a, worse than black, has that mark.
+        # Their intervals overlap; black is below that of a alone.
         results = load(self.directory)
-        self.assertEqual(ranking.score_marks(results, _NRMSE, "nrmse@floor"), {"b": "best", "a": "tie"})
-        self.assertEqual(ranking.beaten_by(results, _NRMSE, "nrmse@floor", "a", 0.7), ["black"])
+        self.assertEqual(ranking.score_marks(results, _NRMSE, "nrmse@floor"), {"a": "tie", "b": "tie"})
+        beaten = [ranking.beaten_by(results, _NRMSE, "nrmse@floor", row) for _, row in results.ok.iterrows()]
+        self.assertEqual(beaten, [["black"], []])
 
     def test_each_variant_is_shown_next_to_its_own_reference(self):
         run = made_up.manifest([])
@@ -329,13 +332,43 @@ class Comparing(ReportTest):
         run.update(changes)
         return load(made_up.write_results(self.directory, rows, run, images=False))
 
-    def test_a_tie_is_a_difference_within_the_noise(self):
-        # The reference's nRMSE noise is 0.01: 0.209 ties with 0.2, 0.211 does not.
-        rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.209), ("c", 0.211))]
-        marks = ranking.score_marks(self.results(rows), _NRMSE, "nrmse")
-        self.assertEqual(marks, {"a": "best", "b": "tie"})
-        marks = ranking.score_marks(self.results(rows, reference={}), _NRMSE, "nrmse")
-        self.assertEqual(marks, {"a": "best"})
+    def test_scores_whose_intervals_overlap_tie_and_none_is_the_best(self):
+        rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.23), ("c", 0.25))]
+        for row in rows:
+            row.update(made_up.spread("nrmse", row["nrmse"] - 0.02, row["nrmse"] + 0.02))
+        results = self.results(rows)
+        self.assertEqual(ranking.score_marks(results, _NRMSE, "nrmse"), {"a": "tie", "b": "tie"})
+        self.assertIn("Lowest nRMSE of the total light: a and b cannot be told apart, from 0.2 to 0.23.",
+                      ranking.summary(results, "total"))
+        # Told apart, and without intervals: one is the best.
+        del rows[1]
+        self.assertEqual(ranking.score_marks(self.results(rows), _NRMSE, "nrmse"), {"a": "best"})
+        rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.2001))]
+        self.assertEqual(ranking.score_marks(self.results(rows), _NRMSE, "nrmse"), {"a": "best"})
+
+    def test_scores_at_the_noise_floor_tie(self):
+        # HDR-FLIP is 0.005, 0.009 and 0.011; a perfect image would score 0.01.
+        rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.01), ("b", 0.018), ("c", 0.022))]
+        self.assertEqual(ranking.score_marks(self.results(rows), _FLIP, "flip"), {"a": "tie", "b": "tie"})
+        self.assertEqual(ranking.score_marks(self.results(rows[1:]), _FLIP, "flip"), {"b": "best"})
+        self.assertEqual(ranking.score_marks(self.results(rows, reference={}), _FLIP, "flip"), {"a": "best"})
+        ssim = Metric("ssim", "SSIM", "", "high", "")  # 0.995, 0.991 and 0.97; the floor is 0.98
+        rows[2]["ssim"] = 0.97
+        self.assertEqual(ranking.score_marks(self.results(rows), ssim, "ssim"), {"a": "tie", "b": "tie"})
+
+    def test_front_is_drawn_through_upper_ends(self):
+        # b is slower than a and its interval overlaps: not beaten. c is.
+        rows = [made_up.variant(name, ms, error) for name, ms, error in (("a", 10, 0.2), ("b", 20, 0.21), ("c", 30, 0.4))]
+        for row in rows:
+            row.update(made_up.spread("nrmse", row["nrmse"] - 0.05, row["nrmse"] + 0.05))
+        results = self.results(rows)
+        points = [(row["frame_ms_median"], interval_of(row, "nrmse")) for _, row in results.ok.iterrows()]
+        front = ranking.pareto_front([(cost, high) for cost, (_, high) in points])
+        self.assertEqual(front, [0])
+        reached = points[0][1][1]
+        self.assertEqual([low > reached for _, (low, _) in points], [False, False, True])
+        shown = Page(page.render(results))
+        self.assertIn("what lies wholly above it is beaten", shown.text)
 
     def test_best_of_each_direction(self):
         rows = [made_up.variant("bright", 10, 0.1), made_up.variant("dark", 10, 0.2)]
@@ -353,24 +386,29 @@ class Comparing(ReportTest):
         self.assertEqual(marks, {"a": "best", "b": "tie"})
 
     def test_worse_than_a_black_image(self):
-        results = self.results([made_up.variant("a", 10, 0.1)])
-        self.assertEqual(ranking.beaten_by(results, _NRMSE, "nrmse", "a", 1.0), ["constant"])
-        self.assertEqual(ranking.beaten_by(results, _NRMSE, "nrmse", "a", 2.0), ["black", "constant"])
-        ssim = next(m for m in results.metrics if m.key == "ssim")
-        self.assertEqual(ranking.beaten_by(results, ssim, "ssim", "a", 0.9), [])
-        self.assertEqual(ranking.beaten_by(results, ssim, "ssim", "a", -1.0), ["black", "constant"])
+        def beaten(metric, value, low=math.nan, high=math.nan):
+            row = made_up.variant("a", 10, 0.1) | {metric.key: value}
+            results = self.results([row | made_up.spread(metric.key, low, high)])
+            return ranking.beaten_by(results, metric, metric.key, results.ok.iloc[0])
+
+        self.assertEqual(beaten(_NRMSE, 1.0), ["constant"])
+        self.assertEqual(beaten(_NRMSE, 2.0), ["black", "constant"])
+        self.assertEqual(beaten(_NRMSE, 2.0, 1.2, 2.8), ["constant"])  # The interval holds the black one's 1.6.
+        ssim = Metric("ssim", "SSIM", "", "high", "")
+        self.assertEqual(beaten(ssim, 0.9), [])
+        self.assertEqual(beaten(ssim, -1.0), ["black", "constant"])
 
     def test_each_variant_is_compared_with_its_own_reference(self):
-        # Noise 0.01 and 0.1; a black image scores 1.6 and 0.3.
-        first, run = {"folder": "reference", "nrmse_noise": 0.01, "variants": ["a", "b"]}, made_up.manifest([])
-        second = {"folder": "reference.2", "nrmse_noise": 0.1, "variants": ["c"]}
+        # HDR-FLIP's noise is 0.01 and 0.15; a black image has an nRMSE of 1.6 and 0.3.
+        first, run = {"folder": "reference", "flip_noise": 0.01, "variants": ["a", "b"]}, made_up.manifest([])
+        second = {"folder": "reference.2", "flip_noise": 0.15, "variants": ["c", "d"]}
         first["baselines"] = run["baselines"]
         second["baselines"] = {"black": {"nrmse": 0.3}, "constant": {"nrmse": 0.25}}
-        rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.28), ("c", 0.28))]
+        rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.26), ("b", 0.28), ("c", 0.28), ("d", 0.25))]
         results = self.results(rows, references=[first, second])
-        self.assertEqual(ranking.score_marks(results, _NRMSE, "nrmse"), {"a": "best", "c": "tie"})
-        self.assertEqual(ranking.beaten_by(results, _NRMSE, "nrmse", "b", 0.28), [])
-        self.assertEqual(ranking.beaten_by(results, _NRMSE, "nrmse", "c", 0.28), ["constant"])
+        self.assertEqual(ranking.score_marks(results, _FLIP, "flip"), {"c": "tie", "d": "tie"})
+        beaten = [ranking.beaten_by(results, _NRMSE, "nrmse", row) for _, row in results.ok.iterrows()]
+        self.assertEqual(beaten, [[], [], ["constant"], []])
         shown = Page(page.render(results))
         for words in ("a black image (reference)", "a black image (reference.2)",
                       "the reference's own noise (reference.2)"):
