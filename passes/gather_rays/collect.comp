@@ -1,11 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
 // Irradiance of each G-buffer texel: the mean of what its rays bring.
-#include "passes/gather_rays/arrived.glsl"
 #include "shaders/view/gather_layout.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
+// By ray: radiance times pi; distance of the hit in m, infinite for a miss, negative for a ray that starts from no surface.
+layout(scalar) readonly buffer Light { vec4 data[]; } light;
 layout(rgba32f) writeonly uniform image2D gathered;  // Irradiance, W/m²; number of rays.
 layout(push_constant, scalar) uniform Push {
     GatherLayout layout_;
@@ -30,7 +32,7 @@ void main() {
     vec3 sum = vec3(0.0);
     float rays = 0.0;
     for (uint j = first; j < last; ++j) {
-        const vec4 light_ = arrived(blockInBatch * g.raysPerBlock + j);
+        const vec4 light_ = light.data[blockInBatch * g.raysPerBlock + j];
         if (light_.w < 0.0) continue;
         sum += light_.rgb;
         rays += 1.0;

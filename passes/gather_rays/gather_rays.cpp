@@ -13,6 +13,18 @@ struct ShadePush {
     gpu::GatherLayout layout;
     uint32_t firstBlock;
     uint32_t rays;
+    float nearField;
+};
+
+struct ReflectPush {
+    uint32_t count;
+    uint32_t seed;
+};
+
+struct GoOnPush {
+    gpu::VoxelGrid grid;
+    uint32_t rays;
+    float nearField;
 };
 
 struct CollectPush {
@@ -31,6 +43,7 @@ uint64_t batchRays(const GatherHits& hits) {
     return uint64_t(hits.blocksPerBatch) * hits.layout.raysPerBlock;
 }
 
+constexpr uint32_t kMaxSteps = 3;                    // Of a ray that goes on.
 constexpr uint64_t kLightBytes = 4 * sizeof(float);  // Of a ray, or of a surfel.
 
 }  // namespace
@@ -63,11 +76,16 @@ void GatherRays::plan(PassPlan& plan) {
     if (FrameImage& indirect = plan.get(indirect_); indirect.isRead)
         plan.image(indirect.image, "indirect", frameImageDesc(plan.frame));
     plan.buffer(light_, "light of gather rays", batchRays(hits) * kLightBytes);
-    if (shadowRays()) {
+    plan.buffer(surfels_[0], "surfels at hits", batchRays(hits) * sizeof(gpu::Surfel));
+    plan.buffer(goesOn_, "surfels whose rays go on", batchRays(hits) * sizeof(uint32_t));
+    plan.buffer(count_, "number of surfels", sizeof(uint32_t));
+    if (measuresDirect()) {
         sources_ = lightSources(*plan.frame.scene);
         hitLight_.plan(plan, uint32_t(batchRays(hits)));
-        plan.buffer(surfels_, "gather ray hits' surfels", batchRays(hits) * sizeof(gpu::Surfel));
-        plan.buffer(direct_, "gather ray hits' direct light", batchRays(hits) * kLightBytes);
+        plan.buffer(surfels_[1], "surfels one step before", batchRays(hits) * sizeof(gpu::Surfel));
+        plan.buffer(direct_, "direct light at hits", batchRays(hits) * kLightBytes);
+        plan.buffer(rays_, "next rays", batchRays(hits) * sizeof(Ray));
+        plan.buffer(nextHits_, "next hits", batchRays(hits) * sizeof(Hit));
     }
     plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(plan.get(voxels_).voxelCount));
 }
@@ -78,13 +96,16 @@ void GatherRays::prepare(PassSetup& setup) {
     };
     const Defines direct = shadowRays() ? Defines{{"SHADOW_RAYS", "1"}} : Defines{};
     shade_ = program("passes/gather_rays/shade.comp", direct);
-    collect_ = program("passes/gather_rays/collect.comp", direct);
-    if (setup.get(noisy_).isRead) moments_ = program("passes/gather_rays/moments.comp", direct);
+    collect_ = program("passes/gather_rays/collect.comp");
+    if (setup.get(noisy_).isRead) moments_ = program("passes/gather_rays/moments.comp");
     if (setup.get(indirect_).isRead) resolve_ = IrradianceResolve(setup);
     faces_ = FaceIrradiance(setup.device, setup.compiler);
     facesVersion_.reset();
     sampler_ = texelSampler(setup.device);
-    if (shadowRays()) hitLight_.prepare(setup);
+    if (!measuresDirect()) return;
+    reflect_ = program("passes/gather_rays/reflect.comp");
+    goOn_ = program("passes/gather_rays/go_on.comp", direct);
+    hitLight_.prepare(setup);
 }
 
 void GatherRays::record(PassContext& context) {
@@ -109,32 +130,66 @@ void GatherRays::gather(PassContext& context, uint32_t batch) {
     const uint32_t texelsPerBlock = hits.layout.blockSize * hits.layout.blockSize;
     CommandStream& stream = context.stream;
 
-    // Shade the hits with the voxels' irradiance, and with direct light by shadow rays.
-    std::vector<Binding> shading = context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
-                                                           {"voxelRank", voxels.rank},
-                                                           {"faceIrradiance", faces_.buffer()},
-                                                           {"hits", hits.batches[batch]},
-                                                           {"position", gbuffer.position, sampler_},
-                                                           {"light", light_}});
-    if (shadowRays()) shading.push_back({"surfels", surfels_});
-    stream.dispatch(shade_, shading, ShadePush{voxels.grid, hits.layout, firstBlock, rays},
-                    linearGroups(rays));
-    if (shadowRays())
-        hitLight_.measure(context, sources_, surfels_, rays, params_.lightSamples,
-                          randomSeed(context.frame, context.frameIndex) + 0x51u, direct_);
+    // Shade the hits with the voxels' irradiance, and measure light where that is not to be had from voxels.
+    std::vector<Binding> shading = endBindings(context, hits.batches[batch], surfels_[0]);
+    shading.push_back({"position", gbuffer.position, sampler_});
+    stream.fill(count_, 0);
+    stream.dispatch(
+        shade_, shading,
+        ShadePush{voxels.grid, hits.layout, firstBlock, rays, params_.nearField * voxels.grid.voxelSize},
+        linearGroups(rays));
+    if (measuresDirect()) follow(context);
 
     // Add up what the rays of each texel and of each block bring.
-    const auto add = [&](const Program& program, Binding target, PushConstants push, uint64_t threads) {
-        std::vector<Binding> bindings{{"light", light_}, target};
-        if (shadowRays()) bindings.insert(bindings.end(), {{"surfels", surfels_}, {"direct", direct_}});
-        stream.dispatch(program, bindings, push, linearGroups(threads));
-    };
     const NoisyIrradiance& noisy = context.get(noisy_);
-    add(collect_, {"gathered", noisy.irradiance}, CollectPush{hits.layout, firstBlock, blocks},
-        uint64_t(blocks) * texelsPerBlock);
+    stream.dispatch(collect_, {{"light", light_}, {"gathered", noisy.irradiance}},
+                    CollectPush{hits.layout, firstBlock, blocks},
+                    linearGroups(uint64_t(blocks) * texelsPerBlock));
     if (noisy.isRead)
-        add(moments_, {"moments", noisy.moments}, MomentsPush{firstBlock, blocks, hits.layout.raysPerBlock},
-            blocks);
+        stream.dispatch(moments_, {{"light", light_}, {"moments", noisy.moments}},
+                        MomentsPush{firstBlock, blocks, hits.layout.raysPerBlock}, linearGroups(blocks));
+}
+
+std::vector<Binding> GatherRays::endBindings(PassContext& context, const Buffer& hits,
+                                             const Buffer& surfels) const {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    return context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
+                                   {"voxelRank", voxels.rank},
+                                   {"faceIrradiance", faces_.buffer()},
+                                   {"hits", hits},
+                                   {"light", light_},
+                                   {"surfels", surfels},
+                                   {"goesOn", goesOn_},
+                                   {"count", count_}});
+}
+
+void GatherRays::follow(PassContext& context) {
+    const gpu::VoxelGrid& grid = context.get(voxels_).grid;
+    CommandStream& stream = context.stream;
+    for (uint32_t step = 0; step <= kMaxSteps; ++step) {
+        const uint32_t surfels = stream.readAs<uint32_t>(count_, 1)[0];
+        if (surfels == 0) return;
+
+        // Direct light at the surfels, and rays on.
+        const Buffer &from = surfels_[step % 2], &to = surfels_[(step + 1) % 2];
+        const uint32_t seed = randomSeed(context.frame, context.frameIndex) + 0x51u + step * 0x9e3779b9u;
+        hitLight_.measure(context, sources_, from, surfels, params_.lightSamples, seed, direct_);
+        stream.dispatch(
+            reflect_,
+            {{"surfels", from}, {"direct", direct_}, {"light", light_}, {"goesOn", goesOn_}, {"rays", rays_}},
+            ReflectPush{surfels, seed + 0xa3u}, linearGroups(surfels));
+        if (params_.nearField == 0 || step == kMaxSteps) return;
+
+        // Where those end.
+        context.tracer.closestHit(stream, rays_, nextHits_, surfels);
+        stream.fill(count_, 0);
+        std::vector<Binding> ends = endBindings(context, nextHits_, to);
+        ends.insert(ends.end(), {{"from", from}, {"rays", rays_}});
+        const bool isLast = step + 1 == kMaxSteps;
+        stream.dispatch(goOn_, ends,
+                        GoOnPush{grid, surfels, isLast ? 0.0f : params_.nearField * grid.voxelSize},
+                        linearGroups(surfels));
+    }
 }
 
 }  // namespace voxray

@@ -36,6 +36,7 @@ class GatherRays final : public Pass {
     struct Params {
         DirectAtHits directAtHits = DirectAtHits::Voxels;
         uint32_t lightSamples = 1;
+        float nearField = 2;
         static constexpr auto schema() {
             return std::tuple{
                 field(
@@ -43,9 +44,15 @@ class GatherRays final : public Pass {
                     "Direct light at the hits. voxels: as coarse as voxels. shadow_rays: exact, by a shadow "
                     "ray from each hit to each light; voxels bring indirect light alone."),
                 field("light_samples", &Params::lightSamples,
-                      "With shadow_rays: shadow rays from each hit to the emissive surfaces, and to the "
-                      "environment.",
-                      1u, 256u)};
+                      "Shadow rays to the emissive surfaces, and to the environment, from each hit where "
+                      "direct light is measured.",
+                      1u, 256u),
+                field(
+                    "near_field", &Params::nearField,
+                    "Voxels. A ray shorter than this, or one that hits where no light was injected, goes on "
+                    "as a path does instead of reading the voxel there, up to three times. 0: every hit is "
+                    "read.",
+                    0.0f, 64.0f)};
         }
     };
 
@@ -56,8 +63,12 @@ class GatherRays final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    bool measuresDirect() const { return shadowRays() || params_.nearField > 0; }
     bool shadowRays() const { return params_.directAtHits == DirectAtHits::ShadowRays; }
     void gather(PassContext& context, uint32_t batch);
+    /// Measures direct light at the hits of a batch where it is asked for, and lets rays go on.
+    void follow(PassContext& context);
+    std::vector<Binding> endBindings(PassContext& context, const Buffer& hits, const Buffer& surfels) const;
 
     Params params_;
     Port<const GBuffer> gbuffer_;
@@ -68,15 +79,17 @@ class GatherRays final : public Pass {
     Port<FrameImage> indirect_;
     FaceIrradiance faces_;
     std::optional<std::pair<uint64_t, uint64_t>> facesVersion_;  ///< Of the voxels and the light in them.
-    Program shade_, collect_, moments_;
+    Program shade_, reflect_, goOn_, collect_, moments_;
     IrradianceResolve resolve_;
     Sampler sampler_;
     Buffer light_;  ///< What the rays of a batch bring.
 
-    // With shadow rays.
+    // Where direct light is measured at hits, and rays go on from there.
     std::vector<LightSource> sources_;
     SurfelLight hitLight_;
-    Buffer surfels_, direct_;  ///< At the hits of a batch.
+    std::array<Buffer, 2> surfels_;  ///< Of a batch's hits, and of those one step before.
+    Buffer goesOn_, count_, direct_;
+    Buffer rays_, nextHits_;  ///< Of rays that went on.
 };
 
 }  // namespace voxray

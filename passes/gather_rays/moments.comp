@@ -1,12 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
 // Sums over the rays of each block, for filter_irradiance: how noisy rays are and how fast irradiance can change there.
-#include "passes/gather_rays/arrived.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/filter/ray_moments.h"
 layout(local_size_x = 64) in;
 
+// By ray: radiance times pi; distance of the hit in m, infinite for a miss, negative for a ray that starts from no surface.
+layout(scalar) readonly buffer Light { vec4 data[]; } light;
 layout(scalar) writeonly buffer Moments { RayMoments data[]; } moments;
 layout(push_constant) uniform Push {
     uint firstBlock;
@@ -19,7 +21,7 @@ void main() {
     if (i >= push.batchBlocks) return;
     RayMoments sum = RayMoments(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     for (uint j = 0u; j < push.raysPerBlock; ++j) {
-        const vec4 light_ = arrived(i * push.raysPerBlock + j);
+        const vec4 light_ = light.data[i * push.raysPerBlock + j];
         if (light_.w < 0.0) continue;
         const float l = luminance(light_.rgb), inverseDistance = 1.0 / max(light_.w, 1e-6);
         sum.rays += 1.0;

@@ -167,7 +167,7 @@ TEST(FinalGather, ShadowRaysAtHitsKnowNoVoxels) {
     const auto error = [&](const std::string& gather) {
         Chain chain("white_room", "{albedo: 0.5}",
                     gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 0", "rays_per_block: 256",
-                                {"gather_rays, direct_at_hits: " + gather},
+                                {"gather_rays, near_field: 0, direct_at_hits: " + gather},
                                 "resolution: 3, visibility_rays: 0", "2"));
         return difference(chain.image("indirect"), reference.image("indirect"));
     };
@@ -182,7 +182,8 @@ TEST(FinalGather, FilterKeepsAUniformImage) {
     const auto image = [](int levels) {
         Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
                     gatherGraph("inject_light_rays, rays_per_light: 524288, bounces: 2",
-                                "rays_per_block: 16, block: 4", filtered(levels), "resolution: 4"));
+                                "rays_per_block: 16, block: 4",
+                                filtered(levels, "gather_rays, near_field: 0"), "resolution: 4"));
         return chain.image("indirect");
     };
     EXPECT_LT(difference(image(5), image(1)), 0.01);
@@ -303,6 +304,48 @@ TEST(FinalGather, BadInputIsNamed) {
     }
 }
 
+TEST(FinalGather, RaysGoOnFromNearHits) {
+    // A room in the sun whose voxels are as wide as its walls are thick: one holds a sill in the sun and the
+    // dark wall below it.
+    const auto state = std::make_shared<SceneState>(
+        evaluate(makeBuiltinScene("window_room", parseYaml("{slats: 0}", "scene")), 0.0));
+    Chain reference(state, graphYaml({"path_trace, spp: 1024, bounces: 8"}), 64, 36, 1);
+    const auto run = [&](const std::string& nearField) {
+        Chain chain(state,
+                    gatherGraph("inject_light_rays, rays_per_light: 2097152, bounces: 7",
+                                "rays_per_block: 128, block: 2", {"gather_rays, near_field: " + nearField},
+                                "resolution: 64", "2"),
+                    64, 36, 1);
+        return chain.image("indirect");
+    };
+    const ImageF exact = reference.image("indirect");
+    const auto relativeSquare = [&](const ImageF& image) {
+        double sum = 0;
+        const double floor = 0.01 * mean(exact) * mean(exact);
+        for (size_t i = 0; i < exact.data.size(); ++i) {
+            const double error = double(image.data[i]) - exact.data[i];
+            sum += error * error / (double(exact.data[i]) * exact.data[i] + floor);
+        }
+        return sum / double(exact.data.size());
+    };
+    const double read = relativeSquare(run("0")), gone = relativeSquare(run("2"));
+    std::printf("relMSE: every hit is read %.4f, rays go on from near ones %.4f\n", read, gone);
+    EXPECT_LT(gone, 0.8 * read);
+}
+
+TEST(FinalGather, RaysGoOnWhereNoLightWasInjected) {
+    // A few hundred camera rays light few of the voxels. What gather rays meet elsewhere is measured there.
+    Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 64, bounces: 4"}));
+    const auto ratio = [&](const std::string& nearField) {
+        Chain chain("white_room", "{albedo: 0.5}",
+                    gatherGraph("inject_camera_rays, rays_per_image: 256, bounces: 3", "rays_per_block: 64",
+                                {"gather_rays, near_field: " + nearField}));
+        return mean(chain.image("indirect")) / mean(reference.image("indirect"));
+    };
+    EXPECT_LT(ratio("0"), 0.8);
+    EXPECT_NEAR(ratio("0.001"), 1.0, 0.1);
+}
+
 TEST(FinalGather, GridOfOneVoxel) {
     // One voxel knows neither the walls' inner faces from their outer ones nor one point from another. Light
     // that is measured over all surfaces falls on twice the area that is lit: half the irradiance. Where
@@ -317,8 +360,8 @@ TEST(FinalGather, GridOfOneVoxel) {
     Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 16, bounces: 4"}));
     for (const Injection& injection : kInjections) {
         Chain chain("white_room", "{albedo: 0.5}",
-                    gatherGraph(injection.withBounces(3), "rays_per_block: 16", kRaw,
-                                "resolution: 1, visibility_rays: 0"));
+                    gatherGraph(injection.withBounces(3), "rays_per_block: 16",
+                                {"gather_rays, near_field: 0"}, "resolution: 1, visibility_rays: 0"));
         const double ratio = mean(chain.image("indirect")) / mean(reference.image("indirect"));
         std::printf("%s: %.4f\n", injection.pass.c_str(), ratio);
         const auto [value, tolerance] = expected.at(injection.pass.substr(0, injection.pass.find(',')));

@@ -1,0 +1,57 @@
+// What a ray that gathers light finds at its hit. Needs the bindings of shaders/scene/scene.glsl and of
+// shaders/voxels/face_irradiance.glsl.
+#ifndef VOXRAY_GATHER_RAYS_HIT_GLSL
+#define VOXRAY_GATHER_RAYS_HIT_GLSL
+
+#include "shaders/scene/scene.glsl"
+#include "shaders/surfels/surfel_types.h"
+#include "shaders/trace/ray_types.h"
+#include "shaders/voxels/face_irradiance.glsl"
+
+layout(scalar) buffer Light { vec4 data[]; } light;
+// The hits where direct light is to be measured, in any order; `parent` is the ray.
+layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
+writeonly buffer GoesOn { uint data[]; } goesOn;  // By surfel; 1: its ray goes on from there.
+buffer Count { uint value; } count;                // Of surfels.
+
+// The end of ray i, which comes from `from` and brings `throughput` of what the surface at its hit reflects. A voxel cannot tell
+// points apart that are closer to each other than its size: a ray that is shorter than `nearField` (m) does not read it but goes on
+// from its hit, as a path does. So does one that hit where no light was injected. With a `nearField` of 0 all rays end.
+//
+//      ┌───────┬───────┐
+//      │   o───┼───┼─> ·   ·: a hit further off than a voxel is read.
+//      │    \  │       │   x: one nearer is not; there a shadow ray measures direct light, and a ray goes on.
+//     ─┼─────x─┼───────┼─
+//      └───────┴───────┘
+void endRay(VoxelGrid grid, uint i, Hit hit, vec3 from, vec3 throughput, uint id, float nearField) {
+    const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
+    if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return;
+
+    // What the voxel there knows, of the side that the ray came from.
+    const vec3 faceNormal = dot(s.geometricNormal, from - s.position) >= 0.0 ? s.geometricNormal : -s.geometricNormal;
+    const GpuMaterial m = sceneMaterials.data[s.material];
+    const vec3 reflected = throughput * diffuseAlbedo(m, s, 0.0);
+    bool known;
+    const vec3 irradiance = irradianceAt(grid, s.position, faceNormal, known);
+    const bool isOnWay = nearField > 0.0 && (hit.t < nearField || !known);
+    if (!isOnWay) light.data[i].rgb += reflected * irradiance;
+#ifndef SHADOW_RAYS
+    if (!isOnWay) return;
+#endif
+
+    // Where light is measured.
+    Surfel at;
+    at.position = s.position;
+    at.voxel = NO_VOXEL;
+    const vec3 normal = shadingNormal(m, s, 0.0);
+    at.normal = dot(normal, faceNormal) < 0.0 ? -normal : normal;
+    at.id = id;
+    at.reflectance = reflected;
+    at.parent = i;
+    at.area = 1.0;
+    const uint number = atomicAdd(count.value, 1u);
+    surfels.data[number] = at;
+    goesOn.data[number] = isOnWay ? 1u : 0u;
+}
+
+#endif
