@@ -81,9 +81,9 @@ void FilterVoxels::record(PassContext& context) {
 }
 
 std::vector<Binding> surfaceRadianceBindings(const SurfaceVoxels& voxels, const SurfaceLight& light) {
-    return {{"voxelOccupancy", voxels.occupancy},        {"voxelRank", voxels.rank},
-            {"VoxelMaterialsAt", voxels.materials.at()}, {"DirectFluxAt", light.direct.at()},
-            {"IndirectFluxAt", light.indirect.at()},     {"voxelArea", light.area}};
+    return voxels.bindings({{"DirectFluxAt", light.direct.at()},
+                            {"IndirectFluxAt", light.indirect.at()},
+                            {"voxelArea", light.area}});
 }
 
 }  // namespace voxray

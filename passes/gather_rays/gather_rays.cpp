@@ -153,14 +153,12 @@ void GatherRays::gather(PassContext& context, uint32_t batch) {
 std::vector<Binding> GatherRays::endBindings(PassContext& context, const Buffer& hits,
                                              const Buffer& surfels) const {
     const SurfaceVoxels& voxels = context.get(voxels_);
-    return context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
-                                   {"voxelRank", voxels.rank},
-                                   {"faceIrradiance", faces_.buffer()},
-                                   {"hits", hits},
-                                   {"light", light_},
-                                   {"surfels", surfels},
-                                   {"goesOn", goesOn_},
-                                   {"count", count_}});
+    return voxels.bindings(context.scene.bindings({{"faceIrradiance", faces_.buffer()},
+                                                   {"hits", hits},
+                                                   {"light", light_},
+                                                   {"surfels", surfels},
+                                                   {"goesOn", goesOn_},
+                                                   {"count", count_}}));
 }
 
 void GatherRays::follow(PassContext& context) {

@@ -87,13 +87,10 @@ void InjectGatherHits::markFaces(PassContext& context) {
         const uint32_t rays = hits.batchBlocks(b) * hits.layout.raysPerBlock;
         context.stream.dispatch(
             mark_,
-            context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
-                                    {"voxelRank", voxels.rank},
-                                    {"VoxelMaterialsAt", voxels.materials.at()},
-                                    {"hits", hits.batches[b]},
-                                    {"position", context.get(gbuffer_).position, sampler_},
-                                    {"asked", faces_},
-                                    {"measured", measured_}}),
+            voxels.bindings(context.scene.bindings({{"hits", hits.batches[b]},
+                                                    {"position", context.get(gbuffer_).position, sampler_},
+                                                    {"asked", faces_},
+                                                    {"measured", measured_}})),
             MarkPush{voxels.grid, hits.layout, b * hits.blocksPerBatch, rays}, linearGroups(rays));
     }
 }

@@ -134,8 +134,7 @@ VoxelIrradiance LightClipmap::light(PassContext& context, const SurfaceVoxels& v
     const Buffer litArea(context.device, "lit area", count * kLitAreaBytes);
     stream.fill(litArea, 0);
     flux_.begin(context.device, stream, voxels, totalPower(sources_));
-    std::vector<Binding> bindings{
-        {"voxelOccupancy", voxels.occupancy}, {"voxelRank", voxels.rank}, {"litArea", litArea}};
+    std::vector<Binding> bindings = voxels.bindings({{"litArea", litArea}});
     for (const Binding& binding : flux_.bindings()) bindings.push_back(binding);
     for (const Binding& binding : shadowMaps_.bindings()) bindings.push_back(binding);
     walk_->run(context, light_, voxels.grid, bindings, flux_.unitsPerWatt());
@@ -156,10 +155,8 @@ VoxelIrradiance LightClipmap::light(PassContext& context, const SurfaceVoxels& v
 void LightClipmap::reflect(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
                            const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light,
                            const LargeBuffer& indirect) {
-    std::vector<Binding> surfaces{
-        {"voxelOccupancy", voxels.occupancy},        {"voxelRank", voxels.rank},
-        {"VoxelMaterialsAt", voxels.materials.at()}, {"DirectFluxAt", light.direct.at()},
-        {"IndirectFluxAt", indirect.at()},           {"voxelArea", light.area}};
+    std::vector<Binding> surfaces = voxels.bindings(
+        {{"DirectFluxAt", light.direct.at()}, {"IndirectFluxAt", indirect.at()}, {"voxelArea", light.area}});
     for (const Binding& binding : context.get(radiance_).bindings()) surfaces.push_back(binding);
     for (const VoxelBox& box : boxes) {
         context.stream.dispatch(window_, surfaces, WindowPush{voxels.grid, box.first, box.size, level},

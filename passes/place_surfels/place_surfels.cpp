@@ -59,11 +59,8 @@ void PlaceSurfels::record(PassContext& context) {
         const uint32_t batch = uint32_t(std::min<uint64_t>(kBatchPoints, points - first));
         stream.upload(triangles_, std::as_bytes(std::span(triangles).subspan(first, batch)));
         stream.dispatch(place_,
-                        context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
-                                                {"voxelRank", voxels.rank},
-                                                {"pointTriangles", triangles_},
-                                                {"rays", rays_},
-                                                {"candidates", candidates_}}),
+                        voxels.bindings(context.scene.bindings(
+                            {{"pointTriangles", triangles_}, {"rays", rays_}, {"candidates", candidates_}})),
                         PlacePush{voxels.grid, uint32_t(first), batch, randomSeed(context.frame)},
                         linearGroups(batch));
         if (voxels.unoccludedOnly)

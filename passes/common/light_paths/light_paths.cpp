@@ -126,12 +126,8 @@ void LightPaths::follow(PassContext& context, const SurfaceVoxels& voxels, const
 
         // Deposit and bounce.
         const size_t target = bounce == 0 ? 0 : 1;
-        std::vector<Binding> bindings = context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
-                                                                {"voxelRank", voxels.rank},
-                                                                {"rays", rays_},
-                                                                {"hits", hits_},
-                                                                {"paths", paths_},
-                                                                {"hidden", hidden_}});
+        std::vector<Binding> bindings = voxels.bindings(context.scene.bindings(
+            {{"rays", rays_}, {"hits", hits_}, {"paths", paths_}, {"hidden", hidden_}}));
         for (const Binding& binding :
              sumsFlux_ ? fluxes_[target].bindings() : irradiances_[target].bindings())
             bindings.push_back(binding);

@@ -60,10 +60,7 @@ void ConeBounces::list(PassContext& context, const SurfaceVoxels& voxels) {
         flux_ = {};
         flux_ = LargeBuffer(context.device, "bounced flux", fluxBytes(count));
     }
-    context.stream.dispatch(list_,
-                            {{"voxelOccupancy", voxels.occupancy},
-                             {"voxelRank", voxels.rank},
-                             {"voxelCoordinates", voxelCoordinates_}},
+    context.stream.dispatch(list_, voxels.bindings({{"voxelCoordinates", voxelCoordinates_}}),
                             ListPush{voxels.grid, uint32_t(voxels.words())}, linearGroups(voxels.words()));
 }
 

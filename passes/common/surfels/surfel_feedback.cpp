@@ -155,13 +155,10 @@ void SurfelFeedback::fillUnknown(PassContext& context, const SurfaceVoxels& voxe
     context.stream.copy(irradiance.area, measured, bytes);
     const uint32_t words = uint32_t(voxels.words());
     context.stream.dispatch(fillUnknown_,
-                            {{"voxelOccupancy", voxels.occupancy},
-                             {"voxelRank", voxels.rank},
-                             {"VoxelMaterialsAt", voxels.materials.at()},
-                             {"measured", measured},
-                             {"area", irradiance.area},
-                             {"DirectAt", irradiance.direct.at()},
-                             {"IndirectAt", irradiance.indirect.at()}},
+                            voxels.bindings({{"measured", measured},
+                                             {"area", irradiance.area},
+                                             {"DirectAt", irradiance.direct.at()},
+                                             {"IndirectAt", irradiance.indirect.at()}}),
                             FillPush{voxels.grid, words}, linearGroups(words));
     context.stream.finish();
 }
@@ -190,11 +187,8 @@ void SurfelFeedback::firstBounce(PassContext& context, const Surfels::Chunk& chu
 
 void SurfelFeedback::laterBounce(PassContext& context, const Surfels::Chunk& chunk,
                                  const SurfaceVoxels& voxels) const {
-    std::vector<Binding> bindings = context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
-                                                            {"voxelRank", voxels.rank},
-                                                            {"faceIrradiance", faces_.buffer()},
-                                                            {"surfels", chunk.surfels},
-                                                            {"hits", hits_}});
+    std::vector<Binding> bindings = voxels.bindings(context.scene.bindings(
+        {{"faceIrradiance", faces_.buffer()}, {"surfels", chunk.surfels}, {"hits", hits_}}));
     const std::vector<Binding> writes = indirect_.bindings();
     bindings.insert(bindings.end(), writes.begin(), writes.end());
     context.stream.dispatch(feedback_, bindings, FeedbackPush{voxels.grid, chunk.count, indirect_.scale()},

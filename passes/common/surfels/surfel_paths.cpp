@@ -63,17 +63,13 @@ uint32_t SurfelPaths::makeSurfels(PassContext& context, const SurfaceVoxels& vox
                                   uint32_t count, uint32_t firstId, bool fromSurfels, uint32_t seed,
                                   const CameraFootprint& camera) {
     context.stream.fill(count_, 0);
-    context.stream.dispatch(arrive_,
-                            context.scene.bindings({{"voxelOccupancy", voxels.occupancy},
-                                                    {"voxelRank", voxels.rank},
-                                                    {"rays", rays},
-                                                    {"hits", hits},
-                                                    {"parents", parents},
-                                                    {"surfels", surfels},
-                                                    {"count", count_}}),
-                            ArrivePush{voxels.grid, count, firstId, fromSurfels, seed, camera.forward,
-                                       camera.imageArea, camera.maxArea},
-                            linearGroups(count));
+    context.stream.dispatch(
+        arrive_,
+        voxels.bindings(context.scene.bindings(
+            {{"rays", rays}, {"hits", hits}, {"parents", parents}, {"surfels", surfels}, {"count", count_}})),
+        ArrivePush{voxels.grid, count, firstId, fromSurfels, seed, camera.forward, camera.imageArea,
+                   camera.maxArea},
+        linearGroups(count));
     return context.stream.readAs<uint32_t>(count_, 1)[0];
 }
 

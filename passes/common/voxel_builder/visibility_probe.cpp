@@ -66,20 +66,14 @@ Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels,
         stream.fill(kept, 0);
         stream.dispatch(
             emit_,
-            context.scene.bindings(
-                {{"points", batch}, {"rays", rays}, {"kept", kept}, {"voxelOccupancy", voxels.occupancy}}),
+            voxels.bindings(context.scene.bindings({{"points", batch}, {"rays", rays}, {"kept", kept}})),
             EmitPush{voxels.grid, uint32_t(points.size()), randomSeed(context.frame)},
             linearGroups(points.size()));
         points.clear();
         const uint32_t count = stream.readAs<uint32_t>(kept, 1)[0];
         if (count == 0) return;
         context.tracer.occluded(stream, rays, occluded, 2 * count);
-        stream.dispatch(count_,
-                        {{"voxelOccupancy", voxels.occupancy},
-                         {"voxelRank", voxels.rank},
-                         {"rays", rays},
-                         {"occluded", occluded},
-                         {"counts", counts}},
+        stream.dispatch(count_, voxels.bindings({{"rays", rays}, {"occluded", occluded}, {"counts", counts}}),
                         CountPush{voxels.grid, count}, linearGroups(count));
     };
     for (const uint32_t triangle : triangles) {

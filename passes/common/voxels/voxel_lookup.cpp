@@ -38,14 +38,12 @@ void VoxelLookupPass::record(PassContext& context) {
     const VoxelIrradiance& irradiance = context.get(irradiance_);
     context.stream.dispatch(
         program_,
-        {{"position", gbuffer.position, sampler_},
-         {"normal", gbuffer.normal, sampler_},
-         {"albedo", gbuffer.albedo, sampler_},
-         {"voxelOccupancy", voxels.occupancy},
-         {"voxelRank", voxels.rank},
-         {"VoxelFluxAt", (irradiance.*flux_).at()},
-         {"voxelArea", irradiance.area},
-         {"result", context.get(reflected_).image}},
+        voxels.bindings({{"position", gbuffer.position, sampler_},
+                         {"normal", gbuffer.normal, sampler_},
+                         {"albedo", gbuffer.albedo, sampler_},
+                         {"VoxelFluxAt", (irradiance.*flux_).at()},
+                         {"voxelArea", irradiance.area},
+                         {"result", context.get(reflected_).image}}),
         Push{voxels.grid, params_.radius, gbuffer.samples, params_.lookup == VoxelLookup::SevenTap ? 1u : 0u},
         pixelGroups(context.frame.width, context.frame.height));
 }

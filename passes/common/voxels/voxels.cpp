@@ -8,6 +8,12 @@
 
 namespace voxray {
 
+std::vector<Binding> SurfaceVoxels::bindings(std::vector<Binding> more) const {
+    more.insert(more.begin(), {ifUsed({"voxelOccupancy", occupancy}), ifUsed({"voxelRank", rank}),
+                               ifUsed({"VoxelMaterialsAt", materials.at()})});
+    return more;
+}
+
 void VoxelIrradiance::allocate(Device& device, uint32_t voxelCount) {
     ++version;
     const uint64_t fluxBytes = uint64_t(voxelCount) * kFluxWords * sizeof(uint32_t);
