@@ -1,4 +1,4 @@
-// Points on surfaces where irradiance is measured, shared by C++ (passes/common/surfel_*.h) and GLSL.
+// Points on surfaces where irradiance is measured, shared by C++ (passes/common/surfels/) and GLSL.
 #ifndef VOXRAY_SHARED_SURFEL_TYPES_H
 #define VOXRAY_SHARED_SURFEL_TYPES_H
 

@@ -1,6 +1,5 @@
 // Access to surface voxels: an occupancy bit for each voxel of the grid and, where it is set, the voxel's number
 // among the occupied ones (its rank), which indexes all per-voxel data. Empty space costs two bits a voxel, nothing else.
-// The including shader has a VoxelGrid named `grid` in its push constants.
 #ifndef VOXRAY_VOXELS_GLSL
 #define VOXRAY_VOXELS_GLSL
 
