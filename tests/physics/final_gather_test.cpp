@@ -38,12 +38,8 @@ Passes filtered(int levels, const std::string& gather = "gather_rays") {
 // `gather` ends the list of passes: kRaw, filtered() or the like.
 std::string gatherGraph(const std::string& inject, const std::string& trace, const Passes& gather = kRaw,
                         const std::string& voxelize = "resolution: 16", const std::string& samples = "1") {
-    const bool atSurfels = inject.starts_with("inject_voxel_rays") ||
-                           inject.starts_with("inject_shadow_map") ||
-                           inject.starts_with("inject_gather_hits");
     Passes passes{"gbuffer, samples_per_pixel_edge: " + samples, "voxelize, " + voxelize,
-                  atSurfels ? "place_surfels, points_per_voxel: 8" : "", "trace_gather_rays, " + trace,
-                  inject};
+                  "place_surfels, points_per_voxel: 8", "trace_gather_rays, " + trace, inject};
     passes.insert(passes.end(), gather.begin(), gather.end());
     return graphYaml(passes);
 }
