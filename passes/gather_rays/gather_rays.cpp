@@ -134,10 +134,10 @@ void GatherRays::gather(PassContext& context, uint32_t batch) {
     std::vector<Binding> shading = endBindings(context, hits.batches[batch], surfels_[0]);
     shading.push_back({"position", gbuffer.position, sampler_});
     stream.fill(count_, 0);
-    stream.dispatch(
-        shade_, shading,
-        ShadePush{voxels.grid, hits.layout, firstBlock, rays, params_.nearField * voxels.grid.voxelSize},
-        linearGroups(rays));
+    stream.dispatch(shade_, shading,
+                    ShadePush{voxels.grid, hits.layout, firstBlock, rays,
+                              params_.nearFieldVoxels * voxels.grid.voxelSize},
+                    linearGroups(rays));
     if (measuresDirect()) follow(context);
 
     // Add up what the rays of each texel and of each block bring.
@@ -176,7 +176,7 @@ void GatherRays::follow(PassContext& context) {
             reflect_,
             {{"surfels", from}, {"direct", direct_}, {"light", light_}, {"goesOn", goesOn_}, {"rays", rays_}},
             ReflectPush{surfels, seed + 0xa3u}, linearGroups(surfels));
-        if (params_.nearField == 0 || step == kMaxSteps) return;
+        if (params_.nearFieldVoxels == 0 || step == kMaxSteps) return;
 
         // Where those end.
         context.tracer.closestHit(stream, rays_, nextHits_, surfels);
@@ -185,7 +185,7 @@ void GatherRays::follow(PassContext& context) {
         ends.insert(ends.end(), {{"from", from}, {"rays", rays_}});
         const bool isLast = step + 1 == kMaxSteps;
         stream.dispatch(goOn_, ends,
-                        GoOnPush{grid, surfels, isLast ? 0.0f : params_.nearField * grid.voxelSize},
+                        GoOnPush{grid, surfels, isLast ? 0.0f : params_.nearFieldVoxels * grid.voxelSize},
                         linearGroups(surfels));
     }
 }

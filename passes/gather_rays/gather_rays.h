@@ -30,13 +30,14 @@ class GatherRays final : public Pass {
         "Indirect light: shades the hits of trace_gather_rays with the irradiance of the voxels there and "
         "their own albedo. "
         "Biased by: voxel size (light at the hits is as coarse as voxels, not at the pixel; with "
-        "`direct_at_hits: shadow_rays` only indirect light is). Noisy by: rays_per_block; filter_irradiance "
+        "`direct_at_hits: shadow_rays` only indirect light is; hits near the pixel are measured by paths). "
+        "Noisy by: rays_per_block; filter_irradiance "
         "lowers "
         "that. Lambert surfaces only.";
     struct Params {
         DirectAtHits directAtHits = DirectAtHits::Voxels;
         uint32_t lightSamples = 1;
-        float nearField = 2;
+        float nearFieldVoxels = 2;
         static constexpr auto schema() {
             return std::tuple{
                 field(
@@ -47,12 +48,11 @@ class GatherRays final : public Pass {
                       "Shadow rays to the emissive surfaces, and to the environment, from each hit where "
                       "direct light is measured.",
                       1u, 256u),
-                field(
-                    "near_field", &Params::nearField,
-                    "Voxels. A ray shorter than this, or one that hits where no light was injected, goes on "
-                    "as a path does instead of reading the voxel there, up to three times. 0: every hit is "
-                    "read.",
-                    0.0f, 64.0f)};
+                field("near_field_voxels", &Params::nearFieldVoxels,
+                      "A ray shorter than this many voxels, or one that hits where no light was injected, "
+                      "goes on as a path does instead of reading the voxel there, up to three times. 0: "
+                      "every hit is read.",
+                      0.0f, 64.0f)};
         }
     };
 
@@ -63,7 +63,7 @@ class GatherRays final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    bool measuresDirect() const { return shadowRays() || params_.nearField > 0; }
+    bool measuresDirect() const { return shadowRays() || params_.nearFieldVoxels > 0; }
     bool shadowRays() const { return params_.directAtHits == DirectAtHits::ShadowRays; }
     void gather(PassContext& context, uint32_t batch);
     /// Measures direct light at the hits of a batch where it is asked for, and lets rays go on.

@@ -43,6 +43,7 @@ void InjectGatherHits::prepare(PassSetup& setup) {
     const auto program = [&](const char* file) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file));
     };
+    measuredVersion_.reset();
     measure_ = program("passes/inject_gather_hits/measured_faces.comp");
     mark_ = program("passes/inject_gather_hits/mark.comp");
     select_ = program("passes/inject_gather_hits/select.comp");
@@ -79,10 +80,13 @@ void InjectGatherHits::markFaces(PassContext& context) {
         context.stream.fill(buffer, 0);
     };
     clear(faces_, "faces to light");
-    clear(measured_, "faces with surfels");
-    for (const Surfels::Chunk& chunk : context.get(surfels_).chunks)
-        context.stream.dispatch(measure_, {{"surfels", chunk.surfels}, {"measured", measured_}}, chunk.count,
-                                linearGroups(chunk.count));
+    if (measuredVersion_ != voxels.version) {
+        clear(measured_, "faces with surfels");
+        for (const Surfels::Chunk& chunk : context.get(surfels_).chunks)
+            context.stream.dispatch(measure_, {{"surfels", chunk.surfels}, {"measured", measured_}},
+                                    chunk.count, linearGroups(chunk.count));
+        measuredVersion_ = voxels.version;
+    }
     for (uint32_t b = 0; b < hits.batches.size(); ++b) {
         const uint32_t rays = hits.batchBlocks(b) * hits.layout.raysPerBlock;
         context.stream.dispatch(

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "passes/common/surfels/surfel_paths.h"
 #include "passes/common/surfels/surfels.h"
 #include "passes/common/view/gather_hits.h"
@@ -58,6 +60,7 @@ class InjectGatherHits final : public Pass {
     Buffer count_;
     Buffer faces_;     ///< A bit for each face that is read, in a word for each voxel.
     Buffer measured_;  ///< The same for each face that has surfels.
+    std::optional<uint64_t> measuredVersion_;  ///< Of the voxels; surfels change with them.
     Sampler sampler_;
 };
 

@@ -10,10 +10,10 @@ VOXRAY_SHARED_BEGIN
 struct Surfel {
     vec3 position;     // m
     uint voxel;        // Number of its voxel, or NO_VOXEL.
-    vec3 normal;       // Unit length, on the lit side; geometric.
+    vec3 normal;       // Unit length, on the lit side; geometric, at hits the shading normal.
     uint id;           // Picks its random numbers; unique among surfels that are handled together.
     vec3 reflectance;  // Light that goes back along the ray that found it, over irradiance / pi.
-    uint parent;       // Index of the surfel whose ray found it.
+    uint parent;       // Index of the surfel, or of the gather ray, whose ray found it.
     float area;        // Of surface that it stands for, 1 where surfels are spread evenly over all surfaces.
 };
 

@@ -163,7 +163,7 @@ TEST(FinalGather, ShadowRaysAtHitsKnowNoVoxels) {
     const auto error = [&](const std::string& gather) {
         Chain chain("white_room", "{albedo: 0.5}",
                     gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 0", "rays_per_block: 256",
-                                {"gather_rays, near_field: 0, direct_at_hits: " + gather},
+                                {"gather_rays, near_field_voxels: 0, direct_at_hits: " + gather},
                                 "resolution: 3, visibility_rays: 0", "2"));
         return difference(chain.image("indirect"), reference.image("indirect"));
     };
@@ -179,7 +179,7 @@ TEST(FinalGather, FilterKeepsAUniformImage) {
         Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
                     gatherGraph("inject_light_rays, rays_per_light: 524288, bounces: 2",
                                 "rays_per_block: 16, block: 4",
-                                filtered(levels, "gather_rays, near_field: 0"), "resolution: 4"));
+                                filtered(levels, "gather_rays, near_field_voxels: 0"), "resolution: 4"));
         return chain.image("indirect");
     };
     EXPECT_LT(difference(image(5), image(1)), 0.01);
@@ -309,8 +309,8 @@ TEST(FinalGather, RaysGoOnFromNearHits) {
     const auto run = [&](const std::string& nearField) {
         Chain chain(state,
                     gatherGraph("inject_light_rays, rays_per_light: 2097152, bounces: 7",
-                                "rays_per_block: 128, block: 2", {"gather_rays, near_field: " + nearField},
-                                "resolution: 64", "2"),
+                                "rays_per_block: 128, block: 2",
+                                {"gather_rays, near_field_voxels: " + nearField}, "resolution: 64", "2"),
                     64, 36, 1);
         return chain.image("indirect");
     };
@@ -335,7 +335,7 @@ TEST(FinalGather, RaysGoOnWhereNoLightWasInjected) {
     const auto ratio = [&](const std::string& nearField) {
         Chain chain("white_room", "{albedo: 0.5}",
                     gatherGraph("inject_camera_rays, rays_per_image: 256, bounces: 3", "rays_per_block: 64",
-                                {"gather_rays, near_field: " + nearField}));
+                                {"gather_rays, near_field_voxels: " + nearField}));
         return mean(chain.image("indirect")) / mean(reference.image("indirect"));
     };
     EXPECT_LT(ratio("0"), 0.8);
@@ -357,7 +357,7 @@ TEST(FinalGather, GridOfOneVoxel) {
     for (const Injection& injection : kInjections) {
         Chain chain("white_room", "{albedo: 0.5}",
                     gatherGraph(injection.withBounces(3), "rays_per_block: 16",
-                                {"gather_rays, near_field: 0"}, "resolution: 1, visibility_rays: 0"));
+                                {"gather_rays, near_field_voxels: 0"}, "resolution: 1, visibility_rays: 0"));
         const double ratio = mean(chain.image("indirect")) / mean(reference.image("indirect"));
         std::printf("%s: %.4f\n", injection.pass.c_str(), ratio);
         const auto [value, tolerance] = expected.at(injection.pass.substr(0, injection.pass.find(',')));
