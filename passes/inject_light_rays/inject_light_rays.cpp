@@ -2,25 +2,12 @@
 
 #include <algorithm>
 
-#include "passes/common/compute/dispatch.h"
 #include "passes/common/compute/random_seed.h"
 
 namespace voxray {
 namespace {
 
 constexpr uint32_t kMaxBatchRays = 1u << 20;  // Bounds the memory of rays and what they carry to 108 MiB.
-
-struct EmitPush {
-    uint32_t kind;
-    uint32_t light;
-    uint32_t firstRay;
-    uint32_t batchRays;
-    uint32_t totalRays;
-    uint32_t seed;
-    uint32_t emitterCount;
-    glm::vec3 sceneCenter;
-    float sceneRadius;
-};
 
 }  // namespace
 
@@ -35,24 +22,19 @@ void InjectLightRays::plan(PassPlan& plan) {
 }
 
 void InjectLightRays::prepare(PassSetup& setup) {
-    emit_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_light_rays/emit.comp"));
+    emission_.prepare(setup);
     paths_.prepare(setup);
 }
 
 void InjectLightRays::record(PassContext& context) {
     const SurfaceVoxels& voxels = context.get(voxels_);
     const std::vector<LightSource> sources = lightSources(*context.frame.scene);
-    const BoundingSphere sphere = boundingSphere(context.frame.scene->geometry);
     paths_.begin(context, voxels, sources);
     for (uint32_t s = 0; s < sources.size(); ++s) {
-        const uint32_t seed = randomSeed(context.frame, s);
-        for (uint32_t first = 0; first < params_.raysPerLight; first += kMaxBatchRays) {
-            const uint32_t count = std::min(kMaxBatchRays, params_.raysPerLight - first);
-            context.stream.dispatch(
-                emit_, context.scene.bindings({{"rays", paths_.rays()}, {"paths", paths_.paths()}}),
-                EmitPush{sources[s].kind, sources[s].light, first, count, params_.raysPerLight, seed,
-                         context.scene.emitterCount, sphere.center, sphere.radius},
-                linearGroups(count));
+        const uint32_t seed = randomSeed(context.frame, s), rays = params_.raysPerLight;
+        for (uint32_t first = 0; first < rays; first += kMaxBatchRays) {
+            const uint32_t count = std::min(kMaxBatchRays, rays - first);
+            emission_.emit(context, sources[s], {seed, rays, first, count}, paths_.rays(), paths_.paths());
             paths_.follow(context, voxels, {seed, first, count});
         }
     }

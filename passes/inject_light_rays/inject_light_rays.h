@@ -1,5 +1,6 @@
 #pragma once
 
+#include "passes/common/light_paths/light_emission.h"
 #include "passes/common/light_paths/light_paths.h"
 
 namespace voxray {
@@ -40,7 +41,7 @@ class InjectLightRays final : public Pass {
     Params params_;
     Port<const SurfaceVoxels> voxels_;
     Port<VoxelIrradiance> irradiance_;
-    Program emit_;
+    LightEmission emission_;
     LightPaths paths_;
 };
 

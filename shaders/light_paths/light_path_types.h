@@ -1,4 +1,5 @@
-// What a ray from a light carries, shared by C++ (passes/common/light_paths/light_paths.h) and GLSL.
+// What a ray from a light carries and what sends it, shared by C++ (passes/common/light_paths/) and GLSL
+// (shaders/light_paths/light_emission.glsl).
 #ifndef VOXRAY_SHARED_LIGHT_PATH_H
 #define VOXRAY_SHARED_LIGHT_PATH_H
 
@@ -13,6 +14,17 @@ struct LightPath {
     float solidAngle;  // sr; 0 for parallel light
     float area;        // m²; 0 for light from a point
     float travelled;   // m, from the light to the ray's origin
+};
+
+// A source of light and the rays that it sends.
+struct EmittingSource {
+    uint kind;          // As LightSource has it, and `light`.
+    uint light;
+    uint emitterCount;  // Emissive triangles of the scene.
+    uint rays;          // That the source sends.
+    uint seed;          // One for each source.
+    vec3 sceneCenter;   // m, of the scene's bounding sphere.
+    float sceneRadius;  // m
 };
 
 VOXRAY_SHARED_END
