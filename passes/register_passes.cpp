@@ -6,6 +6,7 @@
 #include "passes/direct_voxels/direct_voxels.h"
 #include "passes/filter_irradiance/filter_irradiance.h"
 #include "passes/filter_voxels/filter_voxels.h"
+#include "passes/gather_cached_rays/gather_cached_rays.h"
 #include "passes/gather_cones/gather_cones.h"
 #include "passes/gather_irradiance/gather_irradiance.h"
 #include "passes/gather_rays/gather_rays.h"
@@ -21,6 +22,7 @@
 #include "passes/place_surfels/place_surfels.h"
 #include "passes/probe_irradiance/probe_irradiance.h"
 #include "passes/trace_gather_rays/trace_gather_rays.h"
+#include "passes/update_radiance_cache/update_radiance_cache.h"
 #include "passes/voxelize/voxelize_pass.h"
 #include "passes/voxelize_clipmap/voxelize_clipmap.h"
 
@@ -45,6 +47,8 @@ void registerPasses(Registry& registry) {
     registry.add<GatherIrradiance>();
     registry.add<TraceGatherRays>();
     registry.add<GatherRays>();
+    registry.add<UpdateRadianceCache>();
+    registry.add<GatherCachedRays>();
     registry.add<FilterIrradiance>();
     registry.add<DirectShadowRays>();
     registry.add<DirectVoxels>();

@@ -1,111 +1,27 @@
 #include "passes/gather_rays/gather_rays.h"
 
-#include "base/error.h"
-#include "passes/common/compute/dispatch.h"
-#include "passes/common/compute/random_seed.h"
-#include "passes/common/view/frame_image.h"
-
 namespace voxray {
-namespace {
-
-struct ShadePush {
-    gpu::VoxelGrid grid;
-    gpu::GatherLayout layout;
-    uint32_t firstBlock;
-    uint32_t rays;
-    float nearField;
-};
-
-struct ReflectPush {
-    uint32_t count;
-    uint32_t seed;
-};
-
-struct GoOnPush {
-    gpu::VoxelGrid grid;
-    uint32_t rays;
-    float nearField;
-};
-
-struct CollectPush {
-    gpu::GatherLayout layout;
-    uint32_t firstBlock;
-    uint32_t batchBlocks;
-};
-
-struct MomentsPush {
-    uint32_t firstBlock;
-    uint32_t batchBlocks;
-    uint32_t raysPerBlock;
-};
-
-uint64_t batchRays(const GatherHits& hits) {
-    return uint64_t(hits.blocksPerBatch) * hits.layout.raysPerBlock;
-}
-
-constexpr uint32_t kMaxSteps = 3;                    // Of a ray that goes on.
-constexpr uint64_t kLightBytes = 4 * sizeof(float);  // Of a ray, or of a surfel.
-
-}  // namespace
 
 void GatherRays::declare(PassBuilder& builder) {
-    gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
     irradiance_ = builder.read<VoxelIrradiance>("irradiance", "light that arrives at the voxels' surfaces");
-    hits_ = builder.read<GatherHits>("gather_hits", "where the gather rays hit");
-    noisy_ = builder.write<NoisyIrradiance>("noisy_irradiance", "irradiance from few rays a texel");
-    indirect_ = builder.write<FrameImage>("indirect", "radiance reflected of indirect light, unfiltered");
+    gather_.declare(builder);
 }
 
 void GatherRays::plan(PassPlan& plan) {
-    const GatherHits& hits = plan.get(hits_);
-    const uint32_t texelsPerBlock = hits.layout.blockSize * hits.layout.blockSize;
-    NoisyIrradiance& noisy = plan.get(noisy_);
-    noisy.spacing = hits.layout.raysPerBlock < texelsPerBlock ? hits.layout.blockSize : 1;
-    if (plan.get(indirect_).isRead && noisy.spacing > 1)
-        throw Error(
-            "gather_rays: blocks of {0}x{0} texels have {1} rays, which leaves texels without any; let "
-            "filter_irradiance follow, or raise 'rays_per_block' of trace_gather_rays to {2}",
-            hits.layout.blockSize, hits.layout.raysPerBlock, texelsPerBlock);
-    plan.image(noisy.irradiance, "noisy irradiance",
-               NoisyIrradiance::desc(plan.frame, plan.get(gbuffer_).samples));
-    if (noisy.isRead) {
-        noisy.blockSize = hits.layout.blockSize;
-        plan.buffer(noisy.moments, "moments of rays", noisy.momentsBytes(hits.layout.texels));
-    }
-    if (FrameImage& indirect = plan.get(indirect_); indirect.isRead)
-        plan.image(indirect.image, "indirect", frameImageDesc(plan.frame));
-    plan.buffer(light_, "light of gather rays", batchRays(hits) * kLightBytes);
-    plan.buffer(surfels_[0], "surfels at hits", batchRays(hits) * sizeof(gpu::Surfel));
-    plan.buffer(goesOn_, "surfels whose rays go on", batchRays(hits) * sizeof(uint32_t));
-    plan.buffer(count_, "number of surfels", sizeof(uint32_t));
-    if (measuresDirect()) {
-        sources_ = lightSources(*plan.frame.scene);
-        hitLight_.plan(plan, uint32_t(batchRays(hits)));
-        plan.buffer(surfels_[1], "surfels one step before", batchRays(hits) * sizeof(gpu::Surfel));
-        plan.buffer(direct_, "direct light at hits", batchRays(hits) * kLightBytes);
-        plan.buffer(rays_, "next rays", batchRays(hits) * sizeof(Ray));
-        plan.buffer(nextHits_, "next hits", batchRays(hits) * sizeof(Hit));
-    }
+    FinalGather::Settings settings{kName};
+    settings.shadowRays = shadowRays();
+    settings.lightSamples = params_.lightSamples;
+    settings.nearFieldCells = params_.nearFieldVoxels;
+    gather_.plan(plan, settings);
+    plan.buffer(grid_, "grid of voxels", sizeof(gpu::VoxelGrid));
     plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(plan.get(voxels_).voxelCount));
 }
 
 void GatherRays::prepare(PassSetup& setup) {
-    const auto program = [&](const char* file, const Defines& defines = {}) {
-        return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
-    };
-    const Defines direct = shadowRays() ? Defines{{"SHADOW_RAYS", "1"}} : Defines{};
-    shade_ = program("passes/gather_rays/shade.comp", direct);
-    collect_ = program("passes/gather_rays/collect.comp");
-    if (setup.get(noisy_).isRead) moments_ = program("passes/gather_rays/moments.comp");
-    if (setup.get(indirect_).isRead) resolve_ = IrradianceResolve(setup);
+    gather_.prepare(setup);
     faces_ = FaceIrradiance(setup.device, setup.compiler);
     facesVersion_.reset();
-    sampler_ = texelSampler(setup.device);
-    if (!measuresDirect()) return;
-    reflect_ = program("passes/gather_rays/reflect.comp");
-    goOn_ = program("passes/gather_rays/go_on.comp", direct);
-    hitLight_.prepare(setup);
 }
 
 void GatherRays::record(PassContext& context) {
@@ -114,80 +30,10 @@ void GatherRays::record(PassContext& context) {
     if (const std::pair version{voxels.version, light.version}; facesVersion_ != version) {
         faces_.update(context.stream, voxels, light.area, light.indirect,
                       shadowRays() ? nullptr : &light.direct);
+        context.stream.upload(grid_, std::vector{voxels.grid});
         facesVersion_ = version;
     }
-    for (uint32_t b = 0; b < context.get(hits_).batches.size(); ++b) gather(context, b);
-    if (const FrameImage& indirect = context.get(indirect_); indirect.isRead)
-        resolve_.record(context, context.get(gbuffer_), context.get(noisy_).irradiance, indirect.image);
-}
-
-void GatherRays::gather(PassContext& context, uint32_t batch) {
-    const GBuffer& gbuffer = context.get(gbuffer_);
-    const SurfaceVoxels& voxels = context.get(voxels_);
-    const GatherHits& hits = context.get(hits_);
-    const uint32_t firstBlock = batch * hits.blocksPerBatch, blocks = hits.batchBlocks(batch);
-    const uint32_t rays = blocks * hits.layout.raysPerBlock;
-    const uint32_t texelsPerBlock = hits.layout.blockSize * hits.layout.blockSize;
-    CommandStream& stream = context.stream;
-
-    // Shade the hits with the voxels' irradiance, and measure light where that is not to be had from voxels.
-    std::vector<Binding> shading = endBindings(context, hits.batches[batch], surfels_[0]);
-    shading.push_back({"position", gbuffer.position, sampler_});
-    stream.fill(count_, 0);
-    stream.dispatch(shade_, shading,
-                    ShadePush{voxels.grid, hits.layout, firstBlock, rays,
-                              params_.nearFieldVoxels * voxels.grid.voxelSize},
-                    linearGroups(rays));
-    if (measuresDirect()) follow(context);
-
-    // Add up what the rays of each texel and of each block bring.
-    const NoisyIrradiance& noisy = context.get(noisy_);
-    stream.dispatch(collect_, {{"light", light_}, {"gathered", noisy.irradiance}},
-                    CollectPush{hits.layout, firstBlock, blocks},
-                    linearGroups(uint64_t(blocks) * texelsPerBlock));
-    if (noisy.isRead)
-        stream.dispatch(moments_, {{"light", light_}, {"moments", noisy.moments}},
-                        MomentsPush{firstBlock, blocks, hits.layout.raysPerBlock}, linearGroups(blocks));
-}
-
-std::vector<Binding> GatherRays::endBindings(PassContext& context, const Buffer& hits,
-                                             const Buffer& surfels) const {
-    const SurfaceVoxels& voxels = context.get(voxels_);
-    return voxels.bindings(context.scene.bindings({{"faceIrradiance", faces_.buffer()},
-                                                   {"hits", hits},
-                                                   {"light", light_},
-                                                   {"surfels", surfels},
-                                                   {"goesOn", goesOn_},
-                                                   {"count", count_}}));
-}
-
-void GatherRays::follow(PassContext& context) {
-    const gpu::VoxelGrid& grid = context.get(voxels_).grid;
-    CommandStream& stream = context.stream;
-    for (uint32_t step = 0; step <= kMaxSteps; ++step) {
-        const uint32_t surfels = stream.readAs<uint32_t>(count_, 1)[0];
-        if (surfels == 0) return;
-
-        // Direct light at the surfels, and rays on.
-        const Buffer &from = surfels_[step % 2], &to = surfels_[(step + 1) % 2];
-        const uint32_t seed = randomSeed(context.frame, context.frameIndex) + 0x51u + step * 0x9e3779b9u;
-        hitLight_.measure(context, sources_, from, surfels, params_.lightSamples, seed, direct_);
-        stream.dispatch(
-            reflect_,
-            {{"surfels", from}, {"direct", direct_}, {"light", light_}, {"goesOn", goesOn_}, {"rays", rays_}},
-            ReflectPush{surfels, seed + 0xa3u}, linearGroups(surfels));
-        if (params_.nearFieldVoxels == 0 || step == kMaxSteps) return;
-
-        // Where those end.
-        context.tracer.closestHit(stream, rays_, nextHits_, surfels);
-        stream.fill(count_, 0);
-        std::vector<Binding> ends = endBindings(context, nextHits_, to);
-        ends.insert(ends.end(), {{"from", from}, {"rays", rays_}});
-        const bool isLast = step + 1 == kMaxSteps;
-        stream.dispatch(goOn_, ends,
-                        GoOnPush{grid, surfels, isLast ? 0.0f : params_.nearFieldVoxels * grid.voxelSize},
-                        linearGroups(surfels));
-    }
+    gather_.record(context, voxels.bindings({{"faceIrradiance", faces_.buffer()}, {"grid", grid_}}));
 }
 
 }  // namespace voxray

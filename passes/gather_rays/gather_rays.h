@@ -4,11 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "passes/common/filter/irradiance_resolve.h"
-#include "passes/common/filter/noisy_irradiance.h"
-#include "passes/common/surfels/surfel_light.h"
-#include "passes/common/view/gather_hits.h"
-#include "passes/common/view/gbuffer.h"
+#include "passes/common/final_gather/final_gather.h"
 #include "passes/common/voxels/face_irradiance.h"
 
 namespace voxray {
@@ -63,33 +59,15 @@ class GatherRays final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    bool measuresDirect() const { return shadowRays() || params_.nearFieldVoxels > 0; }
     bool shadowRays() const { return params_.directAtHits == DirectAtHits::ShadowRays; }
-    void gather(PassContext& context, uint32_t batch);
-    /// Measures direct light at the hits of a batch where it is asked for, and lets rays go on.
-    void follow(PassContext& context);
-    std::vector<Binding> endBindings(PassContext& context, const Buffer& hits, const Buffer& surfels) const;
 
     Params params_;
-    Port<const GBuffer> gbuffer_;
+    FinalGather gather_;
     Port<const SurfaceVoxels> voxels_;
     Port<const VoxelIrradiance> irradiance_;
-    Port<const GatherHits> hits_;
-    Port<NoisyIrradiance> noisy_;
-    Port<FrameImage> indirect_;
     FaceIrradiance faces_;
     std::optional<std::pair<uint64_t, uint64_t>> facesVersion_;  ///< Of the voxels and the light in them.
-    Program shade_, reflect_, goOn_, collect_, moments_;
-    IrradianceResolve resolve_;
-    Sampler sampler_;
-    Buffer light_;  ///< What the rays of a batch bring.
-
-    // Where direct light is measured at hits, and rays go on from there.
-    std::vector<LightSource> sources_;
-    SurfelLight hitLight_;
-    std::array<Buffer, 2> surfels_;  ///< Of a batch's hits, and of those one step before.
-    Buffer goesOn_, count_, direct_;
-    Buffer rays_, nextHits_;  ///< Of rays that went on.
+    Buffer grid_;                                                ///< gpu::VoxelGrid
 };
 
 }  // namespace voxray

@@ -1,22 +1,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The ends of rays that went on.
-#include "passes/gather_rays/hit.glsl"
-#include "shaders/compute/linear_index.glsl"
-layout(local_size_x = 64) in;
-
-layout(scalar) readonly buffer From { Surfel data[]; } from;  // That the rays started from.
-layout(scalar) readonly buffer Rays { Ray data[]; } rays;
-layout(scalar) readonly buffer Hits { Hit data[]; } hits;
-layout(push_constant, scalar) uniform Push {
-    VoxelGrid grid;
-    uint rays_;
-    float nearField;  // m; 0 where rays must end.
-} push;
-
-void main() {
-    const uint i = linearIndex();
-    if (i >= push.rays_ || rays.data[i].tMax < 0.0 || hits.data[i].triangle == NO_HIT) return;
-    const Surfel s = from.data[i];
-    endRay(push.grid, s.parent, hits.data[i], s.position, s.reflectance, s.id, push.nearField);
-}
+// Voxels where a final gather reads light.
+#include "passes/common/final_gather/go_on.glsl"
+#include "passes/gather_rays/voxel_light.glsl"

@@ -4,24 +4,13 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "passes/common/compute/dispatch.h"
 #include "passes/common/compute/random_seed.h"
-#include "passes/common/view/camera_matrix.h"
+#include "scene/camera_rays.h"
 
 namespace voxray {
 namespace {
 
 constexpr uint32_t kBatchRays = 1u << 18;  // Bounds the memory of paths to 20 MiB a bounce.
-
-struct EmitPush {
-    glm::vec3 origin;
-    uint32_t firstRay;
-    glm::vec3 forward;
-    uint32_t count;
-    glm::vec3 right;
-    uint32_t seed;
-    glm::vec3 up;
-};
 
 }  // namespace
 
@@ -45,7 +34,7 @@ void InjectCameraRays::prepare(PassSetup& setup) {
     paths_.prepare(setup);
     direct_ = VoxelAccumulator(setup.device, setup.compiler, params_);
     indirect_ = VoxelAccumulator(setup.device, setup.compiler, params_);
-    emit_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_camera_rays/emit.comp"));
+    imageRays_.prepare(setup);
 }
 
 void InjectCameraRays::record(PassContext& context) {
@@ -67,9 +56,7 @@ void InjectCameraRays::record(PassContext& context) {
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
     for (uint32_t first = 0; first < params_.raysPerImage; first += kBatchRays) {
         const uint32_t batch = std::min(kBatchRays, params_.raysPerImage - first);
-        stream.dispatch(emit_, {{"rays", rays_}},
-                        EmitPush{camera.origin, first, camera.forward, batch, camera.right, seed, camera.up},
-                        linearGroups(batch));
+        imageRays_.record(context, rays_, first, batch, seed);
         context.tracer.closestHit(stream, rays_, hits_, batch);
         const uint32_t count = paths_.arrive(context, voxels, footprint, rays_, hits_, batch, first);
         if (count > 0) paths_.run(context, sources_, count, seed, {voxels, direct_, indirect_});

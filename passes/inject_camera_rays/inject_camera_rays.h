@@ -1,6 +1,7 @@
 #pragma once
 
 #include "passes/common/surfels/surfel_paths.h"
+#include "passes/common/view/image_rays.h"
 
 namespace voxray {
 
@@ -49,7 +50,7 @@ class InjectCameraRays final : public Pass {
     std::vector<LightSource> sources_;
     SurfelPaths paths_;
     VoxelAccumulator direct_, indirect_;
-    Program emit_;
+    ImageRays imageRays_;
     Buffer rays_, hits_;
 };
 

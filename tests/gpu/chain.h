@@ -54,6 +54,12 @@ class Chain {
         frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, 0, true);
     }
 
+    /// Frames 1 to `count`, which draw other random numbers than frame 0.
+    void runFrames(uint32_t count) {
+        for (uint32_t i = 1; i <= count; ++i)
+            frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, i, true);
+    }
+
     /// Changes the scene in place, takes over what the change says that it changed, and renders a frame.
     void update(const std::function<std::vector<Box>(SceneState&)>& change) {
         frame_.changed = change(*state_);

@@ -35,6 +35,8 @@ ROOMS = {
     "lights": {"compute", "view", "voxels"},
     "light_paths": {"compute", "voxels", "lights"},
     "surfels": {"compute", "view", "voxels", "lights"},
+    "final_gather": {"compute", "view", "filter", "lights", "surfels"},
+    "radiance_cache": {"compute"},
 }
 
 # GLSL of the framework's own things, for every room.

@@ -1,12 +1,21 @@
-// What a ray that gathers light finds at its hit. Needs the bindings of shaders/scene/scene.glsl and of
-// shaders/voxels/face_irradiance.glsl.
-#ifndef VOXRAY_GATHER_RAYS_HIT_GLSL
-#define VOXRAY_GATHER_RAYS_HIT_GLSL
+// What a ray that gathers light finds at its hit. Needs the bindings of shaders/scene/scene.glsl. Whoever includes it defines
+// before where light is stored, as storedLight() below.
+#ifndef VOXRAY_FINAL_GATHER_HIT_GLSL
+#define VOXRAY_FINAL_GATHER_HIT_GLSL
 
 #include "shaders/scene/scene.glsl"
 #include "shaders/surfels/surfel_types.h"
 #include "shaders/trace/ray_types.h"
-#include "shaders/voxels/face_irradiance.glsl"
+
+// What is stored for a point of a surface.
+struct StoredLight {
+    vec3 irradiance;  // W/m²
+    float cellSize;   // m: edge of the cell that it is the mean of.
+    bool known;       // False where no light was stored.
+};
+
+// Of a surface with unit normal `normal`, on the side that it points to. Defined by the shader that includes this.
+StoredLight storedLight(vec3 position, vec3 normal);
 
 layout(scalar) buffer Light { vec4 data[]; } light;
 // The hits where direct light is to be measured, in any order; `parent` is the ray.
@@ -14,27 +23,26 @@ layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
 writeonly buffer GoesOn { uint data[]; } goesOn;  // By surfel; 1: its ray goes on from there.
 buffer Count { uint value; } count;                // Of surfels.
 
-// The end of ray i, which comes from `from` and brings `throughput` of what the surface at its hit reflects. A voxel cannot tell
-// points apart that are closer to each other than its size: a ray that is shorter than `nearField` (m) does not read it but goes on
-// from its hit, as a path does. So does one that hit where no light was injected. With a `nearField` of 0 all rays end.
+// The end of ray i, which comes from `from` and brings `throughput` of what the surface at its hit reflects. A cell cannot tell
+// points apart that are closer to each other than its size: a ray that is shorter than `nearField` cells does not read it but goes on
+// from its hit, as a path does. So does one that hit where no light is stored. With a `nearField` of 0 all rays end.
 //
 //      ┌───────┬───────┐
-//      │   o───┼───┼─> ·   ·: a hit further off than a voxel is read.
+//      │   o───┼───┼─> ·   ·: a hit further off than a cell is read.
 //      │    \  │       │   x: one nearer is not; there a shadow ray measures direct light, and a ray goes on.
 //     ─┼─────x─┼───────┼─
 //      └───────┴───────┘
-void endRay(VoxelGrid grid, uint i, Hit hit, vec3 from, vec3 throughput, uint id, float nearField) {
+void endRay(uint i, Hit hit, vec3 from, vec3 throughput, uint id, float nearField) {
     const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
     if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return;
 
-    // What the voxel there knows, of the side that the ray came from.
+    // What is stored there, of the side that the ray came from.
     const vec3 faceNormal = dot(s.geometricNormal, from - s.position) >= 0.0 ? s.geometricNormal : -s.geometricNormal;
     const GpuMaterial m = sceneMaterials.data[s.material];
     const vec3 reflected = throughput * diffuseAlbedo(m, s, 0.0);
-    bool known;
-    const vec3 irradiance = irradianceAt(grid, s.position, faceNormal, known);
-    const bool isOnWay = nearField > 0.0 && (hit.t < nearField || !known);
-    if (!isOnWay) light.data[i].rgb += reflected * irradiance;
+    const StoredLight stored = storedLight(s.position, faceNormal);
+    const bool isOnWay = nearField > 0.0 && (hit.t < nearField * stored.cellSize || !stored.known);
+    if (!isOnWay) light.data[i].rgb += reflected * stored.irradiance;
 #ifndef SHADOW_RAYS
     if (!isOnWay) return;
 #endif
@@ -42,7 +50,7 @@ void endRay(VoxelGrid grid, uint i, Hit hit, vec3 from, vec3 throughput, uint id
     // Where light is measured.
     Surfel at;
     at.position = s.position;
-    at.voxel = NO_VOXEL;
+    at.voxel = 0xffffffffu;
     const vec3 normal = shadingNormal(m, s, 0.0);
     at.normal = dot(normal, faceNormal) < 0.0 ? -normal : normal;
     at.id = id;

@@ -7,7 +7,10 @@
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
-layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(scalar) writeonly buffer Rays {
+    Ray data[];
+}
+rays;
 layout(push_constant, scalar) uniform Push {
     vec3 origin;
     uint firstRay;
@@ -16,7 +19,8 @@ layout(push_constant, scalar) uniform Push {
     vec3 right;
     uint seed;
     vec3 up;
-} push;
+}
+push;
 
 void main() {
     const uint i = linearIndex();

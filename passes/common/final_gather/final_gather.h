@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "passes/common/filter/irradiance_resolve.h"
+#include "passes/common/filter/noisy_irradiance.h"
+#include "passes/common/surfels/surfel_light.h"
+#include "passes/common/view/gather_hits.h"
+#include "passes/common/view/gbuffer.h"
+
+namespace voxray {
+
+/// A final gather: what the surfaces at the hits of trace_gather_rays reflect of light that is stored there,
+/// and measured light where none is or where the hit is too near. Where light is stored is the user's: two
+/// shaders in its folder, shade.comp and go_on.comp, include final_gather/shade.glsl and
+/// final_gather/go_on.glsl and define storedLight() (final_gather/hit.glsl).
+class FinalGather {
+ public:
+    struct Settings {
+        std::string pass;                        ///< Its name, which is also its folder's under passes/.
+        SpecializationConstants constants = {};  ///< Of storedLight().
+        bool shadowRays = false;    ///< Direct light is not stored: shadow rays measure it at each hit.
+        uint32_t lightSamples = 1;  ///< Of the emissive surfaces and of the environment, at each such hit.
+        float nearFieldCells = 0;   ///< Rays shorter than this go on; 0: no ray does.
+        uint32_t maxSteps = 3;      ///< That a ray goes on, at most.
+    };
+
+    void declare(PassBuilder& builder);
+    /// @throws Error where texels would get no ray and no filter follows.
+    void plan(PassPlan& plan, const Settings& settings);
+    void prepare(PassSetup& setup);
+    /// @param stored bindings of storedLight().
+    void record(PassContext& context, const std::vector<Binding>& stored);
+
+ private:
+    bool measuresDirect() const { return settings_.shadowRays || settings_.nearFieldCells > 0; }
+    void gather(PassContext& context, const std::vector<Binding>& stored, uint32_t batch);
+    /// Measures direct light at the hits of a batch where it is asked for, and lets rays go on.
+    void follow(PassContext& context, const std::vector<Binding>& stored);
+    std::vector<Binding> endBindings(PassContext& context, const std::vector<Binding>& stored,
+                                     const Buffer& hits, const Buffer& surfels) const;
+
+    Settings settings_;
+    Port<const GBuffer> gbuffer_;
+    Port<const GatherHits> hits_;
+    Port<NoisyIrradiance> noisy_;
+    Port<FrameImage> indirect_;
+    Program shade_, reflect_, goOn_, collect_, moments_;
+    IrradianceResolve resolve_;
+    Sampler sampler_;
+    Buffer light_;  ///< What the rays of a batch bring.
+
+    // Where direct light is measured at hits, and rays go on from there.
+    std::vector<LightSource> sources_;
+    SurfelLight hitLight_;
+    std::array<Buffer, 2> surfels_;  ///< Of a batch's hits, and of those one step before.
+    Buffer goesOn_, count_, direct_, rays_, nextHits_;
+};
+
+}  // namespace voxray

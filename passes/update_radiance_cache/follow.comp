@@ -1,0 +1,85 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Makes a vertex of each hit, on the side that the ray came from, takes a cell for it, and sends the path's next ray. Russian roulette
+// by albedo ends paths; what follows a vertex counts for those that ended there. Vertices are appended in any order; nothing depends on
+// it.
+#include "passes/update_radiance_cache/path_types.h"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/radiance_cache/radiance_cache.glsl"
+#include "shaders/scene/scene.glsl"
+#include "shaders/surfels/surfel_types.h"
+#include "shaders/trace/ray_types.h"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Rays { Ray data[]; } rays;
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+readonly buffer Origins { uint data[]; } origins;  // Vertex that a ray starts from; not of rays from the camera.
+layout(scalar) writeonly buffer NextRays { Ray data[]; } nextRays;
+writeonly buffer NextOrigins { uint data[]; } nextOrigins;
+layout(scalar) buffer Surfels { Surfel data[]; } surfels;
+layout(scalar) buffer Vertices { PathVertex data[]; } vertices;
+buffer VertexCount { uint value; } vertexCount;
+buffer CellCounts {
+    uint cells;
+    uint lost;  // Vertices whose cell found no slot.
+} cellCounts;
+layout(push_constant, scalar) uniform Push {
+    uint rays_;
+    uint firstVertex;  // Of those that are made now.
+    uint firstPath;    // Of rays from the camera.
+    uint paths;        // Of the update.
+    uint seed;
+    uint fromCamera;  // 1 or 0.
+    uint isWritten;   // 1: these vertices leave their light in cells.
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.rays_) return;
+    const Ray ray = rays.data[i];
+    const Hit hit = hits.data[i];
+    if (ray.tMax < ray.tMin || hit.triangle == NO_HIT) return;
+    const SurfacePoint p = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
+    if (dot(p.geometricNormal, p.geometricNormal) == 0.0) return;
+    const vec3 faceNormal = dot(p.geometricNormal, ray.direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
+    const GpuMaterial m = sceneMaterials.data[p.material];
+    const vec3 albedo = clamp(diffuseAlbedo(m, p, 0.0), 0.0, 1.0);
+    const vec3 normal = shadingNormal(m, p, 0.0);
+
+    // The vertex, linked to the one before it.
+    const bool fromCamera = push.fromCamera != 0u;
+    const uint v = atomicAdd(vertexCount.value, 1u);
+    Surfel s;
+    s.position = p.position;
+    s.voxel = 0xffffffffu;
+    s.normal = dot(normal, faceNormal) < 0.0 ? -normal : normal;
+    s.parent = fromCamera ? NO_VERTEX : origins.data[i];
+    s.id = fromCamera ? push.firstPath + i : surfels.data[s.parent].id + push.paths;
+    s.reflectance = fromCamera ? albedo : albedo / vertices.data[s.parent].survival;
+    s.area = 1.0;
+    surfels.data[v] = s;
+    if (!fromCamera) vertices.data[s.parent].next = v;
+
+    // The first one's ray always goes on: its hit stands for those of gather rays.
+    PathVertex vertex;
+    vertex.cell = NO_CELL;
+    vertex.next = NO_VERTEX;
+    vertex.survival = fromCamera ? 1.0 : max(albedo.r, max(albedo.g, albedo.b));
+    if (push.isWritten != 0u) {
+        const RadianceCacheGrid g = radianceCacheGrid.data;
+        bool isNew;
+        vertex.cell = takeRadianceCell(g, radianceCacheKey(g, s.position, faceNormal), isNew);
+        if (isNew) atomicAdd(cellCounts.cells, 1u);
+        if (vertex.cell == NO_CELL) atomicAdd(cellCounts.lost, 1u);
+    }
+    vertices.data[v] = vertex;
+
+    Ray next = Ray(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0);
+    if (sobol2(s.id, hashCombine(push.seed, 1u)).x < vertex.survival) {
+        next.direction = cosineDirection(sobol2(s.id, push.seed), s.normal);
+        next.origin = s.position + faceNormal * surfaceOffset(s.position);
+        if (dot(next.direction, faceNormal) > 0.0) next.tMax = 1.0e30;
+    }
+    nextRays.data[v - push.firstVertex] = next;
+    nextOrigins.data[v - push.firstVertex] = v;
+}

@@ -1,0 +1,195 @@
+#include "passes/update_radiance_cache/update_radiance_cache.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/random_seed.h"
+#include "passes/update_radiance_cache/path_types.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kMaxVertices = 1u << 19;  // Of a batch of paths: 74 MiB.
+constexpr uint32_t kWrittenVertices = 4;     // Of a path: what it sees, and what rays that go on see.
+
+// As in follow.comp.
+struct CellCounts {
+    uint32_t cells, lost;
+};
+
+struct FollowPush {
+    uint32_t rays;
+    uint32_t firstVertex;
+    uint32_t firstPath;
+    uint32_t paths;
+    uint32_t seed;
+    uint32_t fromCamera;
+    uint32_t isWritten;
+};
+
+struct WritePush {
+    uint32_t count;
+    uint32_t bounces;
+};
+
+// Vertices of a path, at most: those that are written, and the bounces that the last of them still needs.
+uint32_t pathVertices(const UpdateRadianceCache::Params& params) {
+    return kWrittenVertices + params.bounces;
+}
+
+uint32_t batchPaths(const UpdateRadianceCache::Params& params) {
+    return std::min(params.raysPerImage, kMaxVertices / pathVertices(params));
+}
+
+// A cube round the scene, whose halves, quarters and so on are no round fractions of it: surfaces of a model
+// often lie at those.
+gpu::RadianceCacheGrid makeGrid(const Geometry& geometry, const UpdateRadianceCache::Params& params,
+                                glm::vec3 camera, float unitsPerIrradiance) {
+    const glm::vec3 size = geometry.boundsMax - geometry.boundsMin;
+    const float largest = std::max({size.x, size.y, size.z, 1e-6f});
+    return {geometry.boundsMin - 0.0113f * largest,
+            1.0371f * largest,
+            camera,
+            params.cellSize,
+            params.capacity,
+            params.normalBins,
+            unitsPerIrradiance};
+}
+
+}  // namespace
+
+void UpdateRadianceCache::declare(PassBuilder& builder) {
+    cache_ =
+        builder.write<RadianceCache>("radiance_cache", "light that arrives at surfaces, by hashed cells");
+}
+
+void UpdateRadianceCache::plan(PassPlan& plan) {
+    if (!plan.device.shaderInt64Atomics)
+        throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", kName,
+                    plan.device.name);
+    if (params_.historyFrames > 1 && params_.update == CacheUpdate::Once)
+        throw Error(
+            "{}: 'history_frames: {}' keeps light from frame to frame, and 'update: once' has no "
+            "frames; use 'update: each_frame'",
+            kName, params_.historyFrames);
+    sources_ = requireLightSources(*plan.frame.scene, kName);
+    unitsPerIrradiance_ =
+        std::ldexp(1.0f, 28) / std::max(meanIrradiance(sources_, plan.frame.scene->geometry), 1e-30f);
+
+    RadianceCache& cache = plan.get(cache_);
+    plan.buffer(cache.gridAt, "grid of the radiance cache", sizeof(gpu::RadianceCacheGrid));
+    plan.buffer(cache.keys, "keys of the radiance cache", params_.capacity * RadianceCache::kKeyBytes);
+    plan.buffer(cache.sums, "sums of the radiance cache", params_.capacity * RadianceCache::kSumBytes);
+    if (params_.historyFrames > 1) {
+        plan.buffer(oldKeys_, "keys of the previous frame", params_.capacity * RadianceCache::kKeyBytes);
+        plan.buffer(oldSums_, "sums of the previous frame", params_.capacity * RadianceCache::kSumBytes);
+    }
+    const uint64_t paths = batchPaths(params_), vertices = paths * pathVertices(params_);
+    for (Buffer& rays : rays_) plan.buffer(rays, "path rays", paths * sizeof(Ray));
+    for (Buffer& origins : origins_) plan.buffer(origins, "origins of path rays", paths * sizeof(uint32_t));
+    plan.buffer(hits_, "path hits", paths * sizeof(Hit));
+    plan.buffer(surfels_, "surfels of paths", vertices * sizeof(gpu::Surfel));
+    plan.buffer(vertices_, "vertices of paths", vertices * sizeof(gpu::PathVertex));
+    plan.buffer(direct_, "direct light at vertices", vertices * 4 * sizeof(float));
+    plan.buffer(vertexCount_, "number of vertices", sizeof(uint32_t));
+    plan.buffer(cellCounts_, "counts of cells", sizeof(CellCounts));
+    light_.plan(plan, uint32_t(vertices));
+}
+
+void UpdateRadianceCache::prepare(PassSetup& setup) {
+    const auto program = [&](const char* name) {
+        return makeComputeProgram(
+            setup.device, setup.compiler.compile("passes/update_radiance_cache/" + std::string(name)));
+    };
+    imageRays_.prepare(setup);
+    light_.prepare(setup);
+    follow_ = program("follow.comp");
+    write_ = program("write.comp");
+    if (params_.historyFrames > 1) age_ = program("age.comp");
+    hasHistory_ = false;
+}
+
+void UpdateRadianceCache::record(PassContext& context) {
+    RadianceCache& cache = context.get(cache_);
+    begin(context, cache);
+    const uint32_t seed = randomSeed(context.frame, context.frameIndex);
+    double vertices = 0;
+    for (uint32_t first = 0; first < params_.raysPerImage; first += batchPaths(params_))
+        vertices +=
+            follow(context, cache, first, std::min(batchPaths(params_), params_.raysPerImage - first), seed);
+    const CellCounts counts = context.stream.readAs<CellCounts>(cellCounts_, 1)[0];
+    context.report("cells", counts.cells);
+    context.report("occupancy", double(counts.cells) / params_.capacity);
+    context.report("vertices per path", vertices / params_.raysPerImage);
+    context.report("samples lost", counts.lost);
+}
+
+void UpdateRadianceCache::begin(PassContext& context, RadianceCache& cache) {
+    CommandStream& stream = context.stream;
+    cache.grid =
+        makeGrid(context.frame.scene->geometry, params_, context.frame.camera.position, unitsPerIrradiance_);
+    stream.upload(cache.gridAt, std::vector{cache.grid});
+    if (hasHistory_) {
+        std::swap(cache.keys, oldKeys_);
+        std::swap(cache.sums, oldSums_);
+    }
+    stream.fill(cache.keys, 0);
+    stream.fill(cache.sums, 0);
+    stream.fill(cellCounts_, 0);
+    if (hasHistory_) {
+        std::vector<Binding> bindings = cache.bindings();
+        bindings.insert(bindings.end(),
+                        {{"oldKeys", oldKeys_}, {"oldSums", oldSums_}, {"cellCounts", cellCounts_}});
+        stream.dispatch(age_, bindings, params_.historyFrames, linearGroups(params_.capacity));
+    }
+    hasHistory_ = params_.historyFrames > 1;
+}
+
+uint32_t UpdateRadianceCache::follow(PassContext& context, const RadianceCache& cache, uint32_t first,
+                                     uint32_t count, uint32_t seed) {
+    CommandStream& stream = context.stream;
+    const std::vector<Binding> cells = cache.bindings();
+    const auto withCells = [&](std::vector<Binding> bindings) {
+        bindings.insert(bindings.end(), cells.begin(), cells.end());
+        return bindings;
+    };
+
+    // Trace the paths, all of them a step at a time.
+    stream.fill(vertexCount_, 0);
+    imageRays_.record(context, rays_[0], first, count, seed);
+    uint32_t vertices = 0, written = 0, rays = count;
+    for (uint32_t step = 0; step < pathVertices(params_) && rays > 0; ++step) {
+        const size_t from = step % 2, to = 1 - from;
+        context.tracer.closestHit(stream, rays_[from], hits_, rays);
+        stream.dispatch(follow_,
+                        withCells(context.scene.bindings({{"rays", rays_[from]},
+                                                          {"hits", hits_},
+                                                          {"origins", origins_[from]},
+                                                          {"nextRays", rays_[to]},
+                                                          {"nextOrigins", origins_[to]},
+                                                          {"surfels", surfels_},
+                                                          {"vertices", vertices_},
+                                                          {"vertexCount", vertexCount_},
+                                                          {"cellCounts", cellCounts_}})),
+                        FollowPush{rays, vertices, first, params_.raysPerImage, seed + 0x51u, step == 0,
+                                   step < kWrittenVertices},
+                        linearGroups(rays));
+        const uint32_t now = stream.readAs<uint32_t>(vertexCount_, 1)[0];
+        rays = now - vertices;
+        vertices = now;
+        if (step < kWrittenVertices) written = now;
+    }
+
+    // Direct light at all vertices, then what each receives from those that follow it.
+    if (vertices > 0) {
+        light_.measure(context, sources_, surfels_, vertices, params_.lightSamples, seed + 0xa3u, direct_);
+        stream.dispatch(write_,
+                        withCells({{"surfels", surfels_}, {"vertices", vertices_}, {"direct", direct_}}),
+                        WritePush{written, params_.bounces}, linearGroups(written));
+    }
+    return vertices;
+}
+
+}  // namespace voxray
