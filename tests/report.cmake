@@ -1,8 +1,10 @@
 # The report needs Debian's Python with numpy, pandas, matplotlib and Jinja2, which is not always the first on PATH.
-add_test(NAME report.unit
-  COMMAND /usr/bin/python3 -m unittest -v report_test
-  WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}/tests/unit)
-set_tests_properties(report.unit PROPERTIES TIMEOUT 300)
+foreach(part page ranking reading)
+  add_test(NAME report.${part}
+    COMMAND /usr/bin/python3 -m unittest -v report_${part}_test
+    WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}/tests/unit)
+  set_tests_properties(report.${part} PROPERTIES TIMEOUT 300)
+endforeach()
 add_test(NAME scripts.compare_builds
   COMMAND /usr/bin/python3 -m unittest -q compare_builds_test
   WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/unit)

@@ -1,0 +1,230 @@
+"""Tests of the report's page: any run's results make a whole, safe one."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from report_support import NRMSE, ROOT, Page, ReportTest, made_up
+
+from report import page, ranking
+from report.load import load
+from PIL import Image
+
+
+class FullRun(unittest.TestCase):
+    """Six finished variants and a failed one, with everything that a run can write."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.directory = made_up.write_results(Path(folder.name), made_up.sweep_of_two_keys(),
+                                              made_up.manifest(["voxelize.resolution", "inject"]))
+        cls.source = page.render(load(cls.directory))
+        cls.page = Page(cls.source)
+
+    def test_shows_every_part(self):
+        # 2 lights x 2 times x 3 errors; 6 finished variants x 2 lights x (image, error map) and 2 references.
+        self.assertEqual(self.page.count("svg", "chart"), 12)
+        sources = [attrs["src"] for tag, attrs in self.page.tags if tag == "img"]
+        self.assertEqual(len(sources), 26)
+        self.assertTrue(all(source.startswith("data:image/png;base64,") for source in sources))
+        for words in ("6 of 7 variants finished. 1 variant failed", "needs 34.4 GiB", "a constant image",
+                      "light_rays-256 and rsm-256 cannot be told apart, from 0.3 to 0.31", "0.29–0.31",
+                      "Fastest frame: rsm-64 with 9 ms"):
+            self.assertIn(words, self.page.text)
+
+    def test_embeds_each_image_once(self):
+        sources = [attrs["src"] for tag, attrs in self.page.tags if tag == "img"]
+        self.assertEqual(self.source.count("data:image/png;base64,"), len(sources))
+
+    def test_needs_nothing_else(self):
+        self.assertNotRegex(self.source, r"https?://")
+        for _, value in re.findall(r'\b(src|href)="([^"]*)"', self.source):
+            self.assertRegex(value, r"^(data:image/png|#)")
+
+    def test_links_lead_somewhere(self):
+        targets = {f"#{name}" for name in self.page.attributes("id")}
+        links = self.page.attributes("href") + self.page.attributes("xlink:href")
+        self.assertGreater(len(links), 12 * 6)
+        self.assertLessEqual(set(links), targets)
+
+    def test_notebook_reads_the_same_results(self):
+        picture = self.directory / "chart.png"
+        notebook = ROOT / "notebooks/read_results.py"
+        done = subprocess.run([sys.executable, notebook, self.directory, picture],
+                              capture_output=True, text=True, check=True)
+        self.assertLess(done.stdout.index("light_rays-256"), done.stdout.index("rsm-64"))  # by rising error
+        with Image.open(picture) as image:
+            self.assertGreater(image.size[0], 500)
+
+    def test_notebook_of_the_octree_reads_a_benchmark(self):
+        runs = [{"name": f"octreeBuild/resolution:{r}/directions:1/process_time", "voxels": 6.0 * r * r, "MB": r * r / 1e4,
+                 "bytes_per_voxel": 16.7, "grid_voxels": float(r ** 3)} for r in (64, 128)]
+        measured, picture = self.directory / "octree.json", self.directory / "octree.png"
+        measured.write_text(json.dumps({"benchmarks": runs}), encoding="utf-8")
+        done = subprocess.run([sys.executable, ROOT / "notebooks/octree_memory.py", measured, picture],
+                              capture_output=True, text=True, check=True)
+        self.assertIn("24576.0", done.stdout)
+        with Image.open(picture) as image:
+            self.assertGreater(image.size[0], 500)
+
+    def test_same_results_make_the_same_page(self):
+        self.assertEqual(self.source, page.render(load(self.directory)))
+
+
+class PartOfARun(ReportTest):
+    def test_without_indirect_light(self):
+        rows = [made_up.variant("a", 10, 0.3), made_up.variant("b", 20, 0.2)]
+        shown = self.make(rows, made_up.manifest([]), indirect=False)
+        self.assertEqual(shown.count("svg", "chart"), 6)
+        self.assertNotIn("Indirect", shown.text)
+
+    def test_without_reference_and_manifest(self):
+        rows = [made_up.variant("a", 10, 0.3), made_up.variant("b", 20, 0.2)]
+        shown = self.make(rows, reference=False, indirect=False)
+        self.assertIn("The reference's image is missing", shown.text)
+        self.assertIn("manifest.json cannot be read", shown.text)
+        self.assertIn("scores are left out", shown.text)
+        self.assertEqual(shown.count("svg", "chart"), 0)
+
+    def test_single_variant(self):
+        shown = self.make([made_up.variant("only", 10, 0.3)], made_up.manifest([]), indirect=False)
+        self.assertEqual(shown.count("td", "best"), 0)  # nothing to be better than
+        self.assertEqual(shown.count("svg", "chart"), 6)
+
+    def test_all_failed(self):
+        shown = self.make([made_up.failed("a", "lost device"), made_up.failed("b", "")], made_up.manifest([]))
+        self.assertIn("0 of 2 variants finished. 2 variants failed", shown.text)
+        self.assertIn("there is nothing to draw", shown.text)
+        self.assertIn("status is 'failed', with no error text", shown.text)
+
+    def test_nothing_finished_yet(self):
+        run = made_up.manifest([])
+        del run["finished"]
+        shown = self.make([], run)
+        self.assertIn("No variant has finished yet", shown.text)
+        self.assertIn("had not ended", shown.text)
+
+    def test_zero_and_infinite_scores_are_named_not_drawn(self):
+        perfect = made_up.variant("perfect", 10, 0.0)
+        perfect["psnr_db"] = "inf"
+        shown = self.make([perfect, made_up.variant("good", 20, 0.1)], made_up.manifest([]))
+        self.assertIn("perfect (nRMSE, total)", shown.text)
+        self.assertIn("∞", shown.text)
+
+    def test_broken_files_are_named(self):
+        made_up.write_results(self.directory, [made_up.variant("a", 10, 0.3)], made_up.manifest([]))
+        (self.directory / "images/a/final.png").write_bytes(b"\x89PNG\r\n\x1a\nbroken")
+        (self.directory / "passes.csv").write_text("what,is\nthis,here\n")
+        (self.directory / "manifest.json").write_text('{"commit": ')
+        self.assertEqual(self.run_program()[0], 0)
+        shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
+        for message in ("is not a whole PNG file", "passes.csv lacks a column", "manifest.json cannot be"):
+            self.assertIn(message, shown.text)
+
+    def test_reported_values_have_a_table_and_a_chart_over_frames(self):
+        rows = [made_up.variant(name, 10, 0.3) for name in ("a", "b")]
+        self.assertNotIn("What passes report", self.make(rows, made_up.manifest([])).text)
+        (self.directory / "values.csv").write_text(
+            "variant,pass,name,frame,value\na,compare,missed,,1234567\na,probe,change,0,0.25\na,probe,change,1,0.75\n"
+            "b,compare,missed,,40\n")
+        self.assertEqual(self.run_program()[0], 0)
+        shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
+        for words in ("What passes report", "compare: missed", "1\u202f234\u202f567", "0.500 (most 0.750)", "a: 0.500 on average"):
+            self.assertIn(words, shown.text)
+        self.assertEqual(shown.attributes("aria-label").count("probe: change"), 1)
+        (self.directory / "values.csv").write_text("what,is\nthis,here\n")
+        self.assertEqual(self.run_program()[0], 0)
+        self.assertIn("values.csv lacks a column", Page((self.directory / "report.html").read_text(
+            encoding="utf-8")).text)
+
+    def test_sequences_have_a_table_and_charts_over_frames(self):
+        rows = [made_up.variant(name, 10, error) for name, error in (("calm", 0.2), ("restless", 0.4))]
+        frames = made_up.with_sequence(rows, 3)
+        made_up.write_results(self.directory, rows, made_up.manifest([]), indirect=False)
+        made_up.write_csv(self.directory / "frames.csv", list(frames[1]), frames)
+        self.assertEqual(self.run_program()[0], 0)
+        shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
+        for words in ("Over frames", "temporal bias", "0.080–0.12", "calm: 0.220 on average"):
+            self.assertIn(words, shown.text)
+        self.assertEqual(shown.count("svg", "chart"), 6 + 3)
+        (self.directory / "frames.csv").write_text("what,is\nthis,here\n")
+        self.assertEqual(self.run_program()[0], 0)
+        self.assertIn("frames.csv lacks a column", (self.directory / "report.html").read_text(encoding="utf-8"))
+
+    def test_masks_have_their_own_scores_noise_and_picture(self):
+        rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.4))]
+        for row, value in zip(rows, (0.7, 0.609)):
+            row["nrmse@floor"] = value
+            row.update({"nrmse_low@floor": value - 0.06, "nrmse_high@floor": value + 0.06, "flip@floor": 0.2})
+        run = made_up.manifest([])
+        run["config"]["measure"] = {"masks": {"floor": {"material": "stone"}}}
+        run["reference"] |= {"flip@floor_noise": 0.123, "mask_fractions": {"floor": 0.25}}
+        run["baselines"]["black"]["nrmse@floor"] = 0.63
+        path = self.directory / "images/reference/mask.floor.png"
+        path.parent.mkdir(parents=True)
+        Image.new("L", (4, 2), 255).save(path)
+        shown = self.make(rows, run, indirect=False)
+        for words in ("Under masks", "material stone", "25.0 % of the pixels", "0.609", "0.700", "0.64–0.76", "0.123"):
+            self.assertIn(words, shown.text)
+        self.assertEqual(shown.text.count("a black image"), 2)  # in both tables
+        # Their intervals overlap; black is below that of a alone.
+        results = load(self.directory)
+        self.assertEqual(ranking.score_marks(results, NRMSE, "nrmse@floor"), {"a": "tie", "b": "tie"})
+        beaten = [ranking.beaten_by(results, NRMSE, "nrmse@floor", row) for _, row in results.ok.iterrows()]
+        self.assertEqual(beaten, [["black"], []])
+
+    def test_each_variant_is_shown_next_to_its_own_reference(self):
+        run = made_up.manifest([])
+        run["references"] = [{**run["reference"], "folder": "reference", "variants": ["a"]},
+                             {**run["reference"], "folder": "reference.2", "variants": ["b"]}]
+        run["variants"] = {"a": [{"pass": "gbuffer"}]}
+        rows = [made_up.variant(name, 10, 0.3) for name in ("a", "b", "c")]
+        made_up.save_image(self.directory / "images/reference.2/final.png", 0.5, made_up.SIZE)
+        shown = self.make(rows, run, indirect=False)
+        self.assertEqual(shown.attributes("data-reference"),
+                         ["reference-total", "reference.2-total", "-total"])
+        self.assertLessEqual({"reference-total", "reference.2-total"}, set(shown.attributes("id")))
+        self.assertIn("2 different references", shown.text)
+        self.assertIn("- pass: gbuffer", shown.text)
+
+    def test_manifest_of_odd_types(self):
+        run = {"config": [1], "baselines": 3, "metrics": [3, {"name": "nrmse", "better": "yellow"}], "reference": None, "sweep_keys": "x", "warnings": {"a": 1},
+               "image": [], "finished": True, "device": None}
+        shown = self.make([made_up.variant("a", 10, 0.3), made_up.variant("b", 10, 0.3)], run)
+        self.assertIn("2 of 2 variants finished", shown.text)
+
+
+class HostileText(ReportTest):
+    NAMES = ('<script>alert(1)', 'a"onload="x', "$\\frac{x}$", "_hidden", "größe=½ 体素", "nan", "001")
+
+    def test_text_from_files_stays_text(self):
+        rows = [made_up.variant(name, 10 + i, 0.1 + 0.1 * i, **{"<b>key</b>": name})
+                for i, name in enumerate(self.NAMES)]
+        rows.append(made_up.failed("<i>bad</i>", "</script><script>alert(2)</script>", **{"<b>key</b>": "x"}))
+        run = made_up.manifest(["<b>key</b>"])
+        run.update({"warnings": ["<img src=x>"], "device": "<u>GPU</u>", "config": {"name": "</title><b>"}})
+        shown = self.make(rows, run, images=False)
+        self.assertEqual([tag for tag, _ in shown.tags if tag == "script"], ["script"])
+        self.assertNotIn("onload", [name for _, attrs in shown.tags for name in attrs])
+        self.assertFalse({"u", "img"} & {tag for tag, _ in shown.tags})
+        for name in self.NAMES:
+            self.assertIn(name, shown.text)
+
+    def test_variant_cannot_reach_outside_its_images(self):
+        results = load(made_up.write_results(self.directory, [made_up.variant("a", 10, 0.3)], None))
+        Image.new("L", (2, 2)).save(self.directory / "final.png")
+        self.assertIsNotNone(results.image("a", "final.png"))
+        for folder in ("..", "../../run", str(self.directory), "a\0b", "x" * 5000):
+            self.assertIsNone(results.image(folder, "final.png"), folder[:20])
+
+
+if __name__ == "__main__":
+    unittest.main()

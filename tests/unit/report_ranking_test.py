@@ -1,0 +1,108 @@
+"""Tests of what the report concludes: which variants tie, are best, lie on the front or below a black image."""
+
+from __future__ import annotations
+
+import math
+import unittest
+
+from report_support import FLIP, NRMSE, Page, ReportTest, made_up
+
+from report import page, ranking
+from report.load import Metric, interval_of, load
+
+
+class Comparing(ReportTest):
+    def results(self, rows, **changes):
+        run = made_up.manifest([])
+        run.update(changes)
+        return load(made_up.write_results(self.directory, rows, run, images=False))
+
+    def test_scores_whose_intervals_overlap_tie_and_none_is_the_best(self):
+        rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.23), ("c", 0.25))]
+        for row in rows:
+            row.update(made_up.spread("nrmse", row["nrmse"] - 0.02, row["nrmse"] + 0.02))
+        results = self.results(rows)
+        self.assertEqual(ranking.score_marks(results, NRMSE, "nrmse"), {"a": "tie", "b": "tie"})
+        self.assertIn("Lowest nRMSE of the total light: a and b cannot be told apart, from 0.2 to 0.23.",
+                      ranking.summary(results, "total"))
+        # Told apart, and without intervals: one is the best.
+        del rows[1]
+        self.assertEqual(ranking.score_marks(self.results(rows), NRMSE, "nrmse"), {"a": "best"})
+        rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.2001))]
+        self.assertEqual(ranking.score_marks(self.results(rows), NRMSE, "nrmse"), {"a": "best"})
+
+    def test_scores_at_the_noise_floor_tie(self):
+        # HDR-FLIP is 0.005, 0.009 and 0.011; a perfect image would score 0.01.
+        rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.01), ("b", 0.018), ("c", 0.022))]
+        self.assertEqual(ranking.score_marks(self.results(rows), FLIP, "flip"), {"a": "tie", "b": "tie"})
+        self.assertEqual(ranking.score_marks(self.results(rows[1:]), FLIP, "flip"), {"b": "best"})
+        self.assertEqual(ranking.score_marks(self.results(rows, reference={}), FLIP, "flip"), {"a": "best"})
+        ssim = Metric("ssim", "SSIM", "", "high", "")  # 0.995, 0.991 and 0.97; the floor is 0.98
+        rows[2]["ssim"] = 0.97
+        self.assertEqual(ranking.score_marks(self.results(rows), ssim, "ssim"), {"a": "tie", "b": "tie"})
+
+    def test_front_is_drawn_through_upper_ends(self):
+        # b is slower than a and its interval overlaps: not beaten. c is.
+        rows = [made_up.variant(name, ms, error) for name, ms, error in (("a", 10, 0.2), ("b", 20, 0.21), ("c", 30, 0.4))]
+        for row in rows:
+            row.update(made_up.spread("nrmse", row["nrmse"] - 0.05, row["nrmse"] + 0.05))
+        results = self.results(rows)
+        points = [(row["frame_ms_median"], interval_of(row, "nrmse")) for _, row in results.ok.iterrows()]
+        front = ranking.pareto_front([(cost, high) for cost, (_, high) in points])
+        self.assertEqual(front, [0])
+        reached = points[0][1][1]
+        self.assertEqual([low > reached for _, (low, _) in points], [False, False, True])
+        shown = Page(page.render(results))
+        self.assertIn("what lies wholly above it is beaten", shown.text)
+
+    def test_best_of_each_direction(self):
+        rows = [made_up.variant("bright", 10, 0.1), made_up.variant("dark", 10, 0.2)]
+        rows[0]["mean_ratio"], rows[1]["mean_ratio"] = 1.3, 0.8
+        results = self.results(rows)
+        best = {m.key: [n for n, mark in ranking.score_marks(results, m, m.key).items() if mark == "best"]
+                for m in results.metrics}
+        self.assertEqual(best.pop("mean_ratio"), ["dark"])  # 0.2 from 1 instead of 0.3
+        self.assertEqual(set(map(tuple, best.values())), {("bright",)})
+
+    def test_frame_times_tie_within_the_spread(self):
+        # The fastest one's p95 is 10.5 ms.
+        rows = [made_up.variant(name, ms, 0.1) for name, ms in (("a", 10.0), ("b", 10.4), ("c", 10.6))]
+        marks = ranking.cost_marks(self.results(rows), "frame_ms_median")
+        self.assertEqual(marks, {"a": "best", "b": "tie"})
+
+    def test_worse_than_a_black_image(self):
+        def beaten(metric, value, low=math.nan, high=math.nan):
+            row = made_up.variant("a", 10, 0.1) | {metric.key: value}
+            results = self.results([row | made_up.spread(metric.key, low, high)])
+            return ranking.beaten_by(results, metric, metric.key, results.ok.iloc[0])
+
+        self.assertEqual(beaten(NRMSE, 1.0), ["constant"])
+        self.assertEqual(beaten(NRMSE, 2.0), ["black", "constant"])
+        self.assertEqual(beaten(NRMSE, 2.0, 1.2, 2.8), ["constant"])  # The interval holds the black one's 1.6.
+        ssim = Metric("ssim", "SSIM", "", "high", "")
+        self.assertEqual(beaten(ssim, 0.9), [])
+        self.assertEqual(beaten(ssim, -1.0), ["black", "constant"])
+
+    def test_each_variant_is_compared_with_its_own_reference(self):
+        # HDR-FLIP's noise is 0.01 and 0.15; a black image has an nRMSE of 1.6 and 0.3.
+        first, run = {"folder": "reference", "flip_noise": 0.01, "variants": ["a", "b"]}, made_up.manifest([])
+        second = {"folder": "reference.2", "flip_noise": 0.15, "variants": ["c", "d"]}
+        first["baselines"] = run["baselines"]
+        second["baselines"] = {"black": {"nrmse": 0.3}, "constant": {"nrmse": 0.25}}
+        rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.26), ("b", 0.28), ("c", 0.28), ("d", 0.25))]
+        results = self.results(rows, references=[first, second])
+        self.assertEqual(ranking.score_marks(results, FLIP, "flip"), {"c": "tie", "d": "tie"})
+        beaten = [ranking.beaten_by(results, NRMSE, "nrmse", row) for _, row in results.ok.iterrows()]
+        self.assertEqual(beaten, [[], [], ["constant"], []])
+        shown = Page(page.render(results))
+        for words in ("a black image (reference)", "a black image (reference.2)",
+                      "the reference's own noise (reference.2)"):
+            self.assertIn(words, shown.text)
+
+    def test_pareto_front(self):
+        points = [(3, 1), (1, 5), (2, 5), (2, 3), (4, 1), (1, 6)]
+        self.assertEqual(ranking.pareto_front(points), [1, 3, 0])
+
+
+if __name__ == "__main__":
+    unittest.main()
