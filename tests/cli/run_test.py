@@ -8,11 +8,8 @@ import unittest
 
 from support import TINY, CommandTest
 
-METRICS = ["nrmse", "relmse", "flip", "flip_ldr", "ssim", "psnr_db", "mean_ratio"]
-SCORES = [metric + end for metric in METRICS for end in (("", "_low", "_high") if metric in METRICS[:2] else ("",))]
-RESULT_COLUMNS = (["variant", "status", "error", "device", "tracer", "voxelize.resolution", "build_ms",
-                   "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays"] + SCORES +
-                  ["indirect_" + score for score in SCORES])
+COST_COLUMNS = ["variant", "status", "error", "device", "tracer", "voxelize.resolution", "build_ms",
+                "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays"]
 PASS_COLUMNS = ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes",
                 "scratch_bytes"]
 VARIANTS = ["resolution-8", "resolution-16"]
@@ -47,8 +44,14 @@ class Results(Run):
     def test_files(self):
         done = self.run_tiny("out", "--validate", "--aovs")
         self.assertIn("report.html", done.stdout)
-        self.assertTrue(self.json("out", "manifest.json")["validation"])
-        self.assertEqual(self.header("out", "results.csv"), RESULT_COLUMNS)
+        manifest = self.json("out", "manifest.json")
+        self.assertTrue(manifest["validation"])
+        self.assertEqual([metric["name"] for metric in manifest["metrics"]], self.metrics())
+        scores = [metric["name"] + end for metric in manifest["metrics"]
+                  for end in (("", "_low", "_high") if metric["interval"] else ("",))]
+        self.assertEqual(self.header("out", "results.csv"),
+                         COST_COLUMNS + scores + ["indirect_" + score for score in scores])
+        self.assertIn("nrmse_low", scores)
         self.assertEqual(self.header("out", "passes.csv"), PASS_COLUMNS)
         rows = self.rows("out", "results.csv")
         self.assertEqual([row["variant"] for row in rows], VARIANTS)
@@ -78,7 +81,7 @@ class Results(Run):
     def test_two_runs_are_bit_identical(self):
         self.run_tiny("one")
         self.run_tiny("two")
-        kept = ["variant"] + METRICS + ["indirect_" + metric for metric in METRICS]
+        kept = ["variant"] + [light + metric for light in ("", "indirect_") for metric in self.metrics()]
         one, two = ([[row[column] for column in kept] for row in self.rows(out, "results.csv")]
                     for out in ("one", "two"))
         self.assertEqual(one, two)

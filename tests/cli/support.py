@@ -68,6 +68,11 @@ class CommandTest(unittest.TestCase):
         self.assertNotIn("terminate called", done.stderr)
         return done
 
+    def metrics(self):
+        """Names of all metrics, in the order of their table."""
+        schema = json.loads(self.expect(0, "schema").stdout)
+        return schema["properties"]["measure"]["properties"]["metrics"]["items"]["enum"]
+
     def start_until(self, ready, *arguments, **options):
         """Starts the program and returns it once ready() is true. Fails where it ends before that."""
         process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, env=self.environment,

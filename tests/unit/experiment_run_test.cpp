@@ -58,15 +58,19 @@ TEST_F(RunTest, WritesResultsWithTheScoresOfClosedForms) {
 
 TEST_F(RunTest, ColumnsAreTheDocumentedOnes) {
     run("sweep: {constant.value: [1]}\n");
+    // Every metric, the ends of its interval right after it; the total light's, then the indirect light's.
+    std::string expected =
+        "variant,status,error,device,tracer,constant.value,build_ms,frame_ms_median,frame_ms_p05,"
+        "frame_ms_p95,memory_bytes,peak_bytes,rays";
+    for (const std::string light : {",", ",indirect_"})
+        for (const Metric& metric : metrics()) {
+            expected += light + metric.name;
+            if (metric.hasInterval) expected += light + metric.name + "_low" + light + metric.name + "_high";
+        }
     const std::string text = readTextFile(root_ / "out" / "results.csv");
-    EXPECT_EQ(
-        text.substr(0, text.find('\n')),
-        "variant,status,error,device,tracer,constant.value,build_ms,frame_ms_median,frame_ms_p05,frame_ms_"
-        "p95,"
-        "memory_bytes,peak_bytes,rays,nrmse,nrmse_low,nrmse_high,relmse,relmse_low,relmse_high,flip,flip_ldr,"
-        "ssim,psnr_db,mean_ratio,indirect_nrmse,indirect_nrmse_low,indirect_nrmse_high,indirect_relmse,"
-        "indirect_relmse_low,indirect_relmse_high,indirect_flip,indirect_flip_ldr,indirect_ssim,"
-        "indirect_psnr_db,indirect_mean_ratio");
+    EXPECT_EQ(text.substr(0, text.find('\n')), expected);
+    EXPECT_CONTAINS(expected, ",rays,nrmse,nrmse_low,nrmse_high,");
+    EXPECT_CONTAINS(expected, ",indirect_mean_ratio");
 }
 
 TEST_F(RunTest, NoiseOfTheReferenceIsTakenOffOrIsAFloor) {
