@@ -20,6 +20,7 @@ struct FillPush {
 class ClipmapStorage final : public RadianceStorage {
  public:
     explicit ClipmapStorage(uint32_t side) : side_(side) {}
+    bool followsCamera() const override { return true; }
 
     void plan(PassPlan& plan, const SurfaceVoxels&, RadianceVoxels& radiance) override {
         clipmap_ = RadianceClipmap(radiance.grid, side_);

@@ -8,18 +8,6 @@
 namespace voxray {
 namespace {
 
-std::unique_ptr<RadianceStorage> makeStorage(const FilterVoxels::Params& params) {
-    switch (params.layout) {
-        case RadianceLayout::Dense:
-            return makeDenseStorage();
-        case RadianceLayout::Svo:
-            return makeSvoStorage();
-        case RadianceLayout::Clipmap:
-            return makeClipmapStorage(params.clipmapResolution);
-    }
-    return nullptr;
-}
-
 /// The power of two below the scene's typical irradiance, in the center of the range of half floats.
 float radianceUnit(const SceneState& state) {
     const float typical = meanIrradiance(lightSources(state), state.geometry);
@@ -29,7 +17,7 @@ float radianceUnit(const SceneState& state) {
 }  // namespace
 
 FilterVoxels::FilterVoxels(const Params& params)
-    : params_(params), storage_(makeStorage(params)), bounces_(params.bounceCones) {}
+    : params_(params), storage_(makeRadianceStorage(params.layout, params)), bounces_(params.bounceCones) {}
 
 void FilterVoxels::declare(PassBuilder& builder) {
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
@@ -40,9 +28,9 @@ void FilterVoxels::declare(PassBuilder& builder) {
 void FilterVoxels::plan(PassPlan& plan) {
     eachFrame_ = plan.phase == Phase::Frame;
     const gpu::VoxelGrid& grid = plan.get(voxels_).grid;
-    if (params_.bounces > 0 && params_.layout == RadianceLayout::Clipmap)
+    if (params_.bounces > 0 && storage_->followsCamera())
         throw Error(
-            "filter_voxels: 'bounces' needs all voxels, of which this clipmap holds those near the camera; "
+            "filter_voxels: 'bounces' needs all voxels, of which this layout holds those near the camera; "
             "set 'layout' to dense or svo, or the injection's own 'bounces', or take voxelize_clipmap and "
             "light_clipmap");
     RadianceVoxels& radiance = plan.get(radiance_);
@@ -78,12 +66,6 @@ void FilterVoxels::record(PassContext& context) {
     if (eachFrame_) return;
     if (params_.bounces > 0) bounces_.release(context.stream);
     storage_->close(context.stream, radiance);
-}
-
-std::vector<Binding> surfaceRadianceBindings(const SurfaceVoxels& voxels, const SurfaceLight& light) {
-    return voxels.bindings({{"DirectFluxAt", light.direct.at()},
-                            {"IndirectFluxAt", light.indirect.at()},
-                            {"voxelArea", light.area}});
 }
 
 }  // namespace voxray

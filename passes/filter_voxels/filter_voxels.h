@@ -1,6 +1,5 @@
 #pragma once
 
-#include "passes/common/clipmap/clipmap_windows.h"
 #include "passes/common/radiance/cone_bounces.h"
 #include "passes/common/radiance/radiance_voxels.h"
 #include "passes/common/voxels/voxels.h"
@@ -24,22 +23,16 @@ class FilterVoxels final : public Pass {
         bool emission = false;
         static constexpr auto schema() {
             return std::tuple_cat(
-                std::tuple{
-                    field("layout", &Params::layout,
-                          "How voxels are stored: dense, a full grid for each level; svo, a sparse octree: "
-                          "only what surfaces pass through; clipmap, of each level a window round the "
-                          "camera, which follows it in each frame."),
-                    field("emission", &Params::emission,
-                          "Whether what surfaces emit is in. Off, cones bring indirect light alone: a "
-                          "direct_* pass adds the rest.")},
+                std::tuple{field("layout", &Params::layout, kRadianceLayoutHelp),
+                           field("emission", &Params::emission,
+                                 "Whether what surfaces emit is in. Off, cones bring indirect light alone: a "
+                                 "direct_* pass adds the rest.")},
                 ClipmapParams::schema(), ConeBounceParams::schema());
         }
     };
 
     explicit FilterVoxels(const Params& params);
-    Phase phase() const override {
-        return params_.layout == RadianceLayout::Clipmap ? Phase::Frame : Phase::Build;
-    }
+    Phase phase() const override { return storage_->followsCamera() ? Phase::Frame : Phase::Build; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;

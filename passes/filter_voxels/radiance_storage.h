@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "passes/common/clipmap/clipmap_windows.h"
 #include "passes/common/radiance/radiance_voxels.h"
 #include "passes/common/voxels/voxels.h"
 
@@ -19,6 +20,8 @@ struct SurfaceLight {
 class RadianceStorage {
  public:
     virtual ~RadianceStorage() = default;
+    /// Whether it holds what is near the camera alone, so that it is filled in each frame.
+    virtual bool followsCamera() const { return false; }
     /// Describes memory. `radiance` has its grid; the unit may be set to another. @throws Error for what this
     /// device can't do.
     virtual void plan(PassPlan& plan, const SurfaceVoxels& voxels, RadianceVoxels& radiance) = 0;
@@ -30,14 +33,8 @@ class RadianceStorage {
     virtual void close(CommandStream&, RadianceVoxels&) {}
 };
 
-/// A full grid for each level.
-std::unique_ptr<RadianceStorage> makeDenseStorage();
-
-/// A sparse octree (docs/svo.md).
-std::unique_ptr<RadianceStorage> makeSvoStorage();
-
-/// Nested windows of at most `side` voxels along an axis, round the camera (docs/clipmap.md).
-std::unique_ptr<RadianceStorage> makeClipmapStorage(uint32_t side);
+/// The storage of a layout.
+std::unique_ptr<RadianceStorage> makeRadianceStorage(RadianceLayout layout, const ClipmapParams& clipmap);
 
 /// What shaders/radiance/surface_radiance.glsl reads.
 std::vector<Binding> surfaceRadianceBindings(const SurfaceVoxels& voxels, const SurfaceLight& light);

@@ -5,6 +5,7 @@
 
 #include "tests/gpu/chain.h"
 #include "tests/support/errors.h"
+#include "tests/support/radiance_layouts.h"
 
 namespace voxray::test {
 namespace {
@@ -36,10 +37,13 @@ TEST(ConeBounces, KeepTheEnergyOfAFurnace) {
         const double a = 0.7, expected = a * (1 - std::pow(a, n + 2)) / (1 - a);
         return mean(indirect("furnace", "{shape: " + shape + ", albedo: 0.7, emission: 1}", s)) / expected;
     };
-    EXPECT_NEAR(part("box", "dense", 4), 1.0, 0.03);
-    EXPECT_NEAR(part("box", "svo", 1), 1.0, 0.01);
-    // Curved walls lose a cone or two in a hundred, and light that was lost does not bounce.
-    EXPECT_NEAR(part("sphere", "svo", 4), 1.0, 0.05);
+    for (const TestedLayout& layout : kRadianceLayouts) {
+        if (layout.followsCamera) continue;
+        EXPECT_NEAR(part("box", layout.filter, 1), 1.0, 0.01) << layout.filter;
+        EXPECT_NEAR(part("box", layout.filter, 4), 1.0, 0.03) << layout.filter;
+        // Curved walls lose a cone or two in a hundred, and light that was lost does not bounce.
+        EXPECT_NEAR(part("sphere", layout.filter, 4), 1.0, 0.05) << layout.filter;
+    }
 }
 
 TEST(ConeBounces, TakeTheInjectionsOn) {
@@ -81,11 +85,14 @@ TEST(ConeBounces, AreLinearInLight) {
     EXPECT_NEAR(run("7") / run("1"), 7.0, 0.01);
 }
 
-TEST(ConeBounces, AClipmapIsRefused) {
-    Setting s;
-    s.filter = "layout: clipmap, bounces: 1";
-    EXPECT_CONTAINS(errorOf([&] { indirect("cornell", "{lights: point}", s); }),
-                    "set 'layout' to dense or svo");
+TEST(ConeBounces, NeedAllVoxels) {
+    for (const TestedLayout& layout : kRadianceLayouts) {
+        if (!layout.followsCamera) continue;
+        Setting s;
+        s.filter = "layout: " + layout.filter + ", bounces: 1";
+        EXPECT_CONTAINS(errorOf([&] { indirect("cornell", "{lights: point}", s); }),
+                        "set 'layout' to dense or svo");
+    }
 }
 
 }  // namespace

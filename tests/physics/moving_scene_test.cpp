@@ -4,6 +4,7 @@
 
 #include "scene/moving_spheres.h"
 #include "tests/gpu/chain.h"
+#include "tests/support/radiance_layouts.h"
 
 namespace voxray::test {
 namespace {
@@ -48,9 +49,9 @@ void expectAsMadeThere(const std::string& graph) {
 }
 
 TEST(MovingScene, EveryLayoutIsAsMadeThere) {
-    for (const char* layout : {"dense", "clipmap", "svo"})
+    for (const TestedLayout& layout : kRadianceLayouts)
         expectAsMadeThere(graphOf("inject_shadow_map, shadow_resolution: 64, rays_per_point: 2, bounces: 1",
-                                  std::string("layout: ") + layout));
+                                  "layout: " + layout.filter));
 }
 
 TEST(MovingScene, EveryInjectionIsAsMadeThere) {
@@ -76,13 +77,14 @@ TEST(MovingScene, LightsMoveWithoutSurfaces) {
     };
     const auto there = at(scene, 0);
     lightAt(*there);
-    for (const char* layout : {"clipmap", "svo"}) {
+    for (const TestedLayout& layout : kRadianceLayouts) {
         const std::string graph =
             graphOf("inject_shadow_map, shadow_resolution: 64, rays_per_point: 2, bounces: 1",
-                    std::string("layout: ") + layout);
+                    "layout: " + layout.filter);
         Chain moved(at(scene, 0), graph, 16, 16, 1);
         moved.update(lightAt);
-        EXPECT_TRUE(sameImage(moved.image("final"), Chain(there, graph, 16, 16, 1).image("final"))) << layout;
+        EXPECT_TRUE(sameImage(moved.image("final"), Chain(there, graph, 16, 16, 1).image("final")))
+            << layout.filter;
     }
 }
 

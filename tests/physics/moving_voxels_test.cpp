@@ -8,6 +8,7 @@
 #include "passes/common/voxels/voxel_count.h"
 #include "tests/gpu/radiance_samples.h"
 #include "tests/physics/voxels_read.h"
+#include "tests/support/radiance_layouts.h"
 
 namespace voxray::test {
 namespace {
@@ -87,8 +88,8 @@ TEST(MovingVoxels, CarryTheSameLightInEachLayout) {
     // The octree also where it is kept for light of each frame.
     const std::string once = "inject_light_rays, rays_per_light: 8192, bounces: 1";
     const std::string eachFrame = "inject_camera_rays, rays_per_image: 8192, bounces: 1";
-    const std::vector<std::pair<std::string, std::string>> cases{
-        {once, "dense"}, {once, "svo"}, {eachFrame, "svo"}, {once, "clipmap, clipmap_resolution: 16"}};
+    std::vector<std::pair<std::string, std::string>> cases{{eachFrame, "svo"}};
+    for (const TestedLayout& layout : kRadianceLayouts) cases.emplace_back(once, layout.filter);
     for (const auto& [light, layout] : cases) {
         SCOPED_TRACE(light + " " + layout);
         followWalk(graphYaml({"voxelize, resolution: 24", light,

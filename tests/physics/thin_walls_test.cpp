@@ -3,6 +3,7 @@
 
 #include "scene/shapes.h"
 #include "tests/gpu/radiance_samples.h"
+#include "tests/support/radiance_layouts.h"
 
 namespace voxray::test {
 namespace {
@@ -43,9 +44,8 @@ glm::vec3 seen(const Chain& chain, float towards, float footprint) {
 
 TEST(ThinWalls, SidesOfAWallInOneVoxelKeepTheirColours) {
     // Voxels of 7 cm and up to 16 times that.
-    for (const std::string filter :
-         {"layout: dense", "layout: svo", "layout: clipmap, clipmap_resolution: 16"}) {
-        const Chain chain = wall("resolution: 32", filter);
+    for (const auto& [filter, followsCamera] : kRadianceLayouts) {
+        const Chain chain = wall("resolution: 32", "layout: " + filter);
         for (const float footprint : {1.0f, 2.0f, 4.0f, 16.0f}) {
             const glm::vec3 red = seen(chain, 1, footprint), green = seen(chain, -1, footprint);
             EXPECT_GT(red.r, 0.05f) << filter << ", " << footprint;
@@ -58,8 +58,8 @@ TEST(ThinWalls, SidesOfAWallInOneVoxelKeepTheirColours) {
 
 TEST(ThinWalls, OneDirectionMakesThemBrown) {
     // What six directions are for: with one, both sides look alike.
-    for (const std::string filter : {"layout: dense", "layout: svo"}) {
-        const Chain chain = wall("resolution: 32, directions: 1", filter);
+    for (const auto& [filter, followsCamera] : kRadianceLayouts) {
+        const Chain chain = wall("resolution: 32, directions: 1", "layout: " + filter);
         const glm::vec3 red = seen(chain, 1, 2.0f), green = seen(chain, -1, 2.0f);
         EXPECT_NEAR(red.g, red.r, 0.03f * red.r) << filter;
         EXPECT_NEAR(green.r, red.r, 0.03f * red.r) << filter;

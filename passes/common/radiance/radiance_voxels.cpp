@@ -1,22 +1,18 @@
 #include "passes/common/radiance/radiance_voxels.h"
 
+#include <cctype>
+
 namespace voxray {
 
 Defines RadianceVoxels::defines() const {
-    switch (layout) {
-        case RadianceLayout::Dense:
-            return {{"RADIANCE_DENSE", "1"}};
-        case RadianceLayout::Svo:
-            return {{"RADIANCE_SVO", "1"}};
-        case RadianceLayout::Clipmap:
-            return {{"RADIANCE_CLIPMAP", "1"}};
-    }
-    return {};
+    std::string name = "RADIANCE_";
+    for (const char letter : schema_detail::textOf(layout)) name += char(std::toupper(letter));
+    return {{name, "1"}};
 }
 
 std::vector<Binding> RadianceVoxels::bindings() const {
     std::vector<Binding> all{{"radianceVoxels", header}};
-    if (layout == RadianceLayout::Svo)
+    if (octree.header)
         for (const Binding& binding : octree.bindings()) all.push_back(ifUsed(binding));
     return all;
 }

@@ -9,7 +9,8 @@
 
 namespace voxray {
 
-/// How radiance voxels are stored.
+/// How radiance voxels are stored. Shaders of layout `x` are compiled with RADIANCE_X
+/// (shaders/radiance/radiance_voxels.glsl).
 enum class RadianceLayout { Dense, Svo, Clipmap };
 template <>
 struct EnumNames<RadianceLayout> {
@@ -17,6 +18,9 @@ struct EnumNames<RadianceLayout> {
                                       std::pair{RadianceLayout::Svo, "svo"},
                                       std::pair{RadianceLayout::Clipmap, "clipmap"}};
 };
+constexpr const char* kRadianceLayoutHelp =
+    "How voxels are stored: dense, a full grid for each level; svo, a sparse octree: only what surfaces pass "
+    "through; clipmap, of each level a window round the camera, which follows it in each frame.";
 
 /// Radiance that leaves surfaces and the part of a beam that they cover, prefiltered at all scales. A shader
 /// that samples it is compiled with defines(), includes shaders/radiance/radiance_voxels.glsl and is given
@@ -26,7 +30,7 @@ struct RadianceVoxels : Resource {
     gpu::RadianceGrid grid{};
     Buffer header;                ///< RadianceGrid, then what the layout needs to find its values.
     std::vector<Buffer> storage;  ///< What the header's addresses lead to.
-    Octree octree;                ///< Layout svo: the structure whose nodes' values `storage` holds.
+    Octree octree;                ///< Where there is one: the structure whose nodes' values `storage` holds.
 
     Defines defines() const;
     std::vector<Binding> bindings() const;

@@ -1,0 +1,28 @@
+#include "passes/filter_voxels/radiance_storage.h"
+
+namespace voxray {
+
+// Each in the source of its layout.
+std::unique_ptr<RadianceStorage> makeDenseStorage();
+std::unique_ptr<RadianceStorage> makeSvoStorage();
+std::unique_ptr<RadianceStorage> makeClipmapStorage(uint32_t side);
+
+std::unique_ptr<RadianceStorage> makeRadianceStorage(RadianceLayout layout, const ClipmapParams& clipmap) {
+    switch (layout) {
+        case RadianceLayout::Dense:
+            return makeDenseStorage();
+        case RadianceLayout::Svo:
+            return makeSvoStorage();
+        case RadianceLayout::Clipmap:
+            return makeClipmapStorage(clipmap.clipmapResolution);
+    }
+    return nullptr;
+}
+
+std::vector<Binding> surfaceRadianceBindings(const SurfaceVoxels& voxels, const SurfaceLight& light) {
+    return voxels.bindings({{"DirectFluxAt", light.direct.at()},
+                            {"IndirectFluxAt", light.indirect.at()},
+                            {"voxelArea", light.area}});
+}
+
+}  // namespace voxray

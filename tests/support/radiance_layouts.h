@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "passes/common/radiance/radiance_voxels.h"
+
+namespace voxray::test {
+
+/// A layout of radiance voxels, with parameters for small scenes.
+struct TestedLayout {
+    std::string filter;          ///< The layout and its parameters: what follows 'filter_voxels, layout: '.
+    bool followsCamera = false;  ///< Holds what is near the camera alone: takes no bounces by cones.
+};
+
+inline const TestedLayout kRadianceLayouts[] = {
+    {"dense"}, {"svo"}, {"clipmap, clipmap_resolution: 16", true}};
+static_assert(std::size(kRadianceLayouts) == EnumNames<RadianceLayout>::names.size(),
+              "a layout that no test knows");
+
+}  // namespace voxray::test
