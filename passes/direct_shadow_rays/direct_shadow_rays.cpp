@@ -78,7 +78,7 @@ void DirectShadowRays::record(PassContext& context) {
     float minOffset = 0;
     if (params_.visibility == Visibility::Voxels) {
         const SurfaceVoxels& voxels = context.get(voxels_);
-        minOffset = kVoxelsOffSurface * voxels.grid.voxelSize;
+        minOffset = VOXELS_OFF_SURFACE * voxels.grid.voxelSize;
         voxelTracer_.begin(stream, voxels);
         tracer = &voxelTracer_;
     }

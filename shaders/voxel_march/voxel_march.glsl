@@ -7,6 +7,7 @@
 #extension GL_EXT_scalar_block_layout : require
 
 #include "shaders/voxel_march/segment.glsl"
+#include "shaders/voxel_march/surface_offset.h"
 #include "shaders/voxels/voxels.glsl"
 
 // What the walks of this thread took: moves from one empty cube to the next, and words of occupancy, bricks or nodes read.
@@ -74,6 +75,15 @@ bool occluded(VoxelGrid g, vec3 a, vec3 b) {
                                        end < 1.0 ? pointAt(from, way, end) : to, g.resolution);
     ivec3 voxel;
     return walkVoxels(g, s, voxel);
+}
+
+// A point of a surface, moved along the surface's unit normal out of all voxels that its plane touches: where a walk may start.
+vec3 offSurface(VoxelGrid g, vec3 position, vec3 normal) { return position + VOXELS_OFF_SURFACE * g.voxelSize * normal; }
+
+// Whether voxels hide two points of surfaces from each other, on the sides that their unit normals point to. Points that are closer
+// to another surface than the offset are in its voxels, and hidden.
+bool occludedBetweenSurfaces(VoxelGrid g, vec3 a, vec3 normalA, vec3 b, vec3 normalB) {
+    return occluded(g, offSurface(g, a, normalA), offSurface(g, b, normalB));
 }
 
 #define NO_FACE 6u

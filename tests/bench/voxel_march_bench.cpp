@@ -48,7 +48,7 @@ std::vector<Ray> shadowRays(const Geometry& geometry, float voxelSize, uint32_t 
     SurfacePoints points(geometry);
     const auto moved = [&](const SurfacePoint& from, const SurfacePoint& to) {
         const float side = glm::dot(from.normal, to.position - from.position) > 0 ? 1.0f : -1.0f;
-        return from.position + side * kVoxelsOffSurface * voxelSize * from.normal;
+        return from.position + side * VOXELS_OFF_SURFACE * voxelSize * from.normal;
     };
     std::vector<Ray> rays(count);
     for (Ray& ray : rays) {

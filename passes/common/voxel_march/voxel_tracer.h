@@ -1,6 +1,7 @@
 #pragma once
 
 #include "passes/common/voxel_march/voxel_march.h"
+#include "shaders/voxel_march/surface_offset.h"
 #include "trace/ray_tracer.h"
 
 namespace voxray {
@@ -8,7 +9,7 @@ namespace voxray {
 /// Streams of rays through voxels, with the interface of rays through triangles: what takes the one can take
 /// the other, for comparison (Magalhães 2020, section 3.3.3.2). A hit's `triangle` is the number of the
 /// surface voxel, its t is where the ray enters it, u and v are 0. Rays that start in an occupied voxel hit
-/// it: whoever starts them at a surface moves their ends out of its voxels (kVoxelsOffSurface).
+/// it: whoever starts them at a surface moves their ends out of its voxels (VOXELS_OFF_SURFACE).
 class VoxelTracer final : public RayTracer {
  public:
     explicit VoxelTracer(VoxelWalk walk, float epsilon = 0) : march_(walk, epsilon) {}
@@ -38,9 +39,5 @@ class VoxelTracer final : public RayTracer {
     Program closestHit_, occluded_;
     gpu::VoxelGrid grid_{};
 };
-
-/// How far along its normal a point is from a plane when no voxel that the plane touches holds it, in voxels:
-/// the diagonal of a voxel.
-constexpr float kVoxelsOffSurface = 1.7320508f;
 
 }  // namespace voxray
