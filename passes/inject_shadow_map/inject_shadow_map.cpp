@@ -26,7 +26,7 @@ void InjectShadowMap::declare(PassBuilder& builder) {
 
 void InjectShadowMap::plan(PassPlan& plan) {
     sources_ = requireViewpoints(*plan.frame.scene, kName);
-    feedback_.plan(plan, kName, params_, 1, plan.get(voxels_));
+    feedback_.plan(plan, kName, params_, DirectLight::Given, 1, plan.get(voxels_));
     shadowMap_.plan(plan, params_.shadowResolution);
     plan.reserveScratch("surfels' direct irradiance (estimated)",
                         plan.get(surfels_).maxCount * 4 * sizeof(float));

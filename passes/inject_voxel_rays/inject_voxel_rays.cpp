@@ -12,7 +12,7 @@ void InjectVoxelRays::declare(PassBuilder& builder) {
 
 void InjectVoxelRays::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
-    feedback_.plan(plan, kName, params_, params_.lightSamples, plan.get(voxels_));
+    feedback_.plan(plan, kName, params_, DirectLight::ByShadowRays, params_.lightSamples, plan.get(voxels_));
 }
 
 void InjectVoxelRays::prepare(PassSetup& setup) {

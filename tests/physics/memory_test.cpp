@@ -67,6 +67,24 @@ TEST(Memory, IsPredicted) {
     }
 }
 
+TEST(Memory, RaysOfBouncesAreForThoseWhoHaveThem) {
+    // Shadow maps measure direct light without a ray.
+    const auto held = [](const std::string& inject) {
+        const Chain chain(
+            "cornell", "{lights: point}",
+            graphYaml({"voxelize, resolution: 16", "place_surfels, points_per_voxel: 1", inject}));
+        return device().memoryByResource();
+    };
+    for (const std::string rays :
+         {"shadow rays", "shadow ray irradiance", "gather rays", "surfels at hits"}) {
+        const std::string map = "inject_shadow_map, shadow_resolution: 64, rays_per_point: 1, bounces: ";
+        EXPECT_EQ(held(map + "0").count(rays), 0u) << rays;
+        EXPECT_EQ(held(map + "1").count(rays), 1u) << rays;
+        const bool isShadow = rays.starts_with("shadow");
+        EXPECT_EQ(held("inject_voxel_rays, rays_per_point: 1, bounces: 0").count(rays), isShadow) << rays;
+    }
+}
+
 TEST(Memory, OfVoxelizationIsFreeForInjection) {
     // Sums of voxels are gone once they are resolved, those of light as well: what is in use is what is kept.
     const uint64_t before = device().memoryUsedBytes();

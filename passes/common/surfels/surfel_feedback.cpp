@@ -45,9 +45,10 @@ uint64_t areaBytes(const SurfaceVoxels& voxels) {
 }  // namespace
 
 void SurfelFeedback::plan(PassPlan& plan, const std::string& pass, const FeedbackParams& params,
-                          uint32_t lightSamples, const SurfaceVoxels& voxels) {
+                          DirectLight direct, uint32_t lightSamples, const SurfaceVoxels& voxels) {
     params_ = params;
     lightSamples_ = lightSamples;
+    sendsShadowRays_ = direct == DirectLight::ByShadowRays || params.bounces > 0;
     // Samples of direct light are free again before those of the bounces begin.
     plan.reserveScratch("voxel samples (estimated)", VoxelAccumulator::plan(plan, pass, params, voxels));
     if (params.bounces > 0) {
@@ -59,15 +60,17 @@ void SurfelFeedback::plan(PassPlan& plan, const std::string& pass, const Feedbac
     }
     plan.reserveScratch("areas measured (estimated)", areaBytes(voxels));
     plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
-    plan.buffer(measured_, "surfels' direct irradiance", Surfels::kChunk * 4 * sizeof(float));
-    light_.plan(plan, Surfels::kChunk);
+    if (sendsShadowRays_) {
+        plan.buffer(measured_, "surfels' direct irradiance", Surfels::kChunk * 4 * sizeof(float));
+        light_.plan(plan, Surfels::kChunk);
+    }
 }
 
 void SurfelFeedback::prepare(PassSetup& setup) {
     direct_ = VoxelAccumulator(setup.device, setup.compiler, params_);
     indirect_ = VoxelAccumulator(setup.device, setup.compiler, params_);
     faces_ = FaceIrradiance(setup.device, setup.compiler);
-    light_.prepare(setup);
+    if (sendsShadowRays_) light_.prepare(setup);
     const auto program = [&](const char* file, const Defines& defines = {}) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };

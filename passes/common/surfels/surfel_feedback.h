@@ -10,6 +10,9 @@
 
 namespace voxray {
 
+/// Where the direct light of surfels comes from: measureDirect() or addDirect().
+enum class DirectLight { ByShadowRays, Given };
+
 /// The parameters of a pass whose light bounces by feedback.
 struct FeedbackParams : WriteParams {
     uint32_t raysPerPoint = 1;
@@ -32,8 +35,8 @@ class SurfelFeedback {
  public:
     /// Describes the memory, the result's included. @param lightSamples shadow rays from each point to the
     /// emissive surfaces, and to the environment. @throws Error naming `pass` for what the device can't do.
-    void plan(PassPlan& plan, const std::string& pass, const FeedbackParams& params, uint32_t lightSamples,
-              const SurfaceVoxels& voxels);
+    void plan(PassPlan& plan, const std::string& pass, const FeedbackParams& params, DirectLight direct,
+              uint32_t lightSamples, const SurfaceVoxels& voxels);
     void prepare(PassSetup& setup);
 
     /// Allocates the result and clears the sums.
@@ -62,6 +65,7 @@ class SurfelFeedback {
 
     FeedbackParams params_;
     uint32_t lightSamples_ = 1;
+    bool sendsShadowRays_ = true;
     float typicalIrradiance_ = 0;  ///< W/m²
     VoxelAccumulator direct_, indirect_;
     SurfelLight light_;
