@@ -6,9 +6,7 @@
 #include "passes/update_radiance_cache/path_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance_cache/radiance_cache.glsl"
-#include "shaders/scene/scene.glsl"
-#include "shaders/surfels/surfel_types.h"
-#include "shaders/trace/ray_types.h"
+#include "shaders/surfels/surfel_at_hit.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
@@ -38,25 +36,17 @@ void main() {
     if (i >= push.rays_) return;
     const Ray ray = rays.data[i];
     const Hit hit = hits.data[i];
-    if (ray.tMax < ray.tMin || hit.triangle == NO_HIT) return;
-    const SurfacePoint p = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
-    if (dot(p.geometricNormal, p.geometricNormal) == 0.0) return;
-    const vec3 faceNormal = dot(p.geometricNormal, ray.direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
-    const GpuMaterial m = sceneMaterials.data[p.material];
-    const vec3 albedo = clamp(diffuseAlbedo(m, p, 0.0), 0.0, 1.0);
-    const vec3 normal = shadingNormal(m, p, 0.0);
+    Surfel s;
+    vec3 faceNormal;
+    if (ray.tMax < ray.tMin || !surfelAtHit(hit, ray.origin, s, faceNormal)) return;
+    const vec3 albedo = s.reflectance;
 
     // The vertex, linked to the one before it.
     const bool fromCamera = push.fromCamera != 0u;
     const uint v = atomicAdd(vertexCount.value, 1u);
-    Surfel s;
-    s.position = p.position;
-    s.voxel = 0xffffffffu;
-    s.normal = dot(normal, faceNormal) < 0.0 ? -normal : normal;
     s.parent = fromCamera ? NO_VERTEX : origins.data[i];
     s.id = fromCamera ? push.firstPath + i : surfels.data[s.parent].id + push.paths;
     s.reflectance = fromCamera ? albedo : albedo / vertices.data[s.parent].survival;
-    s.area = 1.0;
     surfels.data[v] = s;
     if (!fromCamera) vertices.data[s.parent].next = v;
 

@@ -3,9 +3,7 @@
 #ifndef VOXRAY_FINAL_GATHER_HIT_GLSL
 #define VOXRAY_FINAL_GATHER_HIT_GLSL
 
-#include "shaders/scene/scene.glsl"
-#include "shaders/surfels/surfel_types.h"
-#include "shaders/trace/ray_types.h"
+#include "shaders/surfels/surfel_at_hit.glsl"
 
 // What is stored for a point of a surface.
 struct StoredLight {
@@ -33,30 +31,22 @@ buffer Count { uint value; } count;                // Of surfels.
 //     ─┼─────x─┼───────┼─
 //      └───────┴───────┘
 void endRay(uint i, Hit hit, vec3 from, vec3 throughput, uint id, float nearField) {
-    const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
-    if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return;
+    Surfel at;
+    vec3 faceNormal;
+    if (!surfelAtHit(hit, from, at, faceNormal)) return;
 
     // What is stored there, of the side that the ray came from.
-    const vec3 faceNormal = dot(s.geometricNormal, from - s.position) >= 0.0 ? s.geometricNormal : -s.geometricNormal;
-    const GpuMaterial m = sceneMaterials.data[s.material];
-    const vec3 reflected = throughput * diffuseAlbedo(m, s, 0.0);
-    const StoredLight stored = storedLight(s.position, faceNormal);
+    at.reflectance *= throughput;
+    const StoredLight stored = storedLight(at.position, faceNormal);
     const bool isOnWay = nearField > 0.0 && (hit.t < nearField * stored.cellSize || !stored.known);
-    if (!isOnWay) light.data[i].rgb += reflected * stored.irradiance;
+    if (!isOnWay) light.data[i].rgb += at.reflectance * stored.irradiance;
 #ifndef SHADOW_RAYS
     if (!isOnWay) return;
 #endif
 
     // Where light is measured.
-    Surfel at;
-    at.position = s.position;
-    at.voxel = 0xffffffffu;
-    const vec3 normal = shadingNormal(m, s, 0.0);
-    at.normal = dot(normal, faceNormal) < 0.0 ? -normal : normal;
     at.id = id;
-    at.reflectance = reflected;
     at.parent = i;
-    at.area = 1.0;
     const uint number = atomicAdd(count.value, 1u);
     surfels.data[number] = at;
     goesOn.data[number] = isOnWay ? 1u : 0u;

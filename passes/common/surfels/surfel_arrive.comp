@@ -8,9 +8,7 @@
 // arrive evenly over what they reach (the kernel cos cos / distance² is the same from both ends): a ray hands its area on.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
-#include "shaders/scene/scene.glsl"
-#include "shaders/trace/ray_types.h"
-#include "shaders/surfels/surfel_types.h"
+#include "shaders/surfels/surfel_at_hit.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
@@ -42,14 +40,12 @@ void main() {
     if (i >= push.rayCount) return;
     const Ray ray = rays.data[i];
     const Hit hit = hits.data[i];
-    if (ray.tMax < ray.tMin || hit.triangle == NO_HIT) return;
-    const SurfacePoint p = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
-    if (dot(p.geometricNormal, p.geometricNormal) == 0.0) return;
-
     Surfel s;
+    vec3 faceNormal;
+    if (ray.tMax < ray.tMin || !surfelAtHit(hit, ray.origin, s, faceNormal)) return;
+    s.normal = faceNormal;
     s.id = push.fromSurfels != 0u ? parents.data[i].id : push.firstId + i;
     s.parent = i;
-    s.reflectance = clamp(diffuseAlbedo(sceneMaterials.data[p.material], p, 0.0), 0.0, 1.0);
     if (push.fromSurfels != 0u) {
         s.area = parents.data[i].area;
         const float survive = max(s.reflectance.r, max(s.reflectance.g, s.reflectance.b));
@@ -57,10 +53,8 @@ void main() {
         s.reflectance /= survive;
         s.area /= survive;
     } else {
-        s.area = cameraRayArea(ray, hit.t, p.geometricNormal);
+        s.area = cameraRayArea(ray, hit.t, faceNormal);
     }
-    s.position = p.position;
-    s.normal = dot(p.geometricNormal, ray.direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
-    s.voxel = voxelNumber(push.grid, voxelAt(push.grid, p.position));
+    s.voxel = voxelNumber(push.grid, voxelAt(push.grid, s.position));
     surfels.data[atomicAdd(count.value, 1u)] = s;
 }
