@@ -4,7 +4,7 @@
 
 namespace voxray {
 
-/// Thrown by long work that stopped because interruptRequested() turned true.
+/// Thrown by long work that stopped because interruptRequested() became true.
 class Interrupted : public Error {
  public:
     Interrupted() : Error("interrupted") {}

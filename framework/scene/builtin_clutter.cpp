@@ -24,7 +24,7 @@ struct Clutter {
     }
 };
 
-/// Boards and legs about a point of the floor, turned about +Y. All of them have the same thickness.
+/// Boards and legs about a point of the floor, rotated about +Y. All of them have the same thickness.
 class Furniture {
  public:
     Furniture(SceneBuilder& builder, const glm::vec3& origin, float angleRadians, float thickness,
@@ -66,8 +66,8 @@ class Furniture {
     /// A box that stands at `base`, in the furniture's own axes.
     void part(const glm::vec3& base, const glm::vec3& size) {
         const float c = std::cos(angle_), s = std::sin(angle_);
-        const glm::vec3 turned(c * base.x + s * base.z, base.y, c * base.z - s * base.x);
-        builder_.box("furniture", origin_ + turned, size, angle_, material_);
+        const glm::vec3 rotated(c * base.x + s * base.z, base.y, c * base.z - s * base.x);
+        builder_.box("furniture", origin_ + rotated, size, angle_, material_);
     }
 
     SceneBuilder& builder_;

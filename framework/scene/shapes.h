@@ -25,7 +25,7 @@ class SceneBuilder {
     /// The four quads between the edges of two quadrilaterals: a wall round a window, or walls from a floor's
     /// outline to a ceiling's. Fronts are towards cross(inner[1] - inner[0], outer[0] - inner[0]).
     void band(const std::string& name, const Corners& inner, const Corners& outer, uint32_t material);
-    /// A box that stands at `base` (the center of its bottom), turned about +Y; fronts outwards.
+    /// A box that stands at `base` (the center of its bottom), rotated about +Y; fronts outwards.
     void box(const std::string& name, const glm::vec3& base, const glm::vec3& size, float angleRadians,
              uint32_t material);
     /// A closed axis-aligned room, fronts inwards. Materials in the order -x, +x, -y, +y, -z, +z;

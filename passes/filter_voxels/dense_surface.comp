@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Level 0 of dense radiance voxels: the surfaces' own radiance and coverage; nothing where there are none.
+// Level 0 of dense radiance voxels: the surfaces' own radiance and opacity; nothing where there are none.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance/radiance_voxels.glsl"
 #include "shaders/radiance/surface_radiance.glsl"

@@ -7,12 +7,12 @@
 
 namespace voxray {
 
-/// Turns lit surface voxels into radiance and coverage at all scales, for cone tracing.
+/// Turns lit surface voxels into radiance and opacity at all scales, for cone tracing.
 class FilterVoxels final : public Pass {
  public:
     static constexpr const char* kName = "filter_voxels";
     static constexpr const char* kHelp =
-        "Prefilters the light that leaves surface voxels: radiance and coverage, the part of a beam that "
+        "Prefilters the light that leaves surface voxels: radiance and opacity, the part of a beam that "
         "surfaces hide, at all scales, for gather_cones. "
         "Biased by: voxel size; what shares a larger voxel and faces the same way is averaged; in a clipmap "
         "distance from the camera. Bounces by cones are for dense and svo; over a clipmap's windows "

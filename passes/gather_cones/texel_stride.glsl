@@ -1,4 +1,4 @@
-// The texels that cones start from: every n-th, in a lattice turned against rows and columns (Pantelev 2014's rotated grid). Row by
+// The texels that cones start from: every n-th, in a lattice rotated against rows and columns (Pantelev 2014's rotated grid). Row by
 // row, each is shifted against the last so that a texel's nearest traced neighbours lie all round it.
 #ifndef VOXRAY_TEXEL_STRIDE_GLSL
 #define VOXRAY_TEXEL_STRIDE_GLSL

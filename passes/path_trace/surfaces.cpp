@@ -102,7 +102,7 @@ void SurfaceTable::shadeInDetail(const Hit& hit, SurfacePoint& point) const {
     const Material& m = *materials_[triangles_[hit.triangle].material].source;
     const glm::vec4 texCoords = interpolate(a.texCoords, b.texCoords, c.texCoords, hit.u, hit.v);
 
-    // Normal: interpolated, mapped, turned to the side of the ray.
+    // Normal: interpolated, mapped, flipped to the side of the ray.
     glm::vec3 normal = interpolate(a.normal, b.normal, c.normal, hit.u, hit.v);
     const float length2 = glm::dot(normal, normal);
     normal = length2 > 1e-12f ? normal / std::sqrt(length2) : point.faceNormal;

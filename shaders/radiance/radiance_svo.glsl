@@ -17,7 +17,7 @@ layout(scalar) readonly buffer RadianceVoxels {
 // Where a node's value for a face (0 to 5 by direction, 0 where all share one) stands.
 uint octreeValueIndex(uint node, uint face) { return face * octree.shape.nodeCount + node; }
 
-// Radiance times coverage and coverage of a node, nothing for NO_NODE.
+// Radiance times opacity and opacity of a node, nothing for NO_NODE.
 vec4 radianceValue(uint node, uint face) { return unpackRadiance(radianceVoxels.values.data[octreeValueIndex(node, face)]); }
 
 #define NO_PLACE NO_NODE

@@ -16,8 +16,8 @@
 // metres:
 //  - vec4 sampleLevel(uint level, vec3 position, vec3 direction): what a ray along `direction` (unit) meets in a cube of a
 //    voxel's face round `position`, interpolated linearly in space: rgb, the radiance that surfaces there send against
-//    `direction`, weighted by the part of the beam that they cover, W/(m² sr); a, that coverage over one voxel's length: 0 where
-//    there is nothing; above 1 where surfaces hide each other;
+//    `direction`, times their opacity, W/(m² sr); a, the opacity that a beam meets there over one voxel's length: 0 where there is
+//    nothing; above 1 where surfaces hide each other;
 //  - uint startLevel(vec3 position, float dither): the level whose voxels a cone that starts there has to be clear of; between
 //    levels it is drawn by `dither`, 0 to 1.
 #if defined(RADIANCE_DENSE)

@@ -20,7 +20,7 @@ LAYERS = {
     "app": {"base", "image", "scene", "vulkan", "trace", "graph", "config", "experiment"},
 }
 
-# The machines that techniques share: passes/common/<room> and shaders/<room>. A room may use itself and what stands here.
+# What techniques share: passes/common/<room> and shaders/<room>. A room may use itself and what stands here.
 ROOMS = {
     "compute": set(),
     "view": {"compute"},

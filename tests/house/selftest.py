@@ -271,7 +271,7 @@ class Words(Tree):
                      "constexpr int kMostRays = 3;", "int LEAST_LEVEL;", "FluxSums sums;", "int rays_at_least;",
                      "// Built anew.", "// The file beside it.", "// What judges.", "// The lobe's cells.", "vec4 cover;",
                      "// Radiance and cover.", "// Its share of light.", "float diffuseShare;", "// A voxel's side.",
-                     "// Many pieces.", "// Exposed faces.", "int levelAhead;"):
+                     "// Many pieces.", "// A turned box.", "// Exposed faces.", "int levelAhead;"):
             problems = self.problems(text)
             self.assertEqual(len(problems), 1, (text, problems))
             self.assertTrue(problems[0].startswith("passes/x.cpp:2: "), problems)

@@ -25,6 +25,7 @@ WORDS = [
     (r"anew", "again or rebuilt", ()),
     (r"beside", "next to or adjacent", ()),
     (r"exposed", "unoccluded or visible", ()),
+    (r"turned", "rotated, flipped or permuted", ()),
     (r"judg(?:e[ds]?|ing|ments?)", "reference or compare", ()),
     (r"strictness", "edge-stopping scale", ()),
     (r"(?:an?|the|its|their|each|every|ray's|\w+ed) shares?(?: of)?", "part, fraction or weight", ()),

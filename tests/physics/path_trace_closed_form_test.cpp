@@ -146,7 +146,7 @@ TEST(PathTraceClosedForm, EnvironmentMapOnPlane) {
     }
 }
 
-TEST(PathTraceClosedForm, EnvironmentMapsAreTurnedTheRightWay) {
+TEST(PathTraceClosedForm, EnvironmentMapsLightFromTheRightSide) {
     // A bright stripe where u = 0.75: light comes from +X.
     auto map = std::make_shared<ImageF>(64, 32, 3);
     for (uint32_t y = 0; y < 32; ++y) map->pixel(48, y)[0] = 1.0f;

@@ -22,9 +22,9 @@ constexpr const char* kRadianceLayoutHelp =
     "How voxels are stored: dense, a full grid for each level; svo, a sparse octree: only what surfaces pass "
     "through; clipmap, of each level a window round the camera, which follows it in each frame.";
 
-/// Radiance that leaves surfaces and the part of a beam that they cover, prefiltered at all scales. A shader
-/// that samples it is compiled with defines(), includes shaders/radiance/radiance_voxels.glsl and is given
-/// bindings(): it is written once for all layouts.
+/// Radiance that leaves surfaces and their opacity, prefiltered at all scales. A shader that samples it is
+/// compiled with defines(), includes shaders/radiance/radiance_voxels.glsl and is given bindings(): it is
+/// written once for all layouts.
 struct RadianceVoxels : Resource {
     RadianceLayout layout = RadianceLayout::Dense;  ///< Known from plan() on, as is the grid but its unit.
     gpu::RadianceGrid grid{};

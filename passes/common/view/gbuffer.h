@@ -12,8 +12,8 @@ namespace voxray {
 struct GBuffer : Resource {
     uint32_t samples = 1;   ///< Sub-pixels along each side of a pixel; known from plan() on.
     Image position;         ///< RGBA32F: world position in m, 1 where there is a surface.
-    Image normal;           ///< RGBA16F: shading normal, turned to the camera's side.
-    Image geometricNormal;  ///< RGBA16F: the triangle's normal, turned to the camera's side.
+    Image normal;           ///< RGBA16F: shading normal, flipped to the camera's side.
+    Image geometricNormal;  ///< RGBA16F: the triangle's normal, flipped to the camera's side.
     Image albedo;           ///< RGBA16F: diffuse reflectance.
     Image emission;  ///< RGBA32F: radiance towards the camera, W/(m² sr); the environment's on a miss.
     Image specular;  ///< RGBA16F: specular reflectance at normal incidence, roughness.
