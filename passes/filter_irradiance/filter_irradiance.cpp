@@ -20,9 +20,12 @@ struct GuidePush {
 };
 
 struct WaveletPush {
-    int32_t step;
+    int32_t level;
     float edgeStoppingScale;
 };
+
+// Of the means that are compared: light from some hundreds of texels, of rays where each has one.
+constexpr uint32_t kMeanLevels = 4;
 
 }  // namespace
 
@@ -51,6 +54,8 @@ void FilterIrradiance::plan(PassPlan& plan) {
         const glm::uvec2 blocks = noisy.blocks(texels);
         plan.buffer(blockStatistics_, "statistics of rays",
                     uint64_t(blocks.x) * blocks.y * sizeof(gpu::RayStatistics));
+        for (Image& mean : means_)
+            plan.image(mean, "mean irradiance of surroundings", NoisyIrradiance::desc(plan.frame, samples));
     }
 }
 
@@ -59,26 +64,41 @@ void FilterIrradiance::prepare(PassSetup& setup) {
     const auto program = [&](const char* file, const Defines& defines = {}) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
+    const Defines moments = hasMoments ? Defines{{"MOMENTS", "1"}} : Defines{};
     if (hasMoments) statistics_ = program("passes/filter_irradiance/statistics.comp");
-    guide_ =
-        program("passes/filter_irradiance/guide.comp", hasMoments ? Defines{{"MOMENTS", "1"}} : Defines{});
-    wavelet_ = program("passes/filter_irradiance/wavelet.comp");
+    if (hasMoments) mean_ = program("passes/filter_irradiance/mean.comp");
+    guide_ = program("passes/filter_irradiance/guide.comp", moments);
+    wavelet_ = program("passes/filter_irradiance/wavelet.comp", moments);
     resolve_ = IrradianceResolve(setup);
     sampler_ = texelSampler(setup.device);
 }
 
 void FilterIrradiance::record(PassContext& context) {
     const GBuffer& gbuffer = context.get(gbuffer_);
+    const NoisyIrradiance& noisy = context.get(noisy_);
     guide(context);
-    const Image* from = &context.get(noisy_).irradiance;
+    const Image* mean = noisy.blockSize > 0 ? &means(context) : nullptr;
+    const Image* from = &noisy.irradiance;
     for (uint32_t level = 0; level < params_.levels; ++level) {
         const Image& to = filtered_[level % 2];
-        context.stream.dispatch(wavelet_, {{"guide", guides_}, {"source", *from, sampler_}, {"result", to}},
-                                WaveletPush{1 << level, params_.edgeStoppingScale},
+        std::vector<Binding> bindings{{"guide", guides_}, {"source", *from, sampler_}, {"result", to}};
+        if (mean) bindings.emplace_back("mean", *mean, sampler_);
+        context.stream.dispatch(wavelet_, bindings, WaveletPush{int32_t(level), params_.edgeStoppingScale},
                                 pixelGroups(to.desc().extent.x, to.desc().extent.y));
         from = &to;
     }
     resolve_.record(context, gbuffer, *from, context.get(indirect_).image);
+}
+
+const Image& FilterIrradiance::means(PassContext& context) const {
+    const Image* from = &context.get(noisy_).irradiance;
+    for (uint32_t level = 0; level < kMeanLevels; ++level) {
+        const Image& to = means_[level % 2];
+        context.stream.dispatch(mean_, {{"guide", guides_}, {"source", *from, sampler_}, {"result", to}},
+                                int32_t(level), pixelGroups(to.desc().extent.x, to.desc().extent.y));
+        from = &to;
+    }
+    return *from;
 }
 
 void FilterIrradiance::guide(PassContext& context) const {
@@ -88,8 +108,10 @@ void FilterIrradiance::guide(PassContext& context) const {
     const CameraRays camera = cameraRays(context.frame.camera, texels.x, texels.y);
     GuidePush push{texels, glm::uvec2(0), noisy.blockSize, 2 * glm::length(camera.up) / float(texels.y),
                    camera.origin};
-    std::vector<Binding> bindings{
-        {"position", gbuffer.position, sampler_}, {"normal", gbuffer.normal, sampler_}, {"guide", guides_}};
+    std::vector<Binding> bindings{{"position", gbuffer.position, sampler_},
+                                  {"normal", gbuffer.normal, sampler_},
+                                  {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                                  {"guide", guides_}};
     if (noisy.blockSize > 0) {
         push.blocks = noisy.blocks(texels);
         context.stream.dispatch(statistics_, {{"moments", noisy.moments}, {"statistics", blockStatistics_}},

@@ -6,7 +6,8 @@
 namespace voxray {
 
 /// Lowers the noise of any gather's irradiance. Source: the edge-avoiding à-trous wavelet of Dammertz et al.
-/// 2010, with a weight that balances noise against the gradient bound of Ward et al. 1988 (wavelet.comp).
+/// 2010, with a weight that balances noise against what texels differ by: the gradient bound of Ward et al.
+/// 1988, geometry, and the means of their surroundings (wavelet.comp).
 /// Docs: docs/filtering.md.
 class FilterIrradiance final : public Pass {
  public:
@@ -14,11 +15,12 @@ class FilterIrradiance final : public Pass {
     static constexpr const char* kHelp =
         "Filters the noisy irradiance of a gather (gather_rays, path_trace) along surfaces and multiplies it "
         "by albedo. An edge-avoiding wavelet whose width follows from the number of rays and, where the "
-        "gather tells them, from their variance and the distances of their hits. Biased by: "
+        "gather tells them, from their variance, the distances of their hits, and how much the light around "
+        "texels differs. Biased by: "
         "edge_stopping_scale and levels, less the more rays. Lambert surfaces only. Source: Dammertz et al. "
         "2010; Ward et al. 1988; docs/filtering.md.";
     struct Params {
-        uint32_t levels = 4;
+        uint32_t levels = 5;
         float edgeStoppingScale = 0.1f;
         static constexpr auto schema() {
             return std::tuple{
@@ -43,16 +45,18 @@ class FilterIrradiance final : public Pass {
 
  private:
     void guide(PassContext& context) const;
+    const Image& means(PassContext& context) const;
 
     Params params_;
     Port<const GBuffer> gbuffer_;
     Port<const NoisyIrradiance> noisy_;
     Port<FrameImage> indirect_;
-    Program statistics_, guide_, wavelet_;
+    Program statistics_, guide_, mean_, wavelet_;
     IrradianceResolve resolve_;
     Sampler sampler_;
     Buffer blockStatistics_;  ///< gpu::RayStatistics a block, where the gather tells moments.
     Buffer guides_;           ///< gpu::FilterTexel a texel.
+    Image means_[2];          ///< Of each texel's surroundings (mean.comp), where the gather tells moments.
     Image filtered_[2];       ///< As NoisyIrradiance::irradiance; levels write them in turn.
 };
 

@@ -13,8 +13,9 @@ struct RayStatistics {
 };
 
 struct FilterTexel {
-    vec3 position;  // m
-    uint normal;    // Octahedral, 2 x 16 bits.
+    vec3 position;         // m
+    uint normal;           // Octahedral, 2 x 16 bits.
+    uint geometricNormal;  // Likewise.
     float
         gradient;  // Bound of the relative change of irradiance along the surface, 1/m; negative: no surface.
     float variance;  // Of a single ray, over its squared mean.

@@ -9,6 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D position;
 uniform sampler2D normal;
+uniform sampler2D geometricNormal;
 #ifdef MOMENTS
 layout(scalar) readonly buffer Statistics { RayStatistics data[]; } statistics;
 #endif
@@ -47,11 +48,11 @@ void main() {
     const uint index = texel.y * push.texels.x + texel.x;
     const vec4 p = texelFetch(position, ivec2(texel), 0);
     if (p.w == 0.0) {
-        guide.data[index] = FilterTexel(vec3(0.0), 0u, -1.0, 0.0);
+        guide.data[index] = FilterTexel(vec3(0.0), 0u, 0u, -1.0, 0.0);
         return;
     }
 
-    // Without moments nothing is known of the light: the largest gradient. The variance cancels out of the weights then.
+    // Without moments nothing is known of the light: the largest gradient. The variance of a ray is then taken as its squared mean.
 #ifdef MOMENTS
     const vec2 light = interpolatedStatistics(texel);
 #else
@@ -59,5 +60,5 @@ void main() {
 #endif
     const float maxGradient = sqrt(light.y) / (MIN_TEXELS * push.texelAngle * distance(p.xyz, push.camera));
     guide.data[index] = FilterTexel(p.xyz, toOctahedral(texelFetch(normal, ivec2(texel), 0).xyz),
-                                    min(light.x, maxGradient), light.y);
+                                    toOctahedral(texelFetch(geometricNormal, ivec2(texel), 0).xyz), min(light.x, maxGradient), light.y);
 }

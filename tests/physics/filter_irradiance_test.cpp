@@ -13,20 +13,30 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A source of irradiance 2 W/m², with noise, from so many rays a texel.
+/// A source of irradiance around 2 W/m² from so many rays a texel.
 class KnownIrradiance final : public Pass {
  public:
     static constexpr const char* kName = "known_irradiance";
-    static constexpr const char* kHelp = "Irradiance 2, with even noise.";
+    static constexpr const char* kHelp = "Irradiance around 2, with noise, from surfaces 10 m away.";
     struct Params {
         float noise = 0.0f;
         float rays = 1.0f;
         uint32_t spacing = 1;
+        float scale = 1.0f;
+        float slope = 0.0f;
+        float step = 1.0f;
+        uint32_t oneIn = 1;
+        bool moments = false;
         static constexpr auto schema() {
             return std::tuple{
                 field("noise", &Params::noise, "Largest deviation over the mean.", 0.0f, 1.0f),
                 field("rays", &Params::rays, "Rays of a texel that has any.", 0.0f, 1e9f),
-                field("spacing", &Params::spacing, "One texel in spacing x spacing has rays.", 1u, 8u)};
+                field("spacing", &Params::spacing, "One texel in spacing x spacing has rays.", 1u, 8u),
+                field("scale", &Params::scale, "Factor of all light.", 0.0f, 1e9f),
+                field("slope", &Params::slope, "Relative change over the image's width.", 0.0f, 1.0f),
+                field("step", &Params::step, "Factor of the right half.", 0.0f, 1e9f),
+                field("one_in", &Params::oneIn, "So many rays share what one brings.", 1u, 1000u),
+                field("moments", &Params::moments, "Whether the filter is told the moments of rays.")};
         }
     };
     explicit KnownIrradiance(const Params& params) : params_(params) {}
@@ -38,24 +48,48 @@ class KnownIrradiance final : public Pass {
     void plan(PassPlan& plan) override {
         NoisyIrradiance& noisy = plan.get(noisy_);
         noisy.spacing = params_.spacing;
+        noisy.blockSize = params_.moments ? 4 : 0;
+        if (params_.moments)
+            plan.buffer(noisy.moments, "known moments",
+                        noisy.momentsBytes(gbufferExtent(plan.frame, plan.get(gbuffer_).samples)));
         plan.image(noisy.irradiance, "known irradiance",
                    NoisyIrradiance::desc(plan.frame, plan.get(gbuffer_).samples));
     }
     void prepare(PassSetup&) override {}
     void record(PassContext& context) override {
-        const Image& image = context.get(noisy_).irradiance;
+        const NoisyIrradiance& noisy = context.get(noisy_);
+        const Image& image = noisy.irradiance;
         const glm::uvec3 texels = image.desc().extent;
         std::mt19937 random(1);
         std::uniform_real_distribution<float> even(-1.0f, 1.0f);
         std::vector<glm::vec4> values(size_t(texels.x) * texels.y, glm::vec4(0.0f));
+        std::vector<gpu::RayMoments> moments;
+        if (params_.moments) moments.resize(noisy.momentsBytes(texels) / sizeof(gpu::RayMoments));
         for (uint32_t y = 0; y < texels.y; y += params_.spacing)
-            for (uint32_t x = 0; x < texels.x; x += params_.spacing)
-                values[size_t(y) * texels.x + x] =
-                    glm::vec4(glm::vec3(2.0f * (1.0f + params_.noise * even(random))), params_.rays);
+            for (uint32_t x = 0; x < texels.x; x += params_.spacing) {
+                const float at = (float(x) + 0.5f) / float(texels.x);
+                float light = 2.0f * params_.scale * (1.0f + params_.noise * even(random)) *
+                              (1.0f + params_.slope * (at - 0.5f)) * (at < 0.5f ? 1.0f : params_.step);
+                if (params_.oneIn > 1) light *= random() % params_.oneIn == 0 ? float(params_.oneIn) : 0.0f;
+                values[size_t(y) * texels.x + x] = glm::vec4(glm::vec3(light), params_.rays);
+                if (params_.moments)
+                    add(moments[size_t(y / 4) * noisy.blocks(texels).x + x / 4], light, params_.rays);
+            }
         context.stream.upload(image, std::as_bytes(std::span(values)));
+        if (params_.moments) context.stream.upload(noisy.moments, moments);
     }
 
  private:
+    /// Adds a texel's rays to a block's: as if each brought the same.
+    static void add(gpu::RayMoments& sum, float light, float rays) {
+        sum.rays += rays;
+        sum.luminance += rays * light;
+        sum.squared += rays * light * light;
+        sum.inverseDistance += rays / 10;
+        sum.luminanceOverDistance += rays * light / 10;
+        sum.squaredOverDistance += rays * light * light / 10;
+    }
+
     Params params_;
     Port<const GBuffer> gbuffer_;
     Port<NoisyIrradiance> noisy_;
@@ -113,6 +147,47 @@ TEST(FilterIrradiance, LeavesWellKnownIrradianceAlone) {
         filterKnown("noise: 1, rays: 1e9", "levels: 1, edge_stopping_scale: 100", "white_room");
     const ImageF filtered = filterKnown("noise: 1, rays: 1e9", "levels: 4", "white_room");
     EXPECT_LT(difference(filtered, noisy), 1e-3);
+}
+
+TEST(FilterIrradiance, KeepsALinearGradientOnAWall) {
+    // A mean over a symmetric kernel keeps what is linear. The reach of 7 texels stays on the wall.
+    const ImageF filtered = filterKnown("slope: 0.5", "levels: 3", "white_room");
+    for (uint32_t x = 16; x < 32; ++x) {
+        const double at = (x + 0.5) / 48 - 0.5;
+        EXPECT_NEAR(filtered.pixel(x, 24)[1] / (0.5 * 2 / kPi), 1 + 0.5 * at, 2e-3) << x;
+    }
+}
+
+TEST(FilterIrradiance, IsLinearInLight) {
+    const std::string source = "noise: 1, step: 4, moments: true";
+    const ImageF one = filterKnown(source, "levels: 4", "cornell"),
+                 scaled = filterKnown(source + ", scale: 1024", "levels: 4", "cornell");
+    for (size_t i = 0; i < one.data.size(); ++i)
+        EXPECT_NEAR(scaled.data[i], 1024 * one.data[i], 1e-3 * 1024 * one.data[i]);
+}
+
+TEST(FilterIrradiance, SeesAnEdgeOfLightThatGeometryDoesNotTell) {
+    // Half of the wall has 16 times the light of the other. The means of surroundings tell the two apart, so
+    // that the dark half stays dark up to the reach of these means.
+    const std::string source = "noise: 1, step: 16";
+    const ImageF blind = filterKnown(source, "levels: 5", "white_room"),
+                 seeing = filterKnown(source + ", moments: true", "levels: 5", "white_room");
+    const auto dark = [](const ImageF& image) {
+        double sum = 0;
+        for (uint32_t y = 16; y < 32; ++y)
+            for (uint32_t x = 12; x < 20; ++x) sum += image.pixel(x, y)[1] / (0.5 * 2 / kPi);
+        return sum / (16 * 8);
+    };
+    EXPECT_GT(dark(blind), 1.5);
+    EXPECT_NEAR(dark(seeing), 1, 0.3);
+}
+
+TEST(FilterIrradiance, KeepsTheEnergyOfRareRays) {
+    // One ray in 16 brings all light. Weights are symmetric, so no light is lost on average.
+    const std::string source = "one_in: 16, noise: 0, moments: true";
+    const ImageF raw = filterKnown(source, "levels: 1, edge_stopping_scale: 100", "white_room"),
+                 filtered = filterKnown(source, "levels: 5", "white_room");
+    EXPECT_NEAR(mean(filtered) / mean(raw), 1, 0.02);
 }
 
 TEST(FilterIrradiance, NamesGapsThatItCannotFill) {
