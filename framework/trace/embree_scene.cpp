@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 #include <vector>
@@ -43,27 +43,40 @@ struct Part {
     }
 };
 
-bool isTraceable(float x) {
-    return std::fabs(x) <= kLargest;
+/// Half of a ray: origin and tMin, or direction and tMax.
+using Float4 = float __attribute__((vector_size(16)));
+using Int4 = int32_t __attribute__((vector_size(16)));
+static_assert(offsetof(Ray, tMin) == 12 && offsetof(Ray, direction) == 16 && sizeof(Ray) == 32);
+
+Float4 load(const glm::vec3& first) {
+    Float4 half;
+    std::memcpy(&half, &first, sizeof(half));
+    return half;
 }
 
-/// Without branches: it runs on every ray of a stream.
+/// Four comparisons at once and no branches: it runs on every ray of a stream. NaN fails all.
 bool isTraceable(const Ray& ray) {
-    return bool(int(isTraceable(ray.origin.x)) & int(isTraceable(ray.origin.y)) &
-                int(isTraceable(ray.origin.z)) & int(isTraceable(ray.direction.x)) &
-                int(isTraceable(ray.direction.y)) & int(isTraceable(ray.direction.z)) &
-                int(ray.tMin >= 0.0f) & int(ray.tMin <= kLargest) & int(!std::isnan(ray.tMax)));
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    const Float4 origin = load(ray.origin), direction = load(ray.direction);
+    const Int4 isWithin = (origin >= Float4{-kLargest, -kLargest, -kLargest, 0}) &
+                          (origin <= Float4{kLargest, kLargest, kLargest, kLargest}) &
+                          (direction >= Float4{-kLargest, -kLargest, -kLargest, -kInfinity}) &
+                          (direction <= Float4{kLargest, kLargest, kLargest, kInfinity});
+    int64_t halves[2];
+    std::memcpy(halves, &isWithin, sizeof(halves));
+    return (halves[0] & halves[1]) == -1;
 }
 
-RTCRay toEmbree(const Ray& ray) {
-    RTCRay out;
-    std::memcpy(&out, &ray, 28);  // Origin, tMin and direction lie alike in both.
-    out.time = 0.0f;
+/// In stores as wide as Embree's loads, which would wait for narrower ones.
+void toEmbree(const Ray& ray, RTCRay& out) {
+    const Float4 origin = load(ray.origin);
+    const Int4 direction = reinterpret_cast<Int4>(load(ray.direction)) & Int4{-1, -1, -1, 0};  // Time 0.
+    std::memcpy(&out.org_x, &origin, sizeof(origin));
+    std::memcpy(&out.dir_x, &direction, sizeof(direction));
     out.tfar = ray.tMax;
     out.mask = 0xffffffffu;
     out.id = 0;
     out.flags = 0;
-    return out;
 }
 
 /// Neighbours of a coherent stream, traced together.
@@ -215,7 +228,7 @@ struct EmbreeScene::Impl {
         Hit hit{ray.tMax, Hit::kMiss, 0.0f, 0.0f};
         if (!(ray.tMax >= ray.tMin)) return hit;
         RTCRayHit query;
-        query.ray = toEmbree(ray);
+        toEmbree(ray, query.ray);
         for (const Part* part : {&still, &moving}) {
             if (!part->scene) break;
             query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -228,7 +241,8 @@ struct EmbreeScene::Impl {
 
     bool isOccluded(const Ray& ray, RTCIntersectContext& context) const {
         if (!(ray.tMax >= ray.tMin)) return false;
-        RTCRay query = toEmbree(ray);
+        RTCRay query;
+        toEmbree(ray, query);
         rtcOccluded1(still.scene, &context, &query);
         if (moving.scene && query.tfar >= 0.0f) rtcOccluded1(moving.scene, &context, &query);
         return query.tfar < 0.0f;
