@@ -3,13 +3,15 @@
 
 generality_table.py RESULTS...: folders that `./voxray run configs/generality/SCENE.yaml` wrote. A cell is the mean
 ratio, relMSE and nRMSE of the indirect light; where the reference is black, the root mean square of the leaking
-radiance, W/(m² sr), alone.
+radiance, W/(m² sr), alone. Last comes what a black image and a constant image of the right mean score in each scene.
 """
 import csv
+import json
 import os
 import sys
 
 VOXELS = "voxelize.resolution"
+COLUMNS = ("indirect_mean_ratio", "indirect_relmse", "indirect_nrmse")
 NO_RATIO = 1e6  # Of an image over a black reference.
 PLAIN = {"variant", "status", "error", "device", "tracer", VOXELS, "inject", "gather"}
 
@@ -30,9 +32,31 @@ def swept(row):
                      if name not in PLAIN)
 
 
-def table(folder):
+def name_of(folder):
+    return os.path.basename(os.path.normpath(folder)).replace("generality_", "")
+
+
+def rows_of(folder):
     with open(os.path.join(folder, "results.csv"), newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+        return list(csv.DictReader(file))
+
+
+def baselines(folder):
+    """A row for each reference: what images score that know nothing of the scene but, at best, its mean."""
+    with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
+        references = json.load(file)["references"]
+    variants = {row["variant"]: swept(row) for row in rows_of(folder)}
+    for reference in references:
+        scores = reference["baselines"]
+        if scores["black"]["indirect_nrmse"] == 0:
+            continue
+        which = next(filter(None, (variants.get(name) for name in reference["variants"])), "")
+        texts = (" / ".join(f"{float(f'{s[name]:.2g}'):g}" for name in COLUMNS) for s in (scores["black"], scores["constant"]))
+        yield f"| `{name_of(folder)}`{', ' + which if which else ''} | " + " | ".join(texts) + " |"
+
+
+def table(folder):
+    rows = rows_of(folder)
     cells = {(swept(row), row["inject"], row["gather"], int(row[VOXELS])): cell(row) for row in rows}
     lines = dict.fromkeys((key[0], key[1]) for key in cells)
     columns = sorted({(key[2], key[3]) for key in cells}, key=lambda column: (column[0] != "gather_rays", column))
@@ -45,5 +69,8 @@ def table(folder):
 
 if __name__ == "__main__":
     for results in sys.argv[1:]:
-        print(f"\n### {os.path.basename(os.path.normpath(results)).replace('generality_', '')}\n")
+        print(f"\n### {name_of(results)}\n")
         print("\n".join(table(results)))
+    print("\n### A black and a constant image\n\n| scene | black | constant, of the right mean |\n| --- | --- | --- |")
+    for results in sys.argv[1:]:
+        print("\n".join(baselines(results)))
