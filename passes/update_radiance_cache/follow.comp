@@ -1,13 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Makes a vertex of each hit, on the side that the ray came from, takes a cell for it, and sends the path's next ray. Russian roulette
-// by albedo ends paths; what follows a vertex counts for those that ended there. Vertices are appended in any order; nothing depends on
-// it.
+// Makes a vertex of each hit, on the side that the ray came from, and sends the path's next ray. Russian roulette by albedo ends paths;
+// what follows a vertex counts for those that ended there. With `samplesToEnd` paths also end in cells that had as many samples in the
+// previous frame, whose table is bound then. Vertices are appended in any order; nothing depends on it.
 #include "passes/update_radiance_cache/path_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance_cache/radiance_cache.glsl"
 #include "shaders/surfels/surfel_at_hit.glsl"
 layout(local_size_x = 64) in;
+
+layout(constant_id = 0) const uint samplesToEnd = 0u;
 
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
@@ -17,10 +19,6 @@ writeonly buffer NextOrigins { uint data[]; } nextOrigins;
 layout(scalar) buffer Surfels { Surfel data[]; } surfels;
 layout(scalar) buffer Vertices { PathVertex data[]; } vertices;
 buffer VertexCount { uint value; } vertexCount;
-buffer CellCounts {
-    uint cells;
-    uint lost;  // Vertices whose cell found no slot.
-} cellCounts;
 layout(push_constant, scalar) uniform Push {
     uint rays_;
     uint firstVertex;  // Of those that are made now.
@@ -41,8 +39,22 @@ void main() {
     if (ray.tMax < ray.tMin || !surfelAtHit(hit, ray.origin, s, faceNormal)) return;
     const vec3 albedo = s.reflectance;
 
-    // The vertex, linked to the one before it.
+    // A cell that is read instead: not where the camera looks, and no nearer than points in one cell are to each other.
     const bool fromCamera = push.fromCamera != 0u;
+    const RadianceCacheGrid g = radianceCacheGrid.data;
+    const uint64_t key = radianceCacheKey(g, s.position, faceNormal);
+    if (samplesToEnd > 0u && !fromCamera &&
+        hit.t > 2.0 * radianceCacheCellSize(g, radianceCacheLevel(g, s.position))) {
+        const uint slot = findRadianceCell(g, key);
+        const vec4 stored = slot == NO_CELL ? vec4(0.0) : meanRadianceCell(g, slot);
+        if (stored.w >= float(samplesToEnd)) {
+            const uint origin = origins.data[i];
+            vertices.data[origin].fromCache = albedo / vertices.data[origin].survival * stored.rgb;
+            return;
+        }
+    }
+
+    // The vertex, linked to the one before it.
     const uint v = atomicAdd(vertexCount.value, 1u);
     s.parent = fromCamera ? NO_VERTEX : origins.data[i];
     s.id = fromCamera ? push.firstPath + i : surfels.data[s.parent].id + push.paths;
@@ -52,16 +64,10 @@ void main() {
 
     // The first one's ray always goes on: its hit stands for those of gather rays.
     PathVertex vertex;
-    vertex.cell = NO_CELL;
+    vertex.key = push.isWritten != 0u ? unpackUint2x32(key) : uvec2(0u);
     vertex.next = NO_VERTEX;
+    vertex.fromCache = vec3(0.0);
     vertex.survival = fromCamera ? 1.0 : max(albedo.r, max(albedo.g, albedo.b));
-    if (push.isWritten != 0u) {
-        const RadianceCacheGrid g = radianceCacheGrid.data;
-        bool isNew;
-        vertex.cell = takeRadianceCell(g, radianceCacheKey(g, s.position, faceNormal), isNew);
-        if (isNew) atomicAdd(cellCounts.cells, 1u);
-        if (vertex.cell == NO_CELL) atomicAdd(cellCounts.lost, 1u);
-    }
     vertices.data[v] = vertex;
 
     Ray next = Ray(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0);

@@ -8,9 +8,10 @@ VOXRAY_SHARED_BEGIN
 
 // What a path keeps of a vertex besides its surfel.
 struct PathVertex {
-    uint cell;       // Slot of the cell that it lies in, or NO_CELL.
+    uvec2 key;       // Of the cell that it lies in; 0 where it leaves nothing.
     uint next;       // The vertex that its ray hit, or NO_VERTEX.
     float survival;  // Probability that a ray goes on from it.
+    vec3 fromCache;  // Irradiance by its ray, where that ended in the cache, W/m².
 };
 
 #define NO_VERTEX 0xffffffffu

@@ -74,6 +74,11 @@ void UpdateRadianceCache::plan(PassPlan& plan) {
             "{}: 'history_frames: {}' keeps light from frame to frame, and 'update: once' has no "
             "frames; use 'update: each_frame'",
             kName, params_.historyFrames);
+    if (params_.samplesToEnd > 0 && params_.historyFrames == 1)
+        throw Error(
+            "{}: 'samples_to_end: {}' reads the previous frame's cells, and 'history_frames: 1' keeps none; "
+            "raise 'history_frames' or leave 'samples_to_end' at 0",
+            kName, params_.samplesToEnd);
     sources_ = requireLightSources(*plan.frame.scene, kName);
     unitsPerIrradiance_ =
         std::ldexp(1.0f, 28) / std::max(meanIrradiance(sources_, plan.frame.scene->geometry), 1e-30f);
@@ -99,13 +104,14 @@ void UpdateRadianceCache::plan(PassPlan& plan) {
 }
 
 void UpdateRadianceCache::prepare(PassSetup& setup) {
-    const auto program = [&](const char* name) {
-        return makeComputeProgram(
-            setup.device, setup.compiler.compile("passes/update_radiance_cache/" + std::string(name)));
+    const auto program = [&](const char* name, const SpecializationConstants& constants = {}) {
+        return makeComputeProgram(setup.device,
+                                  setup.compiler.compile("passes/update_radiance_cache/" + std::string(name)),
+                                  constants);
     };
     imageRays_.prepare(setup);
     light_.prepare(setup);
-    follow_ = program("follow.comp");
+    follow_ = program("follow.comp", {{0, params_.samplesToEnd}});
     write_ = program("write.comp");
     if (params_.historyFrames > 1) age_ = program("age.comp");
     hasHistory_ = false;
@@ -131,30 +137,28 @@ void UpdateRadianceCache::begin(PassContext& context, RadianceCache& cache) {
     cache.grid =
         makeGrid(context.frame.scene->geometry, params_, context.frame.camera.position, unitsPerIrradiance_);
     stream.upload(cache.gridAt, std::vector{cache.grid});
-    if (hasHistory_) {
+    const bool keepsHistory = params_.historyFrames > 1;
+    if (keepsHistory) {
+        if (!hasHistory_) stream.fill(cache.keys, 0);
         std::swap(cache.keys, oldKeys_);
         std::swap(cache.sums, oldSums_);
     }
     stream.fill(cache.keys, 0);
     stream.fill(cache.sums, 0);
     stream.fill(cellCounts_, 0);
-    if (hasHistory_) {
+    if (keepsHistory) {
         std::vector<Binding> bindings = cache.bindings();
         bindings.insert(bindings.end(),
                         {{"oldKeys", oldKeys_}, {"oldSums", oldSums_}, {"cellCounts", cellCounts_}});
         stream.dispatch(age_, bindings, params_.historyFrames, linearGroups(params_.capacity));
     }
-    hasHistory_ = params_.historyFrames > 1;
+    hasHistory_ = keepsHistory;
 }
 
 uint32_t UpdateRadianceCache::follow(PassContext& context, const RadianceCache& cache, uint32_t first,
                                      uint32_t count, uint32_t seed) {
     CommandStream& stream = context.stream;
-    const std::vector<Binding> cells = cache.bindings();
-    const auto withCells = [&](std::vector<Binding> bindings) {
-        bindings.insert(bindings.end(), cells.begin(), cells.end());
-        return bindings;
-    };
+    const bool endsInCache = params_.samplesToEnd > 0;
 
     // Trace the paths, all of them a step at a time.
     stream.fill(vertexCount_, 0);
@@ -164,15 +168,17 @@ uint32_t UpdateRadianceCache::follow(PassContext& context, const RadianceCache& 
         const size_t from = step % 2, to = 1 - from;
         context.tracer.closestHit(stream, rays_[from], hits_, rays);
         stream.dispatch(follow_,
-                        withCells(context.scene.bindings({{"rays", rays_[from]},
-                                                          {"hits", hits_},
-                                                          {"origins", origins_[from]},
-                                                          {"nextRays", rays_[to]},
-                                                          {"nextOrigins", origins_[to]},
-                                                          {"surfels", surfels_},
-                                                          {"vertices", vertices_},
-                                                          {"vertexCount", vertexCount_},
-                                                          {"cellCounts", cellCounts_}})),
+                        context.scene.bindings({{"rays", rays_[from]},
+                                                {"hits", hits_},
+                                                {"origins", origins_[from]},
+                                                {"nextRays", rays_[to]},
+                                                {"nextOrigins", origins_[to]},
+                                                {"surfels", surfels_},
+                                                {"vertices", vertices_},
+                                                {"vertexCount", vertexCount_},
+                                                {"radianceCacheGrid", cache.gridAt},
+                                                {"radianceCacheKeys", endsInCache ? oldKeys_ : cache.keys},
+                                                {"radianceCacheSums", endsInCache ? oldSums_ : cache.sums}}),
                         FollowPush{rays, vertices, first, params_.raysPerImage, seed + 0x51u, step == 0,
                                    step < kWrittenVertices},
                         linearGroups(rays));
@@ -185,9 +191,12 @@ uint32_t UpdateRadianceCache::follow(PassContext& context, const RadianceCache& 
     // Direct light at all vertices, then what each receives from those that follow it.
     if (vertices > 0) {
         light_.measure(context, sources_, surfels_, vertices, params_.lightSamples, seed + 0xa3u, direct_);
-        stream.dispatch(write_,
-                        withCells({{"surfels", surfels_}, {"vertices", vertices_}, {"direct", direct_}}),
-                        WritePush{written, params_.bounces}, linearGroups(written));
+        std::vector<Binding> bindings = cache.bindings();
+        bindings.insert(bindings.end(), {{"surfels", surfels_},
+                                         {"vertices", vertices_},
+                                         {"direct", direct_},
+                                         {"cellCounts", cellCounts_}});
+        stream.dispatch(write_, bindings, WritePush{written, params_.bounces}, linearGroups(written));
     }
     return vertices;
 }

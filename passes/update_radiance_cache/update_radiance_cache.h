@@ -32,10 +32,11 @@ class UpdateRadianceCache final : public Pass {
         uint32_t raysPerImage = 65536;
         uint32_t bounces = 8;
         uint32_t lightSamples = 1;
-        float cellSize = 0.03f;
+        float cellSize = 0.1f;
         uint32_t normalBins = 1;
         uint32_t capacity = 1u << 20;
         uint32_t historyFrames = 1;
+        uint32_t samplesToEnd = 0;
         static constexpr auto schema() {
             return std::tuple{
                 field(
@@ -64,7 +65,14 @@ class UpdateRadianceCache final : public Pass {
                       "hold "
                       "the samples of about this many frames; light that changes lags behind as long. 1: "
                       "nothing is kept. More needs `update: each_frame`.",
-                      1u, 1024u)};
+                      1u, 1024u),
+                field(
+                    "samples_to_end", &Params::samplesToEnd,
+                    "A path ends at its second vertex or a later one where the cell there had this many "
+                    "samples in the previous frame, and takes its light. Biased: light of all bounces, with "
+                    "the errors of cells and a lag of their own. 0: no path ends so. More needs "
+                    "history_frames.",
+                    0u, 65536u)};
         }
     };
 
