@@ -5,9 +5,9 @@
 #include "shaders/radiance/radiance_voxels.glsl"
 
 // What a ray along `direction` (unit) meets in a cube of side `footprint` (m) round `position`: rgb, the radiance that surfaces
-// there send against `direction`, weighted by the part of the beam that they cover, W/(m² sr); a, that coverage over one footprint's
-// length: 0 where there is nothing; above 1 where surfaces hide each other. Linear in space and between levels, by density along
-// the ray: a surface covers the same in both.
+// there send against `direction`, times their opacity, W/(m² sr); a, the opacity that a beam meets over one footprint's length: 0
+// where there is nothing; above 1 where surfaces hide each other. Linear in space and between levels, by density along the ray: a
+// surface is as opaque in both.
 vec4 sampleRadiance(vec3 position, float footprint, vec3 direction) {
     const float top = float(radianceVoxels.grid.levels - 1u);
     const float level = clamp(log2(footprint / radianceVoxels.grid.voxelSize), 0.0, top);
