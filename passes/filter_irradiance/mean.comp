@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 // One level of a plain edge-avoiding à-trous wavelet (Dammertz et al. 2010), stopped by geometry alone: the mean light of a texel's
 // surroundings on the same surface. Texels' means are compared to tell whether light differs between them (wavelet.comp).
-#include "passes/filter_irradiance/surface_distance.glsl"
+#include "passes/filter_irradiance/wavelet.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -17,9 +17,6 @@ layout(push_constant) uniform Push { int level; } push;
 // Surfaces part where their normals or the line between them turn by some 20 degrees.
 #define NORMAL_EXPONENT 4
 #define OFF_PLANE_FALLOFF 10.0
-
-// From level 1 on taps overlap: variance falls by 4.2 a level, not by the 7.1 of independent values.
-#define OVERLAP 1.7
 
 void main() {
     const ivec2 size = imageSize(result), texel = ivec2(gl_GlobalInvocationID.xy);
@@ -50,7 +47,6 @@ void main() {
             weights += weight;
         }
 
-    const float overlap = push.level == 0 ? 1.0 : OVERLAP;
     imageStore(result, texel,
-               vec4(rays > 0.0 ? luminances / rays : 0.0, rays / weights, overlap * squares / (weights * weights), 0.0));
+               vec4(rays > 0.0 ? luminances / rays : 0.0, rays / weights, overlap(push.level) * squares / (weights * weights), 0.0));
 }

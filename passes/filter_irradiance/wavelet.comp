@@ -16,7 +16,7 @@
 //     Both add up the changes of all surroundings as if none canceled another, so the edge-stopping scale is mostly below 1;
 //   - what texels of different surfaces differ by that know nothing of each other (UNRELATED);
 //   - what the means of their surroundings (mean.comp) do differ by, beyond the noise of these means.
-#include "passes/filter_irradiance/surface_distance.glsl"
+#include "passes/filter_irradiance/wavelet.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(scalar) readonly buffer Guide { FilterTexel data[]; } guide;
@@ -32,8 +32,6 @@ layout(push_constant) uniform Push {
 
 // Two independent values of relative variance 1 differ by 2 in the mean square, in units of their squared mean.
 #define UNRELATED 2.0
-// Differences of means within so many times their variance are noise.
-#define SIGNIFICANT 2.0
 
 // x: mean luminance of the surroundings, W/m²; y: its variance; z: variance of a single ray. Without moments light is everywhere
 // the same as far as we know: 1.
@@ -77,7 +75,7 @@ void main() {
             const float alongSurface =
                 mean_ * max(own.gradient, other.gradient) * distance(own.position, other.position);
             const float overNormals = sqrt(variance * (1.0 - cosine) / cosine);
-            const float measured = max(square(ownLight.x - light.x) - SIGNIFICANT * (ownLight.y + light.y), 0.0);
+            const float measured = max(square(ownLight.x - light.x) - ownLight.y - light.y, 0.0);
             const float bias2 = square(push.edgeStoppingScale * (alongSurface + overNormals)) +
                                 UNRELATED * square(mean_) * offPlane(own, other) + measured;
 
@@ -91,6 +89,8 @@ void main() {
             squaredWeights += weight * weight / value.w;
         }
 
-    // A weighted mean of values with 1/w the variance of one ray has the variance sum(weight² / w) / sum(weight)².
-    imageStore(result, texel, weights > 0.0 ? vec4(sum / weights, weights * weights / squaredWeights) : vec4(0.0));
+    // A weighted mean of values with 1/w the variance of one ray has the variance sum(weight² / w) / sum(weight)², were they
+    // independent.
+    const float rays = weights * weights / (overlap(push.level) * squaredWeights);
+    imageStore(result, texel, weights > 0.0 ? vec4(sum / weights, rays) : vec4(0.0));
 }

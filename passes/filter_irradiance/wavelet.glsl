@@ -1,6 +1,6 @@
-// How far two texels of the G-buffer are from lying on one plane.
-#ifndef VOXRAY_SURFACE_DISTANCE_GLSL
-#define VOXRAY_SURFACE_DISTANCE_GLSL
+// What the wavelets over means and over irradiance have in common.
+#ifndef VOXRAY_FILTER_WAVELET_GLSL
+#define VOXRAY_FILTER_WAVELET_GLSL
 
 #include "passes/filter_irradiance/filter_types.h"
 #include "shaders/scene/octahedral.glsl"
@@ -15,5 +15,9 @@ float offPlane(FilterTexel a, FilterTexel b) {
                              abs(dot(fromOctahedral(b.geometricNormal), between)));
     return min(height * height / squared, 1.0);
 }
+
+// By how much the variance of a level's values is above that of a mean of independent ones. From level 1 on what taps stand for
+// overlaps: without edges variance falls by 4.2 a level, not by 7.1.
+float overlap(int level) { return level == 0 ? 1.0 : 1.7; }
 
 #endif
