@@ -10,7 +10,17 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBatchRays = 1u << 18;  // Bounds the memory of paths to 20 MiB a bounce.
+constexpr uint32_t kBatchRays = 1u << 18;
+constexpr uint64_t kIrradianceBytes = 4 * sizeof(float);  // Of a surfel.
+
+struct ArrivePush {
+    gpu::VoxelGrid grid;
+    uint32_t rayCount;
+    uint32_t firstId;
+    glm::vec3 forward;
+    float imageArea;
+    float maxArea;
+};
 
 }  // namespace
 
@@ -21,50 +31,80 @@ void InjectCameraRays::declare(PassBuilder& builder) {
 
 void InjectCameraRays::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
-    const SurfaceVoxels& voxels = plan.get(voxels_);
-    plan.reserve("voxel samples (estimated)", 2 * VoxelAccumulator::plan(plan, kName, params_, voxels));
-    plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
     const uint32_t batch = std::min(params_.raysPerImage, kBatchRays);
-    paths_.plan(plan, {params_.write, batch, params_.bounces, params_.lightSamples, true});
+    injection_.plan(plan, kName, params_, {batch, false, true, params_.lightSamples}, plan.get(voxels_));
     plan.buffer(rays_, "camera rays", batch * sizeof(Ray));
     plan.buffer(hits_, "camera hits", batch * sizeof(Hit));
+    plan.buffer(count_, "number of surfels", sizeof(uint32_t));
+    for (LitSurfels* lit : {&first_, &second_}) {
+        plan.buffer(lit->surfels, "surfels at hits", batch * sizeof(gpu::Surfel));
+        plan.buffer(lit->direct, "direct irradiance at hits", batch * kIrradianceBytes);
+        plan.buffer(lit->indirect, "indirect irradiance at hits", batch * kIrradianceBytes);
+    }
 }
 
 void InjectCameraRays::prepare(PassSetup& setup) {
-    paths_.prepare(setup);
-    direct_ = VoxelAccumulator(setup.device, setup.compiler, params_);
-    indirect_ = VoxelAccumulator(setup.device, setup.compiler, params_);
+    injection_.prepare(setup);
     imageRays_.prepare(setup);
+    arrive_ =
+        makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_camera_rays/arrive.comp"));
 }
 
 void InjectCameraRays::record(PassContext& context) {
-    const SurfaceVoxels& voxels = context.get(voxels_);
-    VoxelIrradiance& irradiance = context.get(irradiance_);
-    CommandStream& stream = context.stream;
-    irradiance.allocate(context.device, voxels.voxelCount);
-    stream.fill(irradiance.area, 0);
-    const float typical = meanIrradiance(sources_, context.frame.scene->geometry);
-    direct_.begin(context.device, stream, voxels, typical);
-    indirect_.begin(context.device, stream, voxels, typical);
-
-    const CameraRays camera = cameraRays(context.frame.camera, context.frame.width, context.frame.height);
-    const double surfaces = surfaceArea(context.frame.scene->geometry);
-    const double face = double(voxels.grid.voxelSize) * voxels.grid.voxelSize;
-    const SurfelPaths::CameraFootprint footprint{
-        camera.forward, float(4 * glm::length(camera.right) * glm::length(camera.up) / surfaces),
-        float(std::numbers::sqrt2 * face * params_.raysPerImage / surfaces)};
-    const uint32_t seed = randomSeed(context.frame, context.frameIndex);
+    const PathScene scene{context.get(voxels_), sources_};
+    injection_.begin(context, scene, context.get(irradiance_));
     for (uint32_t first = 0; first < params_.raysPerImage; first += kBatchRays) {
-        const uint32_t batch = std::min(kBatchRays, params_.raysPerImage - first);
-        imageRays_.record(context, rays_, first, batch, seed);
-        context.tracer.closestHit(stream, rays_, hits_, batch);
-        const uint32_t count = paths_.arrive(context, voxels, footprint, rays_, hits_, batch, first);
-        if (count > 0) paths_.run(context, sources_, count, seed, {voxels, direct_, indirect_});
+        emit(context, first, std::min(kBatchRays, params_.raysPerImage - first));
+        if (first_.count > 0) light(context, scene);
     }
+    injection_.finish(context, scene.voxels, context.get(irradiance_));
+}
 
-    direct_.resolve(stream, voxels, irradiance.direct, irradiance.area);
-    indirect_.resolve(stream, voxels, irradiance.indirect, irradiance.area);
-    stream.finish();
+void InjectCameraRays::emit(PassContext& context, uint32_t firstRay, uint32_t rays) {
+    const gpu::VoxelGrid& grid = context.get(voxels_).grid;
+    const CameraRays camera = cameraRays(context.frame.camera, context.frame.width, context.frame.height);
+    CommandStream& stream = context.stream;
+    imageRays_.record(context, rays_, firstRay, rays, randomSeed(context.frame, context.frameIndex));
+    context.tracer.closestHit(stream, rays_, hits_, rays);
+
+    const double surfaces = surfaceArea(context.frame.scene->geometry);
+    const double face = double(grid.voxelSize) * grid.voxelSize;
+    stream.fill(count_, 0);
+    stream.dispatch(arrive_,
+                    context.get(voxels_).bindings(context.scene.bindings(
+                        {{"rays", rays_}, {"hits", hits_}, {"surfels", first_.surfels}, {"count", count_}})),
+                    ArrivePush{grid, rays, firstRay, camera.forward,
+                               float(4 * glm::length(camera.right) * glm::length(camera.up) / surfaces),
+                               float(std::numbers::sqrt2 * face * params_.raysPerImage / surfaces)},
+                    linearGroups(rays));
+    first_.count = stream.readAs<uint32_t>(count_, 1)[0];
+}
+
+void InjectCameraRays::light(PassContext& context, const PathScene& scene) {
+    SurfelPaths& paths = injection_.paths();
+    CommandStream& stream = context.stream;
+    const uint32_t seed = randomSeed(context.frame, context.frameIndex);
+
+    // The first surfels, and one ray on from each to the second ones.
+    paths.measure(context, scene, first_.surfels, first_.count, seed, first_.direct);
+    paths.begin(context, first_.surfels, first_.count, seed, first_.indirect);
+    paths.extend(context, scene, first_.indirect, SurfelPaths::Normals::Geometric);
+    if (params_.bounces == 0) stream.fill(first_.indirect, 0);
+    second_.count = paths.count();
+    if (second_.count > 0) {
+        stream.copy(paths.ends(), second_.surfels, second_.count * sizeof(gpu::Surfel));
+        stream.copy(paths.direct(), second_.direct, second_.count * kIrradianceBytes);
+
+        // Paths on from the second ones. Their last bounce would be one too many for the first ones.
+        paths.begin(context, second_.surfels, second_.count, seed + 0x2545f491u, second_.indirect);
+        for (uint32_t bounce = 1; bounce <= params_.bounces; ++bounce) {
+            if (bounce == params_.bounces)
+                paths.reflect(context, second_.surfels, second_.count, second_.indirect, first_.indirect);
+            paths.extend(context, scene, second_.indirect);
+        }
+        injection_.write(context, second_.surfels, second_.count, second_.direct, second_.indirect);
+    }
+    injection_.write(context, first_.surfels, first_.count, first_.direct, first_.indirect);
 }
 
 }  // namespace voxray

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "passes/common/surfels/surfel_paths.h"
+#include "passes/common/surfels/surfel_injection.h"
 #include "passes/common/view/image_rays.h"
 
 namespace voxray {
@@ -44,14 +44,23 @@ class InjectCameraRays final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    /// A batch of surfels with their irradiance, W/m².
+    struct LitSurfels {
+        Buffer surfels, direct, indirect;
+        uint32_t count = 0;
+    };
+    void emit(PassContext& context, uint32_t firstRay, uint32_t rays);
+    void light(PassContext& context, const PathScene& scene);
+
     Params params_;
     Port<const SurfaceVoxels> voxels_;
     Port<VoxelIrradiance> irradiance_;
     std::vector<LightSource> sources_;
-    SurfelPaths paths_;
-    VoxelAccumulator direct_, indirect_;
+    SurfelInjection injection_;
     ImageRays imageRays_;
-    Buffer rays_, hits_;
+    Program arrive_;
+    Buffer rays_, hits_, count_;
+    LitSurfels first_, second_;  ///< At the hits of the camera's rays, and of one ray on from each.
 };
 
 }  // namespace voxray

@@ -31,12 +31,12 @@ void InjectGatherHits::declare(PassBuilder& builder) {
 void InjectGatherHits::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
     const SurfaceVoxels& voxels = plan.get(voxels_);
-    plan.reserve("voxel samples (estimated)", 2 * VoxelAccumulator::plan(plan, kName, params_, voxels));
-    plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
+    injection_.plan(plan, kName, params_,
+                    {Surfels::kChunk, true, params_.bounces > 0, params_.lightSamples}, voxels);
     plan.reserve("faces to light (estimated)", faceBytes(voxels));
     plan.reserve("faces with surfels (estimated)", faceBytes(voxels));
     plan.buffer(count_, "number of surfels to light", sizeof(uint32_t));
-    paths_.plan(plan, {params_.write, Surfels::kChunk, params_.bounces, params_.lightSamples, false});
+    plan.buffer(selected_, "surfels to light", Surfels::kChunk * sizeof(gpu::Surfel));
 }
 
 void InjectGatherHits::prepare(PassSetup& setup) {
@@ -47,26 +47,16 @@ void InjectGatherHits::prepare(PassSetup& setup) {
     measure_ = program("passes/inject_gather_hits/measured_faces.comp");
     mark_ = program("passes/inject_gather_hits/mark.comp");
     select_ = program("passes/inject_gather_hits/select.comp");
-    direct_ = VoxelAccumulator(setup.device, setup.compiler, params_);
-    indirect_ = VoxelAccumulator(setup.device, setup.compiler, params_);
-    paths_.prepare(setup);
+    injection_.prepare(setup);
     sampler_ = texelSampler(setup.device);
 }
 
 void InjectGatherHits::record(PassContext& context) {
-    const SurfaceVoxels& voxels = context.get(voxels_);
-    VoxelIrradiance& irradiance = context.get(irradiance_);
-    CommandStream& stream = context.stream;
-    irradiance.allocate(context.device, voxels.voxelCount);
-    stream.fill(irradiance.area, 0);
-    const float typical = meanIrradiance(sources_, context.frame.scene->geometry);
-    direct_.begin(context.device, stream, voxels, typical);
-    indirect_.begin(context.device, stream, voxels, typical);
+    const PathScene scene{context.get(voxels_), sources_};
+    injection_.begin(context, scene, context.get(irradiance_));
     markFaces(context);
-    lightFaces(context);
-    direct_.resolve(stream, voxels, irradiance.direct, irradiance.area);
-    indirect_.resolve(stream, voxels, irradiance.indirect, irradiance.area);
-    stream.finish();
+    lightFaces(context, scene);
+    injection_.finish(context, scene.voxels, context.get(irradiance_));
 }
 
 void InjectGatherHits::markFaces(PassContext& context) {
@@ -99,19 +89,17 @@ void InjectGatherHits::markFaces(PassContext& context) {
     }
 }
 
-void InjectGatherHits::lightFaces(PassContext& context) {
-    const SurfaceVoxels& voxels = context.get(voxels_);
+void InjectGatherHits::lightFaces(PassContext& context, const PathScene& scene) {
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
     CommandStream& stream = context.stream;
     for (const Surfels::Chunk& chunk : context.get(surfels_).chunks) {
         stream.fill(count_, 0);
         stream.dispatch(
             select_,
-            {{"surfels", chunk.surfels}, {"asked", faces_}, {"selected", paths_.first()}, {"count", count_}},
+            {{"surfels", chunk.surfels}, {"asked", faces_}, {"selected", selected_}, {"count", count_}},
             chunk.count, linearGroups(chunk.count));
         const uint32_t count = stream.readAs<uint32_t>(count_, 1)[0];
-        for (uint32_t ray = 0; ray < params_.pathsPerPoint && count > 0; ++ray)
-            paths_.run(context, sources_, count, seed + ray * 0xc2b2ae35u, {voxels, direct_, indirect_});
+        if (count > 0) injection_.light(context, scene, selected_, count, params_, seed);
     }
 }
 

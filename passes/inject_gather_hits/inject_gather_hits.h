@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "passes/common/surfels/surfel_paths.h"
+#include "passes/common/surfels/surfel_injection.h"
 #include "passes/common/surfels/surfels.h"
 #include "passes/common/view/gather_hits.h"
 #include "passes/common/view/gbuffer.h"
@@ -21,16 +21,12 @@ class InjectGatherHits final : public Pass {
         "them (place_surfels). Biased by: voxel size. Noisy by: points_per_voxel, "
         "paths_per_point. Leaves unlit: all that "
         "trace_gather_rays (which must come before) does not hit.";
-    struct Params : WriteParams {
-        uint32_t pathsPerPoint = 1;
-        uint32_t bounces = 8;
+    struct Params : SurfelParams {
         uint32_t lightSamples = 1;
         static constexpr auto schema() {
             return std::tuple_cat(
-                WriteParams::schema(),
+                SurfelParams::schema(),
                 std::tuple{
-                    field("paths_per_point", &Params::pathsPerPoint, "Paths from each point.", 1u, 1024u),
-                    field("bounces", &Params::bounces, "Bounces of light.", 0u, 32u),
                     field("light_samples", &Params::lightSamples,
                           "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u,
                           256u)});
@@ -45,7 +41,7 @@ class InjectGatherHits final : public Pass {
 
  private:
     void markFaces(PassContext& context);
-    void lightFaces(PassContext& context);
+    void lightFaces(PassContext& context, const PathScene& scene);
 
     Params params_;
     Port<const SurfaceVoxels> voxels_;
@@ -54,10 +50,9 @@ class InjectGatherHits final : public Pass {
     Port<const GatherHits> hits_;
     Port<VoxelIrradiance> irradiance_;
     std::vector<LightSource> sources_;
-    VoxelAccumulator direct_, indirect_;
-    SurfelPaths paths_;
+    SurfelInjection injection_;
     Program measure_, mark_, select_;
-    Buffer count_;
+    Buffer selected_, count_;  ///< Of a chunk's surfels, those to light.
     Buffer faces_;     ///< A bit for each face that is read, in a word for each voxel.
     Buffer measured_;  ///< The same for each face that has surfels.
     std::optional<uint64_t> measuredVersion_;  ///< Of the voxels; surfels change with them.

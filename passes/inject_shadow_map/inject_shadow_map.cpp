@@ -26,7 +26,8 @@ void InjectShadowMap::declare(PassBuilder& builder) {
 
 void InjectShadowMap::plan(PassPlan& plan) {
     sources_ = requireViewpoints(*plan.frame.scene, kName);
-    feedback_.plan(plan, kName, params_, DirectLight::Given, 1, plan.get(voxels_));
+    injection_.plan(plan, kName, params_, {Surfels::kChunk, false, params_.bounces > 0},
+                    plan.get(voxels_));
     shadowMap_.plan(plan, params_.shadowResolution);
     plan.reserveScratch("surfels' direct irradiance (estimated)",
                         plan.get(surfels_).maxCount * 4 * sizeof(float));
@@ -36,15 +37,16 @@ void InjectShadowMap::prepare(PassSetup& setup) {
     shadowMap_.prepare(setup);
     lightSurfels_ = makeComputeProgram(setup.device,
                                        setup.compiler.compile("passes/inject_shadow_map/light_surfels.comp"));
-    feedback_.prepare(setup);
+    injection_.prepare(setup);
 }
 
 void InjectShadowMap::record(PassContext& context) {
-    const SurfaceVoxels& voxels = context.get(voxels_);
+    const PathScene scene{context.get(voxels_), sources_};
     const Surfels& surfels = context.get(surfels_);
+    VoxelIrradiance& irradiance = context.get(irradiance_);
     const SceneState& state = *context.frame.scene;
     CommandStream& stream = context.stream;
-    feedback_.begin(context, voxels, sources_, context.get(irradiance_));
+    injection_.begin(context, scene, irradiance);
     std::vector<Buffer> direct;
     for (const Surfels::Chunk& chunk : surfels.chunks) {
         direct.emplace_back(context.device, "surfels' direct irradiance", chunk.count * 4 * sizeof(float));
@@ -68,11 +70,13 @@ void InjectShadowMap::record(PassContext& context) {
         }
     }
 
-    for (size_t c = 0; c < surfels.chunks.size(); ++c)
-        feedback_.addDirect(context, surfels.chunks[c], direct[c]);
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
-    feedback_.finish(context, voxels, surfels, sources_, seed, context.get(irradiance_));
-    stream.finish();
+    for (size_t c = 0; c < surfels.chunks.size(); ++c)
+        injection_.lightIndirect(context, scene, surfels.chunks[c].surfels, surfels.chunks[c].count, params_,
+                                 seed, direct[c]);
+    injection_.finish(context, scene.voxels, irradiance);
+    requireLight(stream, scene.voxels, irradiance);
+    injection_.fillUnknown(context, scene.voxels, irradiance);
 }
 
 }  // namespace voxray

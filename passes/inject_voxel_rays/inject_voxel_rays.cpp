@@ -12,23 +12,24 @@ void InjectVoxelRays::declare(PassBuilder& builder) {
 
 void InjectVoxelRays::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
-    feedback_.plan(plan, kName, params_, DirectLight::ByShadowRays, params_.lightSamples, plan.get(voxels_));
+    injection_.plan(plan, kName, params_,
+                    {Surfels::kChunk, true, params_.bounces > 0, params_.lightSamples}, plan.get(voxels_));
 }
 
 void InjectVoxelRays::prepare(PassSetup& setup) {
-    feedback_.prepare(setup);
+    injection_.prepare(setup);
 }
 
 void InjectVoxelRays::record(PassContext& context) {
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
-    const SurfaceVoxels& voxels = context.get(voxels_);
-    const Surfels& surfels = context.get(surfels_);
+    const PathScene scene{context.get(voxels_), sources_};
     VoxelIrradiance& irradiance = context.get(irradiance_);
-    feedback_.begin(context, voxels, sources_, irradiance);
-    for (const Surfels::Chunk& chunk : surfels.chunks)
-        feedback_.measureDirect(context, chunk, sources_, seed);
-    feedback_.finish(context, voxels, surfels, sources_, seed, irradiance);
-    context.stream.finish();
+    injection_.begin(context, scene, irradiance);
+    for (const Surfels::Chunk& chunk : context.get(surfels_).chunks)
+        injection_.light(context, scene, chunk.surfels, chunk.count, params_, seed);
+    injection_.finish(context, scene.voxels, irradiance);
+    requireLight(context.stream, scene.voxels, irradiance);
+    injection_.fillUnknown(context, scene.voxels, irradiance);
 }
 
 }  // namespace voxray

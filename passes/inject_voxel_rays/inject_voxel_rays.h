@@ -1,25 +1,23 @@
 #pragma once
 
-#include "passes/common/surfels/surfel_feedback.h"
+#include "passes/common/surfels/surfel_injection.h"
+#include "passes/common/surfels/surfels.h"
 
 namespace voxray {
 
-/// Rays from the voxels' surfaces: shadow rays to the lights; gather rays, one bounce of light an iteration,
-/// with shadow rays at the hits of the first, and of the others what the last iteration left in the voxels.
-/// Source: Magalhães 2020, section 6.1; radiosity by iteration: Goral et al. 1984.
+/// Rays from the voxels' surfaces: shadow rays to the lights, and paths that bring indirect light. Source:
+/// Magalhães 2020, section 6.1, whose rays read the light of the last frame in the voxels that they hit.
 class InjectVoxelRays final : public Pass {
  public:
     static constexpr const char* kName = "inject_voxel_rays";
     static constexpr const char* kHelp =
-        "Shadow rays and gather rays from points on the voxels' surfaces (place_surfels); bounces by "
-        "feedback "
-        "of the voxels' own light. Biased by: voxel size. Noisy by: points_per_voxel, "
-        "rays_per_point. Leaves unlit: nothing.";
-    struct Params : FeedbackParams {
+        "Shadow rays and paths from points on the voxels' surfaces (place_surfels). Biased by: voxel size. "
+        "Noisy by: points_per_voxel, paths_per_point. Leaves unlit: nothing.";
+    struct Params : SurfelParams {
         uint32_t lightSamples = 1;
         static constexpr auto schema() {
             return std::tuple_cat(
-                FeedbackParams::schema(),
+                SurfelParams::schema(),
                 std::tuple{
                     field("light_samples", &Params::lightSamples,
                           "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u,
@@ -39,7 +37,7 @@ class InjectVoxelRays final : public Pass {
     Port<const Surfels> surfels_;
     Port<VoxelIrradiance> irradiance_;
     std::vector<LightSource> sources_;
-    SurfelFeedback feedback_;
+    SurfelInjection injection_;
 };
 
 }  // namespace voxray

@@ -79,7 +79,7 @@ TEST(VoxelRays, ClosedRoomCatchesAllLight) {
     // bounce.
     Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
                 graphYaml({"voxelize, resolution: 24", "place_surfels, points_per_voxel: 16",
-                           "inject_voxel_rays, rays_per_point: 4, bounces: 3"}));
+                           "inject_voxel_rays, paths_per_point: 4, bounces: 3"}));
     EXPECT_NEAR(total(chain, irradiance(chain).direct) / (8 * kPi), 1.0, 0.01);
     EXPECT_NEAR(total(chain, irradiance(chain).indirect) / (8 * kPi * 0.875), 1.0, 0.02);
 }

@@ -28,7 +28,7 @@ const Case kCases[] = {
                 "filter_voxels, layout: svo, bounces: 1", "gather_cones"})},
     {"surfels",
      graphYaml({"voxelize, resolution: 48, visibility_rays: 0", "place_surfels, points_per_voxel: 1",
-                "inject_voxel_rays, rays_per_point: 1, bounces: 1", "filter_voxels"})},
+                "inject_voxel_rays, paths_per_point: 1, bounces: 1", "filter_voxels"})},
     {"shadow_map",
      graphYaml({"gbuffer", "voxelize, resolution: 48, method: dominant_axis",
                 "place_surfels, points_per_voxel: 2", "inject_shadow_map, shadow_resolution: 128",
@@ -75,13 +75,12 @@ TEST(Memory, RaysOfBouncesAreForThoseWhoHaveThem) {
             graphYaml({"voxelize, resolution: 16", "place_surfels, points_per_voxel: 1", inject}));
         return device().memoryByResource();
     };
-    for (const std::string rays :
-         {"shadow rays", "shadow ray irradiance", "gather rays", "surfels at hits"}) {
-        const std::string map = "inject_shadow_map, shadow_resolution: 64, rays_per_point: 1, bounces: ";
+    for (const std::string rays : {"shadow rays", "shadow ray irradiance", "path rays", "ends of paths"}) {
+        const std::string map = "inject_shadow_map, shadow_resolution: 64, paths_per_point: 1, bounces: ";
         EXPECT_EQ(held(map + "0").count(rays), 0u) << rays;
         EXPECT_EQ(held(map + "1").count(rays), 1u) << rays;
         const bool isShadow = rays.starts_with("shadow");
-        EXPECT_EQ(held("inject_voxel_rays, rays_per_point: 1, bounces: 0").count(rays), isShadow) << rays;
+        EXPECT_EQ(held("inject_voxel_rays, paths_per_point: 1, bounces: 0").count(rays), isShadow) << rays;
     }
 }
 

@@ -50,13 +50,13 @@ void expectAsMadeThere(const std::string& graph) {
 
 TEST(MovingScene, EveryLayoutIsAsMadeThere) {
     for (const TestedLayout& layout : kRadianceLayouts)
-        expectAsMadeThere(graphOf("inject_shadow_map, shadow_resolution: 64, rays_per_point: 2, bounces: 1",
+        expectAsMadeThere(graphOf("inject_shadow_map, shadow_resolution: 64, paths_per_point: 2, bounces: 1",
                                   "layout: " + layout.filter));
 }
 
 TEST(MovingScene, EveryInjectionIsAsMadeThere) {
     for (const char* inject :
-         {"inject_light_rays, rays_per_light: 1024", "inject_voxel_rays, rays_per_point: 2, bounces: 1",
+         {"inject_light_rays, rays_per_light: 1024", "inject_voxel_rays, paths_per_point: 2, bounces: 1",
           "inject_rsm, rsm_resolution: 64"})
         expectAsMadeThere(graphOf(inject, "layout: dense"));
 }
@@ -79,7 +79,7 @@ TEST(MovingScene, LightsMoveWithoutSurfaces) {
     lightAt(*there);
     for (const TestedLayout& layout : kRadianceLayouts) {
         const std::string graph =
-            graphOf("inject_shadow_map, shadow_resolution: 64, rays_per_point: 2, bounces: 1",
+            graphOf("inject_shadow_map, shadow_resolution: 64, paths_per_point: 2, bounces: 1",
                     "layout: " + layout.filter);
         Chain moved(at(scene, 0), graph, 16, 16, 1);
         moved.update(lightAt);

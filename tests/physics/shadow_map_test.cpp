@@ -54,7 +54,7 @@ TEST(ShadowMap, ClosedRoomCatchesAllLight) {
     // A point light of 2 W/sr in a closed room: 8 pi W arrive, and the albedo's part of that again with each
     // bounce.
     Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
-                injectGraph("inject_shadow_map, rays_per_point: 4, bounces: 2"));
+                injectGraph("inject_shadow_map, paths_per_point: 4, bounces: 2"));
     EXPECT_NEAR(sum(directFlux(chain)) / (8 * kPi), 1.0, 0.01);
     const auto* irradiance = chain.graph().resource<VoxelIrradiance>("irradiance");
     double indirect = 0;
@@ -165,7 +165,7 @@ TEST(ShadowMap, BadInputIsNamed) {
     expectError(std::make_shared<SceneState>(sky), "", "an environment has no single viewpoint");
     expectError(state("white_room", "{intensity: 0}"), "", "inject_shadow_map: the scene has no lights");
     expectError(state("white_room", "{}"), ", shadow_resolution: 0", "out of range");
-    expectError(state("white_room", "{}"), ", rays_per_point: 0", "out of range");
+    expectError(state("white_room", "{}"), ", paths_per_point: 0", "out of range");
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ TEST(ThinWalls, RaysLeakWhereVoxelsAreShared) {
     // Light rays never enter the dark room. Voxel rays light a voxel's face by points all over it: where
     // floor and ceiling of both rooms share voxels, by those of the lit room, too.
     EXPECT_EQ(leakOfGatherRays("inject_light_rays, rays_per_light: 262144"), 0.0);
-    EXPECT_LT(leakOfGatherRays("inject_voxel_rays, rays_per_point: 16"), 0.005);
+    EXPECT_LT(leakOfGatherRays("inject_voxel_rays, paths_per_point: 16"), 0.005);
 }
 
 }  // namespace

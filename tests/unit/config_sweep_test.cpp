@@ -59,13 +59,13 @@ TEST(Sweep, ParameterReachesSwappedPassWhateverTheOrder) {
 
 TEST(Sweep, ChainReplacesOnePassAndItsLastKeepsTheId) {
     const auto variants = expand(
-        "  inject: [inject_rsm, [place_surfels, {pass: inject_voxel_rays, id: x, rays_per_point: 4}]]\n"
+        "  inject: [inject_rsm, [place_surfels, {pass: inject_voxel_rays, id: x, paths_per_point: 4}]]\n"
         "  inject.write: [max]\n");
     ASSERT_EQ(variants.size(), 2u);
     EXPECT_EQ(variants[0].setup.graph.items.size(), 2u);
     EXPECT_EQ(variants[1].setup.graph.text(),
               "[{pass: voxelize, resolution: 64}, {pass: place_surfels}, "
-              "{pass: inject_voxel_rays, id: inject, rays_per_point: 4, write: max}]");
+              "{pass: inject_voxel_rays, id: inject, paths_per_point: 4, write: max}]");
     EXPECT_EQ(variants[1].name, "inject-place_surfels-inject_voxel_rays_write-max");
 
     EXPECT_CONTAINS(sweepError("  inject: [[]]\n"), "demo.yaml:7: inject: a chain needs at least one pass");

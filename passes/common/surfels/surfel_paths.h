@@ -1,61 +1,54 @@
 #pragma once
 
 #include "passes/common/surfels/surfel_light.h"
-#include "passes/common/voxels/voxel_accumulator.h"
+#include "passes/common/voxels/voxels.h"
 
 namespace voxray {
 
-/// Direct and indirect irradiance of surfels by path tracing through streams: shadow rays at each surfel, one
-/// ray on by cosine, a surfel at its hit, and so on. Both are left in voxels.
+/// What paths of light go through.
+struct PathScene {
+    const SurfaceVoxels& voxels;
+    const std::vector<LightSource>& sources;
+};
+
+/// Indirect irradiance of surfels by path tracing through streams: from each surfel a ray by cosine, shadow
+/// rays to the lights at its hit, a ray on from there, and so on. Nothing is read out of voxels on the way,
+/// whose mean values would lead light through walls and add up their errors from bounce to bounce.
 class SurfelPaths {
  public:
-    struct Settings {
-        Write write = Write::Average;
-        uint32_t batch = 0;  ///< Surfels at once, at most.
-        uint32_t bounces = 0;
-        uint32_t lightSamples = 1;  ///< Of the emissive surfaces and of the environment, at each surfel.
-        bool secondary = false;     ///< Also write to the voxels of what the first surfels' rays hit.
-        uint32_t levels() const { return 1 + bounces + (secondary ? 1 : 0); }
-    };
-    void plan(PassPlan& plan, const Settings& settings);
+    /// @param batch paths at once, at most. @param lightSamples shadow rays at each surfel to the emissive
+    /// surfaces, and to the environment. @param extends whether paths go anywhere: else only measure() may be
+    /// called.
+    void plan(PassPlan& plan, uint32_t batch, uint32_t lightSamples, bool extends);
     void prepare(PassSetup& setup);
 
-    struct Targets {
-        const SurfaceVoxels& voxels;
-        const VoxelAccumulator& direct;
-        const VoxelAccumulator& indirect;
-    };
-    /// Where the first surfels go, before run().
-    const Buffer& first() const { return levels_[0].surfels; }
-    /// Traces a batch of `count` first surfels.
-    void run(PassContext& context, const std::vector<LightSource>& sources, uint32_t count, uint32_t seed,
-             const Targets& targets);
+    /// Writes the direct irradiance of `count` surfels, W/m², 4 floats each.
+    void measure(PassContext& context, const PathScene& scene, const Buffer& surfels, uint32_t count,
+                 uint32_t seed, const Buffer& direct) const;
 
-    /// What the area that a camera ray stands for follows from; rays are spread evenly over the image.
-    struct CameraFootprint {
-        glm::vec3 forward{0.0f};  ///< Unit length.
-        float imageArea = 0;      ///< Of the image 1 m before the camera, over the area of all surfaces.
-        /// Most that a ray may stand for, what a plane has in a voxel: times the rays, over all area.
-        float maxArea = 0;
-    };
-    /// Makes surfels of the hits of `rays`, for rays that start at a camera. @return their number.
-    uint32_t arrive(PassContext& context, const SurfaceVoxels& voxels, const CameraFootprint& camera,
-                    const Buffer& rays, const Buffer& hits, uint32_t count, uint32_t firstId);
+    /// Begins a path at each of `count` surfels, and clears `irradiance`, 4 floats each.
+    void begin(PassContext& context, const Buffer& surfels, uint32_t count, uint32_t seed,
+               const Buffer& irradiance);
+    /// How ends of paths are turned: light sees shading normals, voxels geometric ones.
+    enum class Normals { Shading, Geometric };
+    /// Takes every path one bounce on and adds the light of its new end to `irradiance`, W/m².
+    void extend(PassContext& context, const PathScene& scene, const Buffer& irradiance,
+                Normals normals = Normals::Shading);
+    /// Adds to `irradiance`, for each of `count` ends, what it reflects of `arriving` along its path, W/m².
+    void reflect(PassContext& context, const Buffer& ends, uint32_t count, const Buffer& arriving,
+                 const Buffer& irradiance) const;
+
+    /// The ends of the paths that survived, their number, and their direct irradiance.
+    const Buffer& ends() const { return ends_[0]; }
+    uint32_t count() const { return count_; }
+    const Buffer& direct() const { return direct_; }
 
  private:
-    struct Level {
-        Buffer surfels, direct, indirect;
-        uint32_t count = 0;
-    };
-    uint32_t makeSurfels(PassContext& context, const SurfaceVoxels& voxels, const Buffer& rays,
-                         const Buffer& hits, const Buffer& parents, const Buffer& surfels, uint32_t count,
-                         uint32_t firstId, bool fromSurfels, uint32_t seed, const CameraFootprint& camera);
-
-    Settings settings_;
-    Program gather_, arrive_, return_, write_;
+    uint32_t lightSamples_ = 1, count_ = 0, seed_ = 0;
+    Program begin_, extend_, reflect_;
     SurfelLight light_;
-    Buffer rays_, hits_, count_;
-    std::vector<Level> levels_;
+    Buffer ends_[2], rays_[2];  ///< Present ones first.
+    Buffer hits_, direct_, counter_;
 };
 
 }  // namespace voxray
