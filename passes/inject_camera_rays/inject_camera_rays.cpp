@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "passes/common/compute/dispatch.h"
 #include "passes/common/compute/random_seed.h"
 #include "scene/camera_rays.h"
 

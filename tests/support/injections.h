@@ -17,7 +17,7 @@ struct Injection {
 inline const Injection kInjections[] = {
     {"inject_light_rays, rays_per_light: 131072", true},
     {"inject_voxel_rays, paths_per_point: 2", true},
-    {"inject_gather_hits", true, true},
+    {"inject_gather_hits, paths_per_point: 2", true, true},
     {"inject_camera_rays, rays_per_image: 65536", true, true},
     {"inject_rsm, rsm_resolution: 128", false},
     {"inject_shadow_map, shadow_resolution: 256, paths_per_point: 2", false},
