@@ -31,8 +31,8 @@ void InjectGatherHits::declare(PassBuilder& builder) {
 void InjectGatherHits::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
     const SurfaceVoxels& voxels = plan.get(voxels_);
-    injection_.plan(plan, kName, params_,
-                    {Surfels::kChunk, true, params_.bounces > 0, params_.lightSamples}, voxels);
+    injection_.plan(plan, kName, params_, {Surfels::kChunk, true, params_.bounces > 0, params_.lightSamples},
+                    voxels);
     plan.reserve("faces to light (estimated)", faceBytes(voxels));
     plan.reserve("faces with surfels (estimated)", faceBytes(voxels));
     plan.buffer(count_, "number of surfels to light", sizeof(uint32_t));

@@ -53,8 +53,8 @@ class InjectGatherHits final : public Pass {
     SurfelInjection injection_;
     Program measure_, mark_, select_;
     Buffer selected_, count_;  ///< Of a chunk's surfels, those to light.
-    Buffer faces_;     ///< A bit for each face that is read, in a word for each voxel.
-    Buffer measured_;  ///< The same for each face that has surfels.
+    Buffer faces_;             ///< A bit for each face that is read, in a word for each voxel.
+    Buffer measured_;          ///< The same for each face that has surfels.
     std::optional<uint64_t> measuredVersion_;  ///< Of the voxels; surfels change with them.
     Sampler sampler_;
 };

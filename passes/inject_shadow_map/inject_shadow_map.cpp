@@ -26,8 +26,7 @@ void InjectShadowMap::declare(PassBuilder& builder) {
 
 void InjectShadowMap::plan(PassPlan& plan) {
     sources_ = requireViewpoints(*plan.frame.scene, kName);
-    injection_.plan(plan, kName, params_, {Surfels::kChunk, false, params_.bounces > 0},
-                    plan.get(voxels_));
+    injection_.plan(plan, kName, params_, {Surfels::kChunk, false, params_.bounces > 0}, plan.get(voxels_));
     shadowMap_.plan(plan, params_.shadowResolution);
     plan.reserveScratch("surfels' direct irradiance (estimated)",
                         plan.get(surfels_).maxCount * 4 * sizeof(float));

@@ -12,8 +12,8 @@ void InjectVoxelRays::declare(PassBuilder& builder) {
 
 void InjectVoxelRays::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
-    injection_.plan(plan, kName, params_,
-                    {Surfels::kChunk, true, params_.bounces > 0, params_.lightSamples}, plan.get(voxels_));
+    injection_.plan(plan, kName, params_, {Surfels::kChunk, true, params_.bounces > 0, params_.lightSamples},
+                    plan.get(voxels_));
 }
 
 void InjectVoxelRays::prepare(PassSetup& setup) {

@@ -344,17 +344,20 @@ TEST(FinalGather, RaysGoOnWhereNoLightWasInjected) {
 
 TEST(FinalGather, GridOfOneVoxel) {
     // One voxel knows neither the walls' inner faces from their outer ones nor one point from another. Light
-    // that is measured over all surfaces falls on twice the area that is lit: half the irradiance, and no less
-    // for any bounce, since none starts from what the voxel holds. The camera's rays measure lit faces alone.
+    // that is measured over all surfaces falls on twice the area that is lit: half the irradiance, and no
+    // less for any bounce, since none starts from what the voxel holds. The camera's rays measure lit faces
+    // alone.
     Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 16, bounces: 4"}));
     for (const Injection& injection : kInjections) {
-        Chain chain("white_room", "{albedo: 0.5}",
-                    graphYaml({"gbuffer", "voxelize, resolution: 1, visibility_rays: 0",
-                               "place_surfels, points_per_voxel: 256", "trace_gather_rays, rays_per_block: 16",
-                               injection.withBounces(3), "gather_rays, near_field_voxels: 0", "composite"}));
+        Chain chain(
+            "white_room", "{albedo: 0.5}",
+            graphYaml({"gbuffer", "voxelize, resolution: 1, visibility_rays: 0",
+                       "place_surfels, points_per_voxel: 256", "trace_gather_rays, rays_per_block: 16",
+                       injection.withBounces(3), "gather_rays, near_field_voxels: 0", "composite"}));
         const double ratio = mean(chain.image("indirect")) / mean(reference.image("indirect"));
         std::printf("%s: %.4f\n", injection.pass.c_str(), ratio);
-        EXPECT_NEAR(ratio, injection.pass.starts_with("inject_camera_rays") ? 1.0 : 0.5, 0.04) << injection.pass;
+        EXPECT_NEAR(ratio, injection.pass.starts_with("inject_camera_rays") ? 1.0 : 0.5, 0.04)
+            << injection.pass;
     }
 }
 

@@ -61,8 +61,7 @@ void SurfelInjection::lightIndirect(PassContext& context, const PathScene& scene
     write(context, directSums_, surfels, count, direct);
     for (uint32_t path = 0; path < params.pathsPerPoint && params.bounces > 0; ++path) {
         paths_.begin(context, surfels, count, seed + (path + 1) * 0xc2b2ae35u, indirect_);
-        for (uint32_t bounce = 0; bounce < params.bounces; ++bounce)
-            paths_.extend(context, scene, indirect_);
+        for (uint32_t bounce = 0; bounce < params.bounces; ++bounce) paths_.extend(context, scene, indirect_);
         write(context, indirectSums_, surfels, count, indirect_);
     }
 }

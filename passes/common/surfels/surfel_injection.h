@@ -15,10 +15,10 @@ struct SurfelParams : WriteParams {
     static constexpr auto schema() {
         return std::tuple_cat(
             WriteParams::schema(),
-            std::tuple{field("paths_per_point", &SurfelParams::pathsPerPoint, "Paths from each point.", 1u,
-                             1024u),
-                       field("bounces", &SurfelParams::bounces,
-                             "Bounces of light; Russian roulette by albedo ends paths early.", 0u, 32u)});
+            std::tuple{
+                field("paths_per_point", &SurfelParams::pathsPerPoint, "Paths from each point.", 1u, 1024u),
+                field("bounces", &SurfelParams::bounces,
+                      "Bounces of light; Russian roulette by albedo ends paths early.", 0u, 32u)});
     }
 };
 
