@@ -37,7 +37,6 @@ class FilterIrradiance final : public Pass {
     };
 
     explicit FilterIrradiance(const Params& params) : params_(params) {}
-    Phase phase() const override { return Phase::Frame; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;

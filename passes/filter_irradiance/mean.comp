@@ -14,7 +14,7 @@ uniform sampler2D source;
 layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant) uniform Push { int level; } push;
 
-// Surfaces part where their normals or the line between them turn by some 20 degrees.
+// Weights fall to a half where normals differ by 33 degrees, or the line between the texels leaves the surface by 15.
 #define NORMAL_EXPONENT 4
 #define OFF_PLANE_FALLOFF 10.0
 

@@ -9,7 +9,7 @@
 
 namespace voxray {
 
-/// Lights only the faces of voxels that the frame's gather rays will read, each by short paths from points on
+/// Lights only the faces of voxels that the frame's gather rays will read, each by paths from points on
 /// it: shadow rays to the lights, a diffuse ray on, and so on. Source: Magalhães 2020, section 6.1 (light
 /// only what the view needs).
 class InjectGatherHits final : public Pass {

@@ -26,7 +26,9 @@ void main() {
     bool isNew;
     const uint slot = takeRadianceCell(g, oldKeys.data[old], isNew);
     if (slot == NO_CELL) {
-        atomicAdd(cellCounts.lost, uint(left[3] / uint64_t(RADIANCE_CACHE_SAMPLE_UNITS)));
+        // Rounded up, so that no loss goes uncounted.
+        const uint64_t unit = uint64_t(RADIANCE_CACHE_SAMPLE_UNITS);
+        atomicAdd(cellCounts.lost, uint((left[3] + unit - uint64_t(1)) / unit));
         return;
     }
     atomicAdd(cellCounts.cells, 1u);

@@ -73,7 +73,7 @@ void FinalGather::plan(PassPlan& plan, const Settings& settings) {
         plan.image(indirect.image, "indirect", frameImageDesc(plan.frame));
     plan.buffer(light_, "light of gather rays", batchRays(hits) * kLightBytes);
     plan.buffer(surfels_[0], "surfels at hits", batchRays(hits) * sizeof(gpu::Surfel));
-    plan.buffer(goesOn_, "surfels whose rays go on", batchRays(hits) * sizeof(uint32_t));
+    plan.buffer(goesOn_, "surfels whose rays go on", batchRays(hits) * 2 * sizeof(uint32_t));
     plan.buffer(count_, "number of surfels", sizeof(uint32_t));
     if (measuresDirect()) {
         sources_ = lightSources(*plan.frame.scene);

@@ -3,6 +3,7 @@
 #ifndef VOXRAY_FINAL_GATHER_HIT_GLSL
 #define VOXRAY_FINAL_GATHER_HIT_GLSL
 
+#include "shaders/scene/octahedral.glsl"
 #include "shaders/surfels/surfel_at_hit.glsl"
 
 // What is stored for a point of a surface.
@@ -18,7 +19,8 @@ StoredLight storedLight(vec3 position, vec3 normal);
 layout(scalar) buffer Light { vec4 data[]; } light;
 // The hits where direct light is to be measured, in any order; `parent` is the ray.
 layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
-writeonly buffer GoesOn { uint data[]; } goesOn;  // By surfel; 1: its ray goes on from there.
+// By surfel: 1 where its ray goes on from there, and the geometric normal, octahedral.
+layout(scalar) writeonly buffer GoesOn { uvec2 data[]; } goesOn;
 buffer Count { uint value; } count;                // Of surfels.
 
 // The end of ray i, which comes from `from` and brings `throughput` of what the surface at its hit reflects. A cell cannot tell
@@ -49,7 +51,7 @@ void endRay(uint i, Hit hit, vec3 from, vec3 throughput, uint id, float nearFiel
     at.parent = i;
     const uint number = atomicAdd(count.value, 1u);
     surfels.data[number] = at;
-    goesOn.data[number] = isOnWay ? 1u : 0u;
+    goesOn.data[number] = uvec2(isOnWay ? 1u : 0u, toOctahedral(faceNormal));
 }
 
 #endif
