@@ -24,7 +24,8 @@ class UpdateRadianceCache final : public Pass {
         "Traces paths from the camera; shadow rays measure direct light at each vertex, and the first four "
         "vertices of a path leave in hashed cells the irradiance that the rest of it brings. Unbiased in the "
         "mean of a cell. Leaves without cells: what no path meets, and what finds the table full. Biased by: "
-        "the size of cells; with history_frames, light that changed since; samples_to_end. Noisy by: rays_per_image, the "
+        "the size of cells; with history_frames, light that changed since; samples_to_end. Noisy by: "
+        "rays_per_image, the "
         "more "
         "so the smaller cells are. Source: NVIDIA's SHaRC.";
     struct Params {

@@ -29,8 +29,8 @@ class SurfelPaths {
     /// Begins a path at each of `count` surfels, and clears `irradiance`, 4 floats each.
     void begin(PassContext& context, const Buffer& surfels, uint32_t count, uint32_t seed,
                const Buffer& irradiance);
-    /// The normal of a path's new end: light is reflected by the shading normal; an end that is written to voxels
-    /// takes the geometric one.
+    /// The normal of a path's new end: light is reflected by the shading normal; an end that is written to
+    /// voxels takes the geometric one.
     enum class Normals { Shading, Geometric };
     /// Takes every path one bounce on and adds the light of its new end to `irradiance`, W/m².
     void extend(PassContext& context, const PathScene& scene, const Buffer& irradiance,
