@@ -6,6 +6,7 @@
 #include "passes/update_radiance_cache/path_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance_cache/radiance_cache.glsl"
+#include "shaders/surfels/path_ray.glsl"
 #include "shaders/surfels/surfel_at_hit.glsl"
 layout(local_size_x = 64) in;
 
@@ -70,12 +71,7 @@ void main() {
     vertex.survival = fromCamera ? 1.0 : max(albedo.r, max(albedo.g, albedo.b));
     vertices.data[v] = vertex;
 
-    Ray next = Ray(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0);
-    if (sobol2(s.id, hashCombine(push.seed, 1u)).x < vertex.survival) {
-        next.direction = cosineDirection(sobol2(s.id, push.seed), s.normal);
-        next.origin = s.position + faceNormal * surfaceOffset(s.position);
-        if (dot(next.direction, faceNormal) > 0.0) next.tMax = 1.0e30;
-    }
-    nextRays.data[v - push.firstVertex] = next;
+    const bool survives = sobol2(s.id, hashCombine(push.seed, 1u)).x < vertex.survival;
+    nextRays.data[v - push.firstVertex] = survives ? pathRay(s, faceNormal, push.seed) : kNoRay;
     nextOrigins.data[v - push.firstVertex] = v;
 }
