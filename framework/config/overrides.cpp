@@ -116,6 +116,15 @@ const std::vector<std::string>& configKeys() {
     return keys;
 }
 
+bool hasTarget(const Value& config, const std::string& path) {
+    const std::string first = path.substr(0, path.find('.'));
+    if (std::find(configKeys().begin(), configKeys().end(), first) != configKeys().end()) return true;
+    const Value* graph = config.find("graph");
+    if (!graph || !graph->isList()) return false;
+    return std::any_of(graph->items.begin(), graph->items.end(),
+                       [&](const Value& entry) { return passId(entry) == first; });
+}
+
 std::string passId(const Value& entry) {
     for (const char* key : {"id", "pass"})
         if (const Value* found = entry.find(key); found && found->isScalar()) return found->scalar;

@@ -9,8 +9,7 @@
 ///   image.width            a key of the config
 ///   voxelize.resolution    a parameter of the pass with that id
 ///   inject                 a whole pass: a name, a map with `pass`, or a list of these, a chain; the id
-///   stays,
-///                          with the chain's last pass
+///                          stays, with the chain's last pass
 ///   sweep.inject           an axis of the sweep (the rest of the path is the axis' own path)
 namespace voxray {
 
@@ -19,6 +18,9 @@ const std::vector<std::string>& configKeys();
 
 /// The id of an entry of `graph`: its `id`, else its `pass`; "" where it has neither.
 std::string passId(const Value& entry);
+
+/// Whether what `path` begins with is there: a key of the config, or a pass of its graph.
+bool hasTarget(const Value& config, const std::string& path);
 
 enum class Merge {
     Maps,    ///< A map is merged into the map that is there, key by key (profiles, --set).

@@ -63,6 +63,30 @@ std::vector<Axis> readAxes(const Value& sweep) {
     return axes;
 }
 
+// One value of each axis, by its number: the digits of `index`, the last axis runs fastest.
+std::vector<size_t> choose(const std::vector<Axis>& axes, size_t index) {
+    std::vector<size_t> chosen(axes.size());
+    for (size_t a = axes.size(); a-- > 0;) {
+        chosen[a] = index % axes[a].values.size();
+        index /= axes[a].values.size();
+    }
+    return chosen;
+}
+
+bool swapsPass(const Axis& axis) {
+    return axis.path.find('.') == std::string::npos;
+}
+
+Value withPassesSwapped(const Experiment& experiment, const std::vector<Axis>& axes,
+                        const std::vector<size_t>& chosen) {
+    Value config = experiment.config;
+    config.erase("sweep");
+    for (size_t a = 0; a < axes.size(); ++a)
+        if (swapsPass(axes[a]))
+            applyOverride(config, axes[a].path, axes[a].values[chosen[a]], Merge::Replace);
+    return config;
+}
+
 std::string shortened(const std::string& name) {
     if (name.size() <= kMaxNameLength) return name;
     return name.substr(0, kMaxNameLength - 9) + "-" + Hasher().add(name).hex().substr(0, 8);
@@ -85,30 +109,36 @@ std::vector<Variant> expandSweep(const Experiment& experiment) {
             throw UsageError(experiment.sweep.where, "sweep: more than {} variants", kMaxVariants);
     }
 
+    // Whole passes are swapped first, so that parameters reach the pass that is there in the end. An axis of
+    // a pass that some graphs have and others lack does not split those that lack it
+    std::vector<bool> somewhere(axes.size(), false);
+    for (size_t index = 0; index < count; ++index) {
+        const Value config = withPassesSwapped(experiment, axes, choose(axes, index));
+        for (size_t a = 0; a < axes.size(); ++a)
+            if (hasTarget(config, axes[a].path)) somewhere[a] = true;
+    }
+
     std::vector<Variant> variants;
     std::set<std::string> names;
     for (size_t index = 0; index < count; ++index) {
-        // Mixed-radix digits of the index choose the values
-        std::vector<size_t> chosen(axes.size());
-        size_t rest = index;
-        for (size_t a = axes.size(); a-- > 0;) {
-            chosen[a] = rest % axes[a].values.size();
-            rest /= axes[a].values.size();
-        }
-
-        // Whole passes are swapped first, so that parameters reach the pass that is there in the end
+        const std::vector<size_t> chosen = choose(axes, index);
         Variant variant;
-        variant.config = experiment.config;
-        variant.config.erase("sweep");
-        for (const bool whole : {true, false})
-            for (size_t a = 0; a < axes.size(); ++a)
-                if ((axes[a].path.find('.') == std::string::npos) == whole)
-                    applyOverride(variant.config, axes[a].path, axes[a].values[chosen[a]], Merge::Replace);
-
+        variant.config = withPassesSwapped(experiment, axes, chosen);
+        bool isRepeat = false;
         for (size_t a = 0; a < axes.size(); ++a) {
+            if (!swapsPass(axes[a])) {
+                if (somewhere[a] && !hasTarget(variant.config, axes[a].path)) {
+                    isRepeat = isRepeat || chosen[a] > 0;
+                    variant.values.push_back("-");
+                    continue;
+                }
+                applyOverride(variant.config, axes[a].path, axes[a].values[chosen[a]], Merge::Replace);
+            }
             variant.values.push_back(axes[a].texts[chosen[a]]);
-            variant.name += (a ? "_" : "") + fileSafe(axes[a].label + "-" + axes[a].texts[chosen[a]]);
+            variant.name +=
+                (variant.name.empty() ? "" : "_") + fileSafe(axes[a].label + "-" + axes[a].texts[chosen[a]]);
         }
+        if (isRepeat) continue;
         if (axes.empty()) variant.name = "default";
         variant.name = shortened(variant.name);
 

@@ -19,8 +19,10 @@ struct Variant {
 std::vector<std::string> sweepKeys(const Experiment& experiment);
 
 /// Every combination of the sweep's values; the last axis runs fastest. One variant, "default", without a
-/// sweep. An axis is `<id>.<parameter>`, `<id>` (swaps the whole pass for another or for a chain),
-/// `scene...`, `image...`, `seed` or `tracer`.
+/// sweep. Where a pass stands in the graphs of some variants alone, as one of a chain, a parameter of it
+/// varies these; each of the others comes once, with "-" in place of the value. An axis is
+/// `<id>.<parameter>`, `<id>` (swaps the whole pass for another or for a chain), `scene...`, `image...`,
+/// `seed` or `tracer`.
 /// @throws UsageError for another axis, a value that the config can't hold, or over 10,000 variants.
 std::vector<Variant> expandSweep(const Experiment& experiment);
 

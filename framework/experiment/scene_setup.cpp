@@ -44,6 +44,14 @@ void checkRadiance(const ImageF& map, const fs::path& path) {
             throw Error("{}: an environment map holds finite radiance of at least 0", path.string());
 }
 
+std::optional<fs::path> lookUp(const fs::path& name, const std::vector<fs::path>& folders) {
+    std::error_code code;
+    if (name.is_absolute()) return fs::exists(name, code) ? std::optional(name) : std::nullopt;
+    for (const fs::path& folder : folders)
+        if (fs::exists(folder / name, code)) return folder / name;
+    return std::nullopt;
+}
+
 Camera chooseCamera(const SceneSettings& settings, const SceneState& state) {
     if (settings.camera) {
         const CameraSettings& c = *settings.camera;
@@ -109,15 +117,10 @@ std::vector<fs::path> sceneFolders(const fs::path& scenesOption, const fs::path&
 
 fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& folders,
                        const TextLocation& where) {
-    const fs::path path(name);
-    std::error_code code;
-    if (path.is_absolute() && fs::exists(path, code)) return path;
+    if (const auto path = lookUp(name, folders)) return *path;
     std::vector<std::string> looked;
-    for (const fs::path& folder : folders) {
-        if (path.is_absolute()) break;
-        if (fs::exists(folder / path, code)) return folder / path;
-        looked.push_back(folder.string());
-    }
+    if (!fs::path(name).is_absolute())
+        for (const fs::path& folder : folders) looked.push_back(folder.string());
     throw UsageError(where,
                      "no file '{}'{}; name its folder with --scenes DIR or VOXRAY_SCENES, see docs/scenes.md",
                      name, looked.empty() ? "" : fmt::format(" in {}", fmt::join(looked, ", ")));
@@ -189,6 +192,23 @@ std::string SceneLoader::key(const SceneSettings& settings) {
         hasher.add(map->data.data(), map->data.size() * sizeof(float));
     }
     return hasher.hex();
+}
+
+std::vector<std::string> SceneLoader::checkNames(const SceneSettings& settings) {
+    const bool namesCamera = !settings.camera && !settings.cameraName.empty();
+    std::vector<const SceneSource*> sources{&settings.source};
+    for (const SceneAddition& addition : settings.additions) sources.push_back(&addition.source);
+    std::vector<std::string> missing;
+    for (const SceneSource* source : sources) {
+        if (!source->builtin.empty())
+            load(*source);
+        else if ((namesCamera || !settings.overrides.empty()) && !lookUp(source->file, folders_))
+            missing.push_back(source->file);
+    }
+    if (!missing.empty()) return missing;
+    checkOverrides(settings);
+    if (namesCamera) chooseCamera(settings, evaluate(load(settings.source), settings.options.time));
+    return {};
 }
 
 void SceneLoader::checkOverrides(const SceneSettings& settings) {

@@ -189,6 +189,19 @@ class Validate(CommandTest):
     def test_missing_port(self):
         self.bad("  - {pass: gbuffer}\n", "", "direct_shadow_rays: missing port 'gbuffer'", line=8)
 
+    def test_names_in_scenes(self):
+        scene = "{builtin: cornell}"
+        for more, word in (("override: {floo: {roughness: 1}}", "no material 'floo'"),
+                           ("heigth: 3", "no parameter 'heigth'"),
+                           ("camera: rear", "no camera 'rear'")):
+            self.write("bad.yaml", TINY.replace(scene, "{builtin: cornell, " + more + "}"))
+            self.assertIn("bad.yaml:2: scene", error := self.expect(2, "validate", "bad.yaml").stderr)
+            self.assertIn(word, error)
+
+        # Files that aren't there can't be looked into
+        self.write("away.yaml", TINY.replace(scene, "{file: nowhere.glb, override: {a: {roughness: 1}}}"))
+        self.assertIn("no file 'nowhere.glb' here", self.expect(0, "validate", "away.yaml").stdout)
+
     def test_bad_yaml(self):
         self.bad("{width: 32, height: 24}", "{width: 32, height: 24", "bad YAML", line=4)
 
@@ -241,6 +254,13 @@ class Schema(CommandTest):
         self.assertIn("2020-12", schema["$schema"])
         self.assertIn("graph", schema["properties"])
         self.assertIn("rays_per_light", json.dumps(schema))
+
+    def test_the_docs_name_every_metric(self):
+        schema = json.loads(self.expect(0, "schema").stdout)
+        names = schema["properties"]["measure"]["properties"]["metrics"]["items"]["enum"]
+        with open(os.path.join(SOURCE, "docs", "writing-a-config.md"), encoding="utf-8") as file:
+            row = next(line for line in file if line.startswith("| `metrics` |"))
+        self.assertEqual([name for name in names if f"`{name}`" not in row], [])
 
 
 class ExportScene(CommandTest):

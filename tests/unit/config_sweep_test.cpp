@@ -75,6 +75,30 @@ TEST(Sweep, ChainReplacesOnePassAndItsLastKeepsTheId) {
                     "demo.yaml:7: graph: the id 'image'");
 }
 
+TEST(Sweep, AParameterOfAChainsPassVariesVariantsThatHaveIt) {
+    const auto variants = expand(
+        "  inject: [inject_rsm, [place_surfels, inject_voxel_rays]]\n"
+        "  place_surfels.count: [10, 20]\n"
+        "  voxelize.resolution: [32, 64]\n");
+    std::vector<std::string> names;
+    for (const Variant& variant : variants) names.push_back(variant.name);
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"inject-inject_rsm_resolution-32", "inject-inject_rsm_resolution-64",
+                                        "inject-place_surfels-inject_voxel_rays_count-10_resolution-32",
+                                        "inject-place_surfels-inject_voxel_rays_count-10_resolution-64",
+                                        "inject-place_surfels-inject_voxel_rays_count-20_resolution-32",
+                                        "inject-place_surfels-inject_voxel_rays_count-20_resolution-64"}));
+    EXPECT_EQ(variants[0].values, (std::vector<std::string>{"inject_rsm", "-", "32"}));
+    EXPECT_EQ(variants[0].setup.graph.text(),
+              "[{pass: voxelize, resolution: 32}, {pass: inject_rsm, id: inject}]");
+    EXPECT_EQ(variants[4].setup.graph.items[1].text(), "{pass: place_surfels, count: 20}");
+
+    // A pass that no variant has is a mistake
+    EXPECT_CONTAINS(sweepError("  inject: [inject_rsm, [place_surfels, inject_voxel_rays]]\n"
+                               "  place_surfel.count: [10]\n"),
+                    "demo.yaml:8: 'place_surfel': neither a key of the config nor a pass of its graph");
+}
+
 TEST(Sweep, LabelsTellWhatDiffers) {
     const auto labels = [](const std::string& list) {
         std::vector<std::string> texts;
