@@ -10,6 +10,7 @@
 #include "passes/gather_cones/gather_cones.h"
 #include "passes/gather_irradiance/gather_irradiance.h"
 #include "passes/gather_rays/gather_rays.h"
+#include "passes/gather_vpls/gather_vpls.h"
 #include "passes/gbuffer/gbuffer_pass.h"
 #include "passes/inject_camera_rays/inject_camera_rays.h"
 #include "passes/inject_gather_hits/inject_gather_hits.h"
@@ -21,6 +22,7 @@
 #include "passes/path_trace/path_trace_pass.h"
 #include "passes/place_surfels/place_surfels.h"
 #include "passes/probe_irradiance/probe_irradiance.h"
+#include "passes/sample_vpls/sample_vpls.h"
 #include "passes/trace_gather_rays/trace_gather_rays.h"
 #include "passes/update_radiance_cache/update_radiance_cache.h"
 #include "passes/voxelize/voxelize_pass.h"
@@ -49,6 +51,8 @@ void registerPasses(Registry& registry) {
     registry.add<GatherRays>();
     registry.add<UpdateRadianceCache>();
     registry.add<GatherCachedRays>();
+    registry.add<SampleVpls>();
+    registry.add<GatherVpls>();
     registry.add<FilterIrradiance>();
     registry.add<DirectShadowRays>();
     registry.add<DirectVoxels>();

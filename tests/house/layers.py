@@ -34,6 +34,7 @@ ROOMS = {
     "clipmap": {"compute", "voxels", "radiance"},
     "lights": {"compute", "view", "voxels"},
     "light_paths": {"compute", "voxels", "lights"},
+    "vpls": set(),
     "surfels": {"compute", "view", "voxels", "lights"},
     "final_gather": {"compute", "view", "filter", "lights", "surfels"},
     "radiance_cache": {"compute"},

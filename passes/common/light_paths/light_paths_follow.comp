@@ -2,10 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Leaves what each ray carries in the voxel that it hit, then turns it into its next bounce.
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/scene/sampling.glsl"
-#include "shaders/scene/scene.glsl"
-#include "shaders/light_paths/light_path_types.h"
-#include "shaders/trace/ray_types.h"
+#include "shaders/light_paths/light_bounce.glsl"
 #include "shaders/voxels/voxels.glsl"
 #ifdef FLUX
 #include "shaders/voxels/flux_accumulator.glsl"
@@ -42,7 +39,7 @@ void main() {
     // Deposit on the side that the ray came from, if open space lies before it, as voxelization counts its area.
     const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
     if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return;
-    const vec3 normal = dot(s.geometricNormal, ray.direction) <= 0.0 ? s.geometricNormal : -s.geometricNormal;
+    const vec3 normal = litSide(s, ray.direction);
     LightPath path = paths.data[i];
     path.travelled += hit.t;
     if (hidden.data[i] == 0u) {
@@ -60,28 +57,7 @@ void main() {
     }
     if (push.bounce == push.lastBounce) return;
 
-    const GpuMaterial m = sceneMaterials.data[s.material];
-    const vec3 albedo = clamp(diffuseAlbedo(m, s, 0.0), 0.0, 1.0);
-    vec3 bounceNormal = shadingNormal(m, s, 0.0);
-    if (dot(bounceNormal, normal) < 0.0) bounceNormal = -bounceNormal;
-    vec3 direction;
-    if (mirror) {
-        direction = reflect(ray.direction, bounceNormal);
-        path.power *= albedo;
-    } else {
-        // Russian roulette by albedo keeps the power of surviving rays level; then a cosine-distributed bounce.
-        const float survive = max(albedo.r, max(albedo.g, albedo.b));
-        const uint index = push.firstRay + i;
-        const uint seed = hashCombine(push.seed, 16u + 2u * push.bounce);
-        if (sobol2(index, hashCombine(seed, 1u)).x >= survive) return;
-        direction = cosineDirection(sobol2(index, seed), bounceNormal);
-        path.power *= albedo / survive;
-    }
-    if (dot(direction, normal) <= 0.0) return;
+    if (!bounceLightRay(s, normal, mirror, push.firstRay + i, hashCombine(push.seed, 16u + 2u * push.bounce), ray, path)) return;
     paths.data[i] = path;
-    ray.origin = s.position + normal * surfaceOffset(s.position);
-    ray.direction = direction;
-    ray.tMin = 0.0;
-    ray.tMax = 1.0e30;
     rays.data[i] = ray;
 }

@@ -72,8 +72,9 @@ void VoxelMarch::plan(MemoryPlan& plan, const Geometry& geometry, const SurfaceV
     if (!isOctree(walk_)) return;
     const OctreeSize size{resolution, countSurfaceVoxels(geometry, voxels.grid)};
     const uint64_t bytes = hasDistances(walk_) ? distanceBytes(resolution, distanceLevel(size)) : 0;
-    plan.reserve("octree (estimated)", size.bytes() + bytes);
-    plan.reserveScratch("building (estimated)", size.leafBytes() + OctreeBuilder::scratchBytes(size) + bytes);
+    plan.reserve("octree (estimated)", size.bytes() - size.tableBytes() + bytes);
+    plan.reserveScratch("building (estimated)",
+                        size.tableBytes() + size.leafBytes() + OctreeBuilder::scratchBytes(size) + bytes);
 }
 
 void VoxelMarch::prepare(Device& device, const ShaderCompiler& compiler) {

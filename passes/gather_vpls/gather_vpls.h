@@ -1,0 +1,84 @@
+#pragma once
+
+#include <optional>
+
+#include "passes/common/filter/irradiance_resolve.h"
+#include "passes/common/filter/noisy_irradiance.h"
+#include "passes/common/voxel_march/voxel_tracer.h"
+#include "passes/common/vpls/vpls.h"
+
+namespace voxray {
+
+/// What hides a virtual point light from a surface.
+enum class VplVisibility { Svo, SvoRestart, Bricks, Bits, Exact, None };
+template <>
+struct EnumNames<VplVisibility> {
+    static constexpr std::array names{
+        std::pair{VplVisibility::Svo, "svo"},       std::pair{VplVisibility::SvoRestart, "svo_restart"},
+        std::pair{VplVisibility::Bricks, "bricks"}, std::pair{VplVisibility::Bits, "bits"},
+        std::pair{VplVisibility::Exact, "exact"},   std::pair{VplVisibility::None, "none"}};
+};
+
+/// Irradiance from virtual point lights, each texel from every n-th of them (interleaved sampling, Segovia et
+/// al. 2006), with shadow rays through voxels. Source: Sun and Agu 2015, sections 3.1 and 3.2, equations 1 to
+/// 4; there without the 1/pi that makes radiant intensity of flux (docs/many-lights.md).
+class GatherVpls final : public Pass {
+ public:
+    static constexpr const char* kName = "gather_vpls";
+    static constexpr const char* kHelp =
+        "Indirect light from virtual point lights (sample_vpls), with a shadow ray to each: through voxels, "
+        "or "
+        "exact. Each texel of a block takes another subset of them; let filter_irradiance follow. Biased by: "
+        "bound, which darkens contacts and corners; voxel size, unless visibility is exact. Noisy by: the "
+        "number of virtual lights, as blotches that all texels share. Source: Sun and Agu 2015.";
+    struct Params {
+        uint32_t block = 4;
+        float bound = 1;
+        VplVisibility visibility = VplVisibility::Svo;
+        float restartEpsilon = 0;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("block", &Params::block,
+                      "Texels along the edge of blocks whose texels share all virtual lights out among them.",
+                      powersOfTwo(1, 16)),
+                field(
+                    "bound", &Params::bound,
+                    "Virtual lights nearer than this give no more light than at it: factor of the radius of "
+                    "the disc that has as much area as there is surface for each path of light. 0: no bound.",
+                    0.0f, 1000.0f),
+                field(
+                    "visibility", &Params::visibility,
+                    "What shadow rays meet. svo, bricks, bits: surface voxels, on three walks that find the "
+                    "same ones. svo_restart: these by the paper's walk. exact: triangles. none: nothing."),
+                field("restart_epsilon", &Params::restartEpsilon,
+                      "For svo_restart: voxels by which it steps past each node, as the paper does, which "
+                      "skips "
+                      "what is thinner; 0 steps exactly.",
+                      0.0f, 1.0f)};
+        }
+    };
+
+    explicit GatherVpls(const Params& params) : params_(params) {}
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    /// Texels along each side of the image that one subset lights.
+    glm::uvec2 subsetExtent(glm::uvec2 texels) const { return (texels + params_.block - 1u) / params_.block; }
+
+    Params params_;
+    Port<const GBuffer> gbuffer_;
+    Port<const Vpls> vpls_;
+    Port<const SurfaceVoxels> voxels_;  ///< Where shadow rays meet voxels.
+    Port<NoisyIrradiance> noisy_;
+    Port<FrameImage> indirect_;
+    std::optional<VoxelTracer> voxelTracer_;
+    Program aim_, add_;
+    IrradianceResolve resolve_;
+    Sampler sampler_;
+    Buffer rays_, carried_, occluded_;
+};
+
+}  // namespace voxray

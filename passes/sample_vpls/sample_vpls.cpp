@@ -1,0 +1,96 @@
+#include "passes/sample_vpls/sample_vpls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/random_seed.h"
+#include "shaders/light_paths/light_path_types.h"
+
+namespace voxray {
+namespace {
+
+struct RecordPush {
+    uint32_t paths;
+    uint32_t seed;
+    uint32_t firstVpl;
+    uint32_t bounce;
+    uint32_t lastBounce;
+};
+
+/// How many of `paths` each source sends: by its power, at least one.
+std::vector<uint32_t> pathsBySource(const std::vector<LightSource>& sources, uint32_t paths) {
+    const double power = totalPower(sources);
+    std::vector<uint32_t> counts;
+    for (const LightSource& source : sources)
+        counts.push_back(std::max(1u, uint32_t(std::lround(paths * (double(source.power) / power)))));
+    return counts;
+}
+
+}  // namespace
+
+void SampleVpls::declare(PassBuilder& builder) {
+    vpls_ = builder.write<Vpls>("vpls", "virtual point lights");
+}
+
+void SampleVpls::plan(PassPlan& plan) {
+    pathsOf_ = pathsBySource(requireLightSources(*plan.frame.scene, kName), params_.vplsPerBounce);
+    Vpls& vpls = plan.get(vpls_);
+    vpls.paths = std::accumulate(pathsOf_.begin(), pathsOf_.end(), 0u);
+    vpls.bounces = params_.bounces;
+    const uint64_t points = uint64_t(vpls.paths) * vpls.bounces;
+    const uint64_t batch = *std::max_element(pathsOf_.begin(), pathsOf_.end());
+    plan.buffer(vpls.points, "virtual point lights", points * sizeof(gpu::Vpl));
+    plan.buffer(vpls.list, "list of virtual point lights", points * sizeof(uint32_t));
+    plan.buffer(flags_, "flags of virtual point lights", (points + 31) / 32 * sizeof(uint32_t));
+    plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
+    plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
+    plan.scratchBuffer(paths_, "light paths", batch * sizeof(gpu::LightPath));
+}
+
+void SampleVpls::prepare(PassSetup& setup) {
+    emission_.prepare(setup);
+    record_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/sample_vpls/record.comp"));
+    compaction_.emplace(setup.device, setup.compiler);
+}
+
+void SampleVpls::record(PassContext& context) {
+    CommandStream& stream = context.stream;
+    Vpls& vpls = context.get(vpls_);
+    const std::vector<LightSource> sources = requireLightSources(*context.frame.scene, kName);
+    if (sources.size() != pathsOf_.size())
+        throw Error("{}: a light's power became 0, or ceased to be, after the first frame", kName);
+    stream.fill(flags_, 0);
+    stream.fill(vpls.points, 0);
+
+    // The paths of each light, hit after hit
+    uint32_t firstPath = 0;
+    for (uint32_t s = 0; s < sources.size(); ++s) {
+        const uint32_t seed = randomSeed(context.frame, s), paths = pathsOf_[s];
+        emission_.emit(context, sources[s], {seed, paths, 0, paths}, rays_, paths_);
+        for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {
+            context.tracer.closestHit(stream, rays_, hits_, paths);
+            stream.dispatch(
+                record_,
+                context.scene.bindings({{"rays", rays_},
+                                        {"hits", hits_},
+                                        {"paths", paths_},
+                                        {"vpls", vpls.points},
+                                        {"flags", flags_}}),
+                RecordPush{paths, seed, bounce * vpls.paths + firstPath, bounce, params_.bounces - 1},
+                linearGroups(paths));
+        }
+        firstPath += paths;
+    }
+    vpls.count = compaction_->run(stream, flags_, vpls.list, uint32_t(flags_.bytes() / sizeof(uint32_t)));
+    context.report("vpls", vpls.count);
+    if (vpls.count == 0)
+        throw Error(
+            "{}: none of {} rays from the lights hit a surface that reflects light; let lights shine on "
+            "the scene, or raise 'vpls_per_bounce'",
+            kName, vpls.paths);
+}
+
+}  // namespace voxray

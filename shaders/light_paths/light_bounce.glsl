@@ -1,0 +1,44 @@
+// How a ray of light goes on from a surface. Needs the bindings of shaders/scene/scene.glsl.
+#ifndef VOXRAY_LIGHT_BOUNCE_GLSL
+#define VOXRAY_LIGHT_BOUNCE_GLSL
+
+#include "shaders/light_paths/light_path_types.h"
+#include "shaders/scene/sampling.glsl"
+#include "shaders/scene/scene.glsl"
+#include "shaders/trace/ray_types.h"
+
+// The triangle's unit normal on the side that a ray along `direction` comes from; 0 for a triangle without area.
+vec3 litSide(SurfacePoint s, vec3 direction) {
+    return dot(s.geometricNormal, direction) <= 0.0 ? s.geometricNormal : -s.geometricNormal;
+}
+
+// The shading normal on the side of `faceNormal`.
+vec3 litNormal(GpuMaterial m, SurfacePoint s, vec3 faceNormal) {
+    const vec3 normal = shadingNormal(m, s, 0.0);
+    return dot(normal, faceNormal) < 0.0 ? -normal : normal;
+}
+
+vec3 litAlbedo(GpuMaterial m, SurfacePoint s) { return clamp(diffuseAlbedo(m, s, 0.0), 0.0, 1.0); }
+
+// Takes a ray on from where it hit, on the side of `faceNormal`, as a mirror that takes its albedo off would, or distributed by
+// cosine. False where it ends there: by Russian roulette by albedo, which keeps the power of surviving rays level, or below the
+// surface. `index`: the ray's number among those of one seed. `seed`: another one for each bounce.
+bool bounceLightRay(SurfacePoint s, vec3 faceNormal, bool mirror, uint index, uint seed, inout Ray ray, inout LightPath path) {
+    const GpuMaterial m = sceneMaterials.data[s.material];
+    const vec3 albedo = litAlbedo(m, s), normal = litNormal(m, s, faceNormal);
+    vec3 direction;
+    if (mirror) {
+        direction = reflect(ray.direction, normal);
+        path.power *= albedo;
+    } else {
+        const float survive = max(albedo.r, max(albedo.g, albedo.b));
+        if (sobol2(index, hashCombine(seed, 1u)).x >= survive) return false;
+        direction = cosineDirection(sobol2(index, seed), normal);
+        path.power *= albedo / survive;
+    }
+    if (dot(direction, faceNormal) <= 0.0) return false;
+    ray = Ray(s.position + faceNormal * surfaceOffset(s.position), 0.0, direction, 1.0e30);
+    return true;
+}
+
+#endif
