@@ -27,6 +27,12 @@ class EmbreeScene {
     Hit closestHit(const Ray& ray) const;
     bool occluded(const Ray& ray) const;
 
+    /// Up to kPacketRays rays that lie close together, as one by one but in less time. Those with tMax < tMin
+    /// hit nothing.
+    static constexpr size_t kPacketRays = 8;
+    void closestHitPacket(std::span<const Ray> rays, std::span<Hit> hits) const;
+    void occludedPacket(std::span<const Ray> rays, std::span<uint32_t> results) const;
+
     /// Whole streams, on all cores; `result` is 1 where something lies between tMin and tMax.
     /// @throws Error naming the index of the first ray that is NaN, infinite (a tMax of +inf is allowed),
     /// beyond 1.8e18 m or has a negative tMin; inactive rays too.

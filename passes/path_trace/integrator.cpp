@@ -1,7 +1,9 @@
 #include "passes/path_trace/integrator.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace voxray::path_trace {
 
@@ -12,6 +14,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kShadowEnd = 1.0f - 4e-6f;
 /// Vertices before Russian roulette starts.
 constexpr uint32_t kSureVertices = 3;
+
+constexpr Ray kNoRay{{}, 0.0f, {0.0f, 0.0f, 1.0f}, -1.0f};
 
 /// What each vertex draws numbers for; the camera uses number 0.
 enum Use : uint32_t { kLightPoint = 1, kLightChoice, kReflection, kLobe, kRoulette, kUses = 8 };
@@ -48,96 +52,157 @@ float Integrator::weightOfHit(float reflectionPdf, float lightPdf) const {
     return lightPdf > 0.0f ? 0.0f : 1.0f;
 }
 
-glm::vec3 Integrator::lightAt(const SurfacePoint& point, const glm::vec3& out, const VertexSampler& sampler,
-                              PathSample& path) const {
-    // Draw a light and weigh what it sends here.
-    const glm::vec3 origin = point.rayOrigin();
-    const float choice = lights_.isSingle() ? 0.0f : sampler.one(kLightChoice);
-    const LightSample light = lights_.sample(origin, choice, sampler.pair(kLightPoint));
-    if (!(light.pdf > 0.0f) || !(glm::dot(light.direction, point.faceNormal) > 0.0f)) return glm::vec3(0.0f);
-    const BsdfValue reflection = point.bsdf.evaluate(out, light.direction, point.shadingNormal);
-    glm::vec3 value = reflection.fCos * light.radiance / light.pdf;
-    if (!light.isDelta) {
-        if (strategy_ == Strategy::ReflectionOnly) return glm::vec3(0.0f);
-        if (strategy_ == Strategy::Mis) value *= misWeight(light.pdf, reflection.pdf);
-    }
-    if (!(maxComponent(value) > 0.0f)) return glm::vec3(0.0f);
+/// A path on its way. For each vertex: arrive() at a hit, addLight() of it, scatter() on.
+class Integrator::Path {
+ public:
+    Path(const Integrator& integrator, const Ray& cameraRay, const SobolSampler& sampler)
+        : in_(integrator), sampler_(sampler), ray_(cameraRay) {}
 
-    // Look whether it arrives.
-    ++path.rays;
-    const Ray shadow = light.isInfinite ? Ray{origin, 0.0f, light.direction, kInfinity}
-                                        : Ray{origin, 0.0f, light.target - origin, kShadowEnd};
-    return tracer_.occluded(shadow) ? glm::vec3(0.0f) : value;
+    const Ray& ray() const { return ray_; }
+    /// To the light that was drawn; tMax < tMin where none is.
+    const Ray& shadowRay() const { return shadow_; }
+    const PathSample& sample() const { return path_; }
+
+    /// Adds what the ray runs into, and draws a light. @return whether the path goes on to addLight().
+    bool arrive(const Hit& hit);
+    /// Adds what the light that was drawn sends here.
+    void addLight(bool isOccluded) {
+        if (shadow_.tMax >= shadow_.tMin && !isOccluded) add(vertex_ == 0, light_);
+    }
+    /// @return whether the path goes on, along ray().
+    bool scatter();
+
+ private:
+    // Light that reaches the path here or that it runs into. Beyond the second vertex the latter is indirect.
+    void add(bool isDirect, const glm::vec3& light, float weight = 1.0f) {
+        (isDirect ? path_.direct : path_.indirect) += throughput_ * light * weight;
+        if (!isDirect) path_.irradiance += irradianceThroughput_ * light * weight;
+    }
+    void drawLight();
+
+    const Integrator& in_;
+    const SobolSampler& sampler_;
+    PathSample path_;
+    Ray ray_, shadow_{};
+    uint32_t vertex_ = 0;
+    SurfacePoint point_;
+    glm::vec3 light_{0.0f};  ///< That the shadow ray brings unless something is in its way.
+    glm::vec3 throughput_{1.0f};
+    glm::vec3 irradianceThroughput_{0.0f};  ///< The same with the first hit's reflection left out.
+    float reflectionPdf_ = 0.0f;
+    bool isMirrored_ =
+        true;  ///< The camera, as a mirror, has no density: only the ray itself finds what it sees.
+};
+
+bool Integrator::Path::arrive(const Hit& hit) {
+    const bool wantsFound = vertex_ > 1 || in_.light_ == PathLight::All;
+    ++path_.rays;
+    shadow_ = kNoRay;
+    if (vertex_ == 1 && hit.triangle != Hit::kMiss) path_.distance = hit.t;
+    if (hit.triangle == Hit::kMiss) {
+        const EnvironmentLight& environment = in_.lights_.environment();
+        if (wantsFound && !environment.isBlack()) {
+            const float weight =
+                isMirrored_ ? 1.0f
+                            : in_.weightOfHit(reflectionPdf_, in_.lights_.pdfOfEnvironment(ray_.direction));
+            add(vertex_ <= 1, environment.radiance(ray_.direction), weight);
+        }
+        return false;
+    }
+    const SurfaceTriangle& triangle = in_.surfaces_.triangle(hit.triangle);
+    if (wantsFound && triangle.light != kNoLight && in_.surfaces_.emitsTowards(triangle, -ray_.direction)) {
+        const float weight =
+            isMirrored_
+                ? 1.0f
+                : in_.weightOfHit(reflectionPdf_, in_.lights_.pdfOfHit(triangle, ray_.direction, hit.t));
+        add(vertex_ <= 1, in_.surfaces_.emission(hit.triangle, hit.u, hit.v), weight);
+    }
+    if (vertex_ > in_.bounces_) return false;
+
+    point_ = in_.surfaces_.at(hit, ray_.direction);
+    if (vertex_ == 0) path_.hasIrradiance = maxComponent(point_.bsdf.diffuse) > 0.0f;
+    if (!in_.lights_.empty() && (vertex_ > 0 || in_.light_ == PathLight::All)) drawLight();
+    return true;
 }
 
-PathSample Integrator::trace(const Ray& cameraRay, const SobolSampler& sampler) const {
-    PathSample path;
-    Ray ray = cameraRay;
-    glm::vec3 throughput(1.0f);
-    glm::vec3 irradianceThroughput(0.0f);  // The same with the first hit's reflection left out.
-    float reflectionPdf = 0.0f;
-    bool isMirrored =
-        true;  // The camera, as a mirror, has no density: only the ray itself finds what it sees.
+void Integrator::Path::drawLight() {
+    const VertexSampler sampler{sampler_, vertex_};
+    const glm::vec3 origin = point_.rayOrigin();
+    const float choice = in_.lights_.isSingle() ? 0.0f : sampler.one(kLightChoice);
+    const LightSample light = in_.lights_.sample(origin, choice, sampler.pair(kLightPoint));
+    if (!(light.pdf > 0.0f) || !(glm::dot(light.direction, point_.faceNormal) > 0.0f)) return;
+    const BsdfValue reflection = point_.bsdf.evaluate(-ray_.direction, light.direction, point_.shadingNormal);
+    light_ = reflection.fCos * light.radiance / light.pdf;
+    if (!light.isDelta) {
+        if (in_.strategy_ == Strategy::ReflectionOnly) return;
+        if (in_.strategy_ == Strategy::Mis) light_ *= misWeight(light.pdf, reflection.pdf);
+    }
+    if (!(maxComponent(light_) > 0.0f)) return;
+    ++path_.rays;
+    shadow_ = light.isInfinite ? Ray{origin, 0.0f, light.direction, kInfinity}
+                               : Ray{origin, 0.0f, light.target - origin, kShadowEnd};
+}
 
-    for (uint32_t vertex = 0;; ++vertex) {
-        // Light that reaches the path here or that it runs into. Beyond the second vertex the latter is
-        // indirect.
-        const auto add = [&](bool isDirect, const glm::vec3& light, float weight) {
-            (isDirect ? path.direct : path.indirect) += throughput * light * weight;
-            if (!isDirect) path.irradiance += irradianceThroughput * light * weight;
-        };
-        const bool wantsFound = vertex > 1 || light_ == PathLight::All;
-        const Hit hit = tracer_.closestHit(ray);
-        ++path.rays;
-        if (vertex == 1 && hit.triangle != Hit::kMiss) path.distance = hit.t;
-        if (hit.triangle == Hit::kMiss) {
-            const EnvironmentLight& environment = lights_.environment();
-            if (wantsFound && !environment.isBlack()) {
-                const float weight =
-                    isMirrored ? 1.0f : weightOfHit(reflectionPdf, lights_.pdfOfEnvironment(ray.direction));
-                add(vertex <= 1, environment.radiance(ray.direction), weight);
+bool Integrator::Path::scatter() {
+    if (vertex_ == in_.bounces_ && !in_.lights_.canBeHit()) return false;
+
+    // Rays that a shading normal sends below the surface are lost.
+    const VertexSampler sampler{sampler_, vertex_};
+    const float lobe = point_.bsdf.hasSpecular() ? sampler.one(kLobe) : 0.0f;
+    const BsdfSample next =
+        point_.bsdf.sample(-ray_.direction, point_.shadingNormal, sampler.pair(kReflection), lobe);
+    throughput_ *= next.weight;
+    if (vertex_ > 0)
+        irradianceThroughput_ *= next.weight;
+    else if (next.pdf > 0.0f)
+        irradianceThroughput_ = glm::vec3(glm::dot(point_.shadingNormal, next.direction) / next.pdf);
+    const float strength = maxComponent(throughput_);
+    if (!(strength > 0.0f) || !(glm::dot(next.direction, point_.faceNormal) > 0.0f)) return false;
+
+    // Russian roulette by the root of the throughput: shorter paths, more noise; the mean stays.
+    if (vertex_ + 1 >= kSureVertices && strength < 1.0f) {
+        const float survival = std::sqrt(strength);
+        if (sampler.one(kRoulette) >= survival) return false;
+        throughput_ /= survival;
+        irradianceThroughput_ /= survival;
+    }
+    ray_ = {point_.rayOrigin(), 0.0f, next.direction, kInfinity};
+    reflectionPdf_ = next.pdf;
+    isMirrored_ = next.mirror;
+    ++vertex_;
+    return true;
+}
+
+void Integrator::trace(std::span<const Ray> cameraRays, std::span<const SobolSampler> samplers,
+                       std::span<PathSample> samples) const {
+    // The first hits of neighbours lie close together, and so do the rays from there to one light.
+    const size_t count = cameraRays.size();
+    std::array<Hit, kPacket> hits;
+    tracer_.closestHitPacket(cameraRays, std::span(hits).first(count));
+    std::array<std::optional<Path>, kPacket> paths;
+    std::array<bool, kPacket> goesOn;
+    std::array<Ray, kPacket> shadows;
+    std::array<uint32_t, kPacket> occluded;
+    bool hasShadows = false;
+    for (size_t i = 0; i < count; ++i) {
+        paths[i].emplace(*this, cameraRays[i], samplers[i]);
+        goesOn[i] = paths[i]->arrive(hits[i]);
+        shadows[i] = paths[i]->shadowRay();
+        hasShadows = hasShadows || shadows[i].tMax >= shadows[i].tMin;
+    }
+    if (hasShadows) tracer_.occludedPacket(std::span(shadows).first(count), std::span(occluded).first(count));
+
+    // From there on they part.
+    for (size_t i = 0; i < count; ++i) {
+        Path& path = *paths[i];
+        if (goesOn[i]) {
+            path.addLight(occluded[i] != 0);
+            while (path.scatter() && path.arrive(tracer_.closestHit(path.ray()))) {
+                const Ray& shadow = path.shadowRay();
+                if (shadow.tMax >= shadow.tMin) path.addLight(tracer_.occluded(shadow));
             }
-            return path;
         }
-        const SurfaceTriangle& triangle = surfaces_.triangle(hit.triangle);
-        if (wantsFound && triangle.light != kNoLight && surfaces_.emitsTowards(triangle, -ray.direction)) {
-            const float weight =
-                isMirrored ? 1.0f
-                           : weightOfHit(reflectionPdf, lights_.pdfOfHit(triangle, ray.direction, hit.t));
-            add(vertex <= 1, surfaces_.emission(hit.triangle, hit.u, hit.v), weight);
-        }
-        if (vertex > bounces_) return path;
-
-        // Direct light at this vertex.
-        const VertexSampler vertexSampler{sampler, vertex};
-        const SurfacePoint point = surfaces_.at(hit, ray.direction);
-        if (vertex == 0) path.hasIrradiance = maxComponent(point.bsdf.diffuse) > 0.0f;
-        if (!lights_.empty() && (vertex > 0 || light_ == PathLight::All))
-            add(vertex == 0, lightAt(point, -ray.direction, vertexSampler, path), 1.0f);
-        if (vertex == bounces_ && !lights_.canBeHit()) return path;
-
-        // Scatter; rays that a shading normal sends below the surface are lost.
-        const float lobe = point.bsdf.hasSpecular() ? vertexSampler.one(kLobe) : 0.0f;
-        const BsdfSample next =
-            point.bsdf.sample(-ray.direction, point.shadingNormal, vertexSampler.pair(kReflection), lobe);
-        throughput *= next.weight;
-        if (vertex > 0)
-            irradianceThroughput *= next.weight;
-        else if (next.pdf > 0.0f)
-            irradianceThroughput = glm::vec3(glm::dot(point.shadingNormal, next.direction) / next.pdf);
-        const float strength = maxComponent(throughput);
-        if (!(strength > 0.0f) || !(glm::dot(next.direction, point.faceNormal) > 0.0f)) return path;
-
-        // Russian roulette by the root of the throughput: shorter paths, more noise; the mean stays.
-        if (vertex + 1 >= kSureVertices && strength < 1.0f) {
-            const float survival = std::sqrt(strength);
-            if (vertexSampler.one(kRoulette) >= survival) return path;
-            throughput /= survival;
-            irradianceThroughput /= survival;
-        }
-        ray = {point.rayOrigin(), 0.0f, next.direction, kInfinity};
-        reflectionPdf = next.pdf;
-        isMirrored = next.mirror;
+        samples[i] = path.sample();
     }
 }
 

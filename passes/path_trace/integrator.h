@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <span>
 
 #include "passes/path_trace/lights.h"
 #include "passes/path_trace/path_tracer.h"
@@ -34,13 +35,15 @@ class Integrator {
     Integrator(const SceneState& state, const EmbreeScene& tracer, uint32_t bounces, Strategy strategy,
                PathLight light = PathLight::All);
 
-    /// Follows a path that starts along `ray` (unit direction). Sampler pair 0 is the caller's.
-    PathSample trace(const Ray& ray, const SobolSampler& sampler) const;
+    /// Follows up to kPacket paths that start along `cameraRays` (unit directions) and lie close together:
+    /// they share the packets of their first rays. Pair 0 of samplers is the caller's.
+    static constexpr size_t kPacket = EmbreeScene::kPacketRays;
+    void trace(std::span<const Ray> cameraRays, std::span<const SobolSampler> samplers,
+               std::span<PathSample> samples) const;
 
  private:
     struct VertexSampler;
-    glm::vec3 lightAt(const SurfacePoint& point, const glm::vec3& out, const VertexSampler& sampler,
-                      PathSample& path) const;
+    class Path;
     float weightOfHit(float reflectionPdf, float lightPdf) const;
 
     const EmbreeScene& tracer_;

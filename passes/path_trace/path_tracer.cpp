@@ -70,6 +70,32 @@ void addTo(gpu::RayMoments& sum, const PathSample& path) {
     sum.squaredOverDistance += l * l * inverseDistance;
 }
 
+/// Paths that are followed together: a pixel's, then the next one's.
+struct Packet {
+    struct Place {
+        glm::uvec2 pixel;
+        glm::vec2 inPixel;
+        uint32_t batch;
+    };
+    size_t size = 0;
+    std::array<Place, Integrator::kPacket> places;
+    std::array<Ray, Integrator::kPacket> rays;
+    std::array<SobolSampler, Integrator::kPacket> samplers;
+    std::array<PathSample, Integrator::kPacket> samples;
+
+    void add(const PinholeCamera& camera, Place place, const SobolSampler& sampler) {
+        place.inPixel = sampler.pair(0);
+        const glm::vec2 inImage = place.inPixel + glm::vec2(place.pixel);
+        rays[size] = camera.ray(inImage.x, inImage.y);
+        samplers[size] = sampler;
+        places[size++] = place;
+    }
+    void trace(const Integrator& integrator) {
+        integrator.trace(std::span(rays).first(size), std::span(samplers).first(size),
+                         std::span(samples).first(size));
+    }
+};
+
 /// Everything that the tiles share.
 struct Job {
     const Integrator& integrator;
@@ -100,35 +126,54 @@ struct Job {
             }
     }
 
-    /// Renders a pixel; returns the rays that it took.
-    uint64_t renderPixel(uint32_t x, uint32_t y) const {
-        const uint32_t pixel =
-            hashOf(hashOf(uint32_t(options.seed), uint32_t(options.seed >> 32)), y * options.width + x);
-        PixelSums total, indirect;
+    /// Renders a tile; returns the rays that it took.
+    uint64_t renderTile(glm::uvec2 first) const {
+        const glm::uvec2 last = glm::min(first + kTile, glm::uvec2(options.width, options.height));
+        std::array<PixelSums, kTile * kTile> totals, indirects;
+        Packet packet;
         uint64_t rays = 0;
-        for (uint32_t batch = 0; batch < batches; ++batch) {
-            const uint32_t sequence = hashOf(pixel, batch);
-            for (uint32_t i = 0; i < batchSizes[batch]; ++i) {
-                const SobolSampler sampler(sequence, i);
-                const glm::vec2 inPixel = sampler.pair(0);
-                const glm::vec2 place = inPixel + glm::vec2(x, y);
-                const Ray ray = camera.ray(place.x, place.y);
-                const PathSample path = integrator.trace(ray, sampler);
+        const auto trace = [&] {
+            packet.trace(integrator);
+            for (size_t i = 0; i < packet.size; ++i) {
+                const Packet::Place& place = packet.places[i];
+                const PathSample& path = packet.samples[i];
                 const glm::vec3 sum = path.direct + path.indirect;
                 if (!std::isfinite(sum.x + sum.y + sum.z))
                     throw Error(
                         "path tracing: a sample of pixel ({}, {}) is not finite: "
                         "is a light or an emission too bright for a float?",
-                        x, y);
-                total.batch[batch] += sum;
-                indirect.batch[batch] += path.indirect;
-                if (options.irradianceTexels > 0 && path.hasIrradiance) addIrradiance(x, y, inPixel, path);
+                        place.pixel.x, place.pixel.y);
+                const glm::uvec2 inTile = place.pixel - first;
+                totals[inTile.y * kTile + inTile.x].batch[place.batch] += sum;
+                indirects[inTile.y * kTile + inTile.x].batch[place.batch] += path.indirect;
+                if (options.irradianceTexels > 0 && path.hasIrradiance)
+                    addIrradiance(place.pixel.x, place.pixel.y, place.inPixel, path);
                 rays += path.rays;
             }
-        }
-        finishIrradiance(x, y);
-        total.write(batchSizes, batches, x, y, result.total, result.totalHalves);
-        indirect.write(batchSizes, batches, x, y, result.indirect, result.indirectHalves);
+            packet.size = 0;
+        };
+
+        for (uint32_t y = first.y; y < last.y; ++y)
+            for (uint32_t x = first.x; x < last.x; ++x) {
+                const uint32_t pixel = hashOf(hashOf(uint32_t(options.seed), uint32_t(options.seed >> 32)),
+                                              y * options.width + x);
+                for (uint32_t batch = 0; batch < batches; ++batch) {
+                    const uint32_t sequence = hashOf(pixel, batch);
+                    for (uint32_t i = 0; i < batchSizes[batch]; ++i) {
+                        packet.add(camera, {{x, y}, {}, batch}, SobolSampler(sequence, i));
+                        if (packet.size == Integrator::kPacket) trace();
+                    }
+                }
+            }
+        if (packet.size > 0) trace();
+
+        for (uint32_t y = first.y; y < last.y; ++y)
+            for (uint32_t x = first.x; x < last.x; ++x) {
+                const size_t inTile = (y - first.y) * kTile + x - first.x;
+                finishIrradiance(x, y);
+                totals[inTile].write(batchSizes, batches, x, y, result.total, result.totalHalves);
+                indirects[inTile].write(batchSizes, batches, x, y, result.indirect, result.indirectHalves);
+            }
         return rays;
     }
 };
@@ -187,10 +232,7 @@ PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const
     parallelRanges(tiles, 1, [&](size_t begin, size_t end) {
         for (size_t tile = begin; tile < end && !reporter.isStopped(); ++tile) {
             const auto x0 = uint32_t(tile % tilesX) * kTile, y0 = uint32_t(tile / tilesX) * kTile;
-            uint64_t tileRays = 0;
-            for (uint32_t y = y0; y < std::min(y0 + kTile, height); ++y)
-                for (uint32_t x = x0; x < std::min(x0 + kTile, width); ++x) tileRays += job.renderPixel(x, y);
-            rays += tileRays;
+            rays += job.renderTile({x0, y0});
             reporter.finishTile();
         }
     });

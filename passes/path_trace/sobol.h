@@ -58,6 +58,7 @@ inline float unitFloat(uint32_t bits) {
 /// One sequence of points in [0, 1)^d, one point a sample index. Dimensions are made when they are asked for.
 class SobolSampler {
  public:
+    SobolSampler() = default;
     /// `seed` selects the sequence; `index` the point on it.
     SobolSampler(uint32_t seed, uint32_t index) : seed_(seed), reversedIndex_(reverseBits(index)) {}
 
@@ -78,8 +79,8 @@ class SobolSampler {
     }
 
  private:
-    uint32_t seed_;
-    uint32_t reversedIndex_;
+    uint32_t seed_ = 0;
+    uint32_t reversedIndex_ = 0;
 };
 
 }  // namespace voxray::path_trace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -154,6 +155,22 @@ TEST(EmbreeScene, StreamsAgreeWithSingleRays) {
         hitCount += occluded[i];
     }
     EXPECT_GT(hitCount, rays.size() / 20);
+
+    // Packets of any size, some rays of which are not to be traced. Rounding differs
+    for (size_t first = 0, count = 1; first + count <= rays.size(); first += count, count = count % 8 + 1) {
+        if (count % 3 == 0) rays[first].tMax = -1.0f;
+        const std::span<const Ray> packet = std::span(rays).subspan(first, count);
+        std::array<Hit, EmbreeScene::kPacketRays> packetHits;
+        std::array<uint32_t, EmbreeScene::kPacketRays> packetOccluded;
+        scene.closestHitPacket(packet, std::span(packetHits).first(count));
+        scene.occludedPacket(packet, std::span(packetOccluded).first(count));
+        for (size_t i = 0; i < count; ++i) {
+            const Hit single = scene.closestHit(packet[i]);
+            ASSERT_EQ(single.triangle, packetHits[i].triangle) << first + i;
+            ASSERT_NEAR(single.t, packetHits[i].t, 1e-5f) << first + i;
+            ASSERT_EQ(scene.occluded(packet[i]), packetOccluded[i] == 1) << first + i;
+        }
+    }
 }
 
 TEST(EmbreeScene, StreamsNameTheFirstBadRay) {
