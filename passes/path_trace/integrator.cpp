@@ -27,7 +27,9 @@ struct Integrator::VertexSampler {
     const SobolSampler& sampler;
     uint32_t vertex;
 
-    glm::vec2 pair(Use use) const { return sampler.pair(vertex * kUses + use); }
+    std::array<glm::vec2, 2> pairs(Use a, Use b) const {
+        return sampler.pairs(vertex * kUses + a, vertex * kUses + b);
+    }
     float one(Use use) const { return sampler.one(vertex * kUses + use); }
 };
 
@@ -86,7 +88,8 @@ class Integrator::Path {
     Ray ray_, shadow_{};
     uint32_t vertex_ = 0;
     SurfacePoint point_;
-    glm::vec3 light_{0.0f};  ///< That the shadow ray brings unless something is in its way.
+    std::array<glm::vec2, 2> places_;  ///< Random numbers for a point of a light and for a direction.
+    glm::vec3 light_{0.0f};            ///< That the shadow ray brings unless something is in its way.
     glm::vec3 throughput_{1.0f};
     glm::vec3 irradianceThroughput_{0.0f};  ///< The same with the first hit's reflection left out.
     float reflectionPdf_ = 0.0f;
@@ -120,6 +123,7 @@ bool Integrator::Path::arrive(const Hit& hit) {
     if (vertex_ > in_.bounces_) return false;
 
     point_ = in_.surfaces_.at(hit, ray_.direction);
+    places_ = VertexSampler{sampler_, vertex_}.pairs(kLightPoint, kReflection);
     if (vertex_ == 0) path_.hasIrradiance = maxComponent(point_.bsdf.diffuse) > 0.0f;
     if (!in_.lights_.empty() && (vertex_ > 0 || in_.light_ == PathLight::All)) drawLight();
     return true;
@@ -129,7 +133,7 @@ void Integrator::Path::drawLight() {
     const VertexSampler sampler{sampler_, vertex_};
     const glm::vec3 origin = point_.rayOrigin();
     const float choice = in_.lights_.isSingle() ? 0.0f : sampler.one(kLightChoice);
-    const LightSample light = in_.lights_.sample(origin, choice, sampler.pair(kLightPoint));
+    const LightSample light = in_.lights_.sample(origin, choice, places_[0]);
     if (!(light.pdf > 0.0f) || !(glm::dot(light.direction, point_.faceNormal) > 0.0f)) return;
     const BsdfValue reflection = point_.bsdf.evaluate(-ray_.direction, light.direction, point_.shadingNormal);
     light_ = reflection.fCos * light.radiance / light.pdf;
@@ -149,8 +153,7 @@ bool Integrator::Path::scatter() {
     // Rays that a shading normal sends below the surface are lost.
     const VertexSampler sampler{sampler_, vertex_};
     const float lobe = point_.bsdf.hasSpecular() ? sampler.one(kLobe) : 0.0f;
-    const BsdfSample next =
-        point_.bsdf.sample(-ray_.direction, point_.shadingNormal, sampler.pair(kReflection), lobe);
+    const BsdfSample next = point_.bsdf.sample(-ray_.direction, point_.shadingNormal, places_[1], lobe);
     throughput_ *= next.weight;
     if (vertex_ > 0)
         irradianceThroughput_ *= next.weight;

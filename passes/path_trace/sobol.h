@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 
@@ -8,7 +9,11 @@
 /// Scrambling"; the hash is Vegdahl's revision of Laine and Karras 2011.
 namespace voxray::path_trace {
 
-inline uint32_t reverseBits(uint32_t x) {
+/// Four numbers that are handled at once.
+using Four = uint32_t __attribute__((vector_size(16)));
+
+template <typename Bits>
+Bits reverseBits(Bits x) {
     x = ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
     x = ((x & 0x33333333u) << 2) | ((x >> 2) & 0x33333333u);
     x = ((x & 0x0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0fu);
@@ -17,7 +22,8 @@ inline uint32_t reverseBits(uint32_t x) {
 
 /// Owen scrambling of a number whose bits are in reversed order: each bit is flipped depending on the bits
 /// below it.
-inline uint32_t scrambleReversed(uint32_t x, uint32_t seed) {
+template <typename Bits>
+Bits scrambleReversed(Bits x, Bits seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1u;
@@ -27,7 +33,8 @@ inline uint32_t scrambleReversed(uint32_t x, uint32_t seed) {
 }
 
 /// The second Sobol dimension of a sample index, bits reversed: Pascal's triangle modulo 2.
-inline uint32_t secondDimensionReversed(uint32_t index) {
+template <typename Bits>
+Bits secondDimensionReversed(Bits index) {
     index ^= (index & 0xaaaaaaaau) >> 1;
     index ^= (index & 0xccccccccu) >> 2;
     index ^= (index & 0xf0f0f0f0u) >> 4;
@@ -69,6 +76,21 @@ class SobolSampler {
         const uint32_t x = scrambleReversed(index, seed * 0x2c1b3c6du + 0x297a2d39u);
         const uint32_t y = scrambleReversed(secondDimensionReversed(index), seed * 0x7feb352du + 0x846ca68bu);
         return {unitFloat(reverseBits(x)), unitFloat(reverseBits(y))};
+    }
+
+    /// Two pairs at once, the same numbers as pair() gives.
+    std::array<glm::vec2, 2> pairs(uint32_t first, uint32_t second) const {
+        const uint32_t a = hashOf(seed_, first), b = hashOf(seed_, second);
+        const Four reversed = {reversedIndex_, reversedIndex_, reversedIndex_, reversedIndex_};
+        const Four seeds = {a, b, a, b};
+        const Four index = reverseBits(scrambleReversed(reversed, seeds));
+        const Four other = secondDimensionReversed(index);
+        const Four both = {index[0], index[1], other[2], other[3]};
+        const Four scrambles = seeds * Four{0x2c1b3c6du, 0x2c1b3c6du, 0x7feb352du, 0x7feb352du} +
+                               Four{0x297a2d39u, 0x297a2d39u, 0x846ca68bu, 0x846ca68bu};
+        const Four bits = reverseBits(scrambleReversed(both, scrambles));
+        return {glm::vec2(unitFloat(bits[0]), unitFloat(bits[2])),
+                glm::vec2(unitFloat(bits[1]), unitFloat(bits[3]))};
     }
 
     /// The first dimension of a pair alone.

@@ -14,6 +14,15 @@ namespace {
 using path_trace::SobolSampler;
 using path_trace::Strategy;
 
+TEST(SobolSampler, TwoAtOnceAreTheSameNumbers) {
+    for (uint32_t seed = 0; seed < 100; ++seed) {
+        const SobolSampler sampler(seed * 0x9e3779b9u, seed * seed);
+        const auto both = sampler.pairs(seed, seed + 5);
+        ASSERT_EQ(both[0], sampler.pair(seed));
+        ASSERT_EQ(both[1], sampler.pair(seed + 5));
+    }
+}
+
 TEST(SobolSampler, EveryPairIsAZeroTwoSequence) {
     // Each aligned run of 2^m points has one point in each of its elementary intervals of every shape.
     for (const uint32_t seed : {1u, 77u})
