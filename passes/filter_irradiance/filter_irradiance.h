@@ -1,7 +1,7 @@
 #pragma once
 
-#include "passes/common/filter/irradiance_resolve.h"
 #include "passes/common/filter/noisy_irradiance.h"
+#include "passes/common/view/frame_image.h"
 
 namespace voxray {
 
@@ -20,13 +20,13 @@ class FilterIrradiance final : public Pass {
         "edge_stopping_scale and levels, less the more rays. Lambert surfaces only. Source: Dammertz et al. "
         "2010; Ward et al. 1988; docs/filtering.md.";
     struct Params {
-        uint32_t levels = 5;
+        uint32_t levels = 4;
         float edgeStoppingScale = 0.1f;
         static constexpr auto schema() {
             return std::tuple{
                 field("levels", &Params::levels,
                       "Levels of the wavelet, each of twice the reach of the one before: n levels reach "
-                      "2^n - 1 texels.",
+                      "2^n - 1 pixels.",
                       1u, 6u),
                 field("edge_stopping_scale", &Params::edgeStoppingScale,
                       "Factor of the bound on how much irradiance differs between two texels. 1: the whole "
@@ -43,20 +43,24 @@ class FilterIrradiance final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    void guide(PassContext& context) const;
+    void findLight(PassContext& context) const;
     const Image& means(PassContext& context) const;
+    glm::uvec3 elementGroups() const;
 
     Params params_;
     Port<const GBuffer> gbuffer_;
     Port<const NoisyIrradiance> noisy_;
     Port<FrameImage> indirect_;
-    Program statistics_, guide_, mean_, wavelet_;
-    IrradianceResolve resolve_;
+    Program findSurfaces_, statistics_, mean_, findLight_, wavelet_, resolve_;
     Sampler sampler_;
+    Buffer second_;           ///< How many pixels show a second surface, then their numbers.
     Buffer blockStatistics_;  ///< gpu::RayStatistics a block, where the gather tells moments.
-    Buffer guides_;           ///< gpu::FilterTexel a texel.
-    Image means_[2];          ///< Of each texel's surroundings (mean.comp), where the gather tells moments.
-    Image filtered_[2];       ///< As NoisyIrradiance::irradiance; levels write them in turn.
+    // Images of elements (elements.glsl).
+    Image surfaces_;     ///< surface.glsl
+    Image reflectance_;  ///< Albedo times the part of the pixel that has it.
+    Image means_[2];     ///< Of surroundings (mean.comp), where the gather tells moments.
+    Image light_;        ///< surface_light.glsl
+    Image filtered_[2];  ///< Irradiance, W/m², and number of rays; levels write them in turn.
 };
 
 }  // namespace voxray

@@ -1,0 +1,20 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Radiance that each pixel reflects, by Lambert's law.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+uniform sampler2D irradiance;   // Of elements (elements.glsl), W/m².
+uniform sampler2D reflectance;  // Albedo times the part of the pixel that has it.
+layout(rgba32f) writeonly uniform image2D result;
+
+void main() {
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(result);
+    if (any(greaterThanEqual(pixel, size))) return;
+    vec3 sum = texelFetch(reflectance, pixel, 0).rgb * texelFetch(irradiance, pixel, 0).rgb;
+#if SAMPLES > 1
+    const ivec2 second = pixel + ivec2(0, size.y);
+    const vec3 secondReflectance = texelFetch(reflectance, second, 0).rgb;
+    if (secondReflectance != vec3(0.0)) sum += secondReflectance * texelFetch(irradiance, second, 0).rgb;
+#endif
+    imageStore(result, pixel, vec4(sum / 3.14159265358979, 1.0));
+}
