@@ -9,6 +9,7 @@
 #include "passes/gather_cached_rays/gather_cached_rays.h"
 #include "passes/gather_cones/gather_cones.h"
 #include "passes/gather_irradiance/gather_irradiance.h"
+#include "passes/gather_merged_rays/gather_merged_rays.h"
 #include "passes/gather_rays/gather_rays.h"
 #include "passes/gather_vpls/gather_vpls.h"
 #include "passes/gbuffer/gbuffer_pass.h"
@@ -19,6 +20,7 @@
 #include "passes/inject_shadow_map/inject_shadow_map.h"
 #include "passes/inject_voxel_rays/inject_voxel_rays.h"
 #include "passes/light_clipmap/light_clipmap.h"
+#include "passes/merge_voxels/merge_voxels.h"
 #include "passes/path_trace/path_trace_pass.h"
 #include "passes/place_surfels/place_surfels.h"
 #include "passes/probe_irradiance/probe_irradiance.h"
@@ -49,6 +51,8 @@ void registerPasses(Registry& registry) {
     registry.add<GatherIrradiance>();
     registry.add<TraceGatherRays>();
     registry.add<GatherRays>();
+    registry.add<MergeVoxels>();
+    registry.add<GatherMergedRays>();
     registry.add<UpdateRadianceCache>();
     registry.add<GatherCachedRays>();
     registry.add<SampleVpls>();

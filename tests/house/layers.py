@@ -38,6 +38,7 @@ ROOMS = {
     "surfels": {"compute", "view", "voxels", "lights"},
     "final_gather": {"compute", "view", "filter", "lights", "surfels"},
     "radiance_cache": {"compute"},
+    "irradiance_tree": {"compute", "voxels"},
 }
 
 # GLSL of the framework's own things, for every room.

@@ -1,0 +1,10 @@
+// What an irradiance tree holds, for the final gather (passes/common/final_gather/hit.glsl).
+#include "passes/common/final_gather/hit.glsl"
+#include "shaders/irradiance_tree/irradiance_tree.glsl"
+
+StoredLight storedLight(vec3 position, vec3 normal) {
+    StoredLight stored;
+    stored.irradiance = treeIrradianceAt(position, normal, stored.known);
+    stored.cellSize = irradianceTree.grid.voxels.voxelSize;
+    return stored;
+}

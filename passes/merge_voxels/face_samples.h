@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+
+#include "passes/common/irradiance_tree/tree_builder.h"
+#include "passes/common/voxels/voxels.h"
+
+namespace voxray {
+
+/// What the faces of all voxels hold, on the host.
+struct VoxelFaces {
+    /// Those that know any light: +x -x +y -y +z -z.
+    std::array<std::vector<FaceSample>, kFaces> faces;
+    std::vector<uint32_t> known;  ///< Which these are: IrradianceTree::faces.
+};
+
+/// Reads them back. Errors are relative to the mean irradiance of all faces in the block of 8³ voxels round a
+/// voxel, since that is what surfaces near it see, and at least to a thousandth of the mean of all. Waits for
+/// the device.
+VoxelFaces readVoxelFaces(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& light,
+                          bool withDirect);
+
+}  // namespace voxray
