@@ -30,6 +30,7 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
     std::string best;
     size_t bestDistance = std::max<size_t>(1, word.size() / 3) + 1;
     for (const std::string& candidate : candidates) {
+        if (candidate == word) continue;  // It is known, but not here.
         const size_t distance = editDistance(word, candidate);
         if (distance < bestDistance) {
             bestDistance = distance;

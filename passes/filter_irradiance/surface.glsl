@@ -11,11 +11,12 @@ struct Surface {
 };
 
 // Both normals are on the octahedron: the geometric one with 9 bits a coordinate, which tells planes apart to a fifth of a degree,
-// the shading normal with 6. The last two bits hold its area: the part of the pixel that shows it, in quarters.
+// the shading normal with 6. The last two bits hold its area: the part of the pixel that shows it, in quarters, rounded up; four of
+// them mean that the pixel shows nothing else.
 uvec4 packSurface(Surface s, float area) {
     const vec2 geometric = unpackSnorm2x16(toOctahedral(s.geometricNormal)), shading = unpackSnorm2x16(toOctahedral(s.normal));
     const uvec2 g = uvec2(ivec2(round(geometric * 255.0)) + 256), n = uvec2(ivec2(round(shading * 31.0)) + 32);
-    const uint quarters = uint(ceil(4.0 * area));
+    const uint quarters = area < 1.0 ? min(uint(ceil(4.0 * area)), 3u) : 4u;
     return uvec4(floatBitsToUint(s.position), g.x | (g.y << 9) | (n.x << 18) | (n.y << 24) | ((quarters - 1u) << 30));
 }
 

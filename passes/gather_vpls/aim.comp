@@ -31,7 +31,7 @@ void main() {
     const ivec2 texel = batchTexel(push.batch, i % push.batch.texelCount);
     const vec4 p = isOutside(push.batch, texel) ? vec4(0.0) : texelFetch(position, texel, 0);
     if (p.w > 0.0) {
-        const Vpl vpl = vpls.data[list.data[batchVpl(push.batch, i / push.batch.texelCount)]];
+        const Vpl vpl = vpls.data[list.data[push.batch.firstVpl + i / push.batch.texelCount]];
         const vec3 n = normalize(texelFetch(normal, texel, 0).xyz), face = normalize(texelFetch(geometricNormal, texel, 0).xyz);
         const vec3 way = vpl.position - p.xyz;
         const float squared = dot(way, way);

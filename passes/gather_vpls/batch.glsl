@@ -5,7 +5,7 @@ struct Batch {
     uvec2 subset;  // Place within a block.
     uint block;
     uint firstTexel, texelCount;
-    uint firstVpl, vplCount;  // Within the subset.
+    uint firstVpl, vplCount;  // Of the list of virtual lights.
 };
 
 // The G-buffer's texel of one of the batch; it may lie outside.
@@ -15,6 +15,3 @@ ivec2 batchTexel(Batch b, uint i) {
 }
 
 bool isOutside(Batch b, ivec2 texel) { return any(greaterThanEqual(texel, ivec2(b.texels))); }
-
-// Every block² -th virtual light is one of a subset's.
-uint batchVpl(Batch b, uint i) { return (b.firstVpl + i) * b.block * b.block + b.subset.y * b.block + b.subset.x; }

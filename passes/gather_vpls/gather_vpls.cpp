@@ -19,7 +19,7 @@ struct Batch {
     glm::uvec2 subset;  ///< Place within a block.
     uint32_t block;
     uint32_t firstTexel, texelCount;
-    uint32_t firstVpl, vplCount;  ///< Within the subset.
+    uint32_t firstVpl, vplCount;  ///< Of the list of virtual lights.
 };
 
 struct AimPush {
@@ -68,10 +68,9 @@ void GatherVpls::plan(PassPlan& plan) {
     const glm::uvec2 extent = subsetExtent(gbufferExtent(plan.frame, samples));
     const uint64_t texels = std::min(extent.x * extent.y, kBatchRays);
     const uint64_t perTexel =
-        (plan.get(vpls_).paths * plan.get(vpls_).bounces - 1) / (params_.block * params_.block) + 1;
+        uint64_t(plan.get(vpls_).paths) * plan.get(vpls_).bounces / (params_.block * params_.block) + 1;
     const uint64_t rays = std::min(texels * perTexel, uint64_t(kBatchRays));
     NoisyIrradiance& noisy = plan.get(noisy_);
-    noisy.spacing = params_.block;
     plan.image(noisy.irradiance, "noisy irradiance", NoisyIrradiance::desc(plan.frame, samples));
     if (FrameImage& indirect = plan.get(indirect_); indirect.isRead)
         plan.image(indirect.image, "indirect", frameImageDesc(plan.frame));
@@ -136,17 +135,19 @@ void GatherVpls::record(PassContext& context) {
     };
     for (uint32_t subset = 0; subset < subsets; ++subset) {
         batch.subset = {subset % params_.block, subset / params_.block};
-        const uint32_t own = vpls.count > subset ? (vpls.count - subset - 1) / subsets + 1 : 0;
+        // Runs of the list that differ in length by one at most
+        const auto first = uint32_t(uint64_t(vpls.count) * subset / subsets);
+        const auto end = uint32_t(uint64_t(vpls.count) * (subset + 1) / subsets);
         for (batch.firstTexel = 0; batch.firstTexel < texels; batch.firstTexel += batch.texelCount) {
             batch.texelCount = std::min(texels - batch.firstTexel, kBatchRays);
             const uint32_t maxVpls =
                 std::max(1u, uint32_t(carried_.bytes() / (4 * sizeof(float))) / batch.texelCount);
-            batch.firstVpl = 0;
+            batch.firstVpl = first;
             do {
-                batch.vplCount = std::min(own - batch.firstVpl, maxVpls);
+                batch.vplCount = std::min(end - batch.firstVpl, maxVpls);
                 light();
                 batch.firstVpl += batch.vplCount;
-            } while (batch.firstVpl < own);
+            } while (batch.firstVpl < end);
         }
     }
     if (voxelTracer_) {

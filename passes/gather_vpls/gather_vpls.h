@@ -28,7 +28,7 @@ class GatherVpls final : public Pass {
     static constexpr const char* kHelp =
         "Indirect light from virtual point lights (sample_vpls), with a shadow ray to each: through voxels, "
         "or "
-        "exact. Each texel of a block takes another subset of them; let filter_irradiance follow. Biased by: "
+        "exact. Each texel of a block takes another part of them; let filter_irradiance follow. Biased by: "
         "bound, which darkens contacts and corners; voxel size, unless visibility is exact. Noisy by: the "
         "number of virtual lights, as blotches that all texels share. Source: Sun and Agu 2015.";
     struct Params {

@@ -9,14 +9,15 @@ layout(local_size_x = 64) in;
 layout(scalar) buffer Rays { Ray data[]; } rays;
 layout(scalar) buffer Paths { LightPath data[]; } paths;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+readonly buffer Order { uint data[]; } order;  // The place of each path among those of all sources.
 layout(scalar) writeonly buffer Vpls { Vpl data[]; } vpls;
 buffer Flags { uint words[]; } flags;
 layout(push_constant, scalar) uniform Push {
     uint paths;
+    uint firstPath;  // Of the source.
     uint seed;
-    uint firstVpl;  // Of the first path at this bounce.
     uint bounce;
-    uint lastBounce;
+    uint bounces;
 } push;
 
 void main() {
@@ -36,11 +37,11 @@ void main() {
     LightPath path = paths.data[i];
     const vec3 flux = path.power * litAlbedo(m, s);
     if (any(greaterThan(flux, vec3(0.0)))) {
-        const uint number = push.firstVpl + i;
+        const uint number = order.data[push.firstPath + i] * push.bounces + push.bounce;
         vpls.data[number] = Vpl(s.position, litNormal(m, s, faceNormal), faceNormal, flux);
         atomicOr(flags.words[number / 32u], 1u << (number % 32u));
     }
-    if (push.bounce == push.lastBounce) return;
+    if (push.bounce + 1u == push.bounces) return;
     if (!bounceLightRay(s, faceNormal, false, i, hashCombine(push.seed, 16u + 2u * push.bounce), ray, path)) return;
     paths.data[i] = path;
     rays.data[i] = ray;

@@ -14,10 +14,10 @@ namespace {
 
 struct RecordPush {
     uint32_t paths;
+    uint32_t firstPath;
     uint32_t seed;
-    uint32_t firstVpl;
     uint32_t bounce;
-    uint32_t lastBounce;
+    uint32_t bounces;
 };
 
 /// How many of `paths` each source sends: by its power, at least one.
@@ -27,6 +27,19 @@ std::vector<uint32_t> pathsBySource(const std::vector<LightSource>& sources, uin
     for (const LightSource& source : sources)
         counts.push_back(std::max(1u, uint32_t(std::lround(paths * (double(source.power) / power)))));
     return counts;
+}
+
+/// The place of each path, source by source, where paths of all sources are mixed evenly: any run of places
+/// then holds runs of each source's own numbers, which complement each other.
+std::vector<uint32_t> orderOfPaths(const std::vector<uint32_t>& pathsOf) {
+    std::vector<double> at;
+    for (const uint32_t paths : pathsOf)
+        for (uint32_t i = 0; i < paths; ++i) at.push_back((i + 0.5) / paths);
+    std::vector<uint32_t> paths(at.size()), places(at.size());
+    std::iota(paths.begin(), paths.end(), 0u);
+    std::stable_sort(paths.begin(), paths.end(), [&](uint32_t a, uint32_t b) { return at[a] < at[b]; });
+    for (uint32_t place = 0; place < paths.size(); ++place) places[paths[place]] = place;
+    return places;
 }
 
 }  // namespace
@@ -44,6 +57,7 @@ void SampleVpls::plan(PassPlan& plan) {
     const uint64_t batch = *std::max_element(pathsOf_.begin(), pathsOf_.end());
     plan.buffer(vpls.points, "virtual point lights", points * sizeof(gpu::Vpl));
     plan.buffer(vpls.list, "list of virtual point lights", points * sizeof(uint32_t));
+    plan.buffer(order_, "order of light paths", vpls.paths * sizeof(uint32_t));
     plan.buffer(flags_, "flags of virtual point lights", (points + 31) / 32 * sizeof(uint32_t));
     plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
@@ -53,6 +67,8 @@ void SampleVpls::plan(PassPlan& plan) {
 void SampleVpls::prepare(PassSetup& setup) {
     emission_.prepare(setup);
     record_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/sample_vpls/record.comp"));
+    const std::vector<uint32_t> order = orderOfPaths(pathsOf_);
+    setup.stream.upload(order_, std::as_bytes(std::span(order)));
     compaction_.emplace(setup.device, setup.compiler);
 }
 
@@ -72,15 +88,14 @@ void SampleVpls::record(PassContext& context) {
         emission_.emit(context, sources[s], {seed, paths, 0, paths}, rays_, paths_);
         for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {
             context.tracer.closestHit(stream, rays_, hits_, paths);
-            stream.dispatch(
-                record_,
-                context.scene.bindings({{"rays", rays_},
-                                        {"hits", hits_},
-                                        {"paths", paths_},
-                                        {"vpls", vpls.points},
-                                        {"flags", flags_}}),
-                RecordPush{paths, seed, bounce * vpls.paths + firstPath, bounce, params_.bounces - 1},
-                linearGroups(paths));
+            stream.dispatch(record_,
+                            context.scene.bindings({{"rays", rays_},
+                                                    {"hits", hits_},
+                                                    {"paths", paths_},
+                                                    {"order", order_},
+                                                    {"vpls", vpls.points},
+                                                    {"flags", flags_}}),
+                            RecordPush{paths, firstPath, seed, bounce, params_.bounces}, linearGroups(paths));
         }
         firstPath += paths;
     }

@@ -17,7 +17,8 @@ class SampleVpls final : public Pass {
         "Virtual point lights where rays from the lights hit, bounce after bounce: what gather_vpls sends "
         "indirect light from. Lights of every kind send rays by their power. All surfaces are Lambert "
         "surfaces "
-        "of their base colour. Biased by nothing. Noisy by: vpls_per_bounce. The same samples are taken in "
+        "of their base colour. Biased by: shading normals, whose factor on light paths is left out. Noisy "
+        "by: vpls_per_bounce. The same samples are taken in "
         "each frame, so that virtual lights move with a light and don't jump. Source: Keller 1997; Sun and "
         "Agu 2015, section 3.2.";
     struct Params {
@@ -46,7 +47,7 @@ class SampleVpls final : public Pass {
     LightEmission emission_;
     Program record_;
     std::optional<Compaction> compaction_;
-    Buffer rays_, hits_, paths_, flags_;
+    Buffer rays_, hits_, paths_, order_, flags_;
 };
 
 }  // namespace voxray

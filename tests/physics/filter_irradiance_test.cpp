@@ -149,6 +149,21 @@ TEST(FilterIrradiance, LeavesWellKnownIrradianceAlone) {
     EXPECT_LT(difference(filtered, noisy), 1e-3);
 }
 
+TEST(FilterIrradiance, LeavesEverySurfaceOfAPixelItsOwn) {
+    // Also where the second surface is a 9th or a 16th of the pixel
+    for (const std::string samples : {"2", "3", "4"}) {
+        SCOPED_TRACE(samples);
+        const std::string source = "step: 100, noise: 1, rays: 1e9", filter = ", edge_stopping_scale: 100";
+        const ImageF one = filterKnown(source, "levels: 1" + filter, "cornell", samples);
+        const ImageF four = filterKnown(source, "levels: 4" + filter, "cornell", samples);
+        double largest = 0;
+        for (size_t i = 0; i < one.data.size(); ++i)
+            if (one.data[i] > 0)
+                largest = std::max(largest, std::abs(four.data[i] / double(one.data[i]) - 1));
+        EXPECT_LT(largest, 0.01);
+    }
+}
+
 TEST(FilterIrradiance, KeepsALinearGradientOnAWall) {
     // A mean over a symmetric kernel keeps what is linear. The reach of 7 texels stays on the wall.
     const ImageF filtered = filterKnown("slope: 0.5", "levels: 3", "white_room");

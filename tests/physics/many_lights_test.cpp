@@ -33,7 +33,7 @@ TEST(ManyLights, ReflectAllLightOfAClosedRoom) {
     const auto points = chain.read<gpu::Vpl>(vpls(chain).points);
     const auto list = chain.read<uint32_t>(vpls(chain).list);
     std::vector<double> flux(3);
-    for (uint32_t i = 0; i < vpls(chain).count; ++i) flux.at(list[i] / 8192) += points.at(list[i]).flux.y;
+    for (uint32_t i = 0; i < vpls(chain).count; ++i) flux.at(list[i] % 3) += points.at(list[i]).flux.y;
     EXPECT_NEAR(flux[0] / (4 * kPi), 1, 1e-5);
     EXPECT_NEAR(flux[1] / (2 * kPi), 1, 0.02);
     EXPECT_NEAR(flux[2] / kPi, 1, 0.04);
@@ -73,7 +73,7 @@ TEST(ManyLights, SubsetsBringTheSameOnAverage) {
     // Also where some subsets have no light at all
     const auto energy = [](const std::string& sample, const std::string& block) {
         return mean(
-            Chain("white_room", "{}", manyLights(sample, "visibility: exact, block: " + block), 64, 64)
+            Chain("white_room", "{}", manyLights(sample, "visibility: none, block: " + block), 128, 128)
                 .image("indirect"));
     };
     const std::string many = "vpls_per_bounce: 512", few = "vpls_per_bounce: 10, bounces: 1";

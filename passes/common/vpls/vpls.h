@@ -11,8 +11,8 @@ struct Vpls : Resource {
     uint32_t paths = 0;    ///< Paths of light that they are the vertices of; known from plan() on.
     uint32_t bounces = 0;  ///< Vertices of a path, at most; known from plan() on.
     Buffer points;         ///< gpu::Vpl each, some of them without flux: vertices of paths that ended before.
-    Buffer list;           ///< Numbers of those with flux: by bounce, within one by path.
-    uint32_t count = 0;    ///< Of `list`; known once the sampling pass has run.
+    Buffer list;  ///< Numbers of those with flux, in order; hit b of the path in place p has p × bounces + b.
+    uint32_t count = 0;  ///< Of `list`; known once the sampling pass has run.
 
     std::vector<const Buffer*> checkedBuffers() const override { return {&points}; }
 };
