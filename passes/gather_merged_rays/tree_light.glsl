@@ -4,7 +4,7 @@
 
 StoredLight storedLight(vec3 position, vec3 normal) {
     StoredLight stored;
-    stored.irradiance = treeIrradianceAt(position, normal, stored.known);
+    stored.irradiance = irradianceAt(irradianceTree.grid.voxels, position, normal, stored.known);
     stored.cellSize = irradianceTree.grid.voxels.voxelSize;
     return stored;
 }

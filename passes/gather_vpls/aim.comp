@@ -46,6 +46,7 @@ void main() {
             const vec3 to = vpl.position + vpl.faceNormal * max(surfaceOffset(vpl.position), push.minOffset);
             const vec3 between = to - from;
             const float distance_ = length(between);
+            // Ends that have passed each other have nothing between them: no ray, and the light arrives
             if (dot(between, direction) > 0.0) ray = Ray(from, 0.0, between / distance_, distance_);
         }
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/gtc/constants.hpp>
 
+#include "base/error.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/lights/light_sources.h"
 #include "passes/common/view/frame_image.h"
@@ -64,6 +65,12 @@ void GatherVpls::declare(PassBuilder& builder) {
 }
 
 void GatherVpls::plan(PassPlan& plan) {
+    if (params_.restartEpsilon > 0 && params_.visibility != VplVisibility::SvoRestart)
+        throw Error("{}: 'restart_epsilon' is a step of 'visibility: svo_restart' alone; leave it out",
+                    kName);
+    // Things move without changing their area
+    minDistanceSquared_ =
+        params_.bound * params_.bound * squaredRadius(plan.frame.scene->geometry, plan.get(vpls_).paths);
     const uint32_t samples = plan.get(gbuffer_).samples;
     const glm::uvec2 extent = subsetExtent(gbufferExtent(plan.frame, samples));
     const uint64_t texels = std::min(extent.x * extent.y, kBatchRays);
@@ -93,8 +100,6 @@ void GatherVpls::record(PassContext& context) {
     const GBuffer& gbuffer = context.get(gbuffer_);
     const Vpls& vpls = context.get(vpls_);
     const NoisyIrradiance& noisy = context.get(noisy_);
-    const float bound =
-        params_.bound * params_.bound * squaredRadius(context.frame.scene->geometry, vpls.paths);
     RayTracer* tracer = params_.visibility == VplVisibility::None ? nullptr : &context.tracer;
     float minOffset = 0;
     if (voxelTracer_) {
@@ -123,7 +128,7 @@ void GatherVpls::record(PassContext& context) {
                              {"list", vpls.list},
                              {"rays", rays_},
                              {"carried", carried_}},
-                            AimPush{batch, bound, minOffset}, linearGroups(rays));
+                            AimPush{batch, minDistanceSquared_, minOffset}, linearGroups(rays));
             if (tracer) tracer->occluded(stream, rays_, occluded_, rays, Coherence::Coherent);
         }
         stream.dispatch(add_,

@@ -74,6 +74,7 @@ class GatherVpls final : public Pass {
     Port<const SurfaceVoxels> voxels_;  ///< Where shadow rays meet voxels.
     Port<NoisyIrradiance> noisy_;
     Port<FrameImage> indirect_;
+    float minDistanceSquared_ = 0;  ///< m²
     std::optional<VoxelTracer> voxelTracer_;
     Program aim_, add_;
     IrradianceResolve resolve_;

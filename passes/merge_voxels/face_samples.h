@@ -14,9 +14,9 @@ struct VoxelFaces {
     std::vector<uint32_t> known;  ///< Which these are: IrradianceTree::faces.
 };
 
-/// Reads them back. Errors are relative to the mean irradiance of all faces in the block of 8³ voxels round a
-/// voxel, since that is what surfaces near it see, and at least to a thousandth of the mean of all. Waits for
-/// the device.
+/// Reads them back. Errors are relative to the mean irradiance of all faces in the aligned block of 8³ voxels
+/// that holds a voxel, since that is about what surfaces near it see, and at least to a thousandth of the
+/// mean of all. Waits for the device.
 VoxelFaces readVoxelFaces(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& light,
                           bool withDirect);
 

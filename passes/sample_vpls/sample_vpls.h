@@ -18,9 +18,8 @@ class SampleVpls final : public Pass {
         "indirect light from. Lights of every kind send rays by their power. All surfaces are Lambert "
         "surfaces "
         "of their base colour. Biased by: shading normals, whose factor on light paths is left out. Noisy "
-        "by: vpls_per_bounce. The same samples are taken in "
-        "each frame, so that virtual lights move with a light and don't jump. Source: Keller 1997; Sun and "
-        "Agu 2015, section 3.2.";
+        "by: vpls_per_bounce. Each frame draws the same numbers, so that virtual lights move with a light. "
+        "Source: Keller 1997; Sun and Agu 2015, section 3.2.";
     struct Params {
         uint32_t vplsPerBounce = 1024;
         uint32_t bounces = 3;

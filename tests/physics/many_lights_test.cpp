@@ -95,6 +95,11 @@ TEST(ManyLights, ABoundTakesLightAwayAndVanishesWithMoreLights) {
     EXPECT_NEAR(energy("16384", "1") / without, 1, 0.01);
 }
 
+TEST(ManyLights, NamesAnEpsilonWithoutItsWalk) {
+    const std::string graph = manyLights("bounces: 1", "visibility: svo, restart_epsilon: 0.1");
+    EXPECT_CONTAINS(errorOf([&] { Chain("white_room", "{}", graph); }), "'restart_epsilon' is a step of");
+}
+
 TEST(ManyLights, WithoutLightAreAnError) {
     EXPECT_CONTAINS(errorOf([] { Chain("white_room", "{albedo: 0}", manyLights("bounces: 1", "block: 4")); }),
                     "none of 1024 rays from the lights hit a surface that reflects light");

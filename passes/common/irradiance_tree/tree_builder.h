@@ -23,10 +23,10 @@ struct SampleTree {
 };
 
 /// Grows a tree by splits along the axes, each of which lowers the squared relative error most, down to
-/// single voxels; then prunes it from the leaves up: a subtree stays where each leaf that it adds lowers the
-/// squared error, weighted by area, by more than `tolerance`² voxel faces. Of all prunings this has the least
-/// error for its number of leaves (Breiman et al. 1984, cost-complexity pruning; Chou, Lookabaugh and Gray
-/// 1989). A leaf's irradiance is its flux over its area, so that flux is kept. No leaf
+/// single voxels; then prunes it from the leaves up: a subtree stays where the leaves that it adds lower the
+/// squared error, weighted by area, by more than `tolerance`² voxel faces each, on average. Of all prunings
+/// this has the least error for its number of leaves (Breiman et al. 1984, cost-complexity pruning; Chou,
+/// Lookabaugh and Gray 1989). A leaf's irradiance is its flux over its area, so that flux is kept. No leaf
 /// holds samples of irradiance 0 together with others.
 /// @param samples of one face; reordered. @throws Error where the words outgrow what offsets can tell.
 SampleTree buildSampleTree(std::vector<FaceSample>& samples, double tolerance);
