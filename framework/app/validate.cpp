@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "app/commands.h"
-#include "config/config.h"
-#include "experiment/scene_setup.h"
+#include "app/config_options.h"
 #include "experiment/validate.h"
 #include "passes/register_passes.h"
 
@@ -16,51 +15,64 @@ namespace voxray {
 
 namespace {
 
-/// Checks a config as it stands, and again under each of its profiles. @throws UsageError for the first
-/// fault.
-void validate(const std::filesystem::path& config, const std::filesystem::path& scenes,
+struct ValidateArguments : ConfigArguments {
+    std::vector<std::filesystem::path> configs;
+};
+
+/// A device that has all that a pass may ask for: a config is right or wrong whatever it runs on.
+DeviceInfo capableDevice() {
+    DeviceInfo device;
+    device.name = "any";
+    device.rayQuery = device.rayPipeline = device.geometryShader = true;
+    device.shaderInt64Atomics = device.floatAtomics = true;
+    return device;
+}
+
+/// Checks a config under the profile that is asked for, or as it stands and again under each of its
+/// profiles. @throws UsageError for the first fault.
+void validate(const std::filesystem::path& config, const ConfigOptions& options, SceneLoader& loader,
               const Registry& registry) {
-    SceneLoader loader(sceneFolders(scenes, VOXRAY_SOURCE_DIR, config));
-    std::set<std::string> missing;
-    std::vector<std::string> profiles = profileNames(config);
-    profiles.insert(profiles.begin(), "");
+    std::vector<std::string> profiles{options.profile};
+    if (options.profile.empty())
+        for (const std::string& name : profileNames(config)) profiles.push_back(name);
     for (const std::string& profile : profiles) {
-        const WiredExperiment wired = wireExperiment(loadExperiment(config, {profile, {}}), registry);
-        for (const WiredVariant& variant : wired.variants)
-            for (const std::string& file : loader.checkNames(variant.setup.scene)) missing.insert(file);
+        WiredExperiment wired =
+            wireExperiment(loadExperiment(config, {profile, options.assignments}), registry);
+        checkPlans(wired, loader, capableDevice(), registry);
         const size_t variants = wired.variants.size();
         fmt::print("{}{}: valid, {} variant{}\n", config.string(),
                    profile.empty() ? "" : " --profile " + profile, variants, variants == 1 ? "" : "s");
     }
-    for (const std::string& file : missing)
-        fmt::print("{}: no file '{}' here, so the names of its materials and cameras are not checked\n",
-                   config.string(), file);
+}
+
+/// Checks every config, so that one run shows the faults of all. @return the exit status.
+int validateAll(const ValidateArguments& arguments) {
+    Registry registry;
+    registerPasses(registry);
+    int status = 0;
+    std::map<std::filesystem::path, SceneLoader> loaders;  // By the config's folder, which is searched, too.
+    for (const std::filesystem::path& config : arguments.configs) {
+        const auto folders = sceneFolders(arguments.scenes, VOXRAY_SOURCE_DIR, config);
+        SceneLoader& loader = loaders.try_emplace(config.parent_path(), folders).first->second;
+        try {
+            validate(config, arguments.config, loader, registry);
+        } catch (const Error& error) {
+            fmt::print(stderr, "voxray: error: {}\n", error.what());
+            status = 2;
+        }
+    }
+    return status;
 }
 
 }  // namespace
 
 void addValidateCommand(CLI::App& app, int& status) {
-    CLI::App* command =
-        app.add_subcommand("validate", "Check configs and all their profiles without rendering.");
-    auto configs = std::make_shared<std::vector<std::filesystem::path>>();
-    command->add_option("CONFIG", *configs, "Config files.")->required();
-    auto scenes = std::make_shared<std::filesystem::path>();
-    command->add_option("--scenes", *scenes, "Folder in which scene files are looked for first.")
-        ->type_name("DIR");
-    command->callback([configs, scenes, &status] {
-        Registry registry;
-        registerPasses(registry);
-
-        // Every config is looked at, so that one run shows the faults of all.
-        for (const std::filesystem::path& config : *configs) {
-            try {
-                validate(config, *scenes, registry);
-            } catch (const UsageError& error) {
-                fmt::print(stderr, "voxray: error: {}\n", error.what());
-                status = 2;
-            }
-        }
-    });
+    CLI::App* command = app.add_subcommand(
+        "validate", "Check configs and all their profiles, scenes included, without rendering.");
+    auto arguments = std::make_shared<ValidateArguments>();
+    command->add_option("CONFIG", arguments->configs, "Config files.")->required();
+    addConfigOptions(*command, *arguments);
+    command->callback([arguments, &status] { status = validateAll(*arguments); });
 }
 
 }  // namespace voxray

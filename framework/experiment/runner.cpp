@@ -116,6 +116,7 @@ void Run::openSession() {
         session_->loader().key(variant.setup.scene);
         session_->tracerName(variant.setup);
     }
+    checkPlans(wired_, session_->loader(), session_->device().info(), registry_);
     manifest_.experiment = &experiment_;
     std::map<std::string, size_t> variantsWithout;  // By the pass that is left out.
     for (const WiredVariant& variant : variants_) {

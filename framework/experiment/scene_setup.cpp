@@ -194,23 +194,6 @@ std::string SceneLoader::key(const SceneSettings& settings) {
     return hasher.hex();
 }
 
-std::vector<std::string> SceneLoader::checkNames(const SceneSettings& settings) {
-    const bool namesCamera = !settings.camera && !settings.cameraName.empty();
-    std::vector<const SceneSource*> sources{&settings.source};
-    for (const SceneAddition& addition : settings.additions) sources.push_back(&addition.source);
-    std::vector<std::string> missing;
-    for (const SceneSource* source : sources) {
-        if (!source->builtin.empty())
-            load(*source);
-        else if ((namesCamera || !settings.overrides.empty()) && !lookUp(source->file, folders_))
-            missing.push_back(source->file);
-    }
-    if (!missing.empty()) return missing;
-    checkOverrides(settings);
-    if (namesCamera) chooseCamera(settings, evaluate(load(settings.source), settings.options.time));
-    return {};
-}
-
 void SceneLoader::checkOverrides(const SceneSettings& settings) {
     if (settings.overrides.empty()) return;
     std::vector<std::string> names;

@@ -41,12 +41,6 @@ class SceneLoader {
     /// broken file.
     std::string key(const SceneSettings& settings);
 
-    /// Checks what settings call by name: built-in scenes and their parameters, overridden materials, the
-    /// camera. Loads no file that has no say in that.
-    /// @return files that names would have to be looked up in and that are not there; then names that files
-    /// bring are not checked. @throws UsageError for a name that isn't there.
-    std::vector<std::string> checkNames(const SceneSettings& settings);
-
     /// @throws as key(), and UsageError for a camera that the scene lacks.
     PreparedScene prepare(const SceneSettings& settings);
 

@@ -1,8 +1,10 @@
 #include "experiment/validate.h"
 
+#include <limits>
+
 #include "config/overrides.h"
 #include "experiment/reference.h"
-#include "graph/graph.h"
+#include "experiment/session.h"
 
 namespace voxray {
 namespace {
@@ -57,6 +59,29 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
     }
     wired.experiment = std::move(experiment);
     return wired;
+}
+
+void checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
+                const Registry& registry) {
+    constexpr uint64_t kAnySize = std::numeric_limits<uint64_t>::max();
+    std::string key;
+    PreparedScene prepared;
+    for (WiredVariant& variant : wired.variants) {
+        // Variants in a row mostly share a scene
+        if (std::string own = loader.key(variant.setup.scene); own != key) {
+            prepared = loader.prepare(variant.setup.scene);
+            key = std::move(own);
+        }
+        const Frame frame = frameOf(variant.setup, prepared, variant.setup.general.seed);
+        try {
+            variant.graph.plan(frame, device, kAnySize);
+            if (!wired.reference.isNull())
+                referenceGraph(wired.experiment, registry).plan(frame, device, kAnySize);
+        } catch (const Error& error) {
+            throw UsageError("{}{}", error.what(),
+                             wired.variants.size() > 1 ? fmt::format(" (variant {})", variant.name) : "");
+        }
+    }
 }
 
 }  // namespace voxray

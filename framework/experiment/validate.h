@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "config/sweep.h"
+#include "experiment/scene_setup.h"
 #include "graph/graph.h"
 #include "graph/registry.h"
 
@@ -26,6 +27,12 @@ struct WiredExperiment {
 /// no scene.
 /// @throws UsageError with file and line.
 WiredExperiment wireExperiment(Experiment experiment, const Registry& registry);
+
+/// Prepares the scene of every variant and plans its graph and the reference's there, so that what a pass
+/// refuses shows before anything is rendered. How much memory there is does not count: any size fits.
+/// @throws UsageError with file and line, for a scene as SceneLoader::prepare().
+void checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
+                const Registry& registry);
 
 /// The reference as a graph of one pass, for one rendering of it.
 Graph referenceGraph(const Experiment& experiment, const Registry& registry);

@@ -107,7 +107,11 @@ std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device
     for (size_t n = 0; n < impl_->nodes.size(); ++n) {
         GraphNode& node = impl_->nodes[n];
         PassPlan plan(node.resources, frame, device, node.phase);
-        node.pass->plan(plan);
+        try {
+            node.pass->plan(plan);
+        } catch (const Error& error) {
+            throw Error(node.where, "{}", error.what());
+        }
         impl_->books[n] = MemoryBook(node.id, plan);
         memory.push_back(impl_->books[n].planned());
         for (const MemoryPlan::Part& part : plan.parts()) {

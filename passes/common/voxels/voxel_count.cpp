@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "base/parallel.h"
 
 namespace voxray {
 namespace {
@@ -16,7 +19,12 @@ class Bits {
         : size_(size), wordsPerRow_((size.x + 63) / 64), words_(wordsPerRow_ * size.y * size.z, 0) {}
 
     glm::uvec3 size() const { return size_; }
-    void mark(glm::ivec3 v) { words_[word(v)] |= 1ull << (v.x % 64); }
+    /// From any thread. Most voxels are marked again and again: these are only read.
+    void mark(glm::ivec3 v) {
+        const std::atomic_ref<uint64_t> bits(words_[word(v)]);
+        const uint64_t bit = 1ull << (v.x % 64);
+        if (!(bits.load(std::memory_order_relaxed) & bit)) bits.fetch_or(bit, std::memory_order_relaxed);
+    }
     uint32_t count() const {
         uint32_t sum = 0;
         for (const uint64_t bits : words_) sum += uint32_t(std::popcount(bits));
@@ -51,6 +59,12 @@ void markTriangle(Bits& bits, const std::array<glm::dvec3, 3>& corners) {
     const glm::dvec3 high = glm::max(corners[0], glm::max(corners[1], corners[2]));
     const glm::ivec3 first = glm::max(glm::ivec3(glm::floor(low)), glm::ivec3(0));
     const glm::ivec3 last = glm::min(glm::ivec3(glm::floor(high)), glm::ivec3(bits.size()) - 1);
+
+    // Within one voxel
+    if (first == last) {
+        bits.mark(first);
+        return;
+    }
 
     // Edges as lines in the plane across the axis: outward normal and the most that a point inside reaches
     // along it.
@@ -111,14 +125,16 @@ std::vector<uint32_t> count(const Geometry& geometry, const gpu::VoxelGrid& grid
                             const std::vector<bool>& selected, const Measure& measure) {
     Bits bits(grid.resolution);
     const glm::dvec3 origin(grid.origin);
-    for (size_t t = 0; t < geometry.triangles.size(); ++t) {
-        if (!selected[t]) continue;
-        std::array<glm::dvec3, 3> corners;
-        for (int i = 0; i < 3; ++i)
-            corners[size_t(i)] =
-                (glm::dvec3(geometry.positions[geometry.triangles[t][i]]) - origin) / double(grid.voxelSize);
-        markTriangle(bits, corners);
-    }
+    parallelRanges(geometry.triangles.size(), 1024, [&](size_t begin, size_t end) {
+        for (size_t t = begin; t < end; ++t) {
+            if (!selected[t]) continue;
+            std::array<glm::dvec3, 3> corners;
+            for (int i = 0; i < 3; ++i)
+                corners[size_t(i)] = (glm::dvec3(geometry.positions[geometry.triangles[t][i]]) - origin) /
+                                     double(grid.voxelSize);
+            markTriangle(bits, corners);
+        }
+    });
 
     std::vector<uint32_t> counts{measure(bits)};
     while (bits.size() != glm::uvec3(1)) {
