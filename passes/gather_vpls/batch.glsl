@@ -1,17 +1,17 @@
-// One batch: so many texels of a subset's image, and so many of the subset's virtual lights. Texels follow each other, then lights.
-struct Batch {
-    uvec2 texels;  // Of the G-buffer.
-    uvec2 extent;  // Of the subset's image.
-    uvec2 subset;  // Place within a block.
-    uint block;
-    uint firstTexel, texelCount;
-    uint firstVpl, vplCount;  // Of the list of virtual lights.
-};
+// The receivers of a batch: texels of the G-buffer, each subset an image of every n-th; or, with SURFELS, every n-th surfel.
+#include "passes/gather_vpls/gather_types.h"
 
+#ifdef SURFELS
+// The number of a surfel of the batch; it may be past the last.
+uint batchSurfel(VplBatch b, uint i) { return (b.first + i) * b.block * b.block + b.subset; }
+
+bool isOutside(VplBatch b, uint surfel) { return surfel >= b.receivers.x; }
+#else
 // The G-buffer's texel of one of the batch; it may lie outside.
-ivec2 batchTexel(Batch b, uint i) {
-    const uint at = b.firstTexel + i;
-    return ivec2(uvec2(at % b.extent.x, at / b.extent.x) * b.block + b.subset);
+ivec2 batchTexel(VplBatch b, uint i) {
+    const uint columns = (b.receivers.x + b.block - 1u) / b.block, at = b.first + i;
+    return ivec2(uvec2(at % columns, at / columns) * b.block + uvec2(b.subset % b.block, b.subset / b.block));
 }
 
-bool isOutside(Batch b, ivec2 texel) { return any(greaterThanEqual(texel, ivec2(b.texels))); }
+bool isOutside(VplBatch b, ivec2 texel) { return any(greaterThanEqual(texel, ivec2(b.receivers))); }
+#endif

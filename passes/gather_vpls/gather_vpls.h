@@ -5,7 +5,7 @@
 #include "passes/common/filter/irradiance_resolve.h"
 #include "passes/common/filter/noisy_irradiance.h"
 #include "passes/common/voxel_march/voxel_tracer.h"
-#include "passes/common/vpls/vpls.h"
+#include "passes/gather_vpls/compensation.h"
 
 namespace voxray {
 
@@ -29,11 +29,13 @@ class GatherVpls final : public Pass {
         "Indirect light from virtual point lights (sample_vpls), with a shadow ray to each: through voxels, "
         "or "
         "exact. Each texel of a block takes another part of them; let filter_irradiance follow. Biased by: "
-        "bound, which darkens contacts and corners; voxel size, unless visibility is exact. Noisy by: the "
-        "number of virtual lights, as blotches that all texels share. Source: Sun and Agu 2015.";
+        "bound without compensation_rays, which darkens contacts and corners; voxel size, unless visibility "
+        "is exact. Noisy by: the number of virtual lights, as blotches that all texels share. Source: Sun "
+        "and Agu 2015; Kollig and Keller 2004.";
     struct Params {
         uint32_t block = 4;
         float bound = 1;
+        uint32_t compensationRays = 0;
         VplVisibility visibility = VplVisibility::Svo;
         float restartEpsilon = 0;
         static constexpr auto schema() {
@@ -46,6 +48,10 @@ class GatherVpls final : public Pass {
                     "Virtual lights nearer than this give no more light than at it: factor of the radius of "
                     "the disc that has as much area as there is surface for each path of light. 0: no bound.",
                     0.0f, 1000.0f),
+                field("compensation_rays", &Params::compensationRays,
+                      "Rays of each texel that bring back what 'bound' takes away, which is then no bias but "
+                      "noise near contacts; 0: it is left out.",
+                      0u, 256u),
                 field(
                     "visibility", &Params::visibility,
                     "What shadow rays meet. svo, bricks, bits: surface voxels, on three walks that find the "
@@ -65,21 +71,18 @@ class GatherVpls final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Texels along each side of the image that one subset lights.
-    glm::uvec2 subsetExtent(glm::uvec2 texels) const { return (texels + params_.block - 1u) / params_.block; }
-
     Params params_;
     Port<const GBuffer> gbuffer_;
     Port<const Vpls> vpls_;
     Port<const SurfaceVoxels> voxels_;  ///< Where shadow rays meet voxels.
     Port<NoisyIrradiance> noisy_;
     Port<FrameImage> indirect_;
-    float minDistanceSquared_ = 0;  ///< m²
     std::optional<VoxelTracer> voxelTracer_;
-    Program aim_, add_;
+    VplLight light_;
+    std::optional<VplCompensation> compensation_;  ///< Where something is taken away and comes back.
+    Program finish_;
     IrradianceResolve resolve_;
     Sampler sampler_;
-    Buffer rays_, carried_, occluded_;
 };
 
 }  // namespace voxray

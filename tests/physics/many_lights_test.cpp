@@ -62,7 +62,7 @@ TEST(ManyLights, AllWalksThroughVoxelsGiveTheSameImage) {
 TEST(ManyLights, AreLinearInLightAndDeterministic) {
     const auto image = [](const std::string& intensity) {
         return indirect("white_room", "{intensity: " + intensity + "}",
-                        manyLights("vpls_per_bounce: 256", "visibility: exact"));
+                        manyLights("vpls_per_bounce: 256", "visibility: exact, compensation_rays: 2"));
     };
     const std::vector<float> one = image("1"), four = image("4");
     EXPECT_EQ(one, image("1"));
@@ -93,6 +93,38 @@ TEST(ManyLights, ABoundTakesLightAwayAndVanishesWithMoreLights) {
     EXPECT_LT(energy("256", "4"), 0.99 * without);
     EXPECT_LT(energy("256", "4"), energy("4096", "4"));
     EXPECT_NEAR(energy("16384", "1") / without, 1, 0.01);
+}
+
+TEST(ManyLights, CompensationKeepsTheEnergyOfAFurnaceWithAnyBound) {
+    // As above, with bounds of a twentieth of the sphere's radius, of a half, and of more than its diameter:
+    // then all light comes by rays
+    for (const std::string bound : {"2", "16", "80"}) {
+        SCOPED_TRACE(bound);
+        const auto energy = [&](const std::string& rays) {
+            const std::string gather = "visibility: exact, bound: " + bound + ", compensation_rays: " + rays;
+            return mean(Chain("furnace", "{shape: sphere, albedo: 0.6, emission: 1}",
+                              manyLights("vpls_per_bounce: 4096", gather), 24, 24)
+                            .image("indirect"));
+        };
+        EXPECT_NEAR(energy("4"), 0.7056, 0.02 * 0.7056);
+        EXPECT_LT(energy("0"), 0.7056);
+    }
+}
+
+TEST(ManyLights, CompensationCountsBouncesAsVirtualLightsDo) {
+    // With a bound larger than the room rays bring all light, with a small one virtual lights do, but for
+    // corners
+    for (const std::string bounces : {"1", "2", "3"}) {
+        SCOPED_TRACE(bounces);
+        const auto energy = [&](const std::string& bound) {
+            return mean(Chain("white_room", "{}",
+                              manyLights("vpls_per_bounce: 4096, bounces: " + bounces,
+                                         "visibility: exact, compensation_rays: 8, bound: " + bound),
+                              24, 24)
+                            .image("indirect"));
+        };
+        EXPECT_NEAR(energy("200") / energy("2"), 1, 0.01);
+    }
 }
 
 TEST(ManyLights, NamesAnEpsilonWithoutItsWalk) {

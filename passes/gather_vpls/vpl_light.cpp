@@ -1,0 +1,105 @@
+#include "passes/gather_vpls/vpl_light.h"
+
+#include <algorithm>
+
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/view/frame_image.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays and what they carry to 52 MiB.
+
+struct AimPush {
+    gpu::VplBatch batch;
+    float minDistanceSquared;
+    float minOffset;
+};
+
+struct AddPush {
+    gpu::VplBatch batch;
+};
+
+}  // namespace
+
+void VplLight::plan(PassPlan& plan, const Settings& settings, glm::uvec2 texels, uint64_t maxVpls) {
+    settings_ = settings;
+    const glm::uvec2 extent = (texels + settings.block - 1u) / settings.block;
+    const uint64_t perSubset = std::min(extent.x * extent.y, kBatchRays);
+    const uint64_t rays = std::min(perSubset * (maxVpls / subsets() + 1), uint64_t(kBatchRays));
+    plan.buffer(rays_, "shadow rays", rays * sizeof(Ray));
+    plan.buffer(carried_, "light of virtual point lights", rays * 4 * sizeof(float));
+    plan.buffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
+}
+
+void VplLight::prepare(PassSetup& setup) {
+    const auto programs = [&](const Defines& defines) {
+        const auto program = [&](const std::string& file) {
+            return makeComputeProgram(setup.device,
+                                      setup.compiler.compile("passes/gather_vpls/" + file, defines));
+        };
+        return Programs{program("aim.comp"), program("add.comp")};
+    };
+    texels_ = programs({});
+    surfels_ = programs({{"SURFELS", "1"}});
+    sampler_ = texelSampler(setup.device);
+}
+
+void VplLight::addToTexels(PassContext& context, const Vpls& vpls, const Visibility& visibility,
+                           const GBuffer& gbuffer, const Image& irradiance) const {
+    gpu::VplBatch batch{};
+    batch.receivers = gbufferExtent(context.frame, gbuffer.samples);
+    const glm::uvec2 extent = (batch.receivers + settings_.block - 1u) / settings_.block;
+    add(context, vpls, visibility, batch, extent.x * extent.y, texels_,
+        {{"position", gbuffer.position, sampler_},
+         {"normal", gbuffer.normal, sampler_},
+         {"geometricNormal", gbuffer.geometricNormal, sampler_}},
+        {{"irradiance", irradiance}});
+}
+
+void VplLight::addToSurfels(PassContext& context, const Vpls& vpls, const Visibility& visibility,
+                            const Buffer& surfels, const Buffer& faceNormals, uint32_t count,
+                            uint32_t reflections, const Buffer& irradiance) const {
+    gpu::VplBatch batch{};
+    batch.receivers = {count, 1};
+    batch.reflections = reflections;
+    add(context, vpls, visibility, batch, (count + subsets() - 1) / subsets(), surfels_,
+        {{"surfels", surfels}, {"faceNormals", faceNormals}}, {{"irradiance", irradiance}});
+}
+
+void VplLight::add(PassContext& context, const Vpls& vpls, const Visibility& visibility, gpu::VplBatch batch,
+                   uint32_t perSubset, const Programs& programs, const std::vector<Binding>& receivers,
+                   const std::vector<Binding>& target) const {
+    CommandStream& stream = context.stream;
+    const auto maxRays = uint32_t(occluded_.bytes() / sizeof(uint32_t));
+    if (!visibility.tracer) stream.fill(occluded_, 0);
+    std::vector<Binding> aiming = receivers, adding = target;
+    aiming.insert(aiming.end(),
+                  {{"vpls", vpls.points}, {"list", vpls.list}, {"rays", rays_}, {"carried", carried_}});
+    adding.insert(adding.end(), {{"carried", carried_}, {"occluded", occluded_}});
+    batch.block = settings_.block;
+    batch.bounces = vpls.bounces;
+
+    // Receivers and virtual lights of one subset after the other: their rays lie next to each other.
+    for (batch.subset = 0; batch.subset < subsets(); ++batch.subset) {
+        // Runs of the list that differ in length by one at most
+        const auto begin = uint32_t(uint64_t(vpls.count) * batch.subset / subsets());
+        const auto end = uint32_t(uint64_t(vpls.count) * (batch.subset + 1) / subsets());
+        for (batch.first = 0; batch.first < perSubset; batch.first += batch.count) {
+            batch.count = std::min(perSubset - batch.first, maxRays);
+            const uint32_t maxVpls = maxRays / batch.count;
+            for (batch.firstVpl = begin; batch.firstVpl < end; batch.firstVpl += batch.vplCount) {
+                batch.vplCount = std::min(end - batch.firstVpl, maxVpls);
+                const uint32_t rays = batch.count * batch.vplCount;
+                stream.dispatch(programs.aim, aiming,
+                                AimPush{batch, settings_.minDistanceSquared, visibility.minOffset},
+                                linearGroups(rays));
+                if (visibility.tracer)
+                    visibility.tracer->occluded(stream, rays_, occluded_, rays, Coherence::Coherent);
+                stream.dispatch(programs.add, adding, AddPush{batch}, linearGroups(batch.count));
+            }
+        }
+    }
+}
+
+}  // namespace voxray

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "passes/common/view/gbuffer.h"
+#include "passes/common/vpls/vpls.h"
+#include "passes/gather_vpls/gather_types.h"
+
+namespace voxray {
+
+/// Irradiance of texels and of surfels from virtual point lights, by a shadow ray from each to each light of
+/// its subset.
+class VplLight {
+ public:
+    struct Settings {
+        uint32_t block;            ///< Subsets are its square.
+        float minDistanceSquared;  ///< m²: the bound.
+    };
+    /// What the shadow rays of one run meet.
+    struct Visibility {
+        RayTracer* tracer;  ///< Null: nothing hides anything.
+        float minOffset;    ///< m: rays start and end at least as far from their surfaces.
+    };
+
+    /// @param texels of the G-buffer. @param maxVpls at most.
+    void plan(PassPlan& plan, const Settings& settings, glm::uvec2 texels, uint64_t maxVpls);
+    void prepare(PassSetup& setup);
+
+    /// Adds to each texel of `irradiance` (RGBA32F, of the G-buffer's extent) W/m² and, as its fourth value,
+    /// their luminance over the distance that they come from, W/m³.
+    void addToTexels(PassContext& context, const Vpls& vpls, const Visibility& visibility,
+                     const GBuffer& gbuffer, const Image& irradiance) const;
+    /// The same for `count` surfels with `faceNormals` (octahedral), to 4 floats each. @param reflections
+    /// between a surfel and the texel that it reflects to: virtual lights of as many last bounces are left
+    /// out.
+    void addToSurfels(PassContext& context, const Vpls& vpls, const Visibility& visibility,
+                      const Buffer& surfels, const Buffer& faceNormals, uint32_t count, uint32_t reflections,
+                      const Buffer& irradiance) const;
+
+ private:
+    struct Programs {
+        Program aim, add;
+    };
+    void add(PassContext& context, const Vpls& vpls, const Visibility& visibility, gpu::VplBatch batch,
+             uint32_t perSubset, const Programs& programs, const std::vector<Binding>& receivers,
+             const std::vector<Binding>& target) const;
+    uint32_t subsets() const { return settings_.block * settings_.block; }
+
+    Settings settings_{};
+    Programs texels_, surfels_;
+    Sampler sampler_;
+    Buffer rays_, carried_, occluded_;
+};
+
+}  // namespace voxray
