@@ -9,11 +9,12 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Carried { vec4 data[]; } carried;
 layout(scalar) readonly buffer Occluded { uint data[]; } occluded;
-// Irradiance, W/m²; its luminance over the distance that it comes from, W/m³.
 #ifdef SURFELS
-layout(scalar) buffer Irradiance { vec4 data[]; } irradiance;
+layout(scalar) buffer Irradiance { vec4 data[]; } irradiance;  // W/m²
 #else
-layout(rgba32f) uniform image2D irradiance;
+layout(rgba32f) uniform image2D irradiance;  // W/m²; number of virtual lights.
+layout(rgba32f) uniform image2D sums;        // Over virtual lights, of what each brings: sums.glsl
+#include "passes/gather_vpls/sums.glsl"
 #endif
 layout(push_constant, scalar) uniform Push { VplBatch batch; } push;
 
@@ -26,17 +27,23 @@ void main() {
     const ivec2 receiver = batchTexel(push.batch, i);
 #endif
     if (isOutside(push.batch, receiver)) return;
-    vec4 sum = vec4(0.0);
+    // Each virtual light is in one of block² subsets: on average over these, so many times a subset's light is that of all
+    const float subsets = float(push.batch.block * push.batch.block);
+    vec3 sum = vec3(0.0);
+    vec4 moments = vec4(0.0);
     for (uint v = 0u; v < push.batch.vplCount; ++v) {
         const uint ray = v * push.batch.count + i;
+        if (occluded.data[ray] != 0u) continue;
         const vec4 light = carried.data[ray];
-        if (occluded.data[ray] == 0u) sum += vec4(light.rgb, luminance(light.rgb) * light.w);
+        sum += subsets * light.rgb;
+#ifndef SURFELS
+        moments += sumsOf(subsets * light.rgb, light.w);
+#endif
     }
-    // Each virtual light is in one of block² subsets: on average over these, so many times a subset's light is that of all
-    sum *= float(push.batch.block * push.batch.block);
 #ifdef SURFELS
-    irradiance.data[receiver] += sum;
+    irradiance.data[receiver].rgb += sum;
 #else
-    imageStore(irradiance, receiver, imageLoad(irradiance, receiver) + sum);
+    imageStore(irradiance, receiver, imageLoad(irradiance, receiver) + vec4(sum, float(push.batch.vplCount)));
+    imageStore(sums, receiver, imageLoad(sums, receiver) + moments);
 #endif
 }

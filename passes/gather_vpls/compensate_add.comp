@@ -3,13 +3,14 @@
 #extension GL_EXT_scalar_block_layout : require
 // Adds to each texel's irradiance what its surfel reflects to it.
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/scene/sampling.glsl"
+#include "passes/gather_vpls/sums.glsl"
 #include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
 layout(scalar) readonly buffer Arriving { vec4 data[]; } arriving;  // Irradiance of surfels, W/m².
-layout(rgba32f) uniform image2D irradiance;  // Of texels, and its luminance over the distance that it comes from.
+layout(rgba32f) uniform image2D irradiance;  // Of texels, W/m².
+layout(rgba32f) uniform image2D sums;
 layout(push_constant, scalar) uniform Push {
     uint count;
     uint rays;     // Of each texel.
@@ -23,5 +24,6 @@ void main() {
     const vec3 light = s.reflectance * arriving.data[i].rgb / float(push.rays);
     const uint columns = uint(imageSize(irradiance).x);
     const ivec2 texel = ivec2(s.parent % columns, s.parent / columns);
-    imageStore(irradiance, texel, imageLoad(irradiance, texel) + vec4(light, luminance(light) / push.radius));
+    imageStore(irradiance, texel, imageLoad(irradiance, texel) + vec4(light, 0.0));
+    imageStore(sums, texel, imageLoad(sums, texel) + sumsOf(light, 1.0 / push.radius));
 }

@@ -69,7 +69,7 @@ void VplCompensation::prepare(PassSetup& setup) {
 
 void VplCompensation::record(PassContext& context, const Vpls& vpls, const VplLight& light,
                              const VplLight::Visibility& visibility, const GBuffer& gbuffer,
-                             const Image& irradiance) {
+                             const VplTarget& target) {
     CommandStream& stream = context.stream;
     const glm::uvec2 extent = gbufferExtent(context.frame, gbuffer.samples);
     const uint32_t texels = extent.x * extent.y, batch = uint32_t(hits_.bytes() / sizeof(Hit));
@@ -93,10 +93,13 @@ void VplCompensation::record(PassContext& context, const Vpls& vpls, const VplLi
                 direct_.measure(context, sources_, from_.surfels, count, 1, seed + 0x35u, arriving_);
                 light.addToSurfels(context, vpls, visibility, from_.surfels, from_.faceNormals, count,
                                    reflections, arriving_);
-                stream.dispatch(
-                    add_, {{"surfels", from_.surfels}, {"arriving", arriving_}, {"irradiance", irradiance}},
-                    AddPush{count, settings_.rays, std::sqrt(settings_.minDistanceSquared)},
-                    linearGroups(count));
+                stream.dispatch(add_,
+                                {{"surfels", from_.surfels},
+                                 {"arriving", arriving_},
+                                 {"irradiance", target.irradiance},
+                                 {"sums", target.sums}},
+                                AddPush{count, settings_.rays, std::sqrt(settings_.minDistanceSquared)},
+                                linearGroups(count));
             }
         }
 }

@@ -22,9 +22,9 @@ class VplCompensation {
     /// @param texels of the G-buffer.
     void plan(PassPlan& plan, const Settings& settings, glm::uvec2 texels);
     void prepare(PassSetup& setup);
-    /// Adds to `irradiance` what VplLight::addToTexels() leaves out.
+    /// Adds to `target` what VplLight::addToTexels() leaves out.
     void record(PassContext& context, const Vpls& vpls, const VplLight& light,
-                const VplLight::Visibility& visibility, const GBuffer& gbuffer, const Image& irradiance);
+                const VplLight::Visibility& visibility, const GBuffer& gbuffer, const VplTarget& target);
 
  private:
     /// Traces a ray from each of `count` surfels. @return the number of surfels that they hit.

@@ -1,15 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Irradiance as filter_irradiance reads it, and sums over each block. What a texel's subset of virtual lights brings is one sample:
-// the lights of a subset complement each other, and how much the subsets of a block differ tells how noisy one of them is.
+// Sums over each block for filter_irradiance. A sample is one virtual light: n times what it brings, where a texel has n.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/filter/ray_moments.h"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 64) in;
 
 uniform sampler2D position;
-layout(rgba32f) uniform image2D irradiance;  // W/m²; before: luminance over distance, W/m³; after: 1 where there is a surface.
+layout(rgba32f) uniform image2D irradiance;  // W/m²; number of virtual lights; 0 where there is no surface.
+uniform sampler2D sums;  // sums.glsl
 layout(scalar) writeonly buffer Moments { RayMoments data[]; } moments;
 layout(push_constant, scalar) uniform Push {
     uvec2 blocks;
@@ -24,15 +24,17 @@ void main() {
     for (uint t = 0u; t < push.block * push.block; ++t) {
         const ivec2 texel = corner + ivec2(t % push.block, t / push.block);
         if (any(greaterThanEqual(texel, imageSize(irradiance))) || texelFetch(position, texel, 0).w == 0.0) continue;
-        const vec4 e = imageLoad(irradiance, texel);
-        imageStore(irradiance, texel, vec4(e.rgb, 1.0));
-        const float l = luminance(e.rgb), inverseDistance = l > 0.0 ? e.w / l : 0.0;
-        sum.rays += 1.0;
-        sum.luminance += l;
-        sum.squared += l * l;
-        sum.inverseDistance += inverseDistance;
-        sum.luminanceOverDistance += e.w;
-        sum.squaredOverDistance += l * e.w;
+        // A subset without virtual lights tells as much as one light
+        vec4 e = imageLoad(irradiance, texel);
+        e.w = max(e.w, 1.0);
+        imageStore(irradiance, texel, e);
+        const vec4 of = texelFetch(sums, texel, 0);
+        sum.rays += e.w;
+        sum.luminance += e.w * luminance(e.rgb);
+        sum.squared += e.w * e.w * of.x;
+        sum.inverseDistance += of.y;
+        sum.luminanceOverDistance += e.w * of.z;
+        sum.squaredOverDistance += e.w * e.w * of.w;
     }
     moments.data[i] = sum;
 }

@@ -63,7 +63,8 @@ void GatherVpls::plan(PassPlan& plan) {
     NoisyIrradiance& noisy = plan.get(noisy_);
     noisy.blockSize = params_.block;
     plan.image(noisy.irradiance, "noisy irradiance", NoisyIrradiance::desc(plan.frame, samples));
-    plan.buffer(noisy.moments, "moments of subsets", noisy.momentsBytes(texels));
+    plan.image(sums_, "sums over virtual point lights", NoisyIrradiance::desc(plan.frame, samples));
+    plan.buffer(noisy.moments, "moments of virtual point lights", noisy.momentsBytes(texels));
     if (FrameImage& indirect = plan.get(indirect_); indirect.isRead)
         plan.image(indirect.image, "indirect", frameImageDesc(plan.frame));
     if (voxelTracer_) voxelTracer_->plan(plan, plan.frame.scene->geometry, plan.get(voxels_));
@@ -93,13 +94,16 @@ void GatherVpls::record(PassContext& context) {
     const uint64_t voxelRaysBefore = voxelTracer_ ? voxelTracer_->raysTraced() : 0;
 
     // All that virtual lights bring, and what they bring too little.
-    stream.clear(noisy.irradiance, {});
-    light_.addToTexels(context, vpls, visibility, gbuffer, noisy.irradiance);
-    if (compensation_) compensation_->record(context, vpls, light_, visibility, gbuffer, noisy.irradiance);
+    const VplTarget target{noisy.irradiance, sums_};
+    stream.clear(target.irradiance, {});
+    stream.clear(target.sums, {});
+    light_.addToTexels(context, vpls, visibility, gbuffer, target);
+    if (compensation_) compensation_->record(context, vpls, light_, visibility, gbuffer, target);
     const glm::uvec2 blocks = noisy.blocks(gbufferExtent(context.frame, gbuffer.samples));
     stream.dispatch(finish_,
                     {{"position", gbuffer.position, sampler_},
                      {"irradiance", noisy.irradiance},
+                     {"sums", sums_, sampler_},
                      {"moments", noisy.moments}},
                     FinishPush{blocks, params_.block}, linearGroups(uint64_t(blocks.x) * blocks.y));
     if (voxelTracer_) {

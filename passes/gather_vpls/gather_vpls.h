@@ -80,6 +80,7 @@ class GatherVpls final : public Pass {
     std::optional<VoxelTracer> voxelTracer_;
     VplLight light_;
     std::optional<VplCompensation> compensation_;  ///< Where something is taken away and comes back.
+    Image sums_;                                   ///< Of the G-buffer's extent.
     Program finish_;
     IrradianceResolve resolve_;
     Sampler sampler_;

@@ -46,7 +46,7 @@ void VplLight::prepare(PassSetup& setup) {
 }
 
 void VplLight::addToTexels(PassContext& context, const Vpls& vpls, const Visibility& visibility,
-                           const GBuffer& gbuffer, const Image& irradiance) const {
+                           const GBuffer& gbuffer, const VplTarget& target) const {
     gpu::VplBatch batch{};
     batch.receivers = gbufferExtent(context.frame, gbuffer.samples);
     const glm::uvec2 extent = (batch.receivers + settings_.block - 1u) / settings_.block;
@@ -54,7 +54,7 @@ void VplLight::addToTexels(PassContext& context, const Vpls& vpls, const Visibil
         {{"position", gbuffer.position, sampler_},
          {"normal", gbuffer.normal, sampler_},
          {"geometricNormal", gbuffer.geometricNormal, sampler_}},
-        {{"irradiance", irradiance}});
+        {{"irradiance", target.irradiance}, {"sums", target.sums}});
 }
 
 void VplLight::addToSurfels(PassContext& context, const Vpls& vpls, const Visibility& visibility,

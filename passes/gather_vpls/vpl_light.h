@@ -6,6 +6,12 @@
 
 namespace voxray {
 
+/// Images of the G-buffer's extent, RGBA32F, that light is added to.
+struct VplTarget {
+    const Image& irradiance;  ///< W/m²; number of virtual lights.
+    const Image& sums;        ///< sums.glsl
+};
+
 /// Irradiance of texels and of surfels from virtual point lights, by a shadow ray from each to each light of
 /// its subset.
 class VplLight {
@@ -24,11 +30,9 @@ class VplLight {
     void plan(PassPlan& plan, const Settings& settings, glm::uvec2 texels, uint64_t maxVpls);
     void prepare(PassSetup& setup);
 
-    /// Adds to each texel of `irradiance` (RGBA32F, of the G-buffer's extent) W/m² and, as its fourth value,
-    /// their luminance over the distance that they come from, W/m³.
     void addToTexels(PassContext& context, const Vpls& vpls, const Visibility& visibility,
-                     const GBuffer& gbuffer, const Image& irradiance) const;
-    /// The same for `count` surfels with `faceNormals` (octahedral), to 4 floats each. @param reflections
+                     const GBuffer& gbuffer, const VplTarget& target) const;
+    /// Adds W/m² for `count` surfels with `faceNormals` (octahedral), to 4 floats each. @param reflections
     /// between a surfel and the texel that it reflects to: virtual lights of as many last bounces are left
     /// out.
     void addToSurfels(PassContext& context, const Vpls& vpls, const Visibility& visibility,
