@@ -7,8 +7,12 @@
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
 #include "shaders/trace/ray_types.h"
+#include "shaders/voxel_march/surface_segment.glsl"
 #include "shaders/scene/specular.glsl"
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kMeetVoxels = false;  // Else triangles.
+// Rays through voxels end so far before the light, which may be a surface: two diagonals of a voxel.
+#define VOXELS_BEFORE_LIGHT 3.4641016
 
 uniform sampler2D position;
 uniform sampler2D normal;
@@ -29,7 +33,7 @@ layout(push_constant, scalar) uniform Push {
     uint seed;
     uint emitterCount;
     vec3 camera;
-    float minOffset;  // m: rays start at least as far from their surface, and end twice as far from the light.
+    VoxelGrid grid;  // Where rays meet voxels.
 } push;
 
 // What a surface reflects of light from unit `direction` towards `out_`, over irradiance: its diffuse lobe under its specular
@@ -72,10 +76,12 @@ void main() {
         const float cosine = dot(n, s.direction);
         if (cosine > 0.0 && dot(side, s.direction) > 0.0) {
             radiance = reflectance(texelFetch(albedo, texel, 0).rgb, surface, n, out_, s.direction) * s.irradiance * cosine;
-            const float offset = max(surfaceOffset(p.xyz), push.minOffset);
-            ray.origin = p.xyz + side * offset;
-            ray.direction = s.direction;
-            ray.tMax = s.distance_ - 2.0 * offset;
+            const float offset = surfaceOffset(p.xyz);
+            ray = Ray(p.xyz + side * offset, 0.0, s.direction, s.distance_ - 2.0 * offset);
+            if (kMeetVoxels) {
+                ray.origin = beginOffSurface(push.grid, p.xyz, side, s.direction);
+                ray.tMax = s.distance_ - dot(ray.origin - p.xyz, s.direction) - VOXELS_BEFORE_LIGHT * push.grid.voxelSize;
+            }
         }
     }
     if (all(equal(radiance, vec3(0.0)))) ray.tMax = -1.0;

@@ -23,7 +23,7 @@ struct AimPush {
     uint32_t seed;
     uint32_t emitterCount;
     glm::vec3 camera;
-    float minOffset;
+    gpu::VoxelGrid grid;
 };
 
 struct AddPush {
@@ -59,7 +59,8 @@ void DirectShadowRays::plan(PassPlan& plan) {
 }
 
 void DirectShadowRays::prepare(PassSetup& setup) {
-    aim_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/direct_shadow_rays/aim.comp"));
+    aim_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/direct_shadow_rays/aim.comp"),
+                              {{0, params_.visibility == Visibility::Voxels}});
     add_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/direct_shadow_rays/add.comp"));
     sampler_ = texelSampler(setup.device);
     if (params_.visibility == Visibility::Voxels) voxelTracer_.prepare(setup.device, setup.compiler);
@@ -75,10 +76,10 @@ void DirectShadowRays::record(PassContext& context) {
     const uint32_t seed = randomSeed(frame, context.frameIndex);
     stream.clear(direct, {});
     RayTracer* tracer = &context.tracer;
-    float minOffset = 0;
+    gpu::VoxelGrid grid{};
     if (params_.visibility == Visibility::Voxels) {
         const SurfaceVoxels& voxels = context.get(voxels_);
-        minOffset = VOXELS_OFF_SURFACE * voxels.grid.voxelSize;
+        grid = voxels.grid;
         voxelTracer_.begin(stream, voxels);
         tracer = &voxelTracer_;
     }
@@ -100,7 +101,7 @@ void DirectShadowRays::record(PassContext& context) {
                                         {"rays", rays_},
                                         {"carried", carried_}}),
                 AimPush{kind, light, params_.lightSamples, frame.width, first, rays, gbuffer.samples, seed,
-                        context.scene.emitterCount, frame.camera.position, minOffset},
+                        context.scene.emitterCount, frame.camera.position, grid},
                 linearGroups(rays));
             tracer->occluded(stream, rays_, occluded_, rays,
                              kind == kPunctual ? Coherence::Coherent : Coherence::Incoherent);

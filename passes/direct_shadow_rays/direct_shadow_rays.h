@@ -39,9 +39,8 @@ class DirectShadowRays final : public Pass {
                 field("visibility", &Params::visibility,
                       "What shadow rays meet. exact: the scene's triangles. voxels: those of the port "
                       "`voxels`, "
-                      "which they leave by a voxel's diagonal first; shadows are wider by about a voxel, "
-                      "contacts "
-                      "and corners too dark or too bright within three (Magalhães 2020, section 3.3.3.2).")};
+                      "those of their own surface left out; shadows are wider by about a voxel, contacts and "
+                      "corners too dark or too bright within three (Magalhães 2020, section 3.3.3.2).")};
         }
     };
 

@@ -7,6 +7,7 @@
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/trace/ray_types.h"
+#include "shaders/voxel_march/surface_segment.glsl"
 #include "shaders/vpls/vpl_types.h"
 layout(local_size_x = 64) in;
 
@@ -17,7 +18,7 @@ layout(scalar) writeonly buffer Carried { vec4 data[]; } carried;  // Irradiance
 layout(push_constant, scalar) uniform Push {
     VplBatch batch;
     float minDistanceSquared;  // m²
-    float minOffset;           // m: rays start and end at least as far from their surfaces.
+    VoxelGrid grid;            // That rays meet voxels of; of size 0 where they meet triangles.
 } push;
 
 void main() {
@@ -40,12 +41,13 @@ void main() {
             const float bounded = max(squared, push.minDistanceSquared);
             light = vec4(vpl.flux * (cosine * vplCosine / (PI * bounded)), inversesqrt(bounded));
 
-            const vec3 from = r.position + r.faceNormal * max(surfaceOffset(r.position), push.minOffset);
-            const vec3 to = vpl.position + vpl.faceNormal * max(surfaceOffset(vpl.position), push.minOffset);
-            const vec3 between = to - from;
-            const float distance_ = length(between);
-            // Ends that have passed each other have nothing between them: no ray, and the light arrives
-            if (dot(between, direction) > 0.0) ray = Ray(from, 0.0, between / distance_, distance_);
+            vec3 from = r.position + r.faceNormal * surfaceOffset(r.position);
+            vec3 to = vpl.position + vpl.faceNormal * surfaceOffset(vpl.position);
+            bool canBeHidden = dot(to - from, direction) > 0.0;
+            if (push.grid.voxelSize > 0.0)
+                canBeHidden = segmentBetweenSurfaces(push.grid, r.position, r.faceNormal, vpl.position, vpl.faceNormal, from, to);
+            const float distance_ = length(to - from);
+            if (canBeHidden) ray = Ray(from, 0.0, (to - from) / distance_, distance_);
         }
     }
     rays.data[i] = ray;

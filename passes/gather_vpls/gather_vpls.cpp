@@ -84,12 +84,12 @@ void GatherVpls::record(PassContext& context) {
     const GBuffer& gbuffer = context.get(gbuffer_);
     const Vpls& vpls = context.get(vpls_);
     const NoisyIrradiance& noisy = context.get(noisy_);
-    VplLight::Visibility visibility{&context.tracer, 0};
+    VplLight::Visibility visibility{&context.tracer};
     if (params_.visibility == VplVisibility::None) visibility.tracer = nullptr;
     if (voxelTracer_) {
         const SurfaceVoxels& voxels = context.get(voxels_);
         voxelTracer_->begin(stream, voxels);
-        visibility = {&*voxelTracer_, VOXELS_OFF_SURFACE * voxels.grid.voxelSize};
+        visibility = {&*voxelTracer_, voxels.grid};
     }
     const uint64_t voxelRaysBefore = voxelTracer_ ? voxelTracer_->raysTraced() : 0;
 

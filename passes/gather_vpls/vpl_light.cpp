@@ -13,7 +13,7 @@ constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays and what
 struct AimPush {
     gpu::VplBatch batch;
     float minDistanceSquared;
-    float minOffset;
+    gpu::VoxelGrid grid;
 };
 
 struct AddPush {
@@ -92,7 +92,7 @@ void VplLight::add(PassContext& context, const Vpls& vpls, const Visibility& vis
                 batch.vplCount = std::min(end - batch.firstVpl, maxVpls);
                 const uint32_t rays = batch.count * batch.vplCount;
                 stream.dispatch(programs.aim, aiming,
-                                AimPush{batch, settings_.minDistanceSquared, visibility.minOffset},
+                                AimPush{batch, settings_.minDistanceSquared, visibility.grid},
                                 linearGroups(rays));
                 if (visibility.tracer)
                     visibility.tracer->occluded(stream, rays_, occluded_, rays, Coherence::Coherent);

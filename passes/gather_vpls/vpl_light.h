@@ -3,6 +3,7 @@
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/vpls/vpls.h"
 #include "passes/gather_vpls/gather_types.h"
+#include "shaders/voxels/voxel_types.h"
 
 namespace voxray {
 
@@ -22,8 +23,8 @@ class VplLight {
     };
     /// What the shadow rays of one run meet.
     struct Visibility {
-        RayTracer* tracer;  ///< Null: nothing hides anything.
-        float minOffset;    ///< m: rays start and end at least as far from their surfaces.
+        RayTracer* tracer;      ///< Null: nothing hides anything.
+        gpu::VoxelGrid grid{};  ///< Of the voxels; of size 0 where they meet triangles.
     };
 
     /// @param texels of the G-buffer. @param maxVpls at most.

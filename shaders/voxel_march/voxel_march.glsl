@@ -7,7 +7,7 @@
 #extension GL_EXT_scalar_block_layout : require
 
 #include "shaders/voxel_march/segment.glsl"
-#include "shaders/voxel_march/surface_offset.h"
+#include "shaders/voxel_march/surface_segment.glsl"
 #include "shaders/voxels/voxels.glsl"
 
 // What the walks of this thread took: moves from one empty cube to the next, and words of occupancy, bricks or nodes read.
@@ -40,9 +40,6 @@ void countMarch() {
     addCount(0u, marchSteps);
     addCount(2u, marchVisits);
 }
-
-// A point in voxels from the grid's corner.
-vec3 inVoxels(VoxelGrid g, vec3 position) { return (position - g.origin) / g.voxelSize; }
 
 // A point of a ray. A direction of 0 along an axis stays there, however far.
 vec3 pointAt(vec3 origin, vec3 direction, float t) {
@@ -77,13 +74,10 @@ bool occluded(VoxelGrid g, vec3 a, vec3 b) {
     return walkVoxels(g, s, voxel);
 }
 
-// A point of a surface, moved along the surface's unit normal out of all voxels that its plane touches: where a walk may start.
-vec3 offSurface(VoxelGrid g, vec3 position, vec3 normal) { return position + VOXELS_OFF_SURFACE * g.voxelSize * normal; }
-
-// Whether voxels hide two points of surfaces from each other, on the sides that their unit normals point to. Points that are closer
-// to another surface than the offset are in its voxels, and hidden.
+// Whether voxels hide two points of surfaces from each other, on the sides that their unit normals point to.
 bool occludedBetweenSurfaces(VoxelGrid g, vec3 a, vec3 normalA, vec3 b, vec3 normalB) {
-    return occluded(g, offSurface(g, a, normalA), offSurface(g, b, normalB));
+    vec3 from, to;
+    return segmentBetweenSurfaces(g, a, normalA, b, normalB, from, to) && occluded(g, from, to);
 }
 
 #define NO_FACE 6u

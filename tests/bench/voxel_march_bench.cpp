@@ -43,12 +43,13 @@ class SurfacePoints {
     std::uniform_real_distribution<float> uniform_{0, 1};
 };
 
-/// Shadow rays between random points of surfaces, each moved towards the other out of its surface's voxels.
+/// Shadow rays between random points of surfaces, each moved a voxel's diagonal off its surface towards the
+/// other.
 std::vector<Ray> shadowRays(const Geometry& geometry, float voxelSize, uint32_t count) {
     SurfacePoints points(geometry);
     const auto moved = [&](const SurfacePoint& from, const SurfacePoint& to) {
         const float side = glm::dot(from.normal, to.position - from.position) > 0 ? 1.0f : -1.0f;
-        return from.position + side * VOXELS_OFF_SURFACE * voxelSize * from.normal;
+        return from.position + side * 1.7320508f * voxelSize * from.normal;
     };
     std::vector<Ray> rays(count);
     for (Ray& ray : rays) {

@@ -112,7 +112,7 @@ TEST(VoxelVisibility, ShadowsNarrowToThoseOfSurfaces) {
                      fmt::format("[{{pass: gbuffer}}, {{pass: voxelize, resolution: {}}}, "
                                  "{{pass: direct_shadow_rays, visibility: {}}}]",
                                  resolution, visibility),
-                     384, 384);
+                     640, 640);
     };
     Chain exact = chain("exact", 16);
     const ImageF expected = exact.image("direct");

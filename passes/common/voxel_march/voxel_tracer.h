@@ -1,7 +1,6 @@
 #pragma once
 
 #include "passes/common/voxel_march/voxel_march.h"
-#include "shaders/voxel_march/surface_offset.h"
 #include "trace/ray_tracer.h"
 
 namespace voxray {
@@ -9,7 +8,8 @@ namespace voxray {
 /// Streams of rays through voxels, with the interface of rays through triangles: what takes the one can take
 /// the other, for comparison (Magalhães 2020, section 3.3.3.2). A hit's `triangle` is the number of the
 /// surface voxel, its t is where the ray enters it, u and v are 0. Rays that start in an occupied voxel hit
-/// it: whoever starts them at a surface moves their ends out of its voxels (VOXELS_OFF_SURFACE).
+/// it: whoever starts them at a surface moves their ends out of its voxels
+/// (shaders/voxel_march/surface_segment.glsl).
 class VoxelTracer final : public RayTracer {
  public:
     explicit VoxelTracer(VoxelWalk walk, float epsilon = 0) : march_(walk, epsilon) {}

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/voxel_march/voxel_march.h"
+#include "tests/gpu/prepared.h"
+#include "trace/embree_scene.h"
+
+namespace voxray::test {
+
+/// Two points of surfaces, with the unit normals of the sides that face each other.
+struct SurfacePair {
+    glm::vec3 a, normalA, b, normalB;
+};
+
+/// Whether voxels hide the points of each pair from each other: 1 or 0.
+inline std::vector<uint32_t> hiddenByVoxels(const SurfaceVoxels& voxels,
+                                            const std::vector<SurfacePair>& pairs) {
+    CommandStream stream(device());
+    const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE);
+    VoxelMarch march(VoxelWalk::Bricks);
+    prepare(march, voxels, compiler);
+    march.begin(stream, voxels);
+    const Program program =
+        makeComputeProgram(device(), compiler.compile("tests/gpu/between_surfaces.comp", march.defines()));
+    const Buffer in(device(), "pairs", pairs.size() * sizeof(SurfacePair)),
+        out(device(), "answers", pairs.size() * sizeof(uint32_t));
+    stream.upload(in, pairs);
+    std::vector<Binding> bindings = march.bindings();
+    bindings.insert(bindings.end(), {{"pairs", in}, {"answers", out}});
+    const struct {
+        gpu::VoxelGrid grid;
+        uint32_t count;
+    } push{voxels.grid, uint32_t(pairs.size())};
+    stream.dispatch(program, bindings, push, linearGroups(pairs.size()));
+    return stream.readAs<uint32_t>(out, pairs.size());
+}
+
+/// Whether triangles do.
+inline std::vector<uint32_t> hiddenByTriangles(const SceneState& scene,
+                                               const std::vector<SurfacePair>& pairs) {
+    const EmbreeScene embree(scene);
+    std::vector<uint32_t> hidden;
+    for (const SurfacePair& p : pairs) {
+        const glm::vec3 from = p.a + 1e-4f * p.normalA, to = p.b + 1e-4f * p.normalB;
+        hidden.push_back(embree.occluded({from, 0, to - from, 1}));
+    }
+    return hidden;
+}
+
+}  // namespace voxray::test
