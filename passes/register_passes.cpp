@@ -24,6 +24,7 @@
 #include "passes/path_trace/path_trace_pass.h"
 #include "passes/place_surfels/place_surfels.h"
 #include "passes/probe_irradiance/probe_irradiance.h"
+#include "passes/render_rsm/render_rsm.h"
 #include "passes/sample_vpls/sample_vpls.h"
 #include "passes/trace_gather_rays/trace_gather_rays.h"
 #include "passes/update_radiance_cache/update_radiance_cache.h"
@@ -55,6 +56,7 @@ void registerPasses(Registry& registry) {
     registry.add<GatherMergedRays>();
     registry.add<UpdateRadianceCache>();
     registry.add<GatherCachedRays>();
+    registry.add<RenderRsm>();
     registry.add<SampleVpls>();
     registry.add<GatherVpls>();
     registry.add<FilterIrradiance>();

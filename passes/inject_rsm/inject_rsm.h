@@ -1,6 +1,7 @@
 #pragma once
 
 #include "passes/common/light_paths/light_paths.h"
+#include "passes/common/lights/rsm.h"
 
 namespace voxray {
 
@@ -38,8 +39,8 @@ class InjectRsm final : public Pass {
     Params params_;
     Port<const SurfaceVoxels> voxels_;
     Port<VoxelIrradiance> irradiance_;
-    Program rasterize_, makeRays_;
-    Image seen_, depth_;
+    RsmImage map_;
+    Program makeRays_;
     LightPaths paths_;
 };
 

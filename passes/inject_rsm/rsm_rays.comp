@@ -1,11 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Each texel is a ray from the light whose hit the rasteriser found; it carries the light through the texel.
-#include "shaders/lights/light_view.glsl"
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/scene/scene.glsl"
-#include "shaders/light_paths/light_path_types.h"
-#include "shaders/trace/ray_types.h"
+#include "shaders/light_paths/rsm_light.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
@@ -25,31 +22,10 @@ void main() {
     if (i >= push.texels) return;
     const uint texel = push.firstTexel + i;
     const ivec2 at = ivec2(texel % push.resolution, texel / push.resolution);
-    const vec2 onView = texelOnView(push.view, push.resolution, at);
-    const float side = texelWidth(push.view, push.resolution);
-    const TexelRay beam = texelRay(push.view, onView);
-    const GpuLight light = sceneLights.data[push.light];
-
-    // The beam through the texel: E * area, or I * solid angle (of the texel's center; exact as texels shrink).
-    Ray ray;
-    ray.origin = beam.start;
-    ray.direction = normalize(beam.along);
-    LightPath path = LightPath(vec3(0.0), 0.0, 0.0, 0.0);
-    if (push.view.parallel != 0u) {
-        path.area = side * side;
-        path.power = light.intensity * path.area;
-    } else {
-        path.solidAngle = side * side * pow(1.0 + dot(onView, onView), -1.5);
-        path.power = light.intensity * path.solidAngle;
-        if (light.type == LIGHT_SPOT) path.power *= spotFalloff(light, dot(ray.direction, light.direction));
-    }
-    ray.tMin = 0.0;
-    ray.tMax = all(equal(path.power, vec3(0.0))) ? -1.0 : 1.0e30;
-
     const uvec4 point = imageLoad(seen, at);
-    Hit hit = Hit(0.0, point.x, uintBitsToFloat(point.y), uintBitsToFloat(point.z));
-    if (hit.triangle != NO_HIT) hit.t = distance(surfacePoint(hit.triangle, vec2(hit.u, hit.v)).position, ray.origin);
+    LightPath path;
+    const Ray ray = rsmRay(push.view, sceneLights.data[push.light], push.resolution, at, path);
     rays.data[i] = ray;
-    hits.data[i] = hit;
+    hits.data[i] = rsmHit(RsmTexel(point.x, uintBitsToFloat(point.yz), 0u), ray);
     paths.data[i] = path;
 }

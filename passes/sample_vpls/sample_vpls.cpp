@@ -45,6 +45,7 @@ std::vector<uint32_t> orderOfPaths(const std::vector<uint32_t>& pathsOf) {
 }  // namespace
 
 void SampleVpls::declare(PassBuilder& builder) {
+    if (params_.first == FirstVertices::Rsm) rsm_ = builder.read<Rsm>("rsm", "what lights see");
     vpls_ = builder.write<Vpls>("vpls", "virtual point lights");
 }
 
@@ -62,10 +63,14 @@ void SampleVpls::plan(PassPlan& plan) {
     plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
     plan.scratchBuffer(paths_, "light paths", batch * sizeof(gpu::LightPath));
+    if (params_.first == FirstVertices::Rsm) rsmSampling_.plan(plan, plan.get(rsm_));
 }
 
 void SampleVpls::prepare(PassSetup& setup) {
-    emission_.prepare(setup);
+    if (params_.first == FirstVertices::Rsm)
+        rsmSampling_.prepare(setup);
+    else
+        emission_.prepare(setup);
     record_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/sample_vpls/record.comp"));
     const std::vector<uint32_t> order = orderOfPaths(pathsOf_);
     setup.stream.upload(order_, std::as_bytes(std::span(order)));
@@ -85,9 +90,13 @@ void SampleVpls::record(PassContext& context) {
     uint32_t firstPath = 0;
     for (uint32_t s = 0; s < sources.size(); ++s) {
         const uint32_t seed = randomSeed(context.frame, s), paths = pathsOf_[s];
-        emission_.emit(context, sources[s], {seed, paths, 0, paths}, rays_, paths_);
+        const bool areHitsKnown = params_.first == FirstVertices::Rsm;
+        if (areHitsKnown)
+            rsmSampling_.emit(context, context.get(rsm_), s, {rays_, hits_, paths_, paths, seed});
+        else
+            emission_.emit(context, sources[s], {seed, paths, 0, paths}, rays_, paths_);
         for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {
-            context.tracer.closestHit(stream, rays_, hits_, paths);
+            if (bounce > 0 || !areHitsKnown) context.tracer.closestHit(stream, rays_, hits_, paths);
             stream.dispatch(record_,
                             context.scene.bindings({{"rays", rays_},
                                                     {"hits", hits_},

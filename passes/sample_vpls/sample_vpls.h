@@ -5,11 +5,21 @@
 #include "passes/common/compute/compaction.h"
 #include "passes/common/light_paths/light_emission.h"
 #include "passes/common/vpls/vpls.h"
+#include "passes/sample_vpls/rsm_sampling.h"
 
 namespace voxray {
 
-/// Virtual point lights at the vertices of paths from the lights (instant radiosity, Keller 1997), which is
-/// where Sun and Agu 2015, section 3.2, put those of the second and further bounces.
+/// How the first vertices of paths of light are found.
+enum class FirstVertices { LightRays, Rsm };
+template <>
+struct EnumNames<FirstVertices> {
+    static constexpr std::array names{std::pair{FirstVertices::LightRays, "light_rays"},
+                                      std::pair{FirstVertices::Rsm, "rsm"}};
+};
+
+/// Virtual point lights at the vertices of paths from the lights (instant radiosity, Keller 1997); with
+/// FirstVertices::Rsm as Sun and Agu 2015, sections 3 and 3.2: the first out of reflective shadow maps by
+/// importance, further ones by rays from there.
 class SampleVpls final : public Pass {
  public:
     static constexpr const char* kName = "sample_vpls";
@@ -23,13 +33,19 @@ class SampleVpls final : public Pass {
     struct Params {
         uint32_t vplsPerBounce = 1024;
         uint32_t bounces = 3;
+        FirstVertices first = FirstVertices::LightRays;
         static constexpr auto schema() {
             return std::tuple{
                 field("vpls_per_bounce", &Params::vplsPerBounce,
                       "Paths of light. Each leaves a virtual point light at each of its hits, until Russian "
                       "roulette by albedo ends it. Each light sends at least one.",
                       1u, 1u << 20),
-                field("bounces", &Params::bounces, "Bounces of light: hits of a path that count.", 1u, 16u)};
+                field("bounces", &Params::bounces, "Bounces of light: hits of a path that count.", 1u, 16u),
+                field("first", &Params::first,
+                      "Where paths begin. light_rays: where rays from lights of every kind hit, which carry "
+                      "equal "
+                      "power. rsm: at texels of reflective shadow maps (render_rsm), picked by the flux that "
+                      "their points reflect; point, spot and directional lights alone.")};
         }
     };
 
@@ -41,9 +57,11 @@ class SampleVpls final : public Pass {
 
  private:
     Params params_;
+    Port<const Rsm> rsm_;  ///< With FirstVertices::Rsm.
     Port<Vpls> vpls_;
     std::vector<uint32_t> pathsOf_;  ///< Each source's.
     LightEmission emission_;
+    RsmSampling rsmSampling_;
     Program record_;
     std::optional<Compaction> compaction_;
     Buffer rays_, hits_, paths_, order_, flags_;

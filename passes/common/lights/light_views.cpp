@@ -21,14 +21,16 @@ gpu::LightView makeView(glm::vec3 origin, glm::vec3 forward, float halfExtent) {
 
 }  // namespace
 
-std::vector<LightSource> requireViewpoints(const SceneState& state, const std::string& pass) {
+std::vector<LightSource> requireViewpoints(const SceneState& state, const std::string& pass,
+                                           const std::string& instead) {
     std::vector<LightSource> sources = requireLightSources(state, pass);
     for (const LightSource& source : sources)
         if (source.kind != LightSource::Punctual)
             throw Error(
-                "{}: {} no single viewpoint to render a shadow map from; use inject_light_rays, or point, "
-                "spot and directional lights alone",
-                pass, source.kind == LightSource::Emitters ? "emissive surfaces have" : "an environment has");
+                "{}: {} no single viewpoint to render a shadow map from; use {}, or point, spot and "
+                "directional lights alone",
+                pass, source.kind == LightSource::Emitters ? "emissive surfaces have" : "an environment has",
+                instead);
     return sources;
 }
 

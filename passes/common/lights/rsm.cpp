@@ -1,0 +1,50 @@
+#include "passes/common/lights/rsm.h"
+
+#include <algorithm>
+
+namespace voxray {
+namespace {
+
+constexpr VkFormat kSeenFormat = VK_FORMAT_R32G32B32A32_UINT;
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+
+ImageDesc targetDesc(uint32_t resolution, VkFormat format, VkImageUsageFlags usage) {
+    ImageDesc desc;
+    desc.format = format;
+    desc.extent = {resolution, resolution, 1};
+    desc.usage = usage;
+    return desc;
+}
+
+}  // namespace
+
+void RsmImage::plan(PassPlan& plan, uint32_t resolution) {
+    plan.image(seen_, "reflective shadow map",
+               targetDesc(resolution, kSeenFormat,
+                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
+                              VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
+    plan.image(depth_, "reflective shadow map depth",
+               targetDesc(resolution, kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT));
+}
+
+void RsmImage::prepare(PassSetup& setup) {
+    const ShaderModule stages[] = {setup.compiler.compile("passes/common/lights/light_view.vert"),
+                                   setup.compiler.compile("passes/common/lights/rsm.frag")};
+    RasterState state;
+    state.colorFormats = {kSeenFormat};
+    state.depthFormat = kDepthFormat;
+    rasterize_ = makeRasterProgram(setup.device, stages, state);
+}
+
+void RsmImage::draw(PassContext& context, const gpu::LightView& view) const {
+    RasterTargets targets;
+    VkClearColorValue nothing{};
+    std::ranges::fill(nothing.uint32, Hit::kMiss);
+    targets.colors = {{&seen_, nothing}};
+    targets.depth = &depth_;
+    targets.extent = seen_.desc().extent;
+    context.stream.draw(rasterize_, context.scene.bindings({}), view, targets,
+                        context.scene.triangleCount * 3);
+}
+
+}  // namespace voxray

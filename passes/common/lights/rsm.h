@@ -1,0 +1,37 @@
+#pragma once
+
+#include "graph/pass.h"
+#include "passes/common/compute/large_buffer.h"
+#include "passes/common/lights/light_views.h"
+#include "shaders/lights/rsm_types.h"
+
+namespace voxray {
+
+/// What a light sees (Dachsbacher and Stamminger 2005), one view at a time: which point of which triangle.
+class RsmImage {
+ public:
+    /// @param resolution texels a side.
+    void plan(PassPlan& plan, uint32_t resolution);
+    void prepare(PassSetup& setup);
+    void draw(PassContext& context, const gpu::LightView& view) const;
+    /// RGBA32UI: triangle (Hit::kMiss: none), barycentrics as bits of floats, 0; as gpu::RsmTexel.
+    const Image& image() const { return seen_; }
+
+ private:
+    Image seen_, depth_;
+    Program rasterize_;
+};
+
+/// Reflective shadow maps of all lights of a scene. GLSL: shaders/lights/rsm.glsl.
+struct Rsm : Resource {
+    uint32_t resolution = 0;           ///< Texels a side; known from plan() on.
+    std::vector<LightSource> sources;  ///< Point, spot and directional lights; known from plan() on.
+    std::vector<uint32_t> firstView;   ///< Of each source, and the number of all; known from plan() on.
+    Buffer views;                      ///< gpu::RsmView each, as the lights stand in this frame.
+    LargeBuffer texels;                ///< gpu::RsmTexel each, by view, row and column.
+
+    uint32_t texelsPerView() const { return resolution * resolution; }
+    std::vector<Binding> bindings() const { return {{"rsmViews", views}, {"RsmTexelsAt", texels.at()}}; }
+};
+
+}  // namespace voxray
