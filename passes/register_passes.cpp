@@ -26,6 +26,7 @@
 #include "passes/probe_irradiance/probe_irradiance.h"
 #include "passes/render_rsm/render_rsm.h"
 #include "passes/sample_vpls/sample_vpls.h"
+#include "passes/select_vpls/select_vpls.h"
 #include "passes/trace_gather_rays/trace_gather_rays.h"
 #include "passes/update_radiance_cache/update_radiance_cache.h"
 #include "passes/voxelize/voxelize_pass.h"
@@ -58,6 +59,7 @@ void registerPasses(Registry& registry) {
     registry.add<GatherCachedRays>();
     registry.add<RenderRsm>();
     registry.add<SampleVpls>();
+    registry.add<SelectVpls>();
     registry.add<GatherVpls>();
     registry.add<FilterIrradiance>();
     registry.add<DirectShadowRays>();

@@ -5,10 +5,9 @@
 // the way (Sun and Agu 2015, equations 1 to 4).
 #include "passes/gather_vpls/receiver.glsl"
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/scene/sampling.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/voxel_march/surface_segment.glsl"
-#include "shaders/vpls/vpl_types.h"
+#include "shaders/vpls/vpl_kernel.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Vpls { Vpl data[]; } vpls;
@@ -31,23 +30,19 @@ void main() {
     Receiver r;
     if (number % b.bounces + b.reflections < b.bounces && receiver(b, i % b.count, r)) {
         const Vpl vpl = vpls.data[number];
-        const vec3 way = vpl.position - r.position;
-        const float squared = dot(way, way);
-        const vec3 direction = way * inversesqrt(max(squared, 1e-30));
-        const float cosine = dot(r.normal, direction), vplCosine = -dot(vpl.normal, direction);
-        const bool isAbove = dot(r.faceNormal, direction) > 0.0 && dot(vpl.faceNormal, direction) < 0.0;
-        if (cosine > 0.0 && vplCosine > 0.0 && isAbove && squared > 0.0) {
-            // A Lambert surface's radiant intensity: flux times cosine over pi
-            const float bounded = max(squared, push.minDistanceSquared);
-            light = vec4(vpl.flux * (cosine * vplCosine / (PI * bounded)), inversesqrt(bounded));
+        vec3 direction;
+        const float kernel = vplKernel(vpl, r.position, r.normal, r.faceNormal, push.minDistanceSquared, direction);
+        if (kernel > 0.0) {
+            const float distance_ = max(distance(vpl.position, r.position), sqrt(push.minDistanceSquared));
+            light = vec4(vpl.flux * kernel, 1.0 / distance_);
 
             vec3 from = r.position + r.faceNormal * surfaceOffset(r.position);
             vec3 to = vpl.position + vpl.faceNormal * surfaceOffset(vpl.position);
             bool canBeHidden = dot(to - from, direction) > 0.0;
             if (push.grid.voxelSize > 0.0)
                 canBeHidden = segmentBetweenSurfaces(push.grid, r.position, r.faceNormal, vpl.position, vpl.faceNormal, from, to);
-            const float distance_ = length(to - from);
-            if (canBeHidden) ray = Ray(from, 0.0, (to - from) / distance_, distance_);
+            const float reach = length(to - from);
+            if (canBeHidden) ray = Ray(from, 0.0, (to - from) / reach, reach);
         }
     }
     rays.data[i] = ray;

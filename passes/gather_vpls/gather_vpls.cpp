@@ -4,7 +4,6 @@
 
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
-#include "passes/common/lights/light_sources.h"
 #include "passes/common/view/frame_image.h"
 
 namespace voxray {
@@ -28,11 +27,6 @@ VoxelWalk walkOf(VplVisibility visibility) {
     }
 }
 
-/// Squared radius of the disc whose area is that of the surface for each path of light.
-float squaredRadius(const Geometry& geometry, uint32_t paths) {
-    return float(surfaceArea(geometry) / (glm::pi<double>() * paths));
-}
-
 }  // namespace
 
 void GatherVpls::declare(PassBuilder& builder) {
@@ -53,9 +47,8 @@ void GatherVpls::plan(PassPlan& plan) {
     const Vpls& vpls = plan.get(vpls_);
     const uint32_t samples = plan.get(gbuffer_).samples;
     const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
-    // Things move without changing their area
-    const float minDistanceSquared =
-        params_.bound * params_.bound * squaredRadius(plan.frame.scene->geometry, vpls.paths);
+    // The disc of that area has the squared radius area / pi. Things move without changing their area
+    const float minDistanceSquared = params_.bound * params_.bound * vpls.areaPerPath / glm::pi<float>();
     light_.plan(plan, {params_.block, minDistanceSquared}, texels, uint64_t(vpls.paths) * vpls.bounces);
     if (params_.compensationRays > 0 && minDistanceSquared > 0)
         compensation_.emplace().plan(plan, {params_.compensationRays, vpls.bounces, minDistanceSquared},

@@ -53,6 +53,7 @@ void SampleVpls::plan(PassPlan& plan) {
     pathsOf_ = pathsBySource(requireLightSources(*plan.frame.scene, kName), params_.vplsPerBounce);
     Vpls& vpls = plan.get(vpls_);
     vpls.paths = std::accumulate(pathsOf_.begin(), pathsOf_.end(), 0u);
+    vpls.areaPerPath = float(surfaceArea(plan.frame.scene->geometry) / vpls.paths);
     vpls.bounces = params_.bounces;
     const uint64_t points = uint64_t(vpls.paths) * vpls.bounces;
     const uint64_t batch = *std::max_element(pathsOf_.begin(), pathsOf_.end());

@@ -1,0 +1,68 @@
+// Virtual point lights chosen by what they bring to the image: the same energy with less noise.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "passes/common/vpls/vpls.h"
+#include "passes/select_vpls/resample.h"
+#include "tests/gpu/chain.h"
+
+namespace voxray::test {
+namespace {
+
+std::string allLights(const std::string& paths) {
+    return graphYaml(
+        {"gbuffer", "sample_vpls, vpls_per_bounce: " + paths, "gather_vpls, visibility: exact, block: 1"});
+}
+
+std::string selectedLights(const std::string& candidates, const std::string& count) {
+    return graphYaml({"gbuffer", "sample_vpls, vpls_per_bounce: " + candidates,
+                      "select_vpls, count: " + count, "gather_vpls, visibility: exact, block: 1"});
+}
+
+TEST(SelectVpls, ResamplingKeepsSumsOnAverage) {
+    const std::vector<double> probabilities = {0.1, 0, 0.5, 0.05, 0.35};
+    std::vector<double> means(5);
+    for (int i = 0; i < 1000; ++i) {
+        const Resampled kept = resample(probabilities, 3, (i + 0.5) / 1000);
+        ASSERT_LE(kept.places.size(), 3u);
+        for (size_t k = 0; k < kept.places.size(); ++k) means[kept.places[k]] += kept.weights[k] / 1000;
+    }
+    for (const int place : {0, 2, 3, 4}) EXPECT_NEAR(means[size_t(place)], 1, 0.01) << place;
+    EXPECT_EQ(means[1], 0);
+    EXPECT_EQ(resample(probabilities, 3, 0.999999).places.back(), 4u);
+}
+
+TEST(SelectVpls, BringTheEnergyOfAll) {
+    // The camera sees half of the walls
+    Chain chain("white_room", "{}", selectedLights("4096", "2048"), 16, 16);
+    const Vpls& vpls = *chain.graph().resource<Vpls>("vpls");
+    const auto points = chain.read<gpu::Vpl>(vpls.points);
+    const auto list = chain.read<uint32_t>(vpls.list);
+    EXPECT_LE(vpls.count, 2048u);
+    EXPECT_GT(vpls.count, 1024u);
+    double flux = 0;
+    for (uint32_t i = 0; i < vpls.count; ++i) flux += points.at(list[i]).flux.y;
+    const double each = 4 * std::numbers::pi * 0.8;
+    EXPECT_NEAR(flux / (each + 0.8 * each + 0.64 * each), 1, 0.05);
+    const double all = mean(Chain("white_room", "{}", allLights("4096"), 16, 16).image("indirect"));
+    EXPECT_NEAR(mean(chain.image("indirect")) / all, 1, 0.02);
+}
+
+TEST(SelectVpls, AreThoseThatTheCameraSees) {
+    // A room whose light comes in through a window, and as many virtual lights with and without a choice
+    const auto image = [](const std::string& graph) {
+        return Chain("window_room", "{}", graph, 32, 32).image("indirect").data;
+    };
+    const std::vector<float> right = image(allLights("65536"));
+    const auto error = [&](const std::string& graph) {
+        const std::vector<float> found = image(graph);
+        double sum = 0;
+        for (size_t i = 0; i < right.size(); ++i) sum += (found[i] - right[i]) * (found[i] - right[i]);
+        return sum;
+    };
+    EXPECT_LT(error(selectedLights("16384", "1024")), 0.5 * error(allLights("1024")));
+}
+
+}  // namespace
+}  // namespace voxray::test
