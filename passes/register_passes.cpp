@@ -2,6 +2,7 @@
 
 #include "passes/compare_voxels/compare_voxels.h"
 #include "passes/composite/composite.h"
+#include "passes/direct_shadow_maps/direct_shadow_maps.h"
 #include "passes/direct_shadow_rays/direct_shadow_rays.h"
 #include "passes/direct_voxels/direct_voxels.h"
 #include "passes/filter_irradiance/filter_irradiance.h"
@@ -63,6 +64,7 @@ void registerPasses(Registry& registry) {
     registry.add<GatherVpls>();
     registry.add<FilterIrradiance>();
     registry.add<DirectShadowRays>();
+    registry.add<DirectShadowMaps>();
     registry.add<DirectVoxels>();
     registry.add<Composite>();
     registry.add<PathTracePass>();

@@ -36,19 +36,6 @@ layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;  // Where rays meet voxels.
 } push;
 
-// What a surface reflects of light from unit `direction` towards `out_`, over irradiance: its diffuse lobe under its specular
-// one. A mirror's is none that a shadow ray could find.
-vec3 reflectance(vec3 diffuseAlbedo_, Specular s, vec3 n, vec3 out_, vec3 direction) {
-    const vec3 diffuse = diffuseAlbedo_ / PI;
-    if (!hasSpecular(s)) return diffuse;
-    const vec3 half_ = normalize(out_ + direction);
-    const float weight = schlickWeight(dot(out_, half_));
-    const vec3 below = diffuseFraction(s, weight) * diffuse;
-    if (isMirror(s)) return below;
-    const vec3 across = cross(n, half_);
-    return below + specularFresnel(s, weight) * ggx(dot(n, direction), max(dot(n, out_), 1e-5), dot(across, across), specularAlpha(s));
-}
-
 void main() {
     const uint i = linearIndex();
     if (i >= push.batchRays) return;

@@ -34,15 +34,10 @@ void main() {
     const vec3 irradiance = l.irradiance * max(dot(s.normal, l.direction), 0.0);
     if (all(equal(irradiance, vec3(0.0)))) return;
 
-    // In texels from the center of the first; within half a texel of the border there is none further out.
-    const vec2 at = inTexels(view, push.resolution, s.position) - 0.5;
-    const ivec2 first = clamp(ivec2(floor(at)), ivec2(0), ivec2(push.resolution) - 2);
-    const vec2 along = clamp(at - vec2(first), 0.0, 1.0);
+    vec4 weights;
+    const ivec2 first = nearestTexels(view, push.resolution, s.position, weights);
     float visible = 0.0;
-    for (int k = 0; k < 4; ++k) {
-        const ivec2 corner = ivec2(k & 1, k >> 1);
-        const vec2 weight = mix(1.0 - along, along, vec2(corner));
-        if (seen(first + corner, s)) visible += weight.x * weight.y;
-    }
+    for (int k = 0; k < 4; ++k)
+        if (seen(first + ivec2(k & 1, k >> 1), s)) visible += weights[k];
     direct.data[i] += vec4(visible * irradiance, 0.0);
 }

@@ -36,6 +36,16 @@ vec2 inTexels(LightView view, uint resolution, vec3 position) {
     return (onView + view.halfExtent) / texelWidth(view, resolution);
 }
 
+// Of the four texels whose centers are nearest to a position on the view the first, and their bilinear weights, row by row. Within
+// half a texel of the border there is none further out.
+ivec2 nearestTexels(LightView view, uint resolution, vec3 position, out vec4 weights) {
+    const vec2 at = inTexels(view, resolution, position) - 0.5;
+    const ivec2 first = clamp(ivec2(floor(at)), ivec2(0), ivec2(resolution) - 2);
+    const vec2 along = clamp(at - vec2(first), 0.0, 1.0);
+    weights = vec4(1.0 - along.x, along.x, 1.0 - along.x, along.x) * vec4(vec2(1.0 - along.y), vec2(along.y));
+    return first;
+}
+
 // The side of a cube of views that sees a direction, in the order +x -x +y -y +z -z.
 uint cubeSide(vec3 v) {
     const vec3 a = abs(v);

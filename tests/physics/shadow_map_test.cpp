@@ -146,6 +146,50 @@ TEST(ShadowMap, IndirectLightOfCornellIsThatOfVoxelRays) {
     EXPECT_NEAR(indirect("inject_shadow_map") / indirect("inject_voxel_rays"), 1.0, 0.02);
 }
 
+ImageF directImage(const std::string& scene, const std::string& parameters, const std::string& pass,
+                   const std::string& resolution = "1024") {
+    return Chain(scene, parameters,
+                 graphYaml({"gbuffer, samples_per_pixel_edge: 2", "render_rsm, rsm_resolution: " + resolution,
+                            pass}),
+                 64, 64)
+        .image("direct");
+}
+
+TEST(ShadowMap, OfPixelsShowsFlatSurfacesAsRaysDo) {
+    for (const std::string light : {"point", "spot", "directional"}) {
+        const ImageF map = directImage("plane", "{light: " + light + "}", "direct_shadow_maps", "64");
+        const ImageF rays = directImage("plane", "{light: " + light + "}", "direct_shadow_rays");
+        for (size_t i = 0; i < rays.data.size(); ++i)
+            ASSERT_NEAR(map.data[i], rays.data[i], 1e-4f * rays.data[i] + 1e-7f) << light << " " << i;
+    }
+}
+
+TEST(ShadowMap, OfPixelsComesNearToRays) {
+    // What stays with fine maps lies along edges of the room, which pixels' centers fall on
+    for (const std::string light : {"point", "spot", "sun"}) {
+        const ImageF rays = directImage("cornell", "{lights: " + light + "}", "direct_shadow_rays");
+        const auto apart = [&](const std::string& resolution) {
+            const ImageF map =
+                directImage("cornell", "{lights: " + light + "}", "direct_shadow_maps", resolution);
+            double sum = 0;
+            for (size_t i = 0; i < rays.data.size(); ++i)
+                sum += std::abs(double(map.data[i]) - double(rays.data[i]));
+            sum /= mean(rays) * double(rays.data.size());
+            std::printf("%s, maps of %s texels a side: %.4f\n", light.c_str(), resolution.c_str(), sum);
+            return sum;
+        };
+        const double coarse = apart("128"), fine = apart("2048");
+        EXPECT_LT(fine, 0.5 * coarse);
+        EXPECT_LT(fine, 0.003);
+    }
+}
+
+TEST(ShadowMap, OfPixelsNamesLightsWithoutAViewpoint) {
+    EXPECT_CONTAINS(errorOf([] { directImage("cornell", "{lights: area}", "direct_shadow_maps"); }),
+                    "render_rsm: emissive surfaces have no single viewpoint to render a shadow map from; use "
+                    "direct_shadow_rays");
+}
+
 TEST(ShadowMap, BadInputIsNamed) {
     const auto state = [](const std::string& scene, const std::string& parameters) {
         return std::make_shared<SceneState>(

@@ -1,0 +1,75 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What each pixel reflects of the lights that its texels are seen by, by the fraction of the four nearest texels of the light's map,
+// weighted bilinearly, that see it.
+#include "shaders/lights/lights.glsl"
+#include "shaders/lights/rsm.glsl"
+#include "shaders/scene/sampling.glsl"
+#include "shaders/scene/scene.glsl"
+#include "shaders/scene/specular.glsl"
+#include "shaders/trace/ray_types.h"
+layout(local_size_x = 8, local_size_y = 8) in;
+
+uniform sampler2D position;
+uniform sampler2D normal;
+uniform sampler2D geometricNormal;
+uniform sampler2D albedo;
+uniform sampler2D specular;
+uniform sampler2D fresnel;
+layout(rgba32f) uniform writeonly image2D direct;
+layout(push_constant, scalar) uniform Push {
+    uint samples;  // Texels along each side of a pixel.
+    uint resolution, views;  // Of the maps.
+    vec3 camera;
+} push;
+
+// Depth of what a texel of a map sees along the view's axis, relative to its farthest.
+float depthAt(uint number, LightView view, ivec2 texel) {
+    const RsmTexel seen = rsmTexel(number, push.resolution, texel);
+    if (seen.triangle == NO_HIT) return 1.0;
+    const uvec3 v = triangleVertices(seen.triangle);
+    const vec2 w = seen.barycentrics;
+    const vec3 at = (1.0 - w.x - w.y) * vertexPosition(v.x) + w.x * vertexPosition(v.y) + w.y * vertexPosition(v.z);
+    return dot(at - view.origin, view.forward) / view.farthest;
+}
+
+float visibleFraction(uint number, LightView view, vec3 at, vec3 side) {
+    vec4 weights;
+    const ivec2 first = nearestTexels(view, push.resolution, at, weights);
+    float visible = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        const ivec2 texel = first + ivec2(k & 1, k >> 1);
+        if (texelSees(view, push.resolution, texel, depthAt(number, view, texel), at, side)) visible += weights[k];
+    }
+    return visible;
+}
+
+vec3 reflected(ivec2 texel) {
+    const vec4 p = texelFetch(position, texel, 0);
+    if (p.w == 0.0) return vec3(0.0);
+    const vec3 out_ = normalize(push.camera - p.xyz), diffuse = texelFetch(albedo, texel, 0).rgb;
+    const Specular surface = specularOf(texelFetch(specular, texel, 0), texelFetch(fresnel, texel, 0));
+    vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
+    if (hasSpecular(surface)) n = specularNormal(n, out_);
+    const vec3 side = normalize(texelFetch(geometricNormal, texel, 0).xyz);
+    vec3 sum = vec3(0.0);
+    for (uint number = 0u; number < push.views; ++number) {
+        const RsmView v = rsmViews.data[number];
+        if (v.side < 6u && cubeSide(p.xyz - v.view.origin) != v.side) continue;
+        const LightSample s = samplePunctual(sceneLights.data[v.light], p.xyz);
+        const float cosine = dot(n, s.direction);
+        if (cosine <= 0.0 || dot(side, s.direction) <= 0.0 || s.irradiance == vec3(0.0)) continue;
+        sum += reflectance(diffuse, surface, n, out_, s.direction) * s.irradiance * cosine *
+               visibleFraction(number, v.view, p.xyz, side);
+    }
+    return sum;
+}
+
+void main() {
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(direct)))) return;
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < push.samples * push.samples; ++k)
+        sum += reflected(pixel * int(push.samples) + ivec2(k % push.samples, k / push.samples));
+    imageStore(direct, pixel, vec4(sum / float(push.samples * push.samples), 0.0));
+}
