@@ -14,6 +14,11 @@ struct FinishPush {
     uint32_t block;
 };
 
+bool meetsVoxels(VplVisibility visibility) {
+    return visibility != VplVisibility::ShadowMap && visibility != VplVisibility::Exact &&
+           visibility != VplVisibility::None;
+}
+
 VoxelWalk walkOf(VplVisibility visibility) {
     switch (visibility) {
         case VplVisibility::SvoRestart:
@@ -32,7 +37,7 @@ VoxelWalk walkOf(VplVisibility visibility) {
 void GatherVpls::declare(PassBuilder& builder) {
     gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
     vpls_ = builder.read<Vpls>("vpls", "virtual point lights");
-    if (params_.visibility != VplVisibility::Exact && params_.visibility != VplVisibility::None) {
+    if (meetsVoxels(params_.visibility)) {
         voxels_ = builder.read<SurfaceVoxels>("voxels", "what shadow rays meet");
         voxelTracer_.emplace(walkOf(params_.visibility), params_.restartEpsilon);
     }
@@ -60,6 +65,8 @@ void GatherVpls::plan(PassPlan& plan) {
     plan.buffer(noisy.moments, "moments of virtual point lights", noisy.momentsBytes(texels));
     if (FrameImage& indirect = plan.get(indirect_); indirect.isRead)
         plan.image(indirect.image, "indirect", frameImageDesc(plan.frame));
+    if (params_.visibility == VplVisibility::ShadowMap)
+        shadowMaps_.emplace().plan(plan, params_.mapResolution);
     if (voxelTracer_) voxelTracer_->plan(plan, plan.frame.scene->geometry, plan.get(voxels_));
 }
 
@@ -69,6 +76,7 @@ void GatherVpls::prepare(PassSetup& setup) {
     finish_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/gather_vpls/finish.comp"));
     sampler_ = texelSampler(setup.device);
     if (setup.get(indirect_).isRead) resolve_ = IrradianceResolve(setup);
+    if (shadowMaps_) shadowMaps_->prepare(setup);
     if (voxelTracer_) voxelTracer_->prepare(setup.device, setup.compiler);
 }
 
@@ -79,6 +87,7 @@ void GatherVpls::record(PassContext& context) {
     const NoisyIrradiance& noisy = context.get(noisy_);
     VplLight::Visibility visibility{&context.tracer};
     if (params_.visibility == VplVisibility::None) visibility.tracer = nullptr;
+    if (shadowMaps_) visibility.maps = &*shadowMaps_;
     if (voxelTracer_) {
         const SurfaceVoxels& voxels = context.get(voxels_);
         voxelTracer_->begin(stream, voxels);

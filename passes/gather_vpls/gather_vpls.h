@@ -10,13 +10,16 @@
 namespace voxray {
 
 /// What hides a virtual point light from a surface.
-enum class VplVisibility { Svo, SvoRestart, Bricks, Bits, Exact, None };
+enum class VplVisibility { Svo, SvoRestart, Bricks, Bits, ShadowMap, Exact, None };
 template <>
 struct EnumNames<VplVisibility> {
-    static constexpr std::array names{
-        std::pair{VplVisibility::Svo, "svo"},       std::pair{VplVisibility::SvoRestart, "svo_restart"},
-        std::pair{VplVisibility::Bricks, "bricks"}, std::pair{VplVisibility::Bits, "bits"},
-        std::pair{VplVisibility::Exact, "exact"},   std::pair{VplVisibility::None, "none"}};
+    static constexpr std::array names{std::pair{VplVisibility::Svo, "svo"},
+                                      std::pair{VplVisibility::SvoRestart, "svo_restart"},
+                                      std::pair{VplVisibility::Bricks, "bricks"},
+                                      std::pair{VplVisibility::Bits, "bits"},
+                                      std::pair{VplVisibility::ShadowMap, "shadow_map"},
+                                      std::pair{VplVisibility::Exact, "exact"},
+                                      std::pair{VplVisibility::None, "none"}};
 };
 
 /// Irradiance from virtual point lights, each texel from every n-th of them (interleaved sampling, Segovia et
@@ -29,8 +32,9 @@ class GatherVpls final : public Pass {
         "Indirect light from virtual point lights (sample_vpls), with a shadow ray to each: through voxels, "
         "or "
         "exact. Each texel of a block takes another part of them; let filter_irradiance follow. Biased by: "
-        "bound without compensation_rays, which darkens contacts and corners; voxel size, unless visibility "
-        "is exact. Noisy by: the number of virtual lights, as blotches that all texels share. Source: Sun "
+        "bound without compensation_rays, which darkens contacts and corners; voxel size or map_resolution, "
+        "unless visibility is exact. Noisy by: the number of virtual lights, as blotches that all texels "
+        "share. Source: Sun "
         "and Agu 2015; Kollig and Keller 2004.";
     struct Params {
         uint32_t block = 4;
@@ -38,6 +42,7 @@ class GatherVpls final : public Pass {
         uint32_t compensationRays = 0;
         VplVisibility visibility = VplVisibility::Svo;
         float restartEpsilon = 0;
+        uint32_t mapResolution = 128;
         static constexpr auto schema() {
             return std::tuple{
                 field("block", &Params::block,
@@ -55,12 +60,16 @@ class GatherVpls final : public Pass {
                 field(
                     "visibility", &Params::visibility,
                     "What shadow rays meet. svo, bricks, bits: surface voxels, on three walks that find the "
-                    "same ones. svo_restart: these by the paper's walk. exact: triangles. none: nothing."),
+                    "same ones. svo_restart: these by the paper's walk. shadow_map: what a map of each "
+                    "virtual "
+                    "light's hemisphere sees. exact: triangles. none: nothing."),
                 field("restart_epsilon", &Params::restartEpsilon,
                       "For svo_restart: voxels by which it steps past each node, as the paper does, which "
                       "skips "
                       "what is thinner; 0 steps exactly.",
-                      0.0f, 1.0f)};
+                      0.0f, 1.0f),
+                field("map_resolution", &Params::mapResolution,
+                      "For shadow_map: texels along each side of a virtual light's map.", 4u, 1024u)};
         }
     };
 
@@ -78,6 +87,7 @@ class GatherVpls final : public Pass {
     Port<NoisyIrradiance> noisy_;
     Port<FrameImage> indirect_;
     std::optional<VoxelTracer> voxelTracer_;
+    std::optional<VplShadowMaps> shadowMaps_;
     VplLight light_;
     std::optional<VplCompensation> compensation_;  ///< Where something is taken away and comes back.
     Image sums_;                                   ///< Of the G-buffer's extent.

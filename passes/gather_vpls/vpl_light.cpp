@@ -16,6 +16,11 @@ struct AimPush {
     gpu::VoxelGrid grid;
 };
 
+struct ShadowsPush {
+    gpu::VplBatch batch;
+    uint32_t resolution;
+};
+
 struct AddPush {
     gpu::VplBatch batch;
 };
@@ -38,7 +43,7 @@ void VplLight::prepare(PassSetup& setup) {
             return makeComputeProgram(setup.device,
                                       setup.compiler.compile("passes/gather_vpls/" + file, defines));
         };
-        return Programs{program("aim.comp"), program("add.comp")};
+        return Programs{program("aim.comp"), program("map_shadows.comp"), program("add.comp")};
     };
     texels_ = programs({});
     surfels_ = programs({{"SURFELS", "1"}});
@@ -72,10 +77,17 @@ void VplLight::add(PassContext& context, const Vpls& vpls, const Visibility& vis
                    const std::vector<Binding>& target) const {
     CommandStream& stream = context.stream;
     const auto maxRays = uint32_t(occluded_.bytes() / sizeof(uint32_t));
-    if (!visibility.tracer) stream.fill(occluded_, 0);
-    std::vector<Binding> aiming = receivers, adding = target;
+    const VplShadowMaps* maps = visibility.maps;
+    if (!visibility.tracer && !maps) stream.fill(occluded_, 0);
+    std::vector<Binding> aiming = receivers, shading = receivers, adding = target;
     aiming.insert(aiming.end(),
                   {{"vpls", vpls.points}, {"list", vpls.list}, {"rays", rays_}, {"carried", carried_}});
+    if (maps)
+        shading.insert(shading.end(), {{"vpls", vpls.points},
+                                       {"list", vpls.list},
+                                       {"rays", rays_},
+                                       {"hits", maps->hits()},
+                                       {"occluded", occluded_}});
     adding.insert(adding.end(), {{"carried", carried_}, {"occluded", occluded_}});
     batch.block = settings_.block;
     batch.bounces = vpls.bounces;
@@ -87,15 +99,21 @@ void VplLight::add(PassContext& context, const Vpls& vpls, const Visibility& vis
         const auto end = uint32_t(uint64_t(vpls.count) * (batch.subset + 1) / subsets());
         for (batch.first = 0; batch.first < perSubset; batch.first += batch.count) {
             batch.count = std::min(perSubset - batch.first, maxRays);
-            const uint32_t maxVpls = maxRays / batch.count;
+            uint32_t maxVpls = maxRays / batch.count;
+            if (maps) maxVpls = std::min(maxVpls, maps->capacity());
             for (batch.firstVpl = begin; batch.firstVpl < end; batch.firstVpl += batch.vplCount) {
                 batch.vplCount = std::min(end - batch.firstVpl, maxVpls);
                 const uint32_t rays = batch.count * batch.vplCount;
                 stream.dispatch(programs.aim, aiming,
                                 AimPush{batch, settings_.minDistanceSquared, visibility.grid},
                                 linearGroups(rays));
-                if (visibility.tracer)
+                if (maps) {
+                    maps->draw(context, vpls, batch.firstVpl, batch.vplCount);
+                    stream.dispatch(programs.shadows, shading, ShadowsPush{batch, maps->resolution()},
+                                    linearGroups(rays));
+                } else if (visibility.tracer) {
                     visibility.tracer->occluded(stream, rays_, occluded_, rays, Coherence::Coherent);
+                }
                 stream.dispatch(programs.add, adding, AddPush{batch}, linearGroups(batch.count));
             }
         }

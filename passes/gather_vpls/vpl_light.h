@@ -3,6 +3,7 @@
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/vpls/vpls.h"
 #include "passes/gather_vpls/gather_types.h"
+#include "passes/gather_vpls/vpl_shadow_maps.h"
 #include "shaders/voxels/voxel_types.h"
 
 namespace voxray {
@@ -23,8 +24,9 @@ class VplLight {
     };
     /// What the shadow rays of one run meet.
     struct Visibility {
-        RayTracer* tracer;      ///< Null: nothing hides anything.
-        gpu::VoxelGrid grid{};  ///< Of the voxels; of size 0 where they meet triangles.
+        RayTracer* tracer;                    ///< Null: nothing hides anything.
+        gpu::VoxelGrid grid{};                ///< Of the voxels; of size 0 where they meet triangles.
+        const VplShadowMaps* maps = nullptr;  ///< In place of the tracer, where not null.
     };
 
     /// @param texels of the G-buffer. @param maxVpls at most.
@@ -42,7 +44,7 @@ class VplLight {
 
  private:
     struct Programs {
-        Program aim, add;
+        Program aim, shadows, add;
     };
     void add(PassContext& context, const Vpls& vpls, const Visibility& visibility, gpu::VplBatch batch,
              uint32_t perSubset, const Programs& programs, const std::vector<Binding>& receivers,

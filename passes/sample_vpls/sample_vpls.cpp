@@ -90,7 +90,8 @@ void SampleVpls::record(PassContext& context) {
     // The paths of each light, hit after hit
     uint32_t firstPath = 0;
     for (uint32_t s = 0; s < sources.size(); ++s) {
-        const uint32_t seed = randomSeed(context.frame, s), paths = pathsOf_[s];
+        const auto number = uint32_t(s + (params_.resample ? context.frameIndex * sources.size() : 0));
+        const uint32_t seed = randomSeed(context.frame, number), paths = pathsOf_[s];
         const bool areHitsKnown = params_.first == FirstVertices::Rsm;
         if (areHitsKnown)
             rsmSampling_.emit(context, context.get(rsm_), s, {rays_, hits_, paths_, paths, seed});

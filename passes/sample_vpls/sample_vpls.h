@@ -28,12 +28,15 @@ class SampleVpls final : public Pass {
         "indirect light from. Lights of every kind send rays by their power. All surfaces are Lambert "
         "surfaces "
         "of their base colour. Biased by: shading normals, whose factor on light paths is left out. Noisy "
-        "by: vpls_per_bounce. Each frame draws the same numbers, so that virtual lights move with a light. "
+        "by: vpls_per_bounce. Each frame draws the same numbers, so that virtual lights move with a light, "
+        "unless "
+        "'resample' is set. "
         "Source: Keller 1997; Sun and Agu 2015, section 3.2.";
     struct Params {
         uint32_t vplsPerBounce = 1024;
         uint32_t bounces = 3;
         FirstVertices first = FirstVertices::LightRays;
+        bool resample = false;
         static constexpr auto schema() {
             return std::tuple{
                 field("vpls_per_bounce", &Params::vplsPerBounce,
@@ -45,11 +48,15 @@ class SampleVpls final : public Pass {
                       "Where paths begin. light_rays: where rays from lights of every kind hit, which carry "
                       "equal "
                       "power. rsm: at texels of reflective shadow maps (render_rsm), picked by the flux that "
-                      "their points reflect; point, spot and directional lights alone.")};
+                      "their points reflect; point, spot and directional lights alone."),
+                field("resample", &Params::resample,
+                      "Whether each frame draws numbers of its own, for comparison: virtual lights then "
+                      "jump.")};
         }
     };
 
     explicit SampleVpls(const Params& params) : params_(params) {}
+    Phase phase() const override { return params_.resample ? Phase::Frame : Phase::Build; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "passes/common/view/gbuffer.h"
 #include "passes/common/vpls/vpls.h"
 #include "tests/gpu/chain.h"
 #include "tests/support/errors.h"
@@ -57,6 +58,50 @@ TEST(ManyLights, AllWalksThroughVoxelsGiveTheSameImage) {
     EXPECT_EQ(bits, image("svo"));
     EXPECT_EQ(bits, image("svo_restart"));
     EXPECT_NE(bits, image("exact"));
+}
+
+TEST(ManyLights, ShadowMapsComeNearToExactShadows) {
+    // Mean difference of the images, over the mean of the exact one. What stays lies along edges of the room,
+    // which pixels' centers fall on here: texels next to an edge see the other wall
+    const auto image = [](const std::string& visibility) {
+        return indirect("cornell", "{lights: point}",
+                        manyLights("vpls_per_bounce: 256", "block: 1, visibility: " + visibility));
+    };
+    const std::vector<float> exact = image("exact");
+    double before = 0.05;
+    for (const int resolution : {16, 64, 256}) {
+        const std::vector<float> map = image(fmt::format("shadow_map, map_resolution: {}", resolution));
+        double difference = 0, all = 0;
+        for (size_t i = 0; i < exact.size(); ++i) {
+            difference += std::abs(map[i] - exact[i]);
+            all += exact[i];
+        }
+        std::printf("maps of %d texels a side: %.4f\n", resolution, difference / all);
+        EXPECT_LT(difference / all, 0.8 * before);
+        before = difference / all;
+    }
+    EXPECT_LT(before, 0.007);
+}
+
+TEST(ManyLights, ShadowMapsOfAnEmptyRoomHideNothingButAtEdges) {
+    // Walls are at a distance of 1 m from the center, texels at most 13 cm wide. A few virtual lights are
+    // next to edges themselves
+    const auto chain = [](const std::string& visibility) {
+        return Chain("white_room", "{}",
+                     manyLights("vpls_per_bounce: 256", "block: 1, visibility: " + visibility));
+    };
+    Chain map = chain("shadow_map, map_resolution: 64");
+    const std::vector<float> shaded = map.image("indirect").data, open = chain("none").image("indirect").data;
+    const auto positions = map.readImage<glm::vec4>(map.graph().resource<GBuffer>("gbuffer")->position);
+    size_t inside = 0;
+    for (size_t i = 0; i < positions.size(); ++i) {
+        glm::vec3 off = 1.0f - glm::abs(glm::vec3(positions[i]));
+        if (off.x > off.y) std::swap(off.x, off.y);
+        if (std::min(std::max(off.x, off.y), off.z) < 0.2f) continue;
+        ++inside;
+        ASSERT_NEAR(shaded[3 * i], open[3 * i], 0.01 * open[3 * i]) << i;
+    }
+    EXPECT_GT(inside, 400u);
 }
 
 TEST(ManyLights, AreLinearInLightAndDeterministic) {
@@ -192,6 +237,19 @@ TEST(ManyLights, OfReflectiveShadowMapsMoveWithTheLight) {
         far += glm::distance(before[i].position, after[i].position) > 0.03f;
     std::printf("%zu of %zu virtual lights moved by more than 3 cm\n", far, before.size());
     EXPECT_LT(double(far), 0.02 * double(before.size()));
+}
+
+TEST(ManyLights, AreOtherOnesInEachFrameWhereAsked) {
+    const auto differs = [](const std::string& resample) {
+        Chain chain("white_room", "{}",
+                    manyLights("vpls_per_bounce: 64, bounces: 1, resample: " + resample, "visibility: none"),
+                    4, 4);
+        const auto first = chain.read<gpu::Vpl>(vpls(chain).points);
+        chain.runFrames(1);
+        return chain.read<gpu::Vpl>(vpls(chain).points)[0].position != first[0].position;
+    };
+    EXPECT_FALSE(differs("false"));
+    EXPECT_TRUE(differs("true"));
 }
 
 TEST(ManyLights, OfReflectiveShadowMapsNameWhatHasNoViewpointAndWhatIsBlack) {

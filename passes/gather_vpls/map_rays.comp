@@ -1,0 +1,26 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// A ray from each virtual light of a run through the center of each texel of its shadow map.
+#include "passes/gather_vpls/hemisphere.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/trace/ray_types.h"
+#include "shaders/vpls/vpl_types.h"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Vpls { Vpl data[]; } vpls;
+readonly buffer List { uint data[]; } list;
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(push_constant, scalar) uniform Push {
+    uint firstVpl, vplCount;  // Of the list.
+    uint resolution;          // Texels a side.
+} push;
+
+void main() {
+    const uint i = linearIndex(), perMap = push.resolution * push.resolution;
+    if (i >= push.vplCount * perMap) return;
+    const Vpl vpl = vpls.data[list.data[push.firstVpl + i / perMap]];
+    const vec2 place = (vec2(i % push.resolution, i % perMap / push.resolution) + 0.5) / float(push.resolution);
+    const vec3 from = vpl.position + vpl.faceNormal * surfaceOffset(vpl.position);
+    rays.data[i] = Ray(from, 0.0, hemisphereDirection(place, vpl.faceNormal), 1.0e30);
+}

@@ -1,0 +1,47 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Which shadow rays of a batch their virtual lights' shadow maps block: those whose receiver's tangent plane lies behind what the
+// nearest texel sees, on that texel's own ray. So flat surfaces do not shade themselves; half a texel's width is to spare for what is
+// curved, and for rounding.
+#include "passes/gather_vpls/hemisphere.glsl"
+#include "passes/gather_vpls/receiver.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/trace/ray_types.h"
+#include "shaders/vpls/vpl_types.h"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Vpls { Vpl data[]; } vpls;
+readonly buffer List { uint data[]; } list;
+layout(scalar) readonly buffer Rays { Ray data[]; } rays;
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;  // Of the maps' texels.
+writeonly buffer Occluded { uint data[]; } occluded;
+layout(push_constant, scalar) uniform Push {
+    VplBatch batch;
+    uint resolution;  // Texels a side.
+} push;
+
+bool isSeen(Vpl vpl, uint map, Receiver r) {
+    const ivec2 last = ivec2(push.resolution) - 1;
+    const vec3 way = r.position - vpl.position;
+    const ivec2 texel = clamp(ivec2(hemispherePlace(way, vpl.faceNormal) * float(push.resolution)), ivec2(0), last);
+    const Hit hit = hits.data[(map * push.resolution + uint(texel.y)) * push.resolution + uint(texel.x)];
+    if (hit.triangle == NO_HIT) return true;
+    const vec3 along = hemisphereDirection((vec2(texel) + 0.5) / float(push.resolution), vpl.faceNormal);
+    const float towards = dot(along, r.faceNormal);
+    // A texel's solid angle is 2 pi over their number, on average
+    const float width = hit.t * sqrt(2.0 * PI) / float(push.resolution);
+    return towards < 0.0 && hit.t + 0.5 * width >= dot(way, r.faceNormal) / towards;
+}
+
+void main() {
+    const uint i = linearIndex();
+    const VplBatch b = push.batch;
+    if (i >= b.count * b.vplCount) return;
+    const Ray ray = rays.data[i];
+    Receiver r;
+    bool isBlocked = false;
+    if (ray.tMax > ray.tMin && receiver(b, i % b.count, r))
+        isBlocked = !isSeen(vpls.data[list.data[b.firstVpl + i / b.count]], i / b.count, r);
+    occluded.data[i] = isBlocked ? 1u : 0u;
+}
