@@ -12,13 +12,33 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Vpls { Vpl data[]; } vpls;
 readonly buffer List { uint data[]; } list;
+#ifdef ROULETTE
+readonly buffer Means { float data[]; } means;  // mean.comp
+#endif
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(scalar) writeonly buffer Carried { vec4 data[]; } carried;  // Irradiance, W/m²; 1 / the distance, 1/m, bounded likewise.
 layout(push_constant, scalar) uniform Push {
     VplBatch batch;
     float minDistanceSquared;  // m²
+    uint seed;                 // Of the roulette.
+    float roulette;            // Times the mean: virtual lights that would bring less are left out by chance.
     VoxelGrid grid;            // That rays meet voxels of; of size 0 where they meet triangles.
 } push;
+
+// The chance that a virtual light is looked at, by the luminance that it would bring.
+float chance(uint i, float brought) {
+#ifdef ROULETTE
+    return min(brought / (push.roulette * means.data[i % push.batch.count]), 1.0);
+#else
+    return 1.0;
+#endif
+}
+
+// A number in [0, 1), another one for each receiver and virtual light.
+float random(uint i, uint vpl) {
+    const VplBatch b = push.batch;
+    return toUnit(hashCombine(hashCombine(push.seed + b.subset, b.first + i % b.count), vpl));
+}
 
 void main() {
     const uint i = linearIndex();
@@ -28,13 +48,14 @@ void main() {
     vec4 light = vec4(0.0);
     const uint number = list.data[b.firstVpl + i / b.count];
     Receiver r;
-    if (number % b.bounces + b.reflections < b.bounces && receiver(b, i % b.count, r)) {
+    if (isCounted(b, number) && receiver(b, i % b.count, r)) {
         const Vpl vpl = vpls.data[number];
         vec3 direction;
         const float kernel = vplKernel(vpl, r.position, r.normal, r.faceNormal, push.minDistanceSquared, direction);
-        if (kernel > 0.0) {
+        const float p = chance(i, luminance(vpl.flux) * kernel);
+        if (kernel > 0.0 && random(i, number) < p) {
             const float distance_ = max(distance(vpl.position, r.position), sqrt(push.minDistanceSquared));
-            light = vec4(vpl.flux * kernel, 1.0 / distance_);
+            light = vec4(vpl.flux * (kernel / p), 1.0 / distance_);
 
             vec3 from = r.position + r.faceNormal * surfaceOffset(r.position);
             vec3 to = vpl.position + vpl.faceNormal * surfaceOffset(vpl.position);

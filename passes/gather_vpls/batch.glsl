@@ -15,3 +15,6 @@ ivec2 batchTexel(VplBatch b, uint i) {
 
 bool isOutside(VplBatch b, ivec2 texel) { return any(greaterThanEqual(texel, ivec2(b.receivers))); }
 #endif
+
+// Whether a virtual light has bounces enough left for the receiver.
+bool isCounted(VplBatch b, uint vpl) { return vpl % b.bounces + b.reflections < b.bounces; }

@@ -40,6 +40,7 @@ class GatherVpls final : public Pass {
         uint32_t block = 4;
         float bound = 1;
         uint32_t compensationRays = 0;
+        float roulette = 0;
         VplVisibility visibility = VplVisibility::Svo;
         float restartEpsilon = 0;
         uint32_t mapResolution = 128;
@@ -57,6 +58,12 @@ class GatherVpls final : public Pass {
                       "Rays of each texel that bring back what 'bound' takes away, which is then no bias but "
                       "noise near contacts; 0: it is left out.",
                       0u, 256u),
+                field(
+                    "roulette", &Params::roulette,
+                    "Virtual lights that, were nothing in the way, would bring a texel less than this times "
+                    "what its lights do on average, get a shadow ray with a chance in proportion, and count "
+                    "for more by as much. Saves rays for noise; 0: each gets one that faces the texel.",
+                    0.0f, 100.0f),
                 field(
                     "visibility", &Params::visibility,
                     "What shadow rays meet. svo, bricks, bits: surface voxels, on three walks that find the "

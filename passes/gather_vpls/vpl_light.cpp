@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/random_seed.h"
 #include "passes/common/view/frame_image.h"
 
 namespace voxray {
@@ -10,9 +11,16 @@ namespace {
 
 constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays and what they carry to 52 MiB.
 
+struct MeanPush {
+    gpu::VplBatch batch;
+    float minDistanceSquared;
+};
+
 struct AimPush {
     gpu::VplBatch batch;
     float minDistanceSquared;
+    uint32_t seed;
+    float roulette;
     gpu::VoxelGrid grid;
 };
 
@@ -34,16 +42,19 @@ void VplLight::plan(PassPlan& plan, const Settings& settings, glm::uvec2 texels,
     const uint64_t rays = std::min(perSubset * (maxVpls / subsets() + 1), uint64_t(kBatchRays));
     plan.buffer(rays_, "shadow rays", rays * sizeof(Ray));
     plan.buffer(carried_, "light of virtual point lights", rays * 4 * sizeof(float));
+    plan.buffer(means_, "mean light of virtual point lights", perSubset * sizeof(float));
     plan.buffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
 }
 
 void VplLight::prepare(PassSetup& setup) {
-    const auto programs = [&](const Defines& defines) {
+    const auto programs = [&](Defines defines) {
+        if (settings_.roulette > 0) defines.emplace("ROULETTE", "1");
         const auto program = [&](const std::string& file) {
             return makeComputeProgram(setup.device,
                                       setup.compiler.compile("passes/gather_vpls/" + file, defines));
         };
-        return Programs{program("aim.comp"), program("map_shadows.comp"), program("add.comp")};
+        return Programs{program("mean.comp"), program("aim.comp"), program("map_shadows.comp"),
+                        program("add.comp")};
     };
     texels_ = programs({});
     surfels_ = programs({{"SURFELS", "1"}});
@@ -79,15 +90,13 @@ void VplLight::add(PassContext& context, const Vpls& vpls, const Visibility& vis
     const auto maxRays = uint32_t(occluded_.bytes() / sizeof(uint32_t));
     const VplShadowMaps* maps = visibility.maps;
     if (!visibility.tracer && !maps) stream.fill(occluded_, 0);
-    std::vector<Binding> aiming = receivers, shading = receivers, adding = target;
-    aiming.insert(aiming.end(),
-                  {{"vpls", vpls.points}, {"list", vpls.list}, {"rays", rays_}, {"carried", carried_}});
+    std::vector<Binding> lights = receivers, adding = target;
+    lights.insert(lights.end(), {{"vpls", vpls.points}, {"list", vpls.list}});
+    std::vector<Binding> averaging = lights, aiming = lights, shading = lights;
+    averaging.emplace_back("means", means_);
+    aiming.insert(aiming.end(), {ifUsed({"means", means_}), {"rays", rays_}, {"carried", carried_}});
     if (maps)
-        shading.insert(shading.end(), {{"vpls", vpls.points},
-                                       {"list", vpls.list},
-                                       {"rays", rays_},
-                                       {"hits", maps->hits()},
-                                       {"occluded", occluded_}});
+        shading.insert(shading.end(), {{"rays", rays_}, {"hits", maps->hits()}, {"occluded", occluded_}});
     adding.insert(adding.end(), {{"carried", carried_}, {"occluded", occluded_}});
     batch.block = settings_.block;
     batch.bounces = vpls.bounces;
@@ -104,8 +113,12 @@ void VplLight::add(PassContext& context, const Vpls& vpls, const Visibility& vis
             for (batch.firstVpl = begin; batch.firstVpl < end; batch.firstVpl += batch.vplCount) {
                 batch.vplCount = std::min(end - batch.firstVpl, maxVpls);
                 const uint32_t rays = batch.count * batch.vplCount;
+                if (settings_.roulette > 0)
+                    stream.dispatch(programs.mean, averaging, MeanPush{batch, settings_.minDistanceSquared},
+                                    linearGroups(batch.count));
                 stream.dispatch(programs.aim, aiming,
-                                AimPush{batch, settings_.minDistanceSquared, visibility.grid},
+                                AimPush{batch, settings_.minDistanceSquared, randomSeed(context.frame, 0xa1u),
+                                        settings_.roulette, visibility.grid},
                                 linearGroups(rays));
                 if (maps) {
                     maps->draw(context, vpls, batch.firstVpl, batch.vplCount);

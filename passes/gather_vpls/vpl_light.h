@@ -21,6 +21,7 @@ class VplLight {
     struct Settings {
         uint32_t block;            ///< Subsets are its square.
         float minDistanceSquared;  ///< m²: the bound.
+        float roulette;  ///< Times what a light brings on average; lights below are looked at by chance.
     };
     /// What the shadow rays of one run meet.
     struct Visibility {
@@ -44,7 +45,7 @@ class VplLight {
 
  private:
     struct Programs {
-        Program aim, shadows, add;
+        Program mean, aim, shadows, add;
     };
     void add(PassContext& context, const Vpls& vpls, const Visibility& visibility, gpu::VplBatch batch,
              uint32_t perSubset, const Programs& programs, const std::vector<Binding>& receivers,
@@ -54,7 +55,7 @@ class VplLight {
     Settings settings_{};
     Programs texels_, surfels_;
     Sampler sampler_;
-    Buffer rays_, carried_, occluded_;
+    Buffer rays_, carried_, occluded_, means_;
 };
 
 }  // namespace voxray

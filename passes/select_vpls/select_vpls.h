@@ -19,7 +19,7 @@ class SelectVpls final : public Pass {
         "Slusallek 2010.";
     struct Params {
         uint32_t count = 2048;
-        uint32_t points = 8;
+        uint32_t points = 32;
         float unseen = 0.1f;
         static constexpr auto schema() {
             return std::tuple{

@@ -259,6 +259,20 @@ TEST(ManyLights, OfReflectiveShadowMapsNameWhatHasNoViewpointAndWhatIsBlack) {
                     "none of 1024 rays from the lights hit a surface that reflects light");
 }
 
+TEST(ManyLights, RouletteSavesRaysAndKeepsTheEnergy) {
+    double energy[2];
+    uint64_t steps[2];
+    for (const int roulette : {0, 1}) {
+        Chain chain(
+            "cornell", "{lights: point}",
+            manyLights("vpls_per_bounce: 4096", "visibility: svo, roulette: " + std::to_string(roulette)));
+        energy[roulette] = mean(chain.image("indirect"));
+        steps[roulette] = chain.frameSamples.back().voxelSteps;
+    }
+    EXPECT_NEAR(energy[1] / energy[0], 1, 0.01);
+    EXPECT_LT(double(steps[1]), 0.8 * double(steps[0]));
+}
+
 TEST(ManyLights, NamesAnEpsilonWithoutItsWalk) {
     const std::string graph = manyLights("bounces: 1", "visibility: svo, restart_epsilon: 0.1");
     EXPECT_CONTAINS(errorOf([&] { Chain("white_room", "{}", graph); }), "'restart_epsilon' is a step of");

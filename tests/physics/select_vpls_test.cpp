@@ -49,6 +49,45 @@ TEST(SelectVpls, BringTheEnergyOfAll) {
     EXPECT_NEAR(mean(chain.image("indirect")) / all, 1, 0.02);
 }
 
+TEST(SelectVpls, BringOverManySeedsWhatManyLightsBring) {
+    // 16 draws of 512 virtual lights, each with all that saves rays, against 262144 paths of light without
+    // it; in squares of 8 pixels, whose means have a known error
+    constexpr int kSeeds = 16, kSide = 32, kSquare = 8, kSquares = kSide / kSquare;
+    const auto squares = [&](const std::string& graph, uint64_t seed) {
+        const std::vector<float> pixels =
+            Chain("cornell", "{lights: point}", graph, kSide, kSide, seed).image("indirect").data;
+        std::vector<double> sums(kSquares * kSquares);
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x)
+                sums[size_t(y / kSquare * kSquares + x / kSquare)] += pixels[size_t(3 * (y * kSide + x) + 1)];
+        return sums;
+    };
+    const std::string compensated = "gather_vpls, visibility: exact, compensation_rays: 2";
+    const std::vector<double> right = squares(
+        graphYaml({"gbuffer", "sample_vpls, vpls_per_bounce: 262144", compensated + ", block: 8"}), 99);
+    std::vector<double> sums(right.size()), squared(right.size());
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+        const std::vector<double> found =
+            squares(graphYaml({"gbuffer", "sample_vpls, vpls_per_bounce: 4096", "select_vpls, count: 512",
+                               compensated + ", roulette: 1, bound: 2"}),
+                    uint64_t(seed));
+        for (size_t i = 0; i < right.size(); ++i) sums[i] += found[i], squared[i] += found[i] * found[i];
+    }
+    double chiSquared = 0, total = 0, totalRight = 0;
+    for (size_t i = 0; i < right.size(); ++i) {
+        if (right[i] == 0) continue;
+        const double mean = sums[i] / kSeeds;
+        const double ofMean = (squared[i] / kSeeds - mean * mean) / (kSeeds - 1);
+        chiSquared += (mean - right[i]) * (mean - right[i]) / ofMean;
+        total += mean, totalRight += right[i];
+    }
+    std::printf("chi squared %.1f of %zu squares, ratio %.4f\n", chiSquared, right.size(),
+                total / totalRight);
+    // Around 1.2 were squares independent; they see the same virtual lights, so that it varies more
+    EXPECT_LT(chiSquared / double(right.size()), 3);
+    EXPECT_NEAR(total / totalRight, 1, 0.01);
+}
+
 TEST(SelectVpls, AreThoseThatTheCameraSees) {
     // A room whose light comes in through a window, and as many virtual lights with and without a choice
     const auto image = [](const std::string& graph) {

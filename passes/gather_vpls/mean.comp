@@ -1,0 +1,33 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// What a virtual light of a batch would bring to each receiver on average, were nothing in the way.
+#include "passes/gather_vpls/receiver.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/vpls/vpl_kernel.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Vpls { Vpl data[]; } vpls;
+readonly buffer List { uint data[]; } list;
+writeonly buffer Means { float data[]; } means;  // By receiver of the batch: luminance of irradiance, W/m².
+layout(push_constant, scalar) uniform Push {
+    VplBatch batch;
+    float minDistanceSquared;  // m²
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    const VplBatch b = push.batch;
+    if (i >= b.count) return;
+    Receiver r;
+    float sum = 0.0;
+    if (receiver(b, i, r))
+        for (uint v = 0u; v < b.vplCount; ++v) {
+            const uint number = list.data[b.firstVpl + v];
+            if (!isCounted(b, number)) continue;
+            const Vpl vpl = vpls.data[number];
+            vec3 direction;
+            sum += luminance(vpl.flux) * vplKernel(vpl, r.position, r.normal, r.faceNormal, push.minDistanceSquared, direction);
+        }
+    means.data[i] = sum / float(b.vplCount);
+}
