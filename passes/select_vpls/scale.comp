@@ -6,16 +6,18 @@
 #include "shaders/vpls/vpl_types.h"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer From { Vpl data[]; } from;
+layout(scalar) readonly buffer Candidates { Vpl data[]; } candidates;
+readonly buffer CandidateList { uint data[]; } candidateList;
+readonly buffer Places { uint data[]; } places;  // In that list, of those that are kept.
+readonly buffer Weights { float data[]; } weights;
 readonly buffer List { uint data[]; } list;
-layout(scalar) readonly buffer Weights { float data[]; } weights;  // By place in the list.
-layout(scalar) writeonly buffer To { Vpl data[]; } to;
+layout(scalar) writeonly buffer Selected { Vpl data[]; } selected;
 layout(push_constant) uniform Push { uint count; } push;
 
 void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
-    Vpl vpl = from.data[list.data[i]];
+    Vpl vpl = candidates.data[candidateList.data[places.data[i]]];
     vpl.flux *= weights.data[i];
-    to.data[list.data[i]] = vpl;
+    selected.data[list.data[i]] = vpl;
 }

@@ -5,6 +5,7 @@
 
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/compute/random_seed.h"
+#include "passes/common/lights/light_sources.h"
 #include "passes/common/view/frame_image.h"
 #include "passes/select_vpls/resample.h"
 
@@ -38,16 +39,18 @@ void SelectVpls::plan(PassPlan& plan) {
     const uint64_t points = uint64_t(candidates.paths) * candidates.bounces;
     Vpls& vpls = plan.get(vpls_);
     vpls.bounces = candidates.bounces;
-    vpls.paths = (params_.count + vpls.bounces - 1) / vpls.bounces;
-    vpls.areaPerPath = candidates.areaPerPath * float(candidates.paths) / float(vpls.paths);
-    plan.buffer(vpls.points, "selected virtual point lights", points * sizeof(gpu::Vpl));
+    vpls.paths = params_.count;
+    vpls.areaPerPath = float(surfaceArea(plan.frame.scene->geometry) * vpls.bounces / double(params_.count));
+    plan.buffer(vpls.points, "selected virtual point lights",
+                uint64_t(params_.count) * vpls.bounces * sizeof(gpu::Vpl));
     plan.buffer(vpls.list, "list of selected virtual point lights", params_.count * sizeof(uint32_t));
+    plan.buffer(places_, "places of selected virtual point lights", params_.count * sizeof(uint32_t));
+    plan.buffer(weights_, "weights of selected virtual point lights", params_.count * sizeof(float));
     const uint64_t rays = std::min(points, uint64_t(kBatchRays / params_.points)) * params_.points;
     plan.scratchBuffer(rays_, "shadow rays", rays * sizeof(Ray));
     plan.scratchBuffer(carried_, "kernels of shadow rays", rays * sizeof(float));
     plan.scratchBuffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
     plan.scratchBuffer(importance_, "importance of virtual point lights", points * sizeof(glm::vec2));
-    plan.scratchBuffer(weights_, "weights of virtual point lights", points * sizeof(float));
 }
 
 void SelectVpls::prepare(PassSetup& setup) {
@@ -80,18 +83,23 @@ void SelectVpls::record(PassContext& context) {
     const double offset = double(randomSeed(context.frame, 0x92u) >> 8) / (1 << 24);
     const Resampled kept = resample(probabilities, params_.count, offset);
 
-    std::vector<float> weights(found.size(), 0.0f);
-    for (size_t i = 0; i < kept.places.size(); ++i) weights[kept.places[i]] = kept.weights[i];
+    // Each becomes the only vertex of a path of its own, at the bounce that it had.
     const auto numbers = stream.readAs<uint32_t>(candidates.list, candidates.count);
     std::vector<uint32_t> list;
-    for (const uint32_t place : kept.places) list.push_back(numbers[place]);
+    for (const uint32_t place : kept.places)
+        list.push_back(uint32_t(list.size()) * vpls.bounces + numbers[place] % vpls.bounces);
     stream.fill(vpls.points, 0);
     stream.upload(vpls.list, list);
-    stream.upload(weights_, weights);
-    stream.dispatch(
-        scale_,
-        {{"from", candidates.points}, {"list", candidates.list}, {"weights", weights_}, {"to", vpls.points}},
-        candidates.count, linearGroups(candidates.count));
+    stream.upload(places_, kept.places);
+    stream.upload(weights_, kept.weights);
+    stream.dispatch(scale_,
+                    {{"candidates", candidates.points},
+                     {"candidateList", candidates.list},
+                     {"places", places_},
+                     {"weights", weights_},
+                     {"list", vpls.list},
+                     {"selected", vpls.points}},
+                    uint32_t(list.size()), linearGroups(list.size()));
     vpls.count = uint32_t(list.size());
     context.report("selected vpls", vpls.count);
 }

@@ -50,7 +50,7 @@ class SelectVpls final : public Pass {
     Port<Vpls> vpls_;
     Program aim_, importanceProgram_, scale_;
     Sampler sampler_;
-    Buffer rays_, carried_, occluded_, importance_, weights_;
+    Buffer rays_, carried_, occluded_, importance_, places_, weights_;
 };
 
 }  // namespace voxray

@@ -49,6 +49,15 @@ TEST(SelectVpls, BringTheEnergyOfAll) {
     EXPECT_NEAR(mean(chain.image("indirect")) / all, 1, 0.02);
 }
 
+TEST(SelectVpls, MayBeSelectedAgain) {
+    const double once =
+        mean(Chain("white_room", "{}", selectedLights("16384", "2048"), 16, 16).image("indirect"));
+    const std::string twice =
+        graphYaml({"gbuffer", "sample_vpls, vpls_per_bounce: 16384", "select_vpls, id: first, count: 8192",
+                   "select_vpls, count: 2048", "gather_vpls, visibility: exact, block: 1"});
+    EXPECT_NEAR(mean(Chain("white_room", "{}", twice, 16, 16).image("indirect")) / once, 1, 0.03);
+}
+
 TEST(SelectVpls, BringOverManySeedsWhatManyLightsBring) {
     // 16 draws of 512 virtual lights, each with all that saves rays, against 262144 paths of light without
     // it; in squares of 8 pixels, whose means have a known error
