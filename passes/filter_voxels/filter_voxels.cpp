@@ -35,6 +35,7 @@ void FilterVoxels::plan(PassPlan& plan) {
             "light_clipmap");
     RadianceVoxels& radiance = plan.get(radiance_);
     radiance.layout = params_.layout;
+    radiance.emission = params_.emission;
     radiance.grid = {grid.origin,     grid.voxelSize,
                      grid.resolution, gridLevels(grid.resolution),
                      grid.directions, radianceUnit(*plan.frame.scene)};

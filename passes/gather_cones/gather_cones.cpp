@@ -1,5 +1,6 @@
 #include "passes/gather_cones/gather_cones.h"
 
+#include "base/error.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/view/frame_image.h"
 
@@ -36,8 +37,16 @@ void GatherCones::declare(PassBuilder& builder) {
 void GatherCones::plan(PassPlan& plan) {
     plan.buffer(cones_, "cones", coneSet(params_.cones).size() * sizeof(gpu::Cone));
     plan.image(plan.get(indirect_).image, "indirect", frameImageDesc(plan.frame));
-    plan.image(irradiance_, "gathered irradiance",
-               tracedImage(plan.frame, plan.get(gbuffer_).samples, params_.stride));
+    const ImageDesc traced = tracedImage(plan.frame, plan.get(gbuffer_).samples, params_.stride);
+    plan.image(irradiance_, "gathered irradiance", traced);
+    if (hasNearField()) {
+        if (plan.get(radiance_).emission)
+            throw Error(
+                "gather_cones: 'near_field_voxels' measures light at near hits without what they emit, which "
+                "the radiance voxels hold; set it to 0, or 'emission' of filter_voxels to false");
+        near_.plan(plan, {params_.nearFieldVoxels, params_.cones, params_.stride, traced.extent,
+                          coneSet(params_.cones).back().width});
+    }
     if (params_.specular > 0) specular_.plan(plan, plan.get(gbuffer_), params_.specular);
 }
 
@@ -46,7 +55,10 @@ void GatherCones::prepare(PassSetup& setup) {
     const auto program = [&](const char* file, const Defines& defines) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
-    trace_ = program("passes/gather_cones/trace.comp", radiance.defines());
+    if (hasNearField())
+        near_.prepare(setup, radiance);
+    else
+        trace_ = program("passes/gather_cones/trace.comp", radiance.defines());
     resolve_ = program("passes/gather_cones/resolve.comp",
                        params_.specular > 0 ? Defines{{"SPECULAR", "1"}} : Defines{});
     if (params_.specular > 0) specular_.prepare(setup, radiance);
@@ -57,15 +69,10 @@ void GatherCones::prepare(PassSetup& setup) {
 void GatherCones::record(PassContext& context) {
     const GBuffer& gbuffer = context.get(gbuffer_);
     const RadianceVoxels& radiance = context.get(radiance_);
-    std::vector<Binding> bindings = radiance.bindings();
-    bindings.emplace_back("cones", cones_);
-    bindings.emplace_back("position", gbuffer.position, sampler_);
-    bindings.emplace_back("normal", gbuffer.normal, sampler_);
-    bindings.emplace_back("geometricNormal", gbuffer.geometricNormal, sampler_);
-    bindings.emplace_back("irradiance", irradiance_);
-    const glm::uvec3 texels = irradiance_.desc().extent;
-    context.stream.dispatch(trace_, bindings, TracePush{params_.cones, params_.stride},
-                            pixelGroups(texels.x, texels.y));
+    if (hasNearField())
+        near_.record(context, gbuffer, radiance, cones_, irradiance_);
+    else
+        trace(context, gbuffer, radiance);
     std::vector<Binding> seen{{"irradiance", irradiance_, sampler_},
                               {"albedo", gbuffer.albedo, sampler_},
                               {"position", gbuffer.position, sampler_},
@@ -78,6 +85,18 @@ void GatherCones::record(PassContext& context) {
     context.stream.dispatch(resolve_, seen,
                             ResolvePush{gbuffer.samples, params_.stride, radiance.grid.voxelSize},
                             pixelGroups(context.frame.width, context.frame.height));
+}
+
+void GatherCones::trace(PassContext& context, const GBuffer& gbuffer, const RadianceVoxels& radiance) const {
+    std::vector<Binding> bindings = radiance.bindings();
+    bindings.emplace_back("cones", cones_);
+    bindings.emplace_back("position", gbuffer.position, sampler_);
+    bindings.emplace_back("normal", gbuffer.normal, sampler_);
+    bindings.emplace_back("geometricNormal", gbuffer.geometricNormal, sampler_);
+    bindings.emplace_back("irradiance", irradiance_);
+    const glm::uvec3 texels = irradiance_.desc().extent;
+    context.stream.dispatch(trace_, bindings, TracePush{params_.cones, params_.stride},
+                            pixelGroups(texels.x, texels.y));
 }
 
 }  // namespace voxray

@@ -3,6 +3,7 @@
 #include "passes/common/radiance/cone_sets.h"
 #include "passes/common/radiance/radiance_voxels.h"
 #include "passes/common/view/gbuffer.h"
+#include "passes/gather_cones/near_field.h"
 #include "passes/gather_cones/specular_cones.h"
 
 namespace voxray {
@@ -21,6 +22,7 @@ class GatherCones final : public Pass {
         uint32_t cones = 16;
         uint32_t stride = 1;
         uint32_t specular = 7;
+        float nearFieldVoxels = 0;
         static constexpr auto schema() {
             return std::tuple{
                 field("cones", &Params::cones,
@@ -33,7 +35,12 @@ class GatherCones final : public Pass {
                 field("specular", &Params::specular,
                       "Cones that divide up the specular lobe of each texel of the g-buffer; a mirror takes "
                       "one. 0: surfaces reflect by their diffuse albedo alone.",
-                      {0, 1, 7, 19})};
+                      {0, 1, 7, 19}),
+                field("near_field_voxels", &Params::nearFieldVoxels,
+                      "Diffuse cones begin with a ray, so many voxels of the finest level long. Where it "
+                      "hits, light is measured by shadow rays and a ray goes on as a path does, up to twice; "
+                      "where not, the cone begins behind it. 0: no rays.",
+                      0.0f, 64.0f)};
         }
     };
 
@@ -44,6 +51,10 @@ class GatherCones final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    bool hasNearField() const { return params_.nearFieldVoxels > 0; }
+    /// Cones alone.
+    void trace(PassContext& context, const GBuffer& gbuffer, const RadianceVoxels& radiance) const;
+
     Params params_;
     Port<const GBuffer> gbuffer_;
     Port<const RadianceVoxels> radiance_;
@@ -53,6 +64,7 @@ class GatherCones final : public Pass {
     Buffer cones_;
     Image irradiance_;
     SpecularCones specular_;
+    NearField near_;
 };
 
 }  // namespace voxray

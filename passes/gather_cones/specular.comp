@@ -54,7 +54,7 @@ void main() {
     const vec3 side = normalize(texelFetch(geometricNormal, texel, 0).xyz);
     const vec3 n = specularNormal(normalize(texelFetch(normal, texel, 0).xyz), out_);
     const float cosOut = min(dot(n, out_), 1.0);
-    const ConeBase base = coneBase(p.xyz, side, 0.5);
+    const ConeBase base = coneBase(p.xyz, side, 0.5, 0.0);
     const float left = diffuseFraction(s, stratumAt(cosOut, s.roughness, 0u).grazing);
 
     // A mirror: one thin cone. Directions that a shading normal sends below the surface are lost, as in the reference.

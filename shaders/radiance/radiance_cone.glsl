@@ -25,6 +25,7 @@ struct ConeBase {
     vec3 position;  // m, lifted off the surface by 1/256 of a voxel.
     vec3 normal;    // The surface's geometric normal, unit length.
     uint level;     // Finest level of the samples: 0 but in a clipmap's outer windows.
+    float clear;    // m from the start along a cone in which there is known to be no surface.
     // By axis: height above the surface's plane, in voxels of a sample's level, from which on a sample of a layer across that axis
     // does not read the surface itself. 0 where the surface has no faces along the axis.
     vec3 clearHeight;
@@ -58,19 +59,20 @@ vec4 wallInOwnVoxel(ConeBase base, uint face) {
 }
 
 // `dither`, 0 to 1, differs from cone to cone: between two windows of a clipmap it chooses the start level, so that the change from
-// one to the other is gradual.
-ConeBase coneBase(vec3 position, vec3 normal, float dither) {
+// one to the other is gradual. `clear`, m: there is known to be no surface so near to the start along the cones; 0: nothing is known.
+ConeBase coneBase(vec3 position, vec3 normal, float dither, float clear) {
     ConeBase base;
     base.position = position + normal * (radianceVoxels.grid.voxelSize / 256.0);
     base.normal = normal;
     base.level = startLevel(position, dither);
+    base.clear = clear;
 
     // A sample at a layer's center reads half a voxel along the axis and, interpolated, one and a half across it.
     const vec3 size = abs(normal);
     base.clearHeight = vec3(1.5 * (size.x + size.y + size.z)) - size;
     if (radianceVoxels.grid.directions == 6u) base.clearHeight = mix(base.clearHeight, vec3(0.0), lessThan(size, vec3(0.1)));
     for (uint face = 0u; face < 6u; ++face)
-        base.ownVoxel[face] = base.clearHeight[face >> 1] > 0.0 ? vec4(0.0) : wallInOwnVoxel(base, face);
+        base.ownVoxel[face] = clear > 0.0 || base.clearHeight[face >> 1] > 0.0 ? vec4(0.0) : wallInOwnVoxel(base, face);
     return base;
 }
 
@@ -203,6 +205,8 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
         axis[k].speed = still ? 1.0 : abs(direction[k]) / g.voxelSize;
         axis[k].level = base.level;
         axis[k].next = ((int(floor(axis[k].start)) >> base.level) + 1) << base.level;
+        const float reached = axis[k].start + (still ? 0.0 : axis[k].speed * base.clear);
+        axis[k].next = max(axis[k].next, (int(floor(reached)) >> base.level) << base.level);
         axis[k].first = axis[k].next;
         axis[k].end = still ? axis[k].next : up ? int(g.resolution[k]) : mirrored;
         if (!still) shape.exit_ = min(shape.exit_, (float(axis[k].end) - axis[k].start) / axis[k].speed);
@@ -222,10 +226,11 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
         // The last layer may be thicker than the grid.
         if (t > shape.exit_ + 2.0 * voxel) break;
 
-        // A sample that may still read the start's own surface doesn't block the cone. With one value for all faces it can't be told
-        // apart from that surface and is left out.
+        // A sample that stands for a part of the way that is known to be clear is left out. One that may still read the start's own
+        // surface doesn't block the cone. With one value for all faces it can't be told apart from that surface and is left out.
         const bool clear = clearance[k] * t >= voxel;
-        if (clear || faces) {
+        const float partEnd = t + 0.5 * voxel / (axis[k].speed * radianceVoxels.grid.voxelSize * float(axis[k].samples));
+        if ((clear || faces) && partEnd >= base.clear) {
             const bool up = direction[k] >= 0.0;
             const float center = float(axis[k].next) + 0.5 * float(1u << axis[k].level);
             vec3 place = base.position + t * direction;

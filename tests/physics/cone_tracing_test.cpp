@@ -66,11 +66,39 @@ TEST(ConeTracing, EveryLayoutKeepsTheEnergyOfACurvedFurnace) {
     EXPECT_NEAR(furnacePart("sphere", "clipmap, clipmap_resolution: 32", "6", "64"), 1.0, 0.03);
 }
 
+TEST(ConeTracing, ANearFieldByRaysKeepsTheEnergyOfAFurnace) {
+    // Emission is direct light here. After eight bounces 0.996 of all that there is.
+    const auto part = [](const std::string& shape, const std::string& layout, const std::string& voxels) {
+        Setting s;
+        s.inject = "rays_per_light: 65536, bounces: 7";
+        s.filter = "layout: " + layout;
+        s.gather = "cones: 16, near_field_voxels: " + voxels;
+        return indirect("furnace", "{shape: " + shape + ", albedo: 0.5, emission: 1}", s) / 0.5;
+    };
+    for (const TestedLayout& layout : kRadianceLayouts)
+        for (const std::string voxels : {"2", "8"}) {
+            if (layout.followsCamera) continue;
+            EXPECT_NEAR(part("box", layout.filter, voxels), 1.0, 0.02) << layout.filter << voxels;
+            EXPECT_NEAR(part("sphere", layout.filter, voxels), 1.0, 0.03) << layout.filter << voxels;
+        }
+    EXPECT_NEAR(part("sphere", "clipmap, clipmap_resolution: 32", "2"), 1.0, 0.03);
+}
+
+TEST(ConeTracing, ANearFieldWantsNoEmission) {
+    Setting s;
+    s.filter = "emission: true";
+    s.gather = "near_field_voxels: 2";
+    EXPECT_THROW(indirect("cornell", "{}", s), Error);
+}
+
 TEST(ConeTracing, WallsLeakLittle) {
     // Two sealed rooms side by side, a light in one: nothing arrives in the other. Voxels of 6 and 3 cm.
     Setting s;
     s.voxelize = "resolution: 64";
     for (const std::string thickness : {"0.05", "0.2"}) EXPECT_LT(leak(thickness, s), 0.005) << thickness;
+    s.gather = "cones: 16, near_field_voxels: 2";
+    EXPECT_LT(leak("0.05", s), 0.005);
+    s.gather = "cones: 16";
     s.voxelize = "resolution: 128";
     EXPECT_LT(leak("0.05", s), 0.005);
 }
@@ -93,8 +121,14 @@ TEST(ConeTracing, IsLinearInLight) {
 }
 
 TEST(ConeTracing, IsDeterministic) {
-    const auto run = [] { return Chain("cornell", "{lights: point}", coneGraph({})).image("indirect").data; };
-    EXPECT_EQ(run(), run());
+    for (const std::string voxels : {"0", "2"}) {
+        Setting s;
+        s.gather = "cones: 16, near_field_voxels: " + voxels;
+        const auto run = [&] {
+            return Chain("cornell", "{lights: point}", coneGraph(s)).image("indirect").data;
+        };
+        EXPECT_EQ(run(), run()) << voxels;
+    }
 }
 
 TEST(ConeTracing, FewerTracedPixelsKeepTheEnergy) {

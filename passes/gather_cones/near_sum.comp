@@ -1,0 +1,19 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Irradiance of each traced texel of a batch: the weighted sum of what its cones bring.
+#include "passes/gather_cones/near_cones.glsl"
+#include "shaders/radiance/cone_types.h"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Cones { Cone data[]; } cones;
+layout(scalar) readonly buffer Light { vec4 data[]; } light;
+layout(rgba32f) writeonly uniform image2D irradiance;
+
+void main() {
+    const uint first = linearIndex() * push.cones;
+    if (first >= push.count) return;
+    vec3 sum = vec3(0.0);
+    for (uint j = 0u; j < push.cones; ++j) sum += cones.data[j].weight * light.data[first + j].rgb;
+    const uint place = push.firstPlace + first / push.cones;
+    imageStore(irradiance, ivec2(place % push.places.x, place / push.places.x), vec4(sum, 1.0));
+}
