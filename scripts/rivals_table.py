@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""Prints what gather rays take to reach the error of filtered path tracing, from results of configs/bench/rivals.yaml.
+"""Prints how much faster gather rays are than filtered path tracing at equal error, from results of configs/bench/rivals.yaml.
 
-rivals_table.py DIR: for each scene and number of samples, frame times of path tracing (G-buffer, paths, filter) over those
-of gather rays (G-buffer, rays, gather, filter), at equal nRMSE and at equal relMSE of indirect light. Between numbers of
-rays the time is interpolated, logarithm over logarithm. `>` where the fewest rays already have less error, `-` where the
-most have more. Direct light is in neither, nor is what is built before the first frame.
+rivals_table.py DIR: for each scene and number of samples a pixel, the frame time of path tracing (G-buffer, paths, filter)
+and its errors of indirect light; then that time over the time in which gather rays into voxels, or into a radiance cache,
+reach as small an nRMSE / relMSE: with light and geometry that stand still (frames alone), with light that is new in each
+frame (what brings light counts, too), and with geometry that is new, too (all that is built counts). Of a method's variants
+those count that no other one beats in time and error; between them the time is interpolated, logarithm over logarithm.
+`>` where the fastest of them already has less error, `-` where none has as little. Direct light is in neither.
 """
 import csv
 import math
@@ -12,7 +14,15 @@ import os
 import sys
 
 LEFT_OUT = {"direct", "composite"}
+LIGHT = {"inject", "few_rays", "update_radiance_cache"}
 ERRORS = ("indirect_nrmse", "indirect_relmse")
+
+# Of each column: its title, the gather that it is about, and whether a build pass counts.
+COLUMNS = (("voxels", "gather_rays", lambda name: False),
+           ("cache", "gather_cached_rays", lambda name: False),
+           ("voxels, new light", "gather_rays", lambda name: name in LIGHT),
+           ("cache, new light", "gather_cached_rays", lambda name: name in LIGHT),
+           ("voxels, new geometry", "gather_rays", lambda name: True))
 
 
 def read(*parts):
@@ -21,49 +31,63 @@ def read(*parts):
 
 
 def variants(folder):
-    """By scene: (is path tracing, ms a frame, result row) of each variant, from fast to slow."""
+    """By scene: (passes, result row) of each variant."""
     passes = {}
     for row in read(folder, "passes.csv"):
         passes.setdefault(row["variant"], []).append(row)
     scenes = {}
     for row in read(folder, "results.csv"):
-        if row["status"] != "ok":
-            continue
-        mine = passes[row["variant"]]
-        ms = sum(float(p["ms_median"]) for p in mine if p["phase"] == "frame" and p["pass"] not in LEFT_OUT)
-        scenes.setdefault(row["scene"], []).append((any(p["pass"] == "paths" for p in mine), ms, row))
-    return {scene: sorted(found, key=lambda variant: variant[1]) for scene, found in scenes.items()}
+        if row["status"] == "ok":
+            scenes.setdefault(row["scene"], []).append((passes[row["variant"]], row))
+    return scenes
 
 
-def time_to(error, name, gathers):
-    """(mark, ms) that gather rays take to an error; ms is None where the most rays don't reach it."""
-    points = [(ms, float(row[name])) for ms, row in gathers]
+def time_of(passes, counts_build):
+    """Milliseconds a frame."""
+    return sum(float(p["ms_median"]) for p in passes
+               if p["pass"] not in LEFT_OUT and (p["phase"] == "frame" or counts_build(p["pass"])))
+
+
+def front(points):
+    """Of points (ms, error) those that no other one beats, from fast to slow."""
+    best = []
+    for ms, error in sorted(points):
+        if not best or error < best[-1][1]:
+            best.append((ms, error))
+    return best
+
+
+def speed_up(ms, error, points):
+    """How much longer `ms` is than what the points take to an error."""
+    if not points or points[-1][1] > error:
+        return "-"
     if points[0][1] <= error:
-        return ">", points[0][0]
+        return f">{ms / points[0][0]:.1f}"
     for (ms0, error0), (ms1, error1) in zip(points, points[1:]):
         if error1 <= error < error0:
             at = math.log(error0 / error) / math.log(error0 / error1)
-            return "", ms0 * (ms1 / ms0) ** at
-    return "-", None
-
-
-def cells(error, name, ms, gathers):
-    """The gathers' time, and the speed-up."""
-    mark, own = time_to(error, name, gathers)
-    return f"{mark}" if own is None else f"{own:.0f}", f"{mark}" if own is None else f"{mark}{ms / own:.1f}"
+            return f"{ms / (ms0 * (ms1 / ms0) ** at):.1f}"
+    raise AssertionError("errors of a front decrease")
 
 
 def table(folder):
-    yield "| scene | path tracing | ms | nRMSE | gather rays, ms | speed-up | relMSE | gather rays, ms | speed-up |"
-    yield "|" + " --- |" * 9
+    yield "| scene | spp | ms | nRMSE / relMSE | " + " | ".join(title for title, _, _ in COLUMNS) + " |"
+    yield "|" + " --- |" * (4 + len(COLUMNS))
     for scene, found in variants(folder).items():
-        gathers = [(ms, row) for is_paths, ms, row in found if not is_paths]
-        for is_paths, ms, row in found:
-            if not is_paths:
+        fronts = {}
+        for title, gather, counts_build in COLUMNS:
+            mine = [(passes, row) for passes, row in found if any(p["pass"] == gather for p in passes)]
+            for name in ERRORS:
+                fronts[title, name] = front([(time_of(passes, counts_build), float(row[name])) for passes, row in mine])
+        for passes, row in found:
+            if not any(p["pass"] == "paths" for p in passes):
                 continue
-            values = [f"{float(row[name]):.3f} | " + " | ".join(cells(float(row[name]), name, ms, gathers))
-                      for name in ERRORS]
-            yield f"| {scene} | {row['indirect']} | {ms:.0f} | {' | '.join(values)} |"
+            ms = time_of(passes, lambda name: False)
+            cells = [" / ".join(speed_up(ms, float(row[name]), fronts[title, name]) for name in ERRORS)
+                     for title, _, _ in COLUMNS]
+            samples = row["indirect"].split("spp-")[-1]
+            errors = " / ".join(f"{float(row[name]):.3f}" for name in ERRORS)
+            yield f"| {scene} | {samples} | {ms:.0f} | {errors} | {' | '.join(cells)} |"
 
 
 if __name__ == "__main__":
