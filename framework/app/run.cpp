@@ -32,10 +32,10 @@ void printSummary(const RunSummary& summary, const RunOptions& options) {
         fmt::print(stderr, "voxray: interrupted; finished variants are kept in {}, --resume goes on\n",
                    summary.out.string());
     if (options.quiet) return;
-    fmt::print("{} of {} variants done{}{}\n", summary.ok, summary.ok + summary.failed,
+    fmt::print("{} of {} variants done{}{}\n", summary.ok, summary.total,
                summary.resumed > 0 ? fmt::format(", {} of them by an earlier run", summary.resumed) : "",
                summary.failed > 0 ? fmt::format("; {} failed, results.csv says why", summary.failed) : "");
-    if (!summary.interrupted && summary.reportError.empty())
+    if (summary.reportError.empty() && summary.ok + summary.failed > 0)
         fmt::print("Report: {}\n", (summary.out / "report.html").string());
 }
 

@@ -12,7 +12,8 @@ std::string describe(const Value& value) {
         case Value::Kind::Null:
             return "nothing";
         case Value::Kind::Scalar:
-            return "'" + value.scalar + "'";
+            return value.quoted ? "the text \"" + value.scalar + "\", which stands in quotes"
+                                : "'" + value.scalar + "'";
         case Value::Kind::List:
             return "a list";
         case Value::Kind::Map:

@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <unordered_set>
 
 #include "base/files.h"
@@ -79,6 +80,15 @@ void checkUtf8(const std::string& text, const std::string& file) {
     }
 }
 
+// The first line that begins with white space of which some is a tab, counted from 1; 0: none.
+int indentedByTab(const std::string& text) {
+    std::istringstream lines(text);
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number)
+        if (line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string::npos) return number;
+    return 0;
+}
+
 }  // namespace
 
 Value parseYaml(const std::string& text, const std::string& fileName) {
@@ -93,6 +103,8 @@ Value parseYaml(const std::string& text, const std::string& fileName) {
         if (documents.empty()) return converter.convert(YAML::Node(), 0, {fileName, 1});
         return converter.convert(documents[0], 0, {fileName, 1});
     } catch (const YAML::Exception& error) {
+        if (const int line = indentedByTab(text); line > 0)
+            throw UsageError({fileName, line}, "bad YAML: a tab in the indentation; YAML takes spaces");
         throw UsageError(converter.locate(error.mark), "bad YAML: {}", error.msg);
     }
 }

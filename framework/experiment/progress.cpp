@@ -56,6 +56,12 @@ void Progress::warn(const std::string& line) {
     fmt::print(stderr, "voxray: warning: {}\n", line);
 }
 
+void Progress::note(const std::string& line) {
+    if (quiet_) return;
+    clear();
+    fmt::print("Note: {}\n", line);
+}
+
 void Progress::draw(double fraction) {
     if (!bar_) return;
     lastDrawn_ = Clock::now();

@@ -24,6 +24,8 @@ class Progress {
     void end(const std::string& line, bool counted = true);
     /// A line that is shown even on a quiet run, on stderr.
     void warn(const std::string& line);
+    /// A line on stdout, unless quiet, that asks for nothing.
+    void note(const std::string& line);
 
  private:
     using Clock = std::chrono::steady_clock;

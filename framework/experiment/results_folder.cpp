@@ -31,9 +31,12 @@ bool startsWith(const std::string& text, const char* prefix) {
 ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, bool resume)
     : path_(std::move(path)) {
     orError(path_, [&] {
-        if (fs::exists(path_) && !fs::is_directory(path_)) throw Error("{}: is not a folder", path_.string());
+        if (fs::exists(path_) && !fs::is_directory(path_))
+            throw UsageError("{}: is not a folder", path_.string());
         if (fs::exists(path_)) checkOwner(experiment);
         fs::create_directories(path_ / "images");
+        lock_.emplace(path_);
+        checkOwner(experiment);  // Again: another process may have had it until now.
     });
     const fs::path probe = ".writable";
     writeText(probe.string(), "x");
@@ -57,17 +60,20 @@ void ResultsFolder::checkOwner(const std::string& experiment) const {
                              json["config"].contains("name") && json["config"]["name"].is_string();
         const std::string name = hasName ? json["config"]["name"].get<std::string>() : std::string();
         if (name != experiment)
-            throw Error("{}: holds the results of another experiment, '{}'; choose another folder with --out",
-                        path_.string(), name);
+            throw UsageError(
+                "{}: holds the results of another experiment, '{}'; choose another folder with --out",
+                path_.string(), name);
         return;
     }
     for (const auto& entry : fs::directory_iterator(path_))
-        if (entry.path().filename() != "images" && !isTemporaryName(entry.path()))
-            throw Error("{}: is not empty and holds no results of Voxray; choose another folder with --out",
-                        path_.string());
+        if (const fs::path name = entry.path().filename();
+            name != "images" && name != FolderLock::kFileName && !isTemporaryName(entry.path()))
+            throw UsageError(
+                "{}: is not empty and holds no results of Voxray; choose another folder with --out",
+                path_.string());
     if (fs::exists(path_ / "images") && !fs::is_empty(path_ / "images"))
-        throw Error("{}: is not empty and holds no results of Voxray; choose another folder with --out",
-                    path_.string());
+        throw UsageError("{}: is not empty and holds no results of Voxray; choose another folder with --out",
+                         path_.string());
 }
 
 void ResultsFolder::removeOldRun() const {
@@ -89,11 +95,12 @@ std::optional<VariantResult> ResultsFolder::finished(const std::string& variant,
     for (const auto& [name, text] : inputs)
         for (const auto& [oldName, oldText] : oldInputs)
             if (name == oldName && text != oldText)
-                throw Error(
+                throw UsageError(
                     "{}: holds another experiment: '{}' was run with another {} ({}, now {}); choose another "
                     "folder with --out or leave out --resume",
                     path_.string(), variant, name, oldText, text);
-    throw Error("{}: '{}' was run by another version of Voxray; leave out --resume", path_.string(), variant);
+    throw UsageError("{}: '{}' was run by another version of Voxray; leave out --resume", path_.string(),
+                     variant);
 }
 
 void ResultsFolder::writeImages(const std::string& name,

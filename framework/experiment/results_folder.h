@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/folder_lock.h"
 #include "experiment/results.h"
 
 namespace voxray {
@@ -13,14 +14,15 @@ namespace voxray {
 /// together with its result.json, by one rename.
 class ResultsFolder {
  public:
-    /// Makes the folder and checks that it can be written. An older run of the same experiment is kept for
-    /// `resume`, else removed; what a killed run left half-written is removed.
-    /// @throws Error where it can't be written, or holds anything but results of this experiment.
+    /// Makes the folder, locks it and checks that it can be written. An older run of the same experiment is
+    /// kept for `resume`, else removed; what a killed run left half-written is removed.
+    /// @throws UsageError where another process writes into it, or it holds anything but results of this
+    /// experiment; Error where it can't be written.
     ResultsFolder(std::filesystem::path path, const std::string& experiment, bool resume);
 
     const std::filesystem::path& path() const { return path_; }
 
-    /// A finished variant of an older run. @throws Error naming what differs where it was run with other
+    /// A finished variant of an older run. @throws UsageError naming what differs where it was run with other
     /// inputs.
     std::optional<VariantResult> finished(const std::string& variant, const VariantInputs& inputs) const;
 
@@ -38,6 +40,7 @@ class ResultsFolder {
     void removeOldRun() const;
 
     std::filesystem::path path_;
+    std::optional<FolderLock> lock_;
 };
 
 }  // namespace voxray

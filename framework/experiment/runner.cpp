@@ -38,6 +38,7 @@ class Run {
     Run(WiredExperiment experiment, const RunOptions& options, const Registry& registry)
         : wired_(std::move(experiment)), options_(options), registry_(registry) {
         applyTracerOption(wired_, options.tracer);
+        summary_.total = variants_.size();
     }
 
     RunSummary execute();
@@ -84,18 +85,18 @@ RunSummary Run::execute() {
     // Render what is missing
     {
         Progress progress(variants_.size() - results_.size(), options_.quiet);
-        for (const std::string& warning : warnings()) progress.warn(warning);
+        for (const std::string& warning : session_->warnings()) progress.warn(warning);
+        for (const std::string& note : notes_) progress.note(note);
         for (size_t i = 0; i < variants_.size() && !summary_.interrupted; ++i)
             if (!results_.count(i)) runVariant(i, progress);
         printValidationMessages(progress);
     }
     for (const auto& [index, result] : results_) ++(result.ok ? summary_.ok : summary_.failed);
-    if (summary_.interrupted) return summary_;
 
-    // Close the books
-    manifest_.finished = utcNow();
+    // Close the books; after an interruption of what there is
+    if (!summary_.interrupted) manifest_.finished = utcNow();
     writeTables();
-    if (!options_.report) return summary_;
+    if (!options_.report || results_.empty()) return summary_;
     try {
         makeReport(options_.sourceRoot, folder_->path());
     } catch (const Error& error) {

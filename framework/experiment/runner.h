@@ -22,7 +22,8 @@ struct RunOptions {
 };
 
 struct RunSummary {
-    size_t ok = 0;  ///< Resumed ones included.
+    size_t total = 0;  ///< Variants of the experiment.
+    size_t ok = 0;     ///< Resumed ones included.
     size_t failed = 0;
     size_t resumed = 0;             ///< Taken over from an earlier run.
     size_t validationMessages = 0;  ///< Of the Vulkan validation layer; all were printed.

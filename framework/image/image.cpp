@@ -92,13 +92,21 @@ void checkWritable(const fs::path& path, const ImageF& image) {
                     image.data.size(), image.width, image.height, image.channels);
 }
 
+// Of the file system that a file is to lie on: libraries don't say that a disk is full.
+std::string freeMiB(const fs::path& path) {
+    std::error_code code;
+    const fs::space_info space = fs::space(fs::absolute(path).parent_path(), code);
+    return code ? "?" : std::to_string(space.available >> 20);
+}
+
 void writeWhole(const fs::path& path, const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
                 const void* values) {
     writeFileAtomically(path, [&](const fs::path& temporary) {
         const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(format);
         if (!out) throw Error("{}: no writer for {}: {}", path.string(), format, reasonOr(OIIO::geterror()));
         if (!out->open(temporary.string(), spec) || !out->write_image(type, values) || !out->close())
-            throw Error("{}: {}", path.string(), reasonOr(out->geterror()));
+            throw Error("{}: {}; {} MiB are free there", path.string(), reasonOr(out->geterror()),
+                        freeMiB(path));
     });
 }
 

@@ -36,7 +36,7 @@ DeviceSupport choose(std::vector<DeviceSupport> devices, const std::string& want
         refused.push_back(fmt::format("'{}' lacks {}", device.info.name, join(device.info.missing)));
     }
     if (refused.empty())
-        throw Error("no Vulkan device's name contains '{}'; devices: {}", wanted, join(names));
+        throw UsageError("no Vulkan device's name contains '{}'; devices: {}", wanted, join(names));
     throw Error("no Vulkan device qualifies: {}", fmt::join(refused, "; "));
 }
 

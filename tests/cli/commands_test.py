@@ -185,6 +185,7 @@ class Validate(CommandTest):
         self.bad("rays_per_light: 4096", "rays_per_light: many", "rays_per_light")
         self.bad("rays_per_light: 4096", "rays_per_light: 0", "out of range")
         self.bad("[8, 16]", "[8, -16]", "resolution")
+        self.bad("seed: 7", 'seed: "7"', "in quotes")
 
     def test_missing_port(self):
         self.bad("  - {pass: gbuffer}\n", "", "direct_shadow_rays: missing port 'gbuffer'", line=8)
@@ -212,6 +213,9 @@ class Validate(CommandTest):
 
     def test_bad_yaml(self):
         self.bad("{width: 32, height: 24}", "{width: 32, height: 24", "bad YAML", line=4)
+
+    def test_tab(self):
+        self.bad("  - {pass: gbuffer}", "\t- {pass: gbuffer}", "a tab in the indentation", line=6)
 
     def test_bytes_of_files_are_never_echoed(self):
         with open(self.path("noise.png"), "wb") as file:

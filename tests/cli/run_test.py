@@ -111,7 +111,7 @@ class Results(Run):
 
     def test_unknown_device_and_missing_feature(self):
         self.write("tiny.yaml", TINY)
-        self.assertIn("no-such-device", self.expect(1, "run", "tiny.yaml", "--device", "no-such-device").stderr)
+        self.assertIn("no-such-device", self.expect(2, "run", "tiny.yaml", "--device", "no-such-device").stderr)
         self.assertIn("embree", self.expect(2, "run", "tiny.yaml", "--tracer", "embre").stderr)
 
     def test_failed_variant_keeps_the_others(self):
@@ -139,11 +139,21 @@ class Resume(Run):
         self.run_tiny()
         self.assertTrue(all(self.times()[variant] > before[variant] for variant in VARIANTS))
 
+    def test_two_runs_in_one_folder(self):
+        self.write("slow.yaml", SLOW)
+        first = self.start_until(lambda: os.path.exists(self.path("out", ".lock")), "run", "slow.yaml", "--out", "out")
+        error = self.expect(2, "run", "slow.yaml", "--out", "out").stderr
+        self.assertIn(f"process {first.pid} is writing", error)
+        first.communicate(timeout=240)
+        self.assertEqual(first.returncode, 0)
+        self.assertEqual([row["status"] for row in self.rows("out", "results.csv")], ["ok"] * 4)
+        self.check_whole()
+
     def test_another_experiment_is_refused(self):
         self.run_tiny()
         self.write("tiny.yaml", TINY.replace("seed: 7", "seed: 8"))
         before = self.files("out")
-        self.assertIn("seed", self.voxray("run", "tiny.yaml", "--out", "out", "--resume").stderr)
+        self.assertIn("seed", self.expect(2, "run", "tiny.yaml", "--out", "out", "--resume").stderr)
         self.assertEqual(self.files("out"), before)
 
     def interrupt(self, number, status):
@@ -168,6 +178,7 @@ class Resume(Run):
     def test_ctrl_c(self):
         finished = self.interrupt(signal.SIGINT, 130)
         self.check_whole()
+        self.assertTrue(os.path.exists(self.path("out", "report.html")), "a report of what was finished")
         self.finish(finished)
 
     def test_kill(self):
