@@ -11,6 +11,7 @@ those count that no other one beats in time and error; between them the time is 
 import csv
 import math
 import os
+import re
 import sys
 
 LEFT_OUT = {"direct", "composite"}
@@ -85,7 +86,7 @@ def table(folder):
             ms = time_of(passes, lambda name: False)
             cells = [" / ".join(speed_up(ms, float(row[name]), fronts[title, name]) for name in ERRORS)
                      for title, _, _ in COLUMNS]
-            samples = row["indirect"].split("spp-")[-1]
+            samples = re.search(r"path_trace spp (\d+)", row["indirect"])[1]
             errors = " / ".join(f"{float(row[name]):.3f}" for name in ERRORS)
             yield f"| {scene} | {samples} | {ms:.0f} | {errors} | {' | '.join(cells)} |"
 
