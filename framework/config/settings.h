@@ -165,7 +165,7 @@ struct CameraSettings {
     }
 };
 
-/// Entries of `scene.lights`, told apart by their first key.
+/// Entries of `scene.lights`; the first key says which kind.
 struct DirectionalLightSettings {
     glm::vec3 direction{0, -1, 0};
     glm::vec3 irradiance{1.0f};

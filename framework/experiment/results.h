@@ -53,15 +53,17 @@ std::string numberText(double value);
 /// One field of CSV (RFC 4180): quoted where it holds a comma, a quote or a line break.
 std::string csvField(const std::string& text);
 
-/// `results.csv`: a row a variant. Columns of scores are those of the metrics, lights and masks that are
-/// asked for, and of temporal error where frames are compared; metrics that `measure` leaves out stay empty.
+/// `results.csv`: one row for each variant. Columns of scores are those of the metrics, lights and masks that
+/// are asked for, and of temporal error where frames are compared; metrics that `measure` leaves out stay
+/// empty.
 std::string resultsCsv(const std::vector<VariantResult>& results, const std::vector<std::string>& sweepKeys,
                        const MeasureSettings& measure);
-/// `passes.csv`: a row a variant, pass and phase.
+/// `passes.csv`: one row for each variant, pass and phase.
 std::string passesCsv(const std::vector<VariantResult>& results);
-/// `values.csv`, of what passes reported: a row a variant, pass, name and frame; no frame in the build.
+/// `values.csv`, of what passes reported: one row for each variant, pass, name and frame; no frame in the
+/// build.
 std::string valuesCsv(const std::vector<VariantResult>& results);
-/// `frames.csv`: a row a variant and compared frame; scores as in results.csv.
+/// `frames.csv`: one row for each variant and compared frame; scores as in results.csv.
 std::string framesCsv(const std::vector<VariantResult>& results, const MeasureSettings& measure);
 
 /// `images/<variant>/result.json`, the mark of a finished variant; all numbers survive the round trip.

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kMiB = 1024.0 * 1024.0;
 
-// --tracer stands above the config.
+// --tracer overrides the config.
 void applyTracerOption(WiredExperiment& wired, const std::string& name) {
     if (name.empty()) return;
     Experiment& experiment = wired.experiment;
