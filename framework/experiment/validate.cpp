@@ -56,6 +56,9 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
                 throw UsageError(experiment.reference.where,
                                  "reference: the pass writes no '{}'; use path_trace", port);
         wired.reference = graph.resolved();
+        // Of a single sample there are no halves, which tell the reference's noise
+        if (const Value* spp = experiment.reference.find("spp"); spp && spp->asInteger("reference.spp") < 2)
+            throw UsageError(spp->where, "reference.spp: 2 or more; from its halves comes the reference's noise");
     }
     wired.experiment = std::move(experiment);
     return wired;

@@ -44,9 +44,6 @@ void PathTracePass::declare(PassBuilder& builder) {
 void PathTracePass::plan(PassPlan& plan) {
     if (params_.light == PathLight::Indirect && plan.get(images_[0].port).isRead)
         throw Error("path_trace: with 'light: indirect' it writes no 'final'; let composite follow");
-    for (const RenderedImage& image : images_)
-        if (image.isHalf && plan.get(image.port).isRead && !isRendered(image))
-            throw Error("path_trace: it takes 'spp: 2' or more and 'light: all' to write '{}'", image.name);
     options_ = {.width = plan.frame.width,
                 .height = plan.frame.height,
                 .spp = params_.spp,

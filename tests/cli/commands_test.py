@@ -199,7 +199,7 @@ class Validate(CommandTest):
         self.bad(scene, "{file: nowhere.glb}", "no file 'nowhere.glb'")
 
     def test_what_passes_refuse(self):
-        self.bad("spp: 8", "spp: 1", "'spp: 2' or more")
+        self.bad("spp: 8", "spp: 1", "reference.spp: 2 or more")
         self.bad("inject_light_rays, id: inject, rays_per_light: 4096", "inject_rsm, id: inject", "inject_rsm",
                  "no single viewpoint")
         self.bad("bounces: 2}\n  - {pass: direct", "bounces: 2, secondary: none, write: max}\n  - {pass: direct",
