@@ -58,7 +58,8 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
         wired.reference = graph.resolved();
         // Of a single sample there are no halves, which tell the reference's noise
         if (const Value* spp = experiment.reference.find("spp"); spp && spp->asInteger("reference.spp") < 2)
-            throw UsageError(spp->where, "reference.spp: 2 or more; from its halves comes the reference's noise");
+            throw UsageError(spp->where,
+                             "reference.spp: 2 or more; from its halves comes the reference's noise");
     }
     wired.experiment = std::move(experiment);
     return wired;
