@@ -16,7 +16,7 @@ class GatherCones final : public Pass {
         "Indirect light: a few cones from each pixel through prefiltered voxels (filter_voxels). "
         "Biased by: voxel size; the number of cones; a mean over some 25 pixels of the same surface, which "
         "evens "
-        "out the fixed pattern of directions; the shape of specular lobes. No other noise. "
+        "out the fixed pattern of directions; the shape of specular lobes. Noisy by near_field_voxels alone. "
         "Source: Crassin et al. 2011; Arnebäck 2017, section 3.1.5.";
     struct Params {
         uint32_t cones = 16;

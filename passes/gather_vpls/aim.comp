@@ -34,7 +34,7 @@ float chance(uint i, float brought) {
 #endif
 }
 
-// A number in [0, 1), another one for each receiver and virtual light.
+// A number in [0, 1), another one for each texel and virtual light; surfels of different rays and bounces share theirs.
 float random(uint i, uint vpl) {
     const VplBatch b = push.batch;
     return toUnit(hashCombine(hashCombine(push.seed + b.subset, b.first + i % b.count), vpl));

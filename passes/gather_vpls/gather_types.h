@@ -14,7 +14,7 @@ struct VplBatch {
     uint subset;              // Row by row within the block.
     uint first, count;        // Receivers, of those of the subset.
     uint firstVpl, vplCount;  // Of the list of virtual lights.
-    uint bounces;             // Virtual lights have by their number.
+    uint bounces;             // Of a path: virtual light v is of bounce v % bounces.
     uint reflections;  // Between the receiver and the texel: virtual lights of the last so many bounces count
                        // no more.
 };

@@ -23,8 +23,8 @@ struct PickPush {
     uint32_t seed;
 };
 
-// A source's weights in all. What texels add up to differs from the source's power by the size of texels, at
-// worst by a factor of 2.2 (a spot in one texel), so that the sum stays below 2^32.
+// A source's weights in all. What texels add up to differs from the source's power by the size of texels, by
+// less than a factor of 2 at the smallest resolution, so that the sum stays below 2^32.
 constexpr float kUnits = 1u << 30;
 
 }  // namespace

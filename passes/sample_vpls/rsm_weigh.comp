@@ -30,6 +30,6 @@ void main() {
         const vec3 reflected = path.power * litAlbedo(sceneMaterials.data[s.material], s);
         if (dot(s.geometricNormal, s.geometricNormal) > 0.0) flux = max(reflected.r, max(reflected.g, reflected.b));
     }
-    // However little it is, it can be picked
+    // However little it is, it has a weight
     weights.data[i] = flux > 0.0 ? 1u + uint(flux * push.unitsPerWatt) : 0u;
 }

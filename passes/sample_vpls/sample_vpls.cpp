@@ -57,7 +57,7 @@ void SampleVpls::plan(PassPlan& plan) {
     vpls.bounces = params_.bounces;
     const uint64_t points = uint64_t(vpls.paths) * vpls.bounces;
     const uint64_t batch = *std::max_element(pathsOf_.begin(), pathsOf_.end());
-    plan.buffer(vpls.points, "virtual point lights", points * sizeof(gpu::Vpl));
+    plan.buffer(vpls.points, "virtual point lights", vpls.pointsBytes(kName));
     plan.buffer(vpls.list, "list of virtual point lights", points * sizeof(uint32_t));
     plan.buffer(order_, "order of light paths", vpls.paths * sizeof(uint32_t));
     plan.buffer(flags_, "flags of virtual point lights", (points + 31) / 32 * sizeof(uint32_t));

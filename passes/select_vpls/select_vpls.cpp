@@ -39,13 +39,12 @@ void SelectVpls::plan(PassPlan& plan) {
     const uint64_t points = uint64_t(candidates.paths) * candidates.bounces;
     Vpls& vpls = plan.get(vpls_);
     vpls.bounces = candidates.bounces;
-    vpls.paths = params_.count;
-    vpls.areaPerPath = float(surfaceArea(plan.frame.scene->geometry) * vpls.bounces / double(params_.count));
-    plan.buffer(vpls.points, "selected virtual point lights",
-                uint64_t(params_.count) * vpls.bounces * sizeof(gpu::Vpl));
-    plan.buffer(vpls.list, "list of selected virtual point lights", params_.count * sizeof(uint32_t));
-    plan.buffer(places_, "places of selected virtual point lights", params_.count * sizeof(uint32_t));
-    plan.buffer(weights_, "weights of selected virtual point lights", params_.count * sizeof(float));
+    vpls.paths = uint32_t(std::min<uint64_t>(params_.count, points));
+    vpls.areaPerPath = float(surfaceArea(plan.frame.scene->geometry) * vpls.bounces / vpls.paths);
+    plan.buffer(vpls.points, "selected virtual point lights", vpls.pointsBytes(kName));
+    plan.buffer(vpls.list, "list of selected virtual point lights", vpls.paths * sizeof(uint32_t));
+    plan.buffer(places_, "places of selected virtual point lights", vpls.paths * sizeof(uint32_t));
+    plan.buffer(weights_, "weights of selected virtual point lights", vpls.paths * sizeof(float));
     const uint64_t rays = std::min(points, uint64_t(kBatchRays / params_.points)) * params_.points;
     plan.scratchBuffer(rays_, "shadow rays", rays * sizeof(Ray));
     plan.scratchBuffer(carried_, "kernels of shadow rays", rays * sizeof(float));
@@ -81,7 +80,7 @@ void SelectVpls::record(PassContext& context) {
         probabilities.push_back((irradiance > 0 ? (1 - byFlux) * light.x / irradiance : 0) +
                                 byFlux * light.y / flux);
     const double offset = double(randomSeed(context.frame, 0x92u) >> 8) / (1 << 24);
-    const Resampled kept = resample(probabilities, params_.count, offset);
+    const Resampled kept = resample(probabilities, vpls.paths, offset);
 
     // Each becomes the only vertex of a path of its own, at the bounce that it had.
     const auto numbers = stream.readAs<uint32_t>(candidates.list, candidates.count);

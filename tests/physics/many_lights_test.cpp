@@ -141,7 +141,7 @@ TEST(ManyLights, ABoundTakesLightAwayAndVanishesWithMoreLights) {
 }
 
 TEST(ManyLights, CompensationKeepsTheEnergyOfAFurnaceWithAnyBound) {
-    // As above, with bounds of a twentieth of the sphere's radius, of a half, and of more than its diameter:
+    // As above, with bounds of a sixteenth of the sphere's radius, of a half, and of more than its diameter:
     // then all light comes by rays
     for (const std::string bound : {"2", "16", "80"}) {
         SCOPED_TRACE(bound);

@@ -45,7 +45,7 @@ class VoxelMarch {
     Defines defines() const;
     /// Of all that shaders/voxel_march/voxel_march.glsl may use.
     std::vector<Binding> bindings() const;
-    /// Steps and visits since begin(), 64 bits each (PassContext::countVoxelSteps).
+    /// Steps and visits since begin(), 64 bits each (PassContext::voxelCounts).
     const Buffer& counts() const { return counts_; }
 
     uint64_t memoryBytes() const;
