@@ -3,7 +3,8 @@
 // A ray along the axis of each cone of a batch, as long as the near field.
 #include "passes/gather_cones/near_cones.glsl"
 #include "shaders/radiance/cone_direction.glsl"
-#include "shaders/surfels/path_ray.glsl"
+#include "shaders/scene/sampling.glsl"
+#include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Cones { Cone data[]; } cones;

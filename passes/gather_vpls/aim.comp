@@ -44,7 +44,7 @@ void main() {
     const uint i = linearIndex();
     const VplBatch b = push.batch;
     if (i >= b.count * b.vplCount) return;
-    Ray ray = Ray(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0);
+    Ray ray = kNoRay;
     vec4 light = vec4(0.0);
     const uint number = list.data[b.firstVpl + i / b.count];
     Receiver r;
@@ -57,13 +57,11 @@ void main() {
             const float distance_ = max(distance(vpl.position, r.position), sqrt(push.minDistanceSquared));
             light = vec4(vpl.flux * (kernel / p), 1.0 / distance_);
 
-            vec3 from = r.position + r.faceNormal * surfaceOffset(r.position);
-            vec3 to = vpl.position + vpl.faceNormal * surfaceOffset(vpl.position);
-            bool canBeHidden = dot(to - from, direction) > 0.0;
-            if (push.grid.voxelSize > 0.0)
-                canBeHidden = segmentBetweenSurfaces(push.grid, r.position, r.faceNormal, vpl.position, vpl.faceNormal, from, to);
-            const float reach = length(to - from);
-            if (canBeHidden) ray = Ray(from, 0.0, (to - from) / reach, reach);
+            vec3 from, to;
+            if (push.grid.voxelSize == 0.0)
+                ray = vplRay(vpl, r.position, r.faceNormal, direction);
+            else if (segmentBetweenSurfaces(push.grid, r.position, r.faceNormal, vpl.position, vpl.faceNormal, from, to))
+                ray = Ray(from, 0.0, normalize(to - from), length(to - from));
         }
     }
     rays.data[i] = ray;

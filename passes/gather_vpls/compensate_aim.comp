@@ -2,7 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // A ray from each surfel to what is nearer than the bound, distributed by cosine, until Russian roulette ends it.
-#include "passes/gather_vpls/survival.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/octahedral.glsl"
 #include "shaders/surfels/path_ray.glsl"

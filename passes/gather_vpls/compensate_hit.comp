@@ -3,9 +3,9 @@
 #extension GL_EXT_scalar_block_layout : require
 // The surfels where rays hit. From there comes the fraction of light that the bound B takes away at a distance d: 1 - d² / B
 // (Kollig and Keller 2004, section 4).
-#include "passes/gather_vpls/survival.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/octahedral.glsl"
+#include "shaders/scene/sampling.glsl"
 #include "shaders/surfels/surfel_at_hit.glsl"
 layout(local_size_x = 64) in;
 

@@ -54,9 +54,12 @@ void GatherVpls::plan(PassPlan& plan) {
     const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
     // The disc of that area has the squared radius area / pi. Things move without changing their area
     const float minDistanceSquared = params_.bound * params_.bound * vpls.areaPerPath / glm::pi<float>();
-    light_.plan(plan, {params_.block, minDistanceSquared, params_.roulette}, texels,
-                uint64_t(vpls.paths) * vpls.bounces);
-    if (params_.compensationRays > 0 && minDistanceSquared > 0)
+    const bool isCompensated = params_.compensationRays > 0 && minDistanceSquared > 0;
+    light_.plan(plan,
+                {params_.block, minDistanceSquared, params_.roulette,
+                 params_.visibility == VplVisibility::ShadowMap, isCompensated},
+                texels, uint64_t(vpls.paths) * vpls.bounces);
+    if (isCompensated)
         compensation_.emplace().plan(plan, {params_.compensationRays, vpls.bounces, minDistanceSquared},
                                      texels);
     NoisyIrradiance& noisy = plan.get(noisy_);

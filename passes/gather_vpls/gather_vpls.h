@@ -61,7 +61,7 @@ class GatherVpls final : public Pass {
                 field(
                     "roulette", &Params::roulette,
                     "Virtual lights that, were nothing in the way, would bring a texel less than this times "
-                    "what those of a batch do on average, get a shadow ray with a chance in proportion, and "
+                    "what its lights do on average, get a shadow ray with a chance in proportion, and "
                     "count "
                     "for more by as much. Saves rays for noise; 0: each gets one that faces the texel.",
                     0.0f, 100.0f),

@@ -42,7 +42,8 @@ void VplLight::plan(PassPlan& plan, const Settings& settings, glm::uvec2 texels,
     const uint64_t rays = std::min(perSubset * (maxVpls / subsets() + 1), uint64_t(kBatchRays));
     plan.buffer(rays_, "shadow rays", rays * sizeof(Ray));
     plan.buffer(carried_, "light of virtual point lights", rays * 4 * sizeof(float));
-    plan.buffer(means_, "mean light of virtual point lights", perSubset * sizeof(float));
+    if (settings.roulette > 0)
+        plan.buffer(means_, "mean light of virtual point lights", perSubset * sizeof(float));
     plan.buffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
 }
 
@@ -53,11 +54,15 @@ void VplLight::prepare(PassSetup& setup) {
             return makeComputeProgram(setup.device,
                                       setup.compiler.compile("passes/gather_vpls/" + file, defines));
         };
-        return Programs{program("mean.comp"), program("aim.comp"), program("map_shadows.comp"),
-                        program("add.comp")};
+        Programs all;
+        if (settings_.roulette > 0) all.mean = program("mean.comp");
+        all.aim = program("aim.comp");
+        if (settings_.shadowMaps) all.shadows = program("map_shadows.comp");
+        all.add = program("add.comp");
+        return all;
     };
     texels_ = programs({});
-    surfels_ = programs({{"SURFELS", "1"}});
+    if (settings_.surfels) surfels_ = programs({{"SURFELS", "1"}});
     sampler_ = texelSampler(setup.device);
 }
 
@@ -93,8 +98,9 @@ void VplLight::add(PassContext& context, const Vpls& vpls, const Visibility& vis
     std::vector<Binding> lights = receivers, adding = target;
     lights.insert(lights.end(), {{"vpls", vpls.points}, {"list", vpls.list}});
     std::vector<Binding> averaging = lights, aiming = lights, shading = lights;
-    averaging.emplace_back("means", means_);
-    aiming.insert(aiming.end(), {ifUsed({"means", means_}), {"rays", rays_}, {"carried", carried_}});
+    aiming.insert(aiming.end(), {{"rays", rays_}, {"carried", carried_}});
+    if (settings_.roulette > 0)
+        for (std::vector<Binding>* bindings : {&averaging, &aiming}) bindings->emplace_back("means", means_);
     if (maps)
         shading.insert(shading.end(), {{"rays", rays_}, {"hits", maps->hits()}, {"occluded", occluded_}});
     adding.insert(adding.end(), {{"carried", carried_}, {"occluded", occluded_}});
@@ -110,12 +116,16 @@ void VplLight::add(PassContext& context, const Vpls& vpls, const Visibility& vis
             batch.count = std::min(perSubset - batch.first, maxRays);
             uint32_t maxVpls = maxRays / batch.count;
             if (maps) maxVpls = std::min(maxVpls, maps->capacity());
+            if (settings_.roulette > 0 && begin < end) {
+                gpu::VplBatch all = batch;
+                all.firstVpl = begin;
+                all.vplCount = end - begin;
+                stream.dispatch(programs.mean, averaging, MeanPush{all, settings_.minDistanceSquared},
+                                linearGroups(batch.count));
+            }
             for (batch.firstVpl = begin; batch.firstVpl < end; batch.firstVpl += batch.vplCount) {
                 batch.vplCount = std::min(end - batch.firstVpl, maxVpls);
                 const uint32_t rays = batch.count * batch.vplCount;
-                if (settings_.roulette > 0)
-                    stream.dispatch(programs.mean, averaging, MeanPush{batch, settings_.minDistanceSquared},
-                                    linearGroups(batch.count));
                 stream.dispatch(programs.aim, aiming,
                                 AimPush{batch, settings_.minDistanceSquared, randomSeed(context.frame, 0xa1u),
                                         settings_.roulette, visibility.grid},

@@ -21,7 +21,10 @@ class VplLight {
     struct Settings {
         uint32_t block;            ///< Subsets are its square.
         float minDistanceSquared;  ///< m²: the bound.
-        float roulette;  ///< Times what a light brings on average; lights below are looked at by chance.
+        float roulette;   ///< Times what a subset's lights bring on average; those below are looked at by
+                          ///< chance. 0: at all.
+        bool shadowMaps;  ///< Whether `maps` of Visibility are used.
+        bool surfels;     ///< Whether addToSurfels() is.
     };
     /// What the shadow rays of one run meet.
     struct Visibility {

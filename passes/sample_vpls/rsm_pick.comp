@@ -30,7 +30,7 @@ uint unitsAt(float u, uint units) { return min(uint(u * float(units)), units - 1
 void main() {
     const uint i = linearIndex();
     if (i >= push.paths_) return;
-    rays.data[i] = Ray(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0);
+    rays.data[i] = kNoRay;
     if (push.sum == 0u) return;
     const vec2 u = sobol2(i, push.seed);
 

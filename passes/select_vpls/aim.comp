@@ -24,7 +24,7 @@ layout(push_constant, scalar) uniform Push {
 void main() {
     const uint i = linearIndex();
     if (i >= push.count * push.points) return;
-    Ray ray = Ray(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0);
+    Ray ray = kNoRay;
     float kernel = 0.0;
     const Vpl vpl = vpls.data[list.data[push.first + i / push.points]];
     const ivec2 extent = textureSize(position, 0);
@@ -34,11 +34,7 @@ void main() {
         const vec3 n = normalize(texelFetch(normal, texel, 0).xyz), face = normalize(texelFetch(geometricNormal, texel, 0).xyz);
         vec3 direction;
         kernel = vplKernel(vpl, p.xyz, n, face, push.minDistanceSquared, direction);
-        if (kernel > 0.0) {
-            const vec3 from = p.xyz + face * surfaceOffset(p.xyz);
-            const vec3 way = vpl.position + vpl.faceNormal * surfaceOffset(vpl.position) - from;
-            if (dot(way, direction) > 0.0) ray = Ray(from, 0.0, normalize(way), length(way));
-        }
+        if (kernel > 0.0) ray = vplRay(vpl, p.xyz, face, direction);
     }
     rays.data[i] = ray;
     carried.data[i] = kernel;

@@ -31,10 +31,10 @@ bool bounceLightRay(SurfacePoint s, vec3 faceNormal, bool mirror, uint index, ui
         direction = reflect(ray.direction, normal);
         path.power *= albedo;
     } else {
-        const float survive = max(albedo.r, max(albedo.g, albedo.b));
-        if (sobol2(index, hashCombine(seed, 1u)).x >= survive) return false;
+        const float chance = survival(albedo);
+        if (sobol2(index, hashCombine(seed, 1u)).x >= chance) return false;
         direction = cosineDirection(sobol2(index, seed), normal);
-        path.power *= albedo / survive;
+        path.power *= albedo / chance;
     }
     if (dot(direction, faceNormal) <= 0.0) return false;
     ray = Ray(s.position + faceNormal * surfaceOffset(s.position), 0.0, direction, 1.0e30);

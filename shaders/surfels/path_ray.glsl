@@ -6,8 +6,6 @@
 #include "shaders/surfels/surfel_types.h"
 #include "shaders/trace/ray_types.h"
 
-const Ray kNoRay = Ray(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0);
-
 // Distributed by cosine about the surfel's normal; none where that leads below the surface, whose geometric normal (unit, on the
 // surfel's side) may be another one.
 Ray pathRay(Surfel s, vec3 geometricNormal, uint seed) {

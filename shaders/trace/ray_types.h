@@ -11,6 +11,7 @@ struct Ray {
     vec3 direction;
     float tMax;  // Below tMin: inactive, a miss.
 };
+const Ray kNoRay = Ray(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0);
 
 struct Hit {
     float t;

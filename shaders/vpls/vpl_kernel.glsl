@@ -1,8 +1,9 @@
-// How much of a virtual point light's flux arrives.
+// How much of a virtual point light's flux arrives, and the ray that tells whether anything is in the way.
 #ifndef VOXRAY_VPL_KERNEL_GLSL
 #define VOXRAY_VPL_KERNEL_GLSL
 
 #include "shaders/scene/sampling.glsl"
+#include "shaders/trace/ray_types.h"
 #include "shaders/vpls/vpl_types.h"
 
 // Irradiance over flux, 1/m², of a surface with shading normal `normal` and geometric normal `faceNormal` (unit, on one side), if
@@ -16,6 +17,15 @@ float vplKernel(Vpl vpl, vec3 position, vec3 normal, vec3 faceNormal, float minD
     const bool isAbove = dot(faceNormal, direction) > 0.0 && dot(vpl.faceNormal, direction) < 0.0;
     if (cosine <= 0.0 || vplCosine <= 0.0 || !isAbove || squared == 0.0) return 0.0;
     return cosine * vplCosine / (PI * max(squared, minDistanceSquared));
+}
+
+// From a surface to a virtual light in a unit direction, off both surfaces; none where the ends have passed each other: then
+// nothing can be in the way.
+Ray vplRay(Vpl vpl, vec3 position, vec3 faceNormal, vec3 direction) {
+    const vec3 from = position + faceNormal * surfaceOffset(position);
+    const vec3 way = vpl.position + vpl.faceNormal * surfaceOffset(vpl.position) - from;
+    const float reach = length(way);
+    return dot(way, direction) > 0.0 ? Ray(from, 0.0, way / reach, reach) : kNoRay;
 }
 
 #endif
