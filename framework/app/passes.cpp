@@ -52,9 +52,10 @@ void printEntry(const std::string& name, const std::string& text) {
 
 void printPorts(const PassKind& kind, bool outputs) {
     bool any = false;
-    for (const PortInfo& port : kind.ports) {
+    for (const PortDoc& port : kind.ports) {
         if (port.output != outputs) continue;
-        printEntry(port.name, port.help + (port.optional ? " (optional)" : ""));
+        const std::string with = port.with.empty() ? "" : " (with " + port.with + ")";
+        printEntry(port.name, port.help + (port.optional ? " (optional)" : "") + with);
         any = true;
     }
     if (!any) fmt::print("  none\n");

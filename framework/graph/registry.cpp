@@ -1,6 +1,42 @@
 #include "graph/registry.h"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
 namespace voxray {
+namespace {
+
+bool contains(const std::vector<PortInfo>& ports, const PortInfo& port) {
+    return std::ranges::any_of(
+        ports, [&](const PortInfo& other) { return other.name == port.name && other.output == port.output; });
+}
+
+}  // namespace
+
+std::vector<PortDoc> describePorts(const std::vector<PortInfo>& ofDefaults,
+                                   const std::vector<PortsByValue>& ofChoices) {
+    std::vector<PortInfo> all = ofDefaults;
+    for (const PortsByValue& choice : ofChoices)
+        for (const std::vector<PortInfo>& ports : choice.ports)
+            for (const PortInfo& port : ports)
+                if (!contains(all, port)) all.push_back(port);
+
+    // A parameter matters to a port that only some of its values have.
+    std::vector<PortDoc> docs;
+    for (const PortInfo& port : all) {
+        PortDoc& doc = docs.emplace_back(PortDoc{port, {}});
+        for (const PortsByValue& choice : ofChoices) {
+            std::vector<std::string> having;
+            for (size_t v = 0; v < choice.values.size(); ++v)
+                if (contains(choice.ports[v], port)) having.push_back(choice.values[v]);
+            if (having.empty() || having.size() == choice.values.size()) continue;
+            doc.with += fmt::format("{}{}: {}", doc.with.empty() ? "" : ", or ", choice.parameter,
+                                    fmt::join(having, " | "));
+        }
+    }
+    return docs;
+}
 
 const PassKind* Registry::find(const std::string& name) const {
     for (const PassKind& kind : kinds_)

@@ -11,12 +11,18 @@
 
 namespace voxray {
 
+/// A port that a pass has, and the values of parameters that it has it with, such as "first: rsm"; empty:
+/// always.
+struct PortDoc : PortInfo {
+    std::string with;
+};
+
 /// What the registry knows of one kind of pass.
 struct PassKind {
     std::string name;
     std::string help;
     std::vector<ParameterDoc> parameters;
-    std::vector<PortInfo> ports;
+    std::vector<PortDoc> ports;  ///< With any values of its parameters.
     /// Makes a pass from its map in the config. @param reserved keys that the graph itself reads.
     /// @throws UsageError for an unknown or invalid parameter.
     std::function<std::unique_ptr<Pass>(const Value& map, const std::string& id,
@@ -27,21 +33,33 @@ struct PassKind {
         resolve;
 };
 
+/// The ports that a pass has with each value of one parameter, in the order of its values.
+struct PortsByValue {
+    std::string parameter;
+    std::vector<std::string> values;
+    std::vector<std::vector<PortInfo>> ports;
+};
+
+/// All of a pass's ports: those of its defaults, then those that values of one parameter ask for.
+std::vector<PortDoc> describePorts(const std::vector<PortInfo>& ofDefaults,
+                                   const std::vector<PortsByValue>& ofChoices);
+
 /// All kinds of passes, filled by registerPasses (passes/register_passes.h).
 class Registry {
  public:
-    /// P: see Pass.
+    /// P: see Pass. Where P::Params has a `void check(const Value& map, const std::string& id) const`, it
+    /// is called once the parameters are read, to throw a UsageError for values that do not go together.
     template <typename P>
     void add() {
         PassKind kind;
         kind.name = P::kName;
         kind.help = P::kHelp;
         kind.parameters = describeParams<typename P::Params>();
-        PassBuilder builder;
-        P(typename P::Params{}).declare(builder);
-        kind.ports = builder.ports();
+        kind.ports = portsOf<P>();
         kind.create = [](const Value& map, const std::string& id, const std::vector<std::string>& reserved) {
-            return std::unique_ptr<Pass>(new P(readParams<typename P::Params>(map, id, reserved)));
+            const auto params = readParams<typename P::Params>(map, id, reserved);
+            if constexpr (requires { params.check(map, id); }) params.check(map, id);
+            return std::unique_ptr<Pass>(new P(params));
         };
         kind.resolve = [](const Value& map, const std::string& id, const std::vector<std::string>& reserved) {
             return writeParams(readParams<typename P::Params>(map, id, reserved));
@@ -55,6 +73,32 @@ class Registry {
     const PassKind& require(const std::string& name, const TextLocation& where) const;
 
  private:
+    template <typename P>
+    static std::vector<PortInfo> declared(const typename P::Params& params) {
+        PassBuilder builder;
+        P(params).declare(builder);
+        return builder.ports();
+    }
+
+    template <typename P>
+    static std::vector<PortDoc> portsOf() {
+        using Params = typename P::Params;
+        std::vector<PortsByValue> choices;
+        forEachField<Params>([&](const auto& field) {
+            using T = std::remove_cvref_t<decltype(std::declval<Params>().*(field.member))>;
+            if constexpr (std::is_enum_v<T>) {
+                PortsByValue& choice = choices.emplace_back(PortsByValue{field.name, {}, {}});
+                for (const auto& [value, name] : EnumNames<T>::names) {
+                    Params params;
+                    params.*(field.member) = value;
+                    choice.values.emplace_back(name);
+                    choice.ports.push_back(declared<P>(params));
+                }
+            }
+        });
+        return describePorts(declared<P>(Params{}), choices);
+    }
+
     std::vector<PassKind> kinds_;
 };
 

@@ -1,5 +1,7 @@
 #include "graph/wiring.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <optional>
 #include <set>
@@ -75,6 +77,21 @@ Source explicitSource(const std::vector<GraphNode>& nodes, const GraphNode& read
                      didYouMean(id, idsOf(nodes)));
 }
 
+/// Passes that write a port of this name out of others. Those that change what they read
+/// under it need a writer themselves.
+std::vector<std::string> writersOf(const Registry& registry, const std::string& port) {
+    std::vector<std::string> writers;
+    for (const PassKind& kind : registry.kinds()) {
+        const auto has = [&](bool output) {
+            return std::ranges::any_of(kind.ports, [&](const PortDoc& p) {
+                return p.name == port && p.output == output && !p.optional;
+            });
+        };
+        if (has(true) && !has(false)) writers.push_back(kind.name);
+    }
+    return writers;
+}
+
 /// The nearest earlier pass that writes a port of this name, or nothing for an optional port.
 std::optional<Source> implicitSource(const std::vector<GraphNode>& nodes, size_t reader, const PortInfo& port,
                                      const Registry& registry) {
@@ -86,13 +103,10 @@ std::optional<Source> implicitSource(const std::vector<GraphNode>& nodes, size_t
             throw UsageError(nodes[reader].where,
                              "{}: reads '{}', which '{}' writes only later; move '{}' up", nodes[reader].id,
                              port.name, nodes[n].id, nodes[n].id);
-    std::string writers;
-    for (const PassKind& kind : registry.kinds())
-        for (const PortInfo& p : kind.ports)
-            if (p.output && p.name == port.name) writers += (writers.empty() ? "" : ", ") + kind.name;
+    const std::vector<std::string> writers = writersOf(registry, port.name);
     throw UsageError(nodes[reader].where, "{}: missing port '{}' ({}); no pass before it writes it{}",
                      nodes[reader].id, port.name, port.help,
-                     writers.empty() ? "" : "; these can: " + writers);
+                     writers.empty() ? "" : fmt::format("; these can: {}", fmt::join(writers, ", ")));
 }
 
 void checkInputKeys(const GraphNode& node, const Value& inputs) {

@@ -22,17 +22,29 @@ bool meetsVoxels(VplVisibility visibility) {
 VoxelWalk walkOf(VplVisibility visibility) {
     switch (visibility) {
         case VplVisibility::SvoRestart:
-            return VoxelWalk::OctreeRestart;
+            return VoxelWalk::SvoRestart;
         case VplVisibility::Bricks:
             return VoxelWalk::Bricks;
         case VplVisibility::Bits:
             return VoxelWalk::Bits;
         default:
-            return VoxelWalk::Octree;
+            return VoxelWalk::Svo;
     }
 }
 
 }  // namespace
+
+void GatherVpls::Params::check(const Value& map, const std::string& id) const {
+    const auto refuse = [&](const char* parameter, const char* why) {
+        throw UsageError(map.find(parameter)->where, "{}.{}: {}; leave it out", id, parameter, why);
+    };
+    if (compensationRays > 0 && bound == 0)
+        refuse("compensation_rays", "'bound: 0' takes nothing away that rays could bring back");
+    if (restartEpsilon > 0 && visibility != VplVisibility::SvoRestart)
+        refuse("restart_epsilon", "a step of 'visibility: svo_restart' alone");
+    if (map.find("map_resolution") && visibility != VplVisibility::ShadowMap)
+        refuse("map_resolution", "virtual lights have maps with 'visibility: shadow_map' alone");
+}
 
 void GatherVpls::declare(PassBuilder& builder) {
     gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
@@ -46,9 +58,6 @@ void GatherVpls::declare(PassBuilder& builder) {
 }
 
 void GatherVpls::plan(PassPlan& plan) {
-    if (params_.restartEpsilon > 0 && params_.visibility != VplVisibility::SvoRestart)
-        throw Error("{}: 'restart_epsilon' is a step of 'visibility: svo_restart' alone; leave it out",
-                    kName);
     const Vpls& vpls = plan.get(vpls_);
     const uint32_t samples = plan.get(gbuffer_).samples;
     const glm::uvec2 texels = gbufferExtent(plan.frame, samples);

@@ -79,6 +79,8 @@ class GatherVpls final : public Pass {
                 field("map_resolution", &Params::mapResolution,
                       "For shadow_map: texels along each side of a virtual light's map.", 4u, 1024u)};
         }
+        /// @throws UsageError for a parameter that another one leaves without effect.
+        void check(const Value& map, const std::string& id) const;
     };
 
     explicit GatherVpls(const Params& params) : params_(params) {}

@@ -108,7 +108,8 @@ std::vector<glm::vec2> SelectVpls::importance(PassContext& context) const {
     const GBuffer& gbuffer = context.get(gbuffer_);
     const Vpls& candidates = context.get(candidates_);
     const uint32_t batch = uint32_t(occluded_.bytes() / sizeof(uint32_t)) / params_.points;
-    const float minDistanceSquared = context.get(vpls_).areaPerPath / glm::pi<float>();
+    const float minDistanceSquared =
+        params_.bound * params_.bound * context.get(vpls_).areaPerPath / glm::pi<float>();
     for (uint32_t first = 0; first < candidates.count; first += batch) {
         const uint32_t count = std::min(candidates.count - first, batch), rays = count * params_.points;
         stream.dispatch(

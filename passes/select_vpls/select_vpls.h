@@ -21,6 +21,7 @@ class SelectVpls final : public Pass {
         uint32_t count = 2048;
         uint32_t points = 32;
         float unseen = 0.1f;
+        float bound = 1;
         static constexpr auto schema() {
             return std::tuple{
                 field("count", &Params::count, "Virtual point lights that stay, at most.", 1u, 1u << 20),
@@ -30,7 +31,11 @@ class SelectVpls final : public Pass {
                     "unseen", &Params::unseen,
                     "Fraction of 'count' that goes by flux alone, to virtual lights that these texels don't "
                     "see too. Smaller: they are rarer and brighter.",
-                    0.001f, 1.0f)};
+                    0.001f, 1.0f),
+                field("bound", &Params::bound,
+                      "That of gather_vpls, so that virtual lights near the texels are weighed by what it "
+                      "will let them bring. Another one biases nothing.",
+                      0.0f, 1000.0f)};
         }
     };
 

@@ -20,10 +20,10 @@ uint marchVisits = 0u;
 #include "shaders/voxel_march/walk_bits.glsl"
 #elif defined(MARCH_WALK_BRICKS)
 #include "shaders/voxel_march/walk_bricks.glsl"
-#elif defined(MARCH_WALK_OCTREE_RESTART)
-#include "shaders/voxel_march/walk_octree_restart.glsl"
-#elif defined(MARCH_WALK_OCTREE)
-#include "shaders/voxel_march/walk_octree.glsl"
+#elif defined(MARCH_WALK_SVO_RESTART)
+#include "shaders/voxel_march/walk_svo_restart.glsl"
+#elif defined(MARCH_WALK_SVO)
+#include "shaders/voxel_march/walk_svo.glsl"
 #endif
 
 // Steps and visits of all threads, 64 bits each, low words first.

@@ -108,7 +108,7 @@ void voxelMarch(benchmark::State& state) {
             double(state.iterations()) * kRays / 1e6 / seconds[walk];
     const auto over = [&](VoxelWalk a, VoxelWalk b) { return seconds[size_t(b)] / seconds[size_t(a)]; };
     state.counters["bricks_over_bits"] = over(VoxelWalk::Bricks, VoxelWalk::Bits);
-    state.counters["octree_over_restart"] = over(VoxelWalk::Octree, VoxelWalk::OctreeRestart);
+    state.counters["svo_over_svo_restart"] = over(VoxelWalk::Svo, VoxelWalk::SvoRestart);
 }
 BENCHMARK(voxelMarch)
     ->ArgName("resolution")

@@ -136,6 +136,12 @@ class Passes(CommandTest):
         self.assertRegex(" ".join(out.split()), r"rays_per_light Rays .* Default 262144; integer from 1 to 67108864\.")
         self.assertIn("Outputs:", out)
 
+    def test_ports_of_values(self):
+        out = " ".join(self.expect(0, "passes", "sample_vpls").stdout.split())
+        self.assertIn("what lights see (with first: rsm)", out)
+        out = " ".join(self.expect(0, "passes", "gather_vpls").stdout.split())
+        self.assertIn("what shadow rays meet (with visibility: svo | svo_restart | bricks | bits)", out)
+
     def test_allowed_values(self):
         out = self.expect(0, "passes", "gather_cones").stdout
         self.assertRegex(" ".join(out.split()), r"cones Cones .* Default 16; 5 \| 6 \| 16 \| 36\.")

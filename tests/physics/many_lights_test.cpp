@@ -172,6 +172,26 @@ TEST(ManyLights, CompensationCountsBouncesAsVirtualLightsDo) {
     }
 }
 
+TEST(ManyLights, BouncesAreThoseOfTheReference) {
+    // Injection counts from the surface that reflects to the gather on, and so one less
+    const auto energy = [](const std::string& graph) {
+        return mean(Chain("white_room", "{}", graph, 24, 24).image("indirect"));
+    };
+    for (const int bounces : {1, 2, 3}) {
+        SCOPED_TRACE(bounces);
+        const double reference =
+            energy(graphYaml({fmt::format("path_trace, spp: 256, bounces: {}", bounces)}));
+        const double lights = energy(manyLights(fmt::format("vpls_per_bounce: 4096, bounces: {}", bounces),
+                                                "visibility: exact, compensation_rays: 4"));
+        const double injected = energy(
+            graphYaml({"gbuffer", "voxelize", fmt::format("inject_light_rays, bounces: {}", bounces - 1),
+                       "gather_irradiance"}));
+        std::printf("%d bounces: %.4f, %.4f, %.4f\n", bounces, reference, lights, injected);
+        EXPECT_NEAR(lights / reference, 1, 0.02);
+        EXPECT_NEAR(injected / reference, 1, 0.05);
+    }
+}
+
 std::string rsmLights(const std::string& rsm, const std::string& sample) {
     return graphYaml({"gbuffer", "voxelize", "render_rsm" + rsm, "sample_vpls, first: rsm, " + sample,
                       "gather_vpls, visibility: exact, bound: 0"});
@@ -273,9 +293,16 @@ TEST(ManyLights, RouletteSavesRaysAndKeepsTheEnergy) {
     EXPECT_LT(double(steps[1]), 0.8 * double(steps[0]));
 }
 
-TEST(ManyLights, NamesAnEpsilonWithoutItsWalk) {
-    const std::string graph = manyLights("bounces: 1", "visibility: svo, restart_epsilon: 0.1");
-    EXPECT_CONTAINS(errorOf([&] { Chain("white_room", "{}", graph); }), "'restart_epsilon' is a step of");
+TEST(ManyLights, NamesParametersWithoutEffect) {
+    const auto refused = [](const std::string& gather) {
+        return errorOf([&] { Chain("white_room", "{}", manyLights("bounces: 1", gather)); });
+    };
+    EXPECT_CONTAINS(refused("visibility: svo, restart_epsilon: 0.1"),
+                    "graph:1: gather_vpls.restart_epsilon: a step of 'visibility: svo_restart' alone");
+    EXPECT_CONTAINS(refused("visibility: exact, map_resolution: 64"),
+                    "graph:1: gather_vpls.map_resolution: virtual lights have maps with");
+    EXPECT_CONTAINS(refused("bound: 0, compensation_rays: 1"),
+                    "graph:1: gather_vpls.compensation_rays: 'bound: 0' takes nothing away");
 }
 
 TEST(ManyLights, WithoutLightAreAnError) {

@@ -47,6 +47,9 @@ TEST(SelectVpls, BringTheEnergyOfAll) {
     EXPECT_NEAR(flux / (each + 0.8 * each + 0.64 * each), 1, 0.05);
     const double all = mean(Chain("white_room", "{}", allLights("4096"), 16, 16).image("indirect"));
     EXPECT_NEAR(mean(chain.image("indirect")) / all, 1, 0.02);
+    // Whatever they are weighed by
+    Chain weighed("white_room", "{}", selectedLights("4096", "2048, bound: 8"), 16, 16);
+    EXPECT_NEAR(mean(weighed.image("indirect")) / all, 1, 0.02);
 }
 
 TEST(SelectVpls, MayBeSelectedAgain) {

@@ -102,7 +102,7 @@ void expectBruteForce(WalkedVoxels& voxels, const std::vector<Ray>& rays) {
     EXPECT_GT(hits, rays.size() / 100);
     EXPECT_GT(inGrid, hits);
 
-    for (const VoxelWalk walk : {VoxelWalk::Bricks, VoxelWalk::OctreeRestart, VoxelWalk::Octree}) {
+    for (const VoxelWalk walk : {VoxelWalk::Bricks, VoxelWalk::SvoRestart, VoxelWalk::Svo}) {
         const std::vector<WalkAnswer> others = voxels.walk(walk, rays);
         for (size_t i = 0; i < rays.size(); ++i) {
             WalkAnswer expected = answers[i];
@@ -133,7 +133,7 @@ TEST(VoxelMarch, WalksAlongTheRayThatItIsGiven) {
     // computed in floats; where both find a voxel it begins at the same place.
     WalkedVoxels voxels = sparseVoxels();
     const std::vector<Ray> rays = raysThroughGrid(voxels.grid, 200000, 4);
-    const std::vector<WalkAnswer> answers = voxels.walk(VoxelWalk::Octree, rays);
+    const std::vector<WalkAnswer> answers = voxels.walk(VoxelWalk::Svo, rays);
     const glm::dvec3 size(voxels.grid.resolution);
     size_t different = 0;
     for (size_t i = 0; i < rays.size(); ++i) {

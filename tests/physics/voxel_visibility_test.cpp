@@ -20,7 +20,7 @@ TEST(VoxelVisibility, SeesTheSameFromBothEnds) {
         ray.origin = point();
         ray.direction = 0.3f * (point() - ray.origin);
     }
-    for (const VoxelWalk walk : {VoxelWalk::Bits, VoxelWalk::Bricks, VoxelWalk::Octree}) {
+    for (const VoxelWalk walk : {VoxelWalk::Bits, VoxelWalk::Bricks, VoxelWalk::Svo}) {
         size_t seen = 0;
         for (const WalkAnswer& answer : voxels.walk(walk, pairs, 0, true)) {
             ASSERT_TRUE(answer.hit == 0 || answer.hit == 3);
@@ -35,10 +35,10 @@ TEST(VoxelVisibility, StepsByAnEpsilonSkipSlivers) {
     // Sun and Agu 2015, figure 3, line 20: the larger the epsilon, the more corners of voxels are missed.
     WalkedVoxels voxels = sparseVoxels();
     const std::vector<Ray> rays = raysThroughGrid(voxels.grid, 200000, 6);
-    const std::vector<WalkAnswer> exact = voxels.walk(VoxelWalk::OctreeRestart, rays);
+    const std::vector<WalkAnswer> exact = voxels.walk(VoxelWalk::SvoRestart, rays);
     double before = 0;
     for (const float epsilon : {1e-4f, 1e-3f, 1e-2f, 1e-1f}) {
-        const std::vector<WalkAnswer> steps = voxels.walk(VoxelWalk::OctreeRestart, rays, epsilon);
+        const std::vector<WalkAnswer> steps = voxels.walk(VoxelWalk::SvoRestart, rays, epsilon);
         size_t occlusion = 0, closest = 0;
         for (size_t i = 0; i < rays.size(); ++i) {
             occlusion += steps[i].hit != exact[i].hit;
@@ -64,7 +64,7 @@ TEST(VoxelVisibility, PassesAFullGridAndAnEmptyOne) {
             const std::vector<Ray> rays = raysThroughGrid(voxels.grid, 2000, 7);
             const std::vector<WalkAnswer> expected = voxels.walk(VoxelWalk::Bits, rays);
             for (const WalkAnswer& a : expected) ASSERT_TRUE(!full || (a.hit != 0) == (a.start.x >= 0));
-            for (const VoxelWalk walk : {VoxelWalk::Bricks, VoxelWalk::OctreeRestart, VoxelWalk::Octree}) {
+            for (const VoxelWalk walk : {VoxelWalk::Bricks, VoxelWalk::SvoRestart, VoxelWalk::Svo}) {
                 const std::vector<WalkAnswer> answers = voxels.walk(walk, rays);
                 for (size_t i = 0; i < rays.size(); ++i) {
                     ASSERT_EQ(answers[i].hit, expected[i].hit) << i;

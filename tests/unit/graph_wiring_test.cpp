@@ -8,6 +8,18 @@
 namespace voxray {
 namespace {
 
+enum class Smooth { None, Near, OverVoxels };
+
+}  // namespace
+
+template <>
+struct EnumNames<Smooth> {
+    static constexpr std::array names{std::pair{Smooth::None, "none"}, std::pair{Smooth::Near, "near"},
+                                      std::pair{Smooth::OverVoxels, "over_voxels"}};
+};
+
+namespace {
+
 struct Voxels : Resource {};
 struct Light : Resource {};
 
@@ -51,6 +63,31 @@ struct WrongType : LightVoxels {
     static constexpr const char* kName = "wrong_type";
     explicit WrongType(const Params& p) : LightVoxels(p) {}
     void declare(PassBuilder& builder) override { builder.read<Light>("voxels", "not voxels at all"); }
+};
+
+// Changes light; over voxels where it is asked to. Strength without a smoothing is refused.
+struct ChangeLight : Idle {
+    static constexpr const char* kName = "change_light";
+    static constexpr const char* kHelp = "Reads light, writes light.";
+    struct Params {
+        Smooth smooth = Smooth::None;
+        uint32_t strength = 1;
+        static constexpr auto schema() {
+            return std::tuple{field("smooth", &Params::smooth, "How."),
+                              field("strength", &Params::strength, "How much.", 1u, 9u)};
+        }
+        void check(const Value& map, const std::string& id) const {
+            if (const Value* given = map.find("strength"); given && smooth == Smooth::None)
+                throw UsageError(given->where, "{}.strength: nothing is smoothed", id);
+        }
+    };
+    explicit ChangeLight(const Params& p) : params(p) {}
+    void declare(PassBuilder& builder) override {
+        builder.read<Light>("light", "light to change");
+        if (params.smooth == Smooth::OverVoxels) builder.read<Voxels>("voxels", "where light is");
+        builder.write<Light>("light", "changed light");
+    }
+    Params params;
 };
 
 // Keeps 1 MiB, and needs more for a while.
@@ -124,6 +161,7 @@ Registry registry() {
     r.add<Blink>();
     r.add<TwoOutputs>();
     r.add<CountVoxels>();
+    r.add<ChangeLight>();
     return r;
 }
 
@@ -239,6 +277,28 @@ TEST(GraphWiring, RefusesBadGraphs) {
                     "cycle between a, b");
     EXPECT_CONTAINS(wiringError("{pass: make_voxels}"), "expected a list of passes");
     EXPECT_CONTAINS(wiringError("[gbuffer]"), "each entry is a map");
+}
+
+TEST(GraphWiring, TellsWritersThatDoNotReadWhatTheyWrite) {
+    const std::string missing = wiringError("\n- {pass: change_light}\n");
+    EXPECT_CONTAINS(missing, "these can: light_voxels, sum_up");
+    EXPECT_EQ(missing.find("change_light,"), std::string::npos);
+}
+
+TEST(GraphWiring, RefusesValuesThatDoNotGoTogether) {
+    const std::string lights = "- {pass: sum_up}\n";
+    EXPECT_CONTAINS(wiringError(lights + "- pass: change_light\n  strength: 2\n"),
+                    "g.yaml:3: change_light.strength: nothing is smoothed");
+    EXPECT_EQ(graph(lights + "- {pass: change_light, smooth: near, strength: 2}").passes().size(), 2u);
+}
+
+TEST(GraphWiring, DescribesPortsThatOnlySomeValuesAskFor) {
+    Registry registry;
+    registry.add<ChangeLight>();
+    std::string all;
+    for (const PortDoc& port : registry.require("change_light", {}).ports)
+        all += fmt::format("{}{}[{}] ", port.output ? "-> " : "", port.name, port.with);
+    EXPECT_EQ(all, "light[] -> light[] voxels[smooth: over_voxels] ");
 }
 
 TEST(GraphPlan, RefusesMoreMemoryThanThereIs) {

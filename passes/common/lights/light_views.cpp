@@ -28,9 +28,9 @@ std::vector<LightSource> requireViewpoints(const SceneState& state, const std::s
         if (source.kind != LightSource::Punctual)
             throw Error(
                 "{}: {} no single viewpoint to render a shadow map from; use {}, or point, spot and "
-                "directional lights alone",
+                "directional lights alone{}",
                 pass, source.kind == LightSource::Emitters ? "emissive surfaces have" : "an environment has",
-                instead);
+                instead, source.kind == LightSource::Environment ? " with 'scene.environment: none'" : "");
     return sources;
 }
 

@@ -39,11 +39,11 @@ struct DistancesPush {
 };
 
 bool isOctree(VoxelWalk walk) {
-    return walk == VoxelWalk::OctreeRestart || walk == VoxelWalk::Octree;
+    return walk == VoxelWalk::SvoRestart || walk == VoxelWalk::Svo;
 }
 
 bool hasDistances(VoxelWalk walk) {
-    return walk == VoxelWalk::Bricks || walk == VoxelWalk::Octree;
+    return walk == VoxelWalk::Bricks || walk == VoxelWalk::Svo;
 }
 
 /// @throws Error for voxels that no walk takes.
@@ -134,13 +134,12 @@ Defines VoxelMarch::defines() const {
             return {{"MARCH_WALK_BITS", "1"}};
         case VoxelWalk::Bricks:
             return {{"MARCH_WALK_BRICKS", "1"}};
-        case VoxelWalk::OctreeRestart:
+        case VoxelWalk::SvoRestart:
             if (epsilon_ > 0)
-                return {{"MARCH_WALK_OCTREE_RESTART", "1"},
-                        {"MARCH_EPSILON", fmt::format("{:.9e}", epsilon_)}};
-            return {{"MARCH_WALK_OCTREE_RESTART", "1"}};
-        case VoxelWalk::Octree:
-            return {{"MARCH_WALK_OCTREE", "1"}};
+                return {{"MARCH_WALK_SVO_RESTART", "1"}, {"MARCH_EPSILON", fmt::format("{:.9e}", epsilon_)}};
+            return {{"MARCH_WALK_SVO_RESTART", "1"}};
+        case VoxelWalk::Svo:
+            return {{"MARCH_WALK_SVO", "1"}};
     }
     return {};
 }
@@ -151,7 +150,7 @@ std::vector<Binding> VoxelMarch::bindings() const {
     if (isOctree(walk_)) all.push_back({"octree", octree_.header});
     if (hasDistances(walk_)) all.push_back({"voxelDistances", distances_});
     if (walk_ == VoxelWalk::Bricks) all.push_back({"voxelBricks", bricks_});
-    if (walk_ == VoxelWalk::Octree) all.push_back({"voxelNodes", octree_.nodes});
+    if (walk_ == VoxelWalk::Svo) all.push_back({"voxelNodes", octree_.nodes});
     return all;
 }
 

@@ -12,16 +12,16 @@ namespace voxray {
 
 /// How a ray finds the occupied voxels on its way. All find the same ones.
 enum class VoxelWalk {
-    Bits,           ///< Voxel by voxel over the occupancy bits.
-    Bricks,         ///< Bits by bricks of 4^3 voxels, and how far space is empty before each.
-    OctreeRestart,  ///< The octree, from its root down in each step (Sun and Agu 2015, figure 3).
-    Octree,         ///< The octree, from a level with distances on down.
+    Bits,        ///< Voxel by voxel over the occupancy bits.
+    Bricks,      ///< Bits by bricks of 4^3 voxels, and how far space is empty before each.
+    SvoRestart,  ///< The octree, from its root down in each step (Sun and Agu 2015, figure 3).
+    Svo,         ///< The octree, from a level with distances on down.
 };
 template <>
 struct EnumNames<VoxelWalk> {
     static constexpr std::array names{
         std::pair{VoxelWalk::Bits, "bits"}, std::pair{VoxelWalk::Bricks, "bricks"},
-        std::pair{VoxelWalk::OctreeRestart, "octree_restart"}, std::pair{VoxelWalk::Octree, "octree"}};
+        std::pair{VoxelWalk::SvoRestart, "svo_restart"}, std::pair{VoxelWalk::Svo, "svo"}};
 };
 
 /// What rays walk through: surface voxels and what a walk needs besides, built of them. A shader that walks
@@ -29,7 +29,7 @@ struct EnumNames<VoxelWalk> {
 /// written once for all walks. A pass calls plan() and prepare() in its own. Docs: docs/voxel-march.md.
 class VoxelMarch {
  public:
-    /// @param epsilon for OctreeRestart: steps in floats, past each node by this many voxels, as in the
+    /// @param epsilon for SvoRestart: steps in floats, past each node by this many voxels, as in the
     /// paper, which skips what is thinner; 0 steps exactly.
     explicit VoxelMarch(VoxelWalk walk, float epsilon = 0) : walk_(walk), epsilon_(epsilon) {}
 
