@@ -5,6 +5,8 @@
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/view/frame_image.h"
+#include "passes/gather_vpls/point_maps.h"
+#include "passes/gather_vpls/traced_maps.h"
 
 namespace voxray {
 namespace {
@@ -14,9 +16,12 @@ struct FinishPush {
     uint32_t block;
 };
 
+bool hasMaps(VplVisibility visibility) {
+    return visibility == VplVisibility::ShadowMap || visibility == VplVisibility::ImperfectShadowMap;
+}
+
 bool meetsVoxels(VplVisibility visibility) {
-    return visibility != VplVisibility::ShadowMap && visibility != VplVisibility::Exact &&
-           visibility != VplVisibility::None;
+    return !hasMaps(visibility) && visibility != VplVisibility::Exact && visibility != VplVisibility::None;
 }
 
 VoxelWalk walkOf(VplVisibility visibility) {
@@ -42,8 +47,10 @@ void GatherVpls::Params::check(const Value& map, const std::string& id) const {
         refuse("compensation_rays", "'bound: 0' takes nothing away that rays could bring back");
     if (restartEpsilon > 0 && visibility != VplVisibility::SvoRestart)
         refuse("restart_epsilon", "a step of 'visibility: svo_restart' alone");
-    if (map.find("map_resolution") && visibility != VplVisibility::ShadowMap)
-        refuse("map_resolution", "virtual lights have maps with 'visibility: shadow_map' alone");
+    if (map.find("map_resolution") && !hasMaps(visibility))
+        refuse("map_resolution", "only 'visibility: shadow_map' and 'imperfect_shadow_map' have maps");
+    if (map.find("map_points") && visibility != VplVisibility::ImperfectShadowMap)
+        refuse("map_points", "only maps of 'visibility: imperfect_shadow_map' are made of points");
 }
 
 void GatherVpls::declare(PassBuilder& builder) {
@@ -64,9 +71,12 @@ void GatherVpls::plan(PassPlan& plan) {
     // The disc of that area has the squared radius area / pi. Things move without changing their area
     const float minDistanceSquared = params_.bound * params_.bound * vpls.areaPerPath / glm::pi<float>();
     const bool isCompensated = params_.compensationRays > 0 && minDistanceSquared > 0;
-    light_.plan(plan,
-                {params_.block, minDistanceSquared, params_.roulette,
-                 params_.visibility == VplVisibility::ShadowMap, isCompensated},
+    if (params_.visibility == VplVisibility::ShadowMap)
+        maps_ = std::make_unique<TracedMaps>(params_.mapResolution);
+    if (params_.visibility == VplVisibility::ImperfectShadowMap)
+        maps_ = std::make_unique<PointMaps>(params_.mapResolution, params_.mapPoints);
+    if (maps_) maps_->plan(plan);
+    light_.plan(plan, {params_.block, minDistanceSquared, params_.roulette, maps_.get(), isCompensated},
                 texels, uint64_t(vpls.paths) * vpls.bounces);
     if (isCompensated)
         compensation_.emplace().plan(plan, {params_.compensationRays, vpls.bounces, minDistanceSquared},
@@ -78,8 +88,6 @@ void GatherVpls::plan(PassPlan& plan) {
     plan.buffer(noisy.moments, "moments of virtual point lights", noisy.momentsBytes(texels));
     if (FrameImage& indirect = plan.get(indirect_); indirect.isRead)
         plan.image(indirect.image, "indirect", frameImageDesc(plan.frame));
-    if (params_.visibility == VplVisibility::ShadowMap)
-        shadowMaps_.emplace().plan(plan, params_.mapResolution);
     if (voxelTracer_) voxelTracer_->plan(plan, plan.frame.scene->geometry, plan.get(voxels_));
 }
 
@@ -89,7 +97,7 @@ void GatherVpls::prepare(PassSetup& setup) {
     finish_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/gather_vpls/finish.comp"));
     sampler_ = texelSampler(setup.device);
     if (setup.get(indirect_).isRead) resolve_ = IrradianceResolve(setup);
-    if (shadowMaps_) shadowMaps_->prepare(setup);
+    if (maps_) maps_->prepare(setup);
     if (voxelTracer_) voxelTracer_->prepare(setup.device, setup.compiler);
 }
 
@@ -100,7 +108,7 @@ void GatherVpls::record(PassContext& context) {
     const NoisyIrradiance& noisy = context.get(noisy_);
     VplLight::Visibility visibility{&context.tracer};
     if (params_.visibility == VplVisibility::None) visibility.tracer = nullptr;
-    if (shadowMaps_) visibility.maps = &*shadowMaps_;
+    if (maps_) maps_->begin(context);
     if (voxelTracer_) {
         const SurfaceVoxels& voxels = context.get(voxels_);
         voxelTracer_->begin(stream, voxels);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "passes/common/filter/irradiance_resolve.h"
@@ -10,7 +11,7 @@
 namespace voxray {
 
 /// What hides a virtual point light from a surface.
-enum class VplVisibility { Svo, SvoRestart, Bricks, Bits, ShadowMap, Exact, None };
+enum class VplVisibility { Svo, SvoRestart, Bricks, Bits, ShadowMap, ImperfectShadowMap, Exact, None };
 template <>
 struct EnumNames<VplVisibility> {
     static constexpr std::array names{std::pair{VplVisibility::Svo, "svo"},
@@ -18,6 +19,7 @@ struct EnumNames<VplVisibility> {
                                       std::pair{VplVisibility::Bricks, "bricks"},
                                       std::pair{VplVisibility::Bits, "bits"},
                                       std::pair{VplVisibility::ShadowMap, "shadow_map"},
+                                      std::pair{VplVisibility::ImperfectShadowMap, "imperfect_shadow_map"},
                                       std::pair{VplVisibility::Exact, "exact"},
                                       std::pair{VplVisibility::None, "none"}};
 };
@@ -44,6 +46,7 @@ class GatherVpls final : public Pass {
         VplVisibility visibility = VplVisibility::Svo;
         float restartEpsilon = 0;
         uint32_t mapResolution = 128;
+        uint32_t mapPoints = 8192;
         static constexpr auto schema() {
             return std::tuple{
                 field("block", &Params::block,
@@ -65,19 +68,26 @@ class GatherVpls final : public Pass {
                     "count "
                     "for more by as much. Saves rays for noise; 0: each gets one that faces the texel.",
                     0.0f, 100.0f),
-                field(
-                    "visibility", &Params::visibility,
-                    "What shadow rays meet. svo, bricks, bits: surface voxels, on three walks that find the "
-                    "same ones. svo_restart: these by the paper's walk. shadow_map: what a map of each "
-                    "virtual "
-                    "light's hemisphere sees. exact: triangles. none: nothing."),
+                field("visibility", &Params::visibility,
+                      "What hides virtual lights. svo, bricks, bits: surface voxels, on three walks that "
+                      "find the same "
+                      "ones. svo_restart: these by the paper's walk. shadow_map: what a map of each virtual "
+                      "light's "
+                      "hemisphere sees, by a ray a texel. imperfect_shadow_map: the same, made of points "
+                      "(Ritschel "
+                      "et al. 2008). exact: triangles. none: nothing."),
                 field("restart_epsilon", &Params::restartEpsilon,
                       "For svo_restart: voxels by which it steps past each node, as the paper does, which "
                       "skips "
                       "what is thinner; 0 steps exactly.",
                       0.0f, 1.0f),
                 field("map_resolution", &Params::mapResolution,
-                      "For shadow_map: texels along each side of a virtual light's map.", 4u, 1024u)};
+                      "For shadow_map and imperfect_shadow_map: texels along each side of a virtual light's "
+                      "map.",
+                      4u, 1024u),
+                field("map_points", &Params::mapPoints,
+                      "For imperfect_shadow_map: points of the scene's surfaces that each map is made of.",
+                      64u, 1u << 20)};
         }
         /// @throws UsageError for a parameter that another one leaves without effect.
         void check(const Value& map, const std::string& id) const;
@@ -97,7 +107,7 @@ class GatherVpls final : public Pass {
     Port<NoisyIrradiance> noisy_;
     Port<FrameImage> indirect_;
     std::optional<VoxelTracer> voxelTracer_;
-    std::optional<VplShadowMaps> shadowMaps_;
+    std::unique_ptr<VplMaps> maps_;  ///< With shadow maps of either kind.
     VplLight light_;
     std::optional<VplCompensation> compensation_;  ///< Where something is taken away and comes back.
     Image sums_;                                   ///< Of the G-buffer's extent.

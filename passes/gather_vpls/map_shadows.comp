@@ -14,24 +14,40 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Vpls { Vpl data[]; } vpls;
 readonly buffer List { uint data[]; } list;
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
-layout(scalar) readonly buffer Hits { Hit data[]; } hits;  // Of the maps' texels.
+#ifdef POINTS
+readonly buffer Maps { float data[]; } maps;  // By texel: 1 / the depth, 1/m, in multiples of onHemisphere(); 0: nothing.
+#else
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;  // By texel.
+#endif
 writeonly buffer Occluded { uint data[]; } occluded;
 layout(push_constant, scalar) uniform Push {
     VplBatch batch;
     uint resolution;  // Texels a side.
 } push;
 
+// How far away is what a texel sees, m; false where that is nothing.
+bool distanceAt(uint map, ivec2 texel, vec3 on, out float t) {
+    const uint at = (map * push.resolution + uint(texel.y)) * push.resolution + uint(texel.x);
+#ifdef POINTS
+    t = length(on) / maps.data[at];
+    return maps.data[at] > 0.0;
+#else
+    t = hits.data[at].t;
+    return hits.data[at].triangle != NO_HIT;
+#endif
+}
+
 bool isSeen(Vpl vpl, uint map, Receiver r) {
     const ivec2 last = ivec2(push.resolution) - 1;
     const vec3 way = r.position - vpl.position;
     const ivec2 texel = clamp(ivec2(hemispherePlace(way, vpl.faceNormal) * float(push.resolution)), ivec2(0), last);
-    const Hit hit = hits.data[(map * push.resolution + uint(texel.y)) * push.resolution + uint(texel.x)];
-    if (hit.triangle == NO_HIT) return true;
-    const vec3 along = hemisphereDirection((vec2(texel) + 0.5) / float(push.resolution), vpl.faceNormal);
+    const vec3 on = onHemisphere((vec2(texel) + 0.5) / float(push.resolution), vpl.faceNormal), along = normalize(on);
+    float t;
+    if (!distanceAt(map, texel, on, t)) return true;
     const float towards = dot(along, r.faceNormal);
     // A texel's solid angle is 2 pi over their number, on average
-    const float width = hit.t * sqrt(2.0 * PI) / float(push.resolution);
-    return towards < 0.0 && hit.t + 0.5 * width >= dot(way, r.faceNormal) / towards;
+    const float width = t * sqrt(2.0 * PI) / float(push.resolution);
+    return towards < 0.0 && t + 0.5 * width >= dot(way, r.faceNormal) / towards;
 }
 
 void main() {

@@ -57,7 +57,12 @@ void VplLight::prepare(PassSetup& setup) {
         Programs all;
         if (settings_.roulette > 0) all.mean = program("mean.comp");
         all.aim = program("aim.comp");
-        if (settings_.shadowMaps) all.shadows = program("map_shadows.comp");
+        if (settings_.maps) {
+            Defines withMaps = defines;
+            withMaps.merge(settings_.maps->defines());
+            all.shadows = makeComputeProgram(
+                setup.device, setup.compiler.compile("passes/gather_vpls/map_shadows.comp", withMaps));
+        }
         all.add = program("add.comp");
         return all;
     };
@@ -93,7 +98,7 @@ void VplLight::add(PassContext& context, const Vpls& vpls, const Visibility& vis
                    const std::vector<Binding>& target) const {
     CommandStream& stream = context.stream;
     const auto maxRays = uint32_t(occluded_.bytes() / sizeof(uint32_t));
-    const VplShadowMaps* maps = visibility.maps;
+    const VplMaps* maps = settings_.maps;
     if (!visibility.tracer && !maps) stream.fill(occluded_, 0);
     std::vector<Binding> lights = receivers, adding = target;
     lights.insert(lights.end(), {{"vpls", vpls.points}, {"list", vpls.list}});
@@ -101,8 +106,7 @@ void VplLight::add(PassContext& context, const Vpls& vpls, const Visibility& vis
     aiming.insert(aiming.end(), {{"rays", rays_}, {"carried", carried_}});
     if (settings_.roulette > 0)
         for (std::vector<Binding>* bindings : {&averaging, &aiming}) bindings->emplace_back("means", means_);
-    if (maps)
-        shading.insert(shading.end(), {{"rays", rays_}, {"hits", maps->hits()}, {"occluded", occluded_}});
+    if (maps) shading.insert(shading.end(), {{"rays", rays_}, maps->binding(), {"occluded", occluded_}});
     adding.insert(adding.end(), {{"carried", carried_}, {"occluded", occluded_}});
     batch.block = settings_.block;
     batch.bounces = vpls.bounces;

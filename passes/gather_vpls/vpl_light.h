@@ -3,7 +3,7 @@
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/vpls/vpls.h"
 #include "passes/gather_vpls/gather_types.h"
-#include "passes/gather_vpls/vpl_shadow_maps.h"
+#include "passes/gather_vpls/vpl_maps.h"
 #include "shaders/voxels/voxel_types.h"
 
 namespace voxray {
@@ -21,16 +21,15 @@ class VplLight {
     struct Settings {
         uint32_t block;            ///< Subsets are its square.
         float minDistanceSquared;  ///< m²: the bound.
-        float roulette;   ///< Times what a subset's lights bring on average; those below are looked at by
-                          ///< chance. 0: at all.
-        bool shadowMaps;  ///< Whether `maps` of Visibility are used.
-        bool surfels;     ///< Whether addToSurfels() is.
+        float roulette;       ///< Times what a subset's lights bring on average; those below are looked at by
+                              ///< chance. 0: at all.
+        const VplMaps* maps;  ///< What hides lights, in place of shadow rays; null: these do.
+        bool surfels;         ///< Whether addToSurfels() is called.
     };
     /// What the shadow rays of one run meet.
     struct Visibility {
-        RayTracer* tracer;                    ///< Null: nothing hides anything.
-        gpu::VoxelGrid grid{};                ///< Of the voxels; of size 0 where they meet triangles.
-        const VplShadowMaps* maps = nullptr;  ///< In place of the tracer, where not null.
+        RayTracer* tracer;      ///< Null: nothing hides anything. Not used where there are maps.
+        gpu::VoxelGrid grid{};  ///< Of the voxels; of size 0 where they meet triangles.
     };
 
     /// @param texels of the G-buffer. @param maxVpls at most.

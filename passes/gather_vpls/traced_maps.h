@@ -1,0 +1,23 @@
+#pragma once
+
+#include "passes/gather_vpls/vpl_maps.h"
+
+namespace voxray {
+
+/// Maps by a ray a texel: what shadow rays through voxels replace in Sun and Agu 2015.
+class TracedMaps final : public VplMaps {
+ public:
+    using VplMaps::VplMaps;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void begin(PassContext&) override {}
+    void draw(PassContext& context, const Vpls& vpls, uint32_t first, uint32_t count) const override;
+    Defines defines() const override { return {}; }
+    Binding binding() const override { return {"hits", hits_}; }
+
+ private:
+    Program aim_;
+    Buffer rays_, hits_;  ///< By virtual light, row and column.
+};
+
+}  // namespace voxray
