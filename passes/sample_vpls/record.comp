@@ -1,8 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Leaves a virtual point light where each ray hit, then turns the ray into its next bounce.
+// Leaves a virtual point light where each ray hit, then turns the ray into its next bounce. With VOXEL_HITS rays hit surface voxels, and
+// with VOXEL_NEXT those that go on will.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/light_paths/light_bounce.glsl"
+#ifdef VOXEL_NEXT
+#include "passes/sample_vpls/voxel_bounce.glsl"
+#endif
+#include "shaders/voxels/voxel_types.h"
 #include "shaders/vpls/vpl_types.h"
 layout(local_size_x = 64) in;
 
@@ -13,12 +18,25 @@ readonly buffer Order { uint data[]; } order;  // The place of each path among t
 layout(scalar) writeonly buffer Vpls { Vpl data[]; } vpls;
 buffer Flags { uint words[]; } flags;
 layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;  // That rays of further bounces meet voxels of; not read where they meet triangles.
     uint paths;
     uint firstPath;  // Of the source.
     uint seed;
     uint bounce;
     uint bounces;
 } push;
+
+// False where the ray hit a triangle without area.
+bool pointAtHit(Ray ray, Hit hit, out LitPoint p) {
+#ifdef VOXEL_HITS
+    p = litVoxel(hit.triangle, ray.origin + hit.t * ray.direction, ray.direction);
+#else
+    const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
+    if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return false;
+    p = litPoint(s, ray.direction);
+#endif
+    return true;
+}
 
 void main() {
     const uint i = linearIndex();
@@ -30,19 +48,20 @@ void main() {
     if (hit.triangle == NO_HIT) return;
 
     // The point reflects what its ray carries
-    const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
-    if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return;
-    const vec3 faceNormal = litSide(s, ray.direction);
-    const GpuMaterial m = sceneMaterials.data[s.material];
+    LitPoint p;
+    if (!pointAtHit(ray, hit, p)) return;
     LightPath path = paths.data[i];
-    const vec3 flux = path.power * litAlbedo(m, s);
+    const vec3 flux = path.power * p.albedo;
     if (any(greaterThan(flux, vec3(0.0)))) {
         const uint number = order.data[push.firstPath + i] * push.bounces + push.bounce;
-        vpls.data[number] = Vpl(s.position, litNormal(m, s, faceNormal), faceNormal, flux);
+        vpls.data[number] = Vpl(p.position, p.normal, p.faceNormal, flux);
         atomicOr(flags.words[number / 32u], 1u << (number % 32u));
     }
     if (push.bounce + 1u == push.bounces) return;
-    if (!bounceLightRay(s, faceNormal, false, i, hashCombine(push.seed, 16u + 2u * push.bounce), ray, path)) return;
+    if (!bounceLightRay(p, false, i, hashCombine(push.seed, 16u + 2u * push.bounce), ray, path)) return;
+#ifdef VOXEL_NEXT
+    ray.origin = beginInVoxels(push.grid, p.position, p.faceNormal, ray.direction);
+#endif
     paths.data[i] = path;
     rays.data[i] = ray;
 }

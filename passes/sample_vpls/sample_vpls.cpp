@@ -13,6 +13,7 @@ namespace voxray {
 namespace {
 
 struct RecordPush {
+    gpu::VoxelGrid grid;
     uint32_t paths;
     uint32_t firstPath;
     uint32_t seed;
@@ -46,6 +47,10 @@ std::vector<uint32_t> orderOfPaths(const std::vector<uint32_t>& pathsOf) {
 
 void SampleVpls::declare(PassBuilder& builder) {
     if (params_.first == FirstVertices::Rsm) rsm_ = builder.read<Rsm>("rsm", "what lights see");
+    if (params_.bounce == VplBounce::Svo) {
+        voxels_ = builder.read<SurfaceVoxels>("voxels", "what rays of further bounces meet");
+        voxelTracer_.emplace(VoxelWalk::Svo);
+    }
     vpls_ = builder.write<Vpls>("vpls", "virtual point lights");
 }
 
@@ -67,6 +72,7 @@ void SampleVpls::plan(PassPlan& plan) {
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
     plan.scratchBuffer(paths_, "light paths", batch * sizeof(gpu::LightPath));
     if (params_.first == FirstVertices::Rsm) rsmSampling_.plan(plan, plan.get(rsm_));
+    if (voxelTracer_) voxelTracer_->plan(plan, plan.frame.scene->geometry, plan.get(voxels_));
 }
 
 void SampleVpls::prepare(PassSetup& setup) {
@@ -74,7 +80,17 @@ void SampleVpls::prepare(PassSetup& setup) {
         rsmSampling_.prepare(setup);
     else
         emission_.prepare(setup);
-    record_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/sample_vpls/record.comp"));
+    const auto recordProgram = [&](const Defines& defines) {
+        return makeComputeProgram(setup.device,
+                                  setup.compiler.compile("passes/sample_vpls/record.comp", defines));
+    };
+    if (voxelTracer_) {
+        voxelTracer_->prepare(setup.device, setup.compiler);
+        record_ = recordProgram({{"VOXEL_NEXT", "1"}});
+        recordVoxels_ = recordProgram({{"VOXEL_HITS", "1"}, {"VOXEL_NEXT", "1"}});
+    } else {
+        record_ = recordProgram({});
+    }
     const std::vector<uint32_t> order = orderOfPaths(pathsOf_);
     setup.stream.upload(order_, std::as_bytes(std::span(order)));
     compaction_.emplace(setup.device, setup.compiler);
@@ -88,6 +104,17 @@ void SampleVpls::record(PassContext& context) {
         throw Error("{}: a light's power became 0, or ceased to be, after the first frame", kName);
     stream.fill(flags_, 0);
     stream.fill(vpls.points, 0);
+    RayTracer* furtherTracer = &context.tracer;
+    std::vector<Binding> ofVoxels;
+    gpu::VoxelGrid grid{};
+    if (voxelTracer_) {
+        const SurfaceVoxels& voxels = context.get(voxels_);
+        voxelTracer_->begin(stream, voxels);
+        furtherTracer = &*voxelTracer_;
+        ofVoxels = voxels.bindings({});
+        grid = voxels.grid;
+    }
+    const uint64_t voxelRaysBefore = voxelTracer_ ? voxelTracer_->raysTraced() : 0;
 
     // The paths of each light, hit after hit
     uint32_t firstPath = 0;
@@ -100,17 +127,26 @@ void SampleVpls::record(PassContext& context) {
         else
             emission_.emit(context, sources[s], {seed, paths, 0, paths}, rays_, paths_);
         for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {
-            if (bounce > 0 || !areHitsKnown) context.tracer.closestHit(stream, rays_, hits_, paths);
-            stream.dispatch(record_,
-                            context.scene.bindings({{"rays", rays_},
-                                                    {"hits", hits_},
-                                                    {"paths", paths_},
-                                                    {"order", order_},
-                                                    {"vpls", vpls.points},
-                                                    {"flags", flags_}}),
-                            RecordPush{paths, firstPath, seed, bounce, params_.bounces}, linearGroups(paths));
+            if (bounce > 0)
+                furtherTracer->closestHit(stream, rays_, hits_, paths);
+            else if (!areHitsKnown)
+                context.tracer.closestHit(stream, rays_, hits_, paths);
+            std::vector<Binding> bindings = context.scene.bindings({{"rays", rays_},
+                                                                    {"hits", hits_},
+                                                                    {"paths", paths_},
+                                                                    {"order", order_},
+                                                                    {"vpls", vpls.points},
+                                                                    {"flags", flags_}});
+            bindings.insert(bindings.end(), ofVoxels.begin(), ofVoxels.end());
+            stream.dispatch(bounce > 0 && voxelTracer_ ? recordVoxels_ : record_, bindings,
+                            RecordPush{grid, paths, firstPath, seed, bounce, params_.bounces},
+                            linearGroups(paths));
         }
         firstPath += paths;
+    }
+    if (voxelTracer_) {
+        context.extraRays += voxelTracer_->raysTraced() - voxelRaysBefore;
+        context.voxelCounts.push_back(&voxelTracer_->march().counts());
     }
     vpls.count = compaction_->run(stream, flags_, vpls.list, uint32_t(flags_.bytes() / sizeof(uint32_t)));
     context.report("vpls", vpls.count);

@@ -20,24 +20,37 @@ vec3 litNormal(GpuMaterial m, SurfacePoint s, vec3 faceNormal) {
 
 vec3 litAlbedo(GpuMaterial m, SurfacePoint s) { return clamp(diffuseAlbedo(m, s, 0.0), 0.0, 1.0); }
 
-// Takes a ray on from where it hit, on the side of `faceNormal`, as a mirror that takes its albedo off would, or distributed by
-// cosine. False where it ends there: by Russian roulette by albedo, which keeps the power of surviving rays level, or below the
-// surface. `index`: the ray's number among those of one seed. `seed`: another one for each bounce.
-bool bounceLightRay(SurfacePoint s, vec3 faceNormal, bool mirror, uint index, uint seed, inout Ray ray, inout LightPath path) {
+// A point that a ray of light hit, on the side that it came from.
+struct LitPoint {
+    vec3 position;    // m
+    vec3 normal;      // Unit length: the shading normal, which light is reflected about.
+    vec3 faceNormal;  // Unit length: the triangle's, on the same side.
+    vec3 albedo;
+};
+
+// The point of a triangle with area, as the ray sees it.
+LitPoint litPoint(SurfacePoint s, vec3 direction) {
     const GpuMaterial m = sceneMaterials.data[s.material];
-    const vec3 albedo = litAlbedo(m, s), normal = litNormal(m, s, faceNormal);
+    const vec3 faceNormal = litSide(s, direction);
+    return LitPoint(s.position, litNormal(m, s, faceNormal), faceNormal, litAlbedo(m, s));
+}
+
+// Takes a ray on from where it hit, as a mirror that takes its albedo off would, or distributed by cosine. False where it ends there:
+// by Russian roulette by albedo, which keeps the power of surviving rays level, or below the surface. `index`: the ray's number among
+// those of one seed. `seed`: another one for each bounce.
+bool bounceLightRay(LitPoint p, bool mirror, uint index, uint seed, inout Ray ray, inout LightPath path) {
     vec3 direction;
     if (mirror) {
-        direction = reflect(ray.direction, normal);
-        path.power *= albedo;
+        direction = reflect(ray.direction, p.normal);
+        path.power *= p.albedo;
     } else {
-        const float chance = survival(albedo);
+        const float chance = survival(p.albedo);
         if (sobol2(index, hashCombine(seed, 1u)).x >= chance) return false;
-        direction = cosineDirection(sobol2(index, seed), normal);
-        path.power *= albedo / chance;
+        direction = cosineDirection(sobol2(index, seed), p.normal);
+        path.power *= p.albedo / chance;
     }
-    if (dot(direction, faceNormal) <= 0.0) return false;
-    ray = Ray(s.position + faceNormal * surfaceOffset(s.position), 0.0, direction, 1.0e30);
+    if (dot(direction, p.faceNormal) <= 0.0) return false;
+    ray = Ray(p.position + p.faceNormal * surfaceOffset(p.position), 0.0, direction, 1.0e30);
     return true;
 }
 

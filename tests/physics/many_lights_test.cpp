@@ -40,6 +40,48 @@ TEST(ManyLights, ReflectAllLightOfAClosedRoom) {
     EXPECT_NEAR(flux[2] / kPi, 1, 0.04);
 }
 
+TEST(ManyLights, BouncesThroughVoxelsKeepTheFluxOfAClosedRoom) {
+    // No ray is lost: each that goes on meets a voxel of a wall. And what is lit stands before the walls
+    Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
+                manyLights("vpls_per_bounce: 8192, bounce: svo", "visibility: none, block: 16"), 4, 4);
+    const auto points = chain.read<gpu::Vpl>(vpls(chain).points);
+    const auto list = chain.read<uint32_t>(vpls(chain).list);
+    std::vector<double> flux(3);
+    for (uint32_t i = 0; i < vpls(chain).count; ++i) {
+        const gpu::Vpl& vpl = points.at(list[i]);
+        flux.at(list[i] % 3) += vpl.flux.y;
+        ASSERT_NEAR(glm::length(vpl.normal), 1, 1e-4);
+        // Half a voxel is 3 cm wide
+        for (int axis = 0; axis < 3; ++axis) ASSERT_LE(std::abs(vpl.position[axis]), 1.001) << i;
+    }
+    std::printf("flux over that of the bounce: %.4f, %.4f, %.4f\n", flux[0] / (4 * kPi), flux[1] / (2 * kPi),
+                flux[2] / kPi);
+    EXPECT_NEAR(flux[0] / (4 * kPi), 1, 1e-5);
+    EXPECT_NEAR(flux[1] / (2 * kPi), 1, 0.02);
+    EXPECT_NEAR(flux[2] / kPi, 1, 0.04);
+}
+
+TEST(ManyLights, BouncesThroughVoxelsComeNearToExactOnes) {
+    // Light of further bounces in the mean of the image, by the voxels along the room
+    const auto energy = [](const std::string& voxels, const std::string& sample) {
+        return mean(Chain("cornell", "{lights: point}",
+                          graphYaml({"gbuffer", "voxelize, resolution: " + voxels,
+                                     "sample_vpls, vpls_per_bounce: 8192, " + sample,
+                                     "gather_vpls, visibility: exact"}))
+                        .image("indirect"));
+    };
+    const double one = energy("32", "bounces: 1"), exact = energy("32", "bounces: 3") - one;
+    double before = 1;
+    for (const char* voxels : {"32", "128"}) {
+        const double off = std::abs((energy(voxels, "bounces: 3, bounce: svo") - one) / exact - 1);
+        std::printf("%s voxels: second and third bounces off by %.4f\n", voxels, off);
+        EXPECT_LT(off, before);
+        before = off;
+    }
+    // Rays along edges of the room meet the other wall's voxels, in proportion to their size
+    EXPECT_LT(before, 0.04);
+}
+
 TEST(ManyLights, KeepTheEnergyOfAFurnace) {
     // Every surface emits 1 and reflects 0.6. What emitters send to what the camera sees is direct light;
     // three bounces on the way bring 0.36 + 0.216 + 0.1296
@@ -83,6 +125,31 @@ TEST(ManyLights, ShadowMapsComeNearToExactShadows) {
     EXPECT_LT(before, 0.007);
 }
 
+TEST(ManyLights, ImperfectShadowMapsComeNearToExactShadowsWithMorePoints) {
+    // As above; points that are far apart leave holes
+    const auto image = [](const std::string& visibility) {
+        return indirect("cornell", "{lights: point}",
+                        manyLights("vpls_per_bounce: 256", "block: 1, visibility: " + visibility));
+    };
+    const std::vector<float> exact = image("exact");
+    double before = 0.2;
+    for (const int points : {512, 4096, 32768}) {
+        const std::vector<float> map =
+            image(fmt::format("imperfect_shadow_map, map_resolution: 64, map_points: {}", points));
+        double difference = 0, all = 0;
+        for (size_t i = 0; i < exact.size(); ++i) {
+            difference += std::abs(map[i] - exact[i]);
+            all += exact[i];
+        }
+        std::printf("maps of %d points: %.4f\n", points, difference / all);
+        EXPECT_LT(difference / all, 0.8 * before);
+        before = difference / all;
+    }
+    EXPECT_LT(before, 0.02);
+    const std::string same = "imperfect_shadow_map, map_resolution: 64, map_points: 4096";
+    EXPECT_EQ(image(same), image(same));
+}
+
 TEST(ManyLights, ShadowMapsOfAnEmptyRoomHideNothingButAtEdges) {
     // Walls are at a distance of 1 m from the center, texels at most 13 cm wide. A few virtual lights are
     // next to edges themselves
@@ -90,18 +157,22 @@ TEST(ManyLights, ShadowMapsOfAnEmptyRoomHideNothingButAtEdges) {
         return Chain("white_room", "{}",
                      manyLights("vpls_per_bounce: 256", "block: 1, visibility: " + visibility));
     };
-    Chain map = chain("shadow_map, map_resolution: 64");
-    const std::vector<float> shaded = map.image("indirect").data, open = chain("none").image("indirect").data;
-    const auto positions = map.readImage<glm::vec4>(map.graph().resource<GBuffer>("gbuffer")->position);
-    size_t inside = 0;
-    for (size_t i = 0; i < positions.size(); ++i) {
-        glm::vec3 off = 1.0f - glm::abs(glm::vec3(positions[i]));
-        if (off.x > off.y) std::swap(off.x, off.y);
-        if (std::min(std::max(off.x, off.y), off.z) < 0.2f) continue;
-        ++inside;
-        ASSERT_NEAR(shaded[3 * i], open[3 * i], 0.01 * open[3 * i]) << i;
+    const std::vector<float> open = chain("none").image("indirect").data;
+    for (const std::string kind : {"shadow_map", "imperfect_shadow_map"}) {
+        SCOPED_TRACE(kind);
+        Chain map = chain(kind + ", map_resolution: 64");
+        const std::vector<float> shaded = map.image("indirect").data;
+        const auto positions = map.readImage<glm::vec4>(map.graph().resource<GBuffer>("gbuffer")->position);
+        size_t inside = 0;
+        for (size_t i = 0; i < positions.size(); ++i) {
+            glm::vec3 off = 1.0f - glm::abs(glm::vec3(positions[i]));
+            if (off.x > off.y) std::swap(off.x, off.y);
+            if (std::min(std::max(off.x, off.y), off.z) < 0.2f) continue;
+            ++inside;
+            ASSERT_NEAR(shaded[3 * i], open[3 * i], 0.01 * open[3 * i]) << i;
+        }
+        EXPECT_GT(inside, 400u);
     }
-    EXPECT_GT(inside, 400u);
 }
 
 TEST(ManyLights, AreLinearInLightAndDeterministic) {
@@ -173,22 +244,29 @@ TEST(ManyLights, CompensationCountsBouncesAsVirtualLightsDo) {
 }
 
 TEST(ManyLights, BouncesAreThoseOfTheReference) {
-    // Injection counts from the surface that reflects to the gather on, and so one less
-    const auto energy = [](const std::string& graph) {
-        return mean(Chain("white_room", "{}", graph, 24, 24).image("indirect"));
+    // An injection's count up to the surface that reflects: what reads them there needs as many, and what
+    // gathers one less
+    const std::string gbuffer = "gbuffer, samples_per_pixel_edge: 2";
+    const auto energy = [](const std::vector<std::string>& graph) {
+        return mean(Chain("white_room", "{}", graphYaml(graph), 24, 24).image("indirect"));
     };
     for (const int bounces : {1, 2, 3}) {
         SCOPED_TRACE(bounces);
-        const double reference =
-            energy(graphYaml({fmt::format("path_trace, spp: 256, bounces: {}", bounces)}));
-        const double lights = energy(manyLights(fmt::format("vpls_per_bounce: 4096, bounces: {}", bounces),
-                                                "visibility: exact, compensation_rays: 4"));
-        const double injected = energy(
-            graphYaml({"gbuffer", "voxelize", fmt::format("inject_light_rays, bounces: {}", bounces - 1),
-                       "gather_irradiance"}));
-        std::printf("%d bounces: %.4f, %.4f, %.4f\n", bounces, reference, lights, injected);
+        const auto with = [](const std::string& pass, int of) {
+            return fmt::format("{}, bounces: {}", pass, of);
+        };
+        const double reference = energy({with("path_trace, spp: 256", bounces)});
+        const double lights = energy({gbuffer, with("sample_vpls, vpls_per_bounce: 4096", bounces),
+                                      "gather_vpls, visibility: exact, compensation_rays: 4"});
+        const double read =
+            energy({gbuffer, "voxelize", with("inject_light_rays", bounces), "gather_irradiance"});
+        const double gathered = energy({gbuffer, "voxelize", with("inject_light_rays", bounces - 1),
+                                        "trace_gather_rays", "gather_rays"});
+        std::printf("%d bounces: %.4f, %.4f, %.4f, %.4f\n", bounces, reference, lights, read, gathered);
         EXPECT_NEAR(lights / reference, 1, 0.02);
-        EXPECT_NEAR(injected / reference, 1, 0.05);
+        EXPECT_NEAR(read / reference, 1, 0.02);
+        // Paths from hits next to the surface bring more bounces
+        EXPECT_NEAR(gathered / reference, 1, 0.05);
     }
 }
 
@@ -300,7 +378,9 @@ TEST(ManyLights, NamesParametersWithoutEffect) {
     EXPECT_CONTAINS(refused("visibility: svo, restart_epsilon: 0.1"),
                     "graph:1: gather_vpls.restart_epsilon: a step of 'visibility: svo_restart' alone");
     EXPECT_CONTAINS(refused("visibility: exact, map_resolution: 64"),
-                    "graph:1: gather_vpls.map_resolution: virtual lights have maps with");
+                    "graph:1: gather_vpls.map_resolution: only 'visibility: shadow_map' and");
+    EXPECT_CONTAINS(refused("visibility: shadow_map, map_points: 64"),
+                    "graph:1: gather_vpls.map_points: only maps of 'visibility: imperfect_shadow_map'");
     EXPECT_CONTAINS(refused("bound: 0, compensation_rays: 1"),
                     "graph:1: gather_vpls.compensation_rays: 'bound: 0' takes nothing away");
 }

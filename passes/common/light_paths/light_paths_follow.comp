@@ -39,25 +39,25 @@ void main() {
     // Deposit on the side that the ray came from, if open space lies before it, as voxelization counts its area.
     const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
     if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return;
-    const vec3 normal = litSide(s, ray.direction);
+    const LitPoint lit = litPoint(s, ray.direction);
     LightPath path = paths.data[i];
     path.travelled += hit.t;
     if (hidden.data[i] == 0u) {
         const uint voxel = nearestVoxel(push.grid, s.position);
         if (voxel != NO_VOXEL) {
 #ifdef FLUX
-            addFlux(voxel, normal, path.power, push.scale);
+            addFlux(voxel, lit.faceNormal, path.power, push.scale);
 #else
             // Irradiance: the beam's power over its cross-section, times the cosine.
             const float crossSection = path.area + path.solidAngle * path.travelled * path.travelled;
-            const vec3 irradiance = path.power * (-dot(normal, ray.direction) / max(crossSection, 1e-20));
-            writeIrradiance(voxel, normal, irradiance, 1.0, push.scale);
+            const vec3 irradiance = path.power * (-dot(lit.faceNormal, ray.direction) / max(crossSection, 1e-20));
+            writeIrradiance(voxel, lit.faceNormal, irradiance, 1.0, push.scale);
 #endif
         }
     }
     if (push.bounce == push.lastBounce) return;
 
-    if (!bounceLightRay(s, normal, mirror, push.firstRay + i, hashCombine(push.seed, 16u + 2u * push.bounce), ray, path)) return;
+    if (!bounceLightRay(lit, mirror, push.firstRay + i, hashCombine(push.seed, 16u + 2u * push.bounce), ray, path)) return;
     paths.data[i] = path;
     rays.data[i] = ray;
 }
