@@ -16,7 +16,7 @@ class PointMaps final : public VplMaps {
     PointMaps(uint32_t resolution, uint32_t points) : VplMaps(resolution), points_(points) {}
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;
-    /// Spreads the points, where surfaces have moved anew.
+    /// Spreads the points, again where surfaces have moved.
     void begin(PassContext& context) override;
     void draw(PassContext& context, const Vpls& vpls, uint32_t first, uint32_t count) const override;
     Defines defines() const override { return {{"POINTS", "1"}}; }
