@@ -100,8 +100,17 @@ MeasureSettings readMeasure(const Value& map) {
 void checkSweep(const Value& sweep) {
     if (!sweep.isMap()) throw UsageError(sweep.where, "sweep: expected a map of lists");
     for (const auto& [path, values] : sweep.members)
-        if (!values.isList() || values.items.empty())
-            throw UsageError(values.where, "sweep.{}: expected a list of values, as in [64, 128]", path);
+        if (values.items.empty() && values.members.empty())
+            throw UsageError(
+                values.where,
+                "sweep.{}: expected a list of values, as in [64, 128], or a map of names and values", path);
+    // A map of names, not one value that is a map
+    for (const auto& [path, values] : sweep.members)
+        for (const char* key : {"pass", "builtin", "file"})
+            if (values.find(key))
+                throw UsageError(values.where,
+                                 "sweep.{}: '{}' is part of a value: write it in a list, as in [{}]", path,
+                                 key, values.text());
 }
 
 void checkTopLevel(const Value& config) {

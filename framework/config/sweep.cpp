@@ -45,6 +45,12 @@ std::string fileSafe(const std::string& text) {
     return safe;
 }
 
+std::vector<std::string> keysOf(const Value& map) {
+    std::vector<std::string> keys;
+    for (const auto& member : map.members) keys.push_back(member.key);
+    return keys;
+}
+
 std::vector<Axis> readAxes(const Value& sweep) {
     std::vector<Axis> axes;
     std::map<std::string, int> labels;
@@ -53,7 +59,8 @@ std::vector<Axis> readAxes(const Value& sweep) {
         const size_t dot = path.rfind('.');
         const std::string label = dot == std::string::npos ? path : path.substr(dot + 1);
         ++labels[label];
-        axes.push_back({path, label, list.items, valueLabels(list.items)});
+        axes.push_back({path, label, sweepValues(list), {}});
+        axes.back().texts = list.isMap() ? keysOf(list) : valueLabels(list.items);
         const std::set<std::string> unique(axes.back().texts.begin(), axes.back().texts.end());
         if (unique.size() != axes.back().texts.size())
             throw UsageError(list.where, "sweep.{}: a value appears twice", path);
@@ -98,6 +105,12 @@ std::vector<std::string> sweepKeys(const Experiment& experiment) {
     std::vector<std::string> keys;
     for (const auto& member : experiment.sweep.members) keys.push_back(member.key);
     return keys;
+}
+
+std::vector<Value> sweepValues(const Value& axis) {
+    std::vector<Value> values = axis.items;
+    for (const auto& member : axis.members) values.push_back(member.value);
+    return values;
 }
 
 std::vector<Variant> expandSweep(const Experiment& experiment) {

@@ -18,6 +18,9 @@ struct Variant {
 /// The axes, in the file's order.
 std::vector<std::string> sweepKeys(const Experiment& experiment);
 
+/// The values of an axis, which is a list of values, or a map that gives each value a name.
+std::vector<Value> sweepValues(const Value& axis);
+
 /// Every combination of the sweep's values; the last axis runs fastest. One variant, "default", without a
 /// sweep. Where a pass stands in the graphs of some variants alone, as one of a chain, a parameter of it
 /// varies these; each of the others comes once, with "-" in place of the value. An axis is

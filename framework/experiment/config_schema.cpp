@@ -187,11 +187,13 @@ Value configJsonSchema(const Registry& registry) {
     properties.set("measure", mapSchema(describeParams<MeasureSettings>(), metrics));
     properties.set("graph", object({{"type", text("array")}, {"items", pass}, {"minItems", literal("1")}}));
     properties.set("reference", anyOf({object({{"type", text("null")}}), pass}));
-    properties.set(
-        "sweep",
-        object({{"type", text("object")},
-                {"additionalProperties", object({{"type", text("array")}, {"minItems", literal("1")}})},
-                {"description", text("Path: list of values; all combinations are rendered.")}}));
+    properties.set("sweep",
+                   object({{"type", text("object")},
+                           {"additionalProperties",
+                            anyOf({object({{"type", text("array")}, {"minItems", literal("1")}}),
+                                   object({{"type", text("object")}, {"minProperties", literal("1")}})})},
+                           {"description",
+                            text("Path: values, or names with values; all combinations are rendered.")}}));
     properties.set("profiles", object({{"type", text("object")},
                                        {"additionalProperties", object({{"type", text("object")}})},
                                        {"description", text("Name: overrides that --profile applies.")}}));

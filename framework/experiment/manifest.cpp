@@ -133,6 +133,7 @@ std::string manifestJson(const ManifestData& data) {
     json["variants"] = Json::object();
     for (const auto& [name, graph] : data.graphs) json["variants"][name] = Json::parse(graph.json());
     json["warnings"] = data.warnings;
+    json["notes"] = data.notes;
     json["versions"] = {{"voxray", data.version}, {"driver", data.device.driver}, {"compiler", __VERSION__}};
     json["machine"] = {{"cpu", cpuName()}, {"cores", std::thread::hardware_concurrency()}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

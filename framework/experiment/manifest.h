@@ -39,7 +39,8 @@ struct ManifestData {
     std::string started, finished;  ///< UTC, ISO 8601; `finished` is empty until the run is.
     std::vector<ReferenceRecord> references;
     std::map<std::string, std::string> referenceHashes;  ///< Variant -> its reference's hash.
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings;                   ///< What may make a result misleading.
+    std::vector<std::string> notes;                      ///< What a reader may want to know besides.
 };
 
 /// @return the text of manifest.json.

@@ -10,6 +10,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from report.ranking import pareto_front
 from report.load import BASELINES, LIGHTS, Metric, Results, interval_of
+from report.names import Names
 from report.style import Style
 from report.svg import FONT_SIZE, STAND_INS, drawing, to_svg
 
@@ -39,12 +40,14 @@ class Chart:
 
 
 def cost_error_chart(results: Results, metric: Metric, light: str, with_build: bool, styles: dict[str, Style],
-                     labels: dict[str, str], anchors: dict[str, str], chart_id: str) -> Chart | None:
+                     labels: dict[str, str], anchors: dict[str, str], chart_id: str,
+                     curves: list[list[str]], names: Names) -> Chart | None:
     """Draws time against one error on two log axes, the Pareto front, and, if all variants have one reference,
     its own noise and what a black and a constant image score. None where no variant has both numbers above zero.
 
     @param with_build Adds the build's time to the frame's.
     @param labels, anchors For each variant, the text at its point and the id that its point links to.
+    @param curves Variants that a line joins.
     """
     column = LIGHTS[light] + metric.key
     points, not_drawn = _points(results, column, with_build, labels, anchors)
@@ -64,9 +67,10 @@ def cost_error_chart(results: Results, metric: Metric, light: str, with_build: b
         axes.set_xlabel(f"time of {time}, ms (median; left is faster)")
         axes.set_ylabel(f"{metric.label}, {light} light (lower is better)")
         _draw_levels(axes, levels)
+        _draw_curves(axes, points, curves, styles)
         front = _draw_points(axes, points, styles, chart_id)
         _place_labels(axes, points, front, levels)
-        titles = [f"{p.name}: {p.cost:.3g} ms, {p.error:.3g}" for p in points]
+        titles = [f"{names.full(p.name)}: {p.cost:.3g} ms, {p.error:.3g}" for p in points]
         svg = to_svg(figure, chart_id, caption, titles)
     return Chart(svg, caption, not_drawn)
 
@@ -114,6 +118,13 @@ def _draw_levels(axes, levels) -> None:
         axes.annotate(name, (0.995, value), (0, 2), xycoords=("axes fraction", "data"), ha="right",
                       va="bottom", textcoords="offset points", color=STAND_INS["muted"],
                       fontsize=FONT_SIZE - 1)
+
+
+def _draw_curves(axes, points: list[Point], curves: list[list[str]], styles: dict[str, Style]) -> None:
+    for curve in curves:
+        own = sorted((p.cost, p.error) for p in points if p.name in curve)
+        if own:
+            axes.plot(*zip(*own), color=STAND_INS[styles[curve[0]].color], linewidth=1.0, alpha=0.6)
 
 
 def _draw_points(axes, points: list[Point], styles: dict[str, Style], chart_id: str) -> list[Point]:

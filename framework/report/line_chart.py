@@ -7,11 +7,12 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from report import text
+from report.names import Names
 from report.style import Style
 from report.svg import STAND_INS, drawing, to_svg
 
 
-def line_chart(rows: pd.DataFrame, column: str, caption: str, styles: dict[str, Style], numbers: dict[str, str],
+def line_chart(rows: pd.DataFrame, column: str, caption: str, styles: dict[str, Style], names: Names,
                chart_id: str) -> str:
     """A line a variant over frames. `rows` has the columns variant, frame and `column`."""
     with drawing():
@@ -24,7 +25,7 @@ def line_chart(rows: pd.DataFrame, column: str, caption: str, styles: dict[str, 
             line = axes.plot(own["frame"], own[column], color=STAND_INS[style.color], linewidth=1.2,
                              marker=style.marker, markersize=4)[0]
             line.set_gid(f"{chart_id}-point-{i}")
-            titles.append(f"{numbers[variant]} {variant}: {text.figures(own[column].mean())} on average")
+            titles.append(f"{names.full(variant)}: {text.figures(own[column].mean())} on average")
         axes.set_ylim(bottom=min(0.0, rows[column].min()))
         axes.set_xlabel("measured frame")
         axes.set_ylabel(caption)

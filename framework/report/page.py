@@ -10,30 +10,17 @@ from pathlib import Path
 import jinja2
 import pandas as pd
 
-from report import charts, images, parts, ranking, style, table, text, values
-from report.load import IMAGES, ReportError, Results, section
+from report import bars, charts, images, parts, style, table, text, values
+from report.load import IMAGES, LIGHTS, ReportError, Results, section
+from report.names import families_of, names_of
+from report.setting import setting_of
+from report.summary import summary
 
 _HERE = Path(__file__).parent
 _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's row numbers
 _MAX_NAMED_POINTS = 12
 # Of the manifest:
 _SHOWN_ELSEWHERE = ("config", "metrics", "temporal_metrics", "warnings", "baselines", "reference", "references", "variants")
-
-
-@dataclass(frozen=True)
-class Segment:
-    color: str
-    percent: float
-    title: str
-
-
-@dataclass(frozen=True)
-class Bar:
-    number: str
-    name: str
-    anchor: str
-    total: str
-    segments: list[Segment]
 
 
 @dataclass(frozen=True)
@@ -46,9 +33,22 @@ class View:
 
 
 @dataclass(frozen=True)
+class Thumbnail:
+    """A small copy of an image that the page shows elsewhere, under the id `image`."""
+
+    light: str
+    image: str
+    anchor: str
+    number: str
+    name: str
+    facts: str
+
+
+@dataclass(frozen=True)
 class Variant:
     number: str
     name: str
+    full_name: str
     anchor: str
     facts: list[tuple[str, str]]
     error: str
@@ -62,31 +62,35 @@ def render(results: Results) -> str:
     """The whole page. Nothing in it refers to anything outside it."""
     warnings = list(results.warnings)
     lights = results.lights()
-    names = list(results.variants["variant"])
-    anchors = {name: f"variant-{i}" for i, name in enumerate(names, 1)}
-    numbers = {name: str(i) for i, name in enumerate(names, 1)}
-    styles, legends = style.variant_styles(results)
+    names = names_of(results)
+    families = families_of(results, names)
+    anchors = {name: f"variant-{number}" for name, number in names.numbers.items()}
+    styles, legends, curves = style.variant_styles(results, families)
     colors = style.pass_colors(results)
     columns = table.columns_of(results, lights)
-    chart_groups, not_drawn = _charts(results, lights, styles, numbers, anchors)
+    chart_groups, not_drawn = _charts(results, lights, styles, names, anchors, curves)
+    variants = [_variant(results, row, lights, colors, names, anchors, warnings)
+                for _, row in results.variants.iterrows()]
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     environment.filters["breakable"] = text.breakable
     return environment.get_template("template.html.j2").render(
-        title=_title(results), setting=_setting(results), lights=lights, light=lights[-1],
-        summaries={light: ranking.summary(results, light) for light in lights},
+        title=_title(results), setting=setting_of(results), lights=lights, light=lights[-1],
+        is_finished=bool(results.manifest.get("finished")) or not results.manifest,
+        summaries={light: summary(results, light, families, names) for light in lights},
         columns=columns, metrics=results.metrics,
-        rows=table.variant_rows(results, columns, numbers, anchors),
+        rows=table.variant_rows(results, columns, names, anchors),
         baselines=table.baseline_rows(results, columns), noises=table.noise_rows(results, columns),
         charts=chart_groups, not_drawn=not_drawn, legends=legends, markers=style.MARKERS, pass_colors=colors,
-        regions=parts.regions(results, lights, numbers, anchors,
+        joined=bool(curves),
+        thumbnails=_thumbnails(results, lights, variants),
+        regions=parts.regions(results, lights, names, anchors,
                               lambda folder, name: _picture(results, folder, name, images.embed, warnings)),
-        sequence=parts.sequence(results, lights, styles, numbers, anchors),
-        values=values.value_table(results, numbers),
-        value_charts=values.value_charts(results, styles, numbers),
-        bars=_bars(results, colors, numbers, anchors), reference=_reference(results, lights, warnings),
-        variants=[_variant(results, row, lights, colors, numbers, anchors, warnings)
-                  for _, row in results.variants.iterrows()],
+        sequence=parts.sequence(results, lights, styles, names, anchors),
+        values=values.value_table(results, names),
+        value_charts=values.value_charts(results, styles, names),
+        bars=bars.bar_groups(results, colors, names, anchors), reference=_reference(results, lights, warnings),
+        variants=variants,
         error_gradient=images.error_gradient(), provenance=_provenance(results),
         config=text.yaml_like(results.manifest["config"]) if results.manifest.get("config") else "",
         manifest=json.dumps(results.manifest, indent=2, ensure_ascii=False) if results.manifest else "",
@@ -98,31 +102,11 @@ def _title(results: Results) -> str:
     return str(section(results.manifest, "config").get("name") or results.directory.resolve().name)
 
 
-def _setting(results: Results) -> str:
-    # One sentence: what ran where, against what.
-    manifest, parts = results.manifest, []
-    image = section(manifest, "image")
-    if image:
-        parts.append(f"{image.get('width', '?')}×{image.get('height', '?')} pixels")
-    if manifest.get("device"):
-        parts.append(f"on {manifest['device']}")
-    if manifest.get("tracer"):
-        parts.append(f"rays by {manifest['tracer']}")
-    reference = section(manifest, "reference")
-    if reference:
-        spp = f", {reference['spp']} samples a pixel" if "spp" in reference else ""
-        parts.append(f"scored against {reference.get('pass', 'a reference')}{spp}")
-    sentence = ", ".join(parts)
-    sentence = sentence[:1].upper() + sentence[1:] + "." if sentence else ""
-    return sentence + ("" if manifest.get("finished") or not manifest else
-                       " The run had not ended when this page was made.")
-
-
-def _charts(results: Results, lights, styles, numbers, anchors) -> tuple[list[dict], list[str]]:
+def _charts(results: Results, lights, styles, names, anchors, curves) -> tuple[list[dict], list[str]]:
     # A number stands at a point where the names are too long or too many to read.
-    names = list(results.ok["variant"])
-    short = len(names) <= _MAX_NAMED_POINTS and all(len(name) <= _LONGEST_POINT_LABEL for name in names)
-    labels = {name: name if short else numbers[name] for name in names}
+    drawn_names = [names.short[name] for name in results.ok["variant"]]
+    short = len(drawn_names) <= _MAX_NAMED_POINTS and all(len(name) <= _LONGEST_POINT_LABEL for name in drawn_names)
+    labels = names.short if short else names.numbers
     groups, not_drawn = [], set()
     for light in lights:
         for with_build in (False, True):
@@ -130,48 +114,13 @@ def _charts(results: Results, lights, styles, numbers, anchors) -> tuple[list[di
             for metric in results.metrics[:3]:
                 time = "total" if with_build else "frame"
                 chart = charts.cost_error_chart(results, metric, light, with_build, styles, labels, anchors,
-                                                f"{light}-{time}-{metric.key}")
+                                                f"{light}-{time}-{metric.key}", curves, names)
                 if chart:
                     drawn.append(chart)
-                    not_drawn.update(f"{name} ({metric.label}, {light})" for name in chart.not_drawn)
+                    not_drawn.update(f"{names.full(name)} ({metric.label}, {light})" for name in chart.not_drawn)
             if drawn:
                 groups.append({"light": light, "time": time, "charts": drawn, "numbered": not short})
     return groups, sorted(not_drawn)
-
-
-def _bars(results: Results, colors, numbers, anchors) -> list[dict]:
-    """Groups of bars, one bar a variant, each group on one scale: frame time, build time, memory."""
-    groups = []
-    for phase, column, heading in (("frame", "frame_ms_median", "Time of a frame"),
-                                   ("build", "build_ms", "Time of the build, once a scene or light")):
-        rows = results.ok[results.ok[column].fillna(0) > 0]
-        parts = {row["variant"]: _pass_times(results, row, phase, column) for _, row in rows.iterrows()}
-        longest = max((sum(p.values()) for p in parts.values()), default=0)
-        bars = []
-        for _, row in rows.iterrows():
-            name = row["variant"]
-            segments = [Segment(colors.get(part, "muted"), 100 * ms / longest,
-                                f"{part}: {text.figures(ms)} ms")
-                        for part, ms in parts[name].items()]
-            bars.append(Bar(numbers[name], name, anchors[name], f"{text.figures(row[column])} ms", segments))
-        groups.append({"heading": heading, "bars": bars})
-    rows = results.ok[results.ok["memory_bytes"].fillna(0) > 0]
-    bars = []
-    for name, bytes_used in zip(rows["variant"], rows["memory_bytes"]):
-        used = text.size(bytes_used)
-        segments = [Segment("muted", 100 * bytes_used / rows["memory_bytes"].max(), used)]
-        bars.append(Bar(numbers[name], name, anchors[name], used, segments))
-    groups.append({"heading": "Device memory", "bars": bars})
-    return [group for group in groups if group["bars"]]
-
-
-def _pass_times(results: Results, row: pd.Series, phase: str, column: str) -> dict[str, float]:
-    rows = results.passes
-    mine = rows[(rows["variant"] == row["variant"]) & (rows["phase"] == phase) & (rows["ms_median"] > 0)]
-    times = mine.groupby("pass", sort=False)["ms_median"].sum().to_dict()
-    # Whatever no pass accounts for is shown as such; a sum of medians can also exceed the whole's median.
-    rest = row[column] - sum(times.values())
-    return {**times, "outside the passes": rest} if rest > 0 else times
 
 
 def _picture(results: Results, folder: str, name: str, embed, warnings: list[str]) -> images.Picture | None:
@@ -196,10 +145,30 @@ def _reference(results: Results, lights, warnings) -> dict:
     return {"facts": facts, "views": views}
 
 
-def _variant(results: Results, row: pd.Series, lights, colors, numbers, anchors, warnings) -> Variant:
+def _thumbnails(results: Results, lights, variants: list[Variant]) -> list[Thumbnail]:
+    """The first reference and each variant under each light, for those that have an image."""
+    folder = str(results.references()[0].get("folder") or "reference")
+    rows = results.variants.set_index("variant")
+    metric = results.metrics[0] if results.metrics else None
+    shown = []
+    for light in lights:
+        if results.image(folder, IMAGES[light][0]):
+            shown.append(Thumbnail(light, f"{folder}-{light}", "reference", "", "reference", ""))
+        for variant in variants:
+            if not any(view.light == light and view.image for view in variant.views):
+                continue
+            ms = f"{text.figures(rows.loc[variant.full_name, 'frame_ms_median'])} ms"
+            score = (f", {metric.label} {text.figures(rows.loc[variant.full_name, LIGHTS[light] + metric.key])}"
+                     if metric else "")
+            shown.append(Thumbnail(light, f"{variant.anchor}-{light}", variant.anchor, variant.number, variant.name,
+                                   ms + score))
+    return shown
+
+
+def _variant(results: Results, row: pd.Series, lights, colors, names, anchors, warnings) -> Variant:
     name = row["variant"]
     if row["status"] != "ok":
-        return Variant(numbers[name], name, anchors[name], [],
+        return Variant(names.numbers[name], names.short[name], name, anchors[name], [],
                        row["error"] or f"status is '{row['status']}', with no error text", [])
     views = [View(light, _picture(results, name, IMAGES[light][0], images.embed, warnings),
                   _picture(results, name, IMAGES[light][1], images.embed_error, warnings))
@@ -211,7 +180,7 @@ def _variant(results: Results, row: pd.Series, lights, colors, numbers, anchors,
              ("memory", f"{text.size(row['memory_bytes'])}, at the most {text.size(row['peak_bytes'])}"),
              ("rays", text.count(row["rays"]))]
     graph = section(results.manifest, "variants").get(name)
-    return Variant(numbers[name], name, anchors[name], facts, "", views, _pass_rows(results, name, colors),
+    return Variant(names.numbers[name], names.short[name], name, anchors[name], facts, "", views, _pass_rows(results, name, colors),
                    results.reference_folder(name) or "", text.yaml_like(graph) if graph else "")
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from report import images, table, text
 from report.line_chart import line_chart
 from report.load import LIGHTS, Results, number, section
+from report.names import Names
 from report.style import Style
 
 
@@ -38,7 +39,7 @@ class Sequence:
     charts: list[LightChart]
 
 
-def regions(results: Results, lights: list[str], numbers: dict[str, str], anchors: dict[str, str],
+def regions(results: Results, lights: list[str], names: Names, anchors: dict[str, str],
             picture_of: Callable[[str, str], images.Picture | None]) -> list[Region]:
     """A region for each mask. @param picture_of the picture of a name in a folder of images."""
     shown = []
@@ -51,12 +52,12 @@ def regions(results: Results, lights: list[str], numbers: dict[str, str], anchor
             if picture and fraction >= 0:
                 pictures.append((picture, f"{text.figures(100 * fraction)} % of the pixels"))
         words = ", ".join(f"{key.replace('_', ' ')} {text.plain(value)}" for key, value in conditions.items())
-        shown.append(Region(name, words, pictures, columns, table.variant_rows(results, columns, numbers, anchors),
+        shown.append(Region(name, words, pictures, columns, table.variant_rows(results, columns, names, anchors),
                             table.baseline_rows(results, columns) + table.noise_rows(results, columns)))
     return shown
 
 
-def sequence(results: Results, lights: list[str], styles: dict[str, Style], numbers: dict[str, str],
+def sequence(results: Results, lights: list[str], styles: dict[str, Style], names: Names,
              anchors: dict[str, str]) -> Sequence | None:
     """Temporal error of each variant and its errors over frames; None where one frame alone was compared."""
     if results.frames.empty or not results.temporal_metrics:
@@ -68,6 +69,6 @@ def sequence(results: Results, lights: list[str], styles: dict[str, Style], numb
             key = LIGHTS[light] + metric.key
             rows = results.frames[results.frames[key].notna() & results.frames["variant"].isin(styles)]
             if rows["frame"].nunique() > 1:
-                charts.append(LightChart(light, line_chart(rows, key, f"{metric.label}, {light} light", styles, numbers,
+                charts.append(LightChart(light, line_chart(rows, key, f"{metric.label}, {light} light", styles, names,
                                                            f"frames-{light}-{metric.key}")))
-    return Sequence(columns, table.variant_rows(results, columns, numbers, anchors), charts)
+    return Sequence(columns, table.variant_rows(results, columns, names, anchors), charts)

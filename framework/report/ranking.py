@@ -6,7 +6,7 @@ import math
 
 import pandas as pd
 
-from report.load import BASELINES, LIGHTS, Metric, Results, interval_of
+from report.load import BASELINES, Metric, Results, interval_of
 
 COST_COLUMNS = ("build_ms", "frame_ms_median", "memory_bytes")
 
@@ -75,55 +75,7 @@ def pareto_front(points: list[tuple[float, float]]) -> list[int]:
     return front
 
 
-def summary(results: Results, light: str) -> list[str]:
-    """Sentences on the best error, the fastest variant and what failed; `light` is "indirect" or "total"."""
-    total, finished = len(results.variants), len(results.ok)
-    if total == 0:
-        return ["No variant has finished yet."]
-    sentences = [f"{finished} of {_count(total, 'variant')} finished."]
-    if failed := total - finished:
-        sentences.append(f"{_count(failed, 'variant')} failed; the reason stands below the table.")
-
-    # The best of each error, with what cannot be told from it.
-    worse: dict[str, list[str]] = {}
-    for metric in results.metrics[:3]:
-        column = LIGHTS[light] + metric.key
-        scores = results.ok.set_index("variant")[column].dropna()
-        if scores.empty:
-            continue
-        best = scores.map(metric.rank).idxmin()
-        marks = score_marks(results, metric, column)
-        ties = [name for name in scores.index if marks.get(name) == "tie"]
-        found = (f"{_names(ties)} cannot be told apart, from {scores[ties].min():.3g} to {scores[ties].max():.3g}"
-                 if ties else f"{best} with {scores[best]:.3g}")
-        sentences.append(f"Lowest {metric.label} of the {light} light: {found}.")
-        for _, row in results.ok.iterrows():
-            if beaten_by(results, metric, column, row):
-                worse.setdefault(row["variant"], []).append(metric.label)
-    for measures in dict.fromkeys(map(tuple, worse.values())):
-        names = [name for name, its in worse.items() if tuple(its) == measures]
-        better = f"A black or a constant image has a lower {_names(list(measures))}"
-        sentences.append(f"{better} than {_names(names)}.")
-
-    times = results.ok.set_index("variant")["frame_ms_median"].dropna()
-    if not times.empty:
-        ties = [name for name in cost_marks(results, "frame_ms_median") if name != times.idxmin()]
-        tied = f", within its spread {_names(ties)}" if ties else ""
-        sentences.append(f"Fastest frame: {times.idxmin()} with {times.min():.3g} ms{tied}.")
-    return sentences
-
-
 def is_numeric(values: pd.Series) -> bool:
     """Whether every value of a sweep key is a finite number."""
     numbers = pd.to_numeric(values, errors="coerce")
     return bool(len(values)) and bool(numbers.map(math.isfinite).all())
-
-
-def _count(count: int, noun: str) -> str:
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
-
-
-def _names(names: list[str], limit: int = 3) -> str:
-    if len(names) > limit:
-        return f"{', '.join(names[:limit])} and {len(names) - limit} more"
-    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)

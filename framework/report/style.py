@@ -9,8 +9,9 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from report.ranking import is_numeric
 from report.load import Results
+from report.names import Family
+from report.ranking import is_numeric
 
 CATEGORY_COLORS = tuple(f"c{i}" for i in range(8))
 RAMP_COLORS = tuple(f"s{i}" for i in range(7))  # for numbers: from little to much
@@ -45,12 +46,23 @@ class Legend:
     entries: list[LegendEntry]
 
 
-def variant_styles(results: Results) -> tuple[dict[str, Style], list[Legend]]:
-    """The style of each variant: colour by the first sweep key, marker by the second."""
+def variant_styles(results: Results, families: list[Family]) -> tuple[dict[str, Style], list[Legend], list[list[str]]]:
+    """The style of each variant: colour by the first sweep key, marker by the second. Where a single key swaps methods
+    and some differ in parameters alone, colour by method.
+
+    @return the styles, their legends, and the variants to join by a line.
+    """
     table, keys = results.variants, results.sweep_keys
     plain = Style(CATEGORY_COLORS[0], "o")
     if not keys:
-        return {name: plain for name in table["variant"]}, []
+        return {name: plain for name in table["variant"]}, [], []
+    if len(keys) == 1 and not is_numeric(table[keys[0]]) and len(families) < len(results.ok):
+        style_of = {family.name: Style(CATEGORY_COLORS[i % len(CATEGORY_COLORS)], list(MARKERS)[i % len(MARKERS)])
+                    for i, family in enumerate(families)}
+        styles = dict.fromkeys(table["variant"], plain)  # failed ones are in no family
+        styles |= {name: style_of[family.name] for family in families for name in family.variants}
+        return styles, [Legend("method", [LegendEntry(*entry) for entry in style_of.items()])], \
+            [family.variants for family in families if len(family.variants) > 1]
 
     colors = _colors(table[keys[0]])
     shapes = list(MARKERS)
@@ -61,7 +73,7 @@ def variant_styles(results: Results) -> tuple[dict[str, Style], list[Legend]]:
         legends.append(Legend(keys[1], [LegendEntry(v, Style("muted", m)) for v, m in shape_of.items()]))
     styles = {row["variant"]: Style(colors[row[keys[0]]], shape_of[row[keys[1]]] if shape_of else "o")
               for _, row in table.iterrows()}
-    return styles, legends
+    return styles, legends, []
 
 
 def pass_colors(results: Results) -> dict[str, str]:

@@ -10,6 +10,7 @@ import pandas as pd
 
 from report import ranking, text
 from report.load import BASELINES, LIGHTS, Metric, Results, interval_columns
+from report.names import Names
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,7 @@ _COSTS = {
 }
 
 
+_FIRST_COST = "frame_ms_median"
 _ARROWS = {"low": "↓", "high": "↑", "one": "→1"}
 
 
@@ -57,21 +59,29 @@ class Cell:
 
 @dataclass(frozen=True)
 class Row:
+    """`name` is what is shown, `full_name` the variant's own, as in the files."""
+
     number: str
     name: str
     anchor: str
     cells: list[Cell]
     error: str = ""
+    full_name: str = ""
 
 
 def columns_of(results: Results, lights: list[str]) -> list[Column]:
-    """The columns after the number and the name, without scores that no variant and no baseline has."""
-    columns = [Column(key, key, "varied by the sweep", align_text=not ranking.is_numeric(results.variants[key]))
-               for key in results.sweep_keys]
+    """The columns after the number and the name, without scores that no variant and no baseline has: time, error and
+    energy first, then the other scores and costs, last what the sweep varied."""
+    metrics = results.metrics[:1] + tuple(m for m in results.metrics[1:] if m.better == "one")
+    metrics += tuple(m for m in results.metrics if m not in metrics)
+    costs = {key: Column(key, cost.heading, cost.title) for key, cost in _COSTS.items()}
+    columns = [costs.pop(_FIRST_COST), *score_columns(results, lights, metrics), *costs.values()]
     columns += [Column(key, key, f"{key} that the variant ran on", align_text=True)
                 for key in ("device", "tracer") if results.variants[key].nunique() > 1]
-    columns += [Column(key, cost.heading, cost.title) for key, cost in _COSTS.items()]
-    return columns + score_columns(results, lights, results.metrics)
+    if len(results.sweep_keys) < 2:  # its values are the variants' names
+        return columns
+    return columns + [Column(key, key, "varied by the sweep", align_text=not ranking.is_numeric(results.variants[key]))
+                      for key in results.sweep_keys]
 
 
 def score_columns(results: Results, lights: list[str], metrics: tuple[Metric, ...], region: str = "") -> list[Column]:
@@ -90,8 +100,7 @@ def score_columns(results: Results, lights: list[str], metrics: tuple[Metric, ..
     return columns
 
 
-def variant_rows(results: Results, columns: list[Column], numbers: dict[str, str],
-                 anchors: dict[str, str]) -> list[Row]:
+def variant_rows(results: Results, columns: list[Column], names: Names, anchors: dict[str, str]) -> list[Row]:
     """The variants' rows, marked with the best of each column, its ties, and what a black image beats."""
     marks = {column.key: _marks(results, column) for column in columns}
     rows = []
@@ -100,7 +109,7 @@ def variant_rows(results: Results, columns: list[Column], numbers: dict[str, str
         cells = [_cell(results, row, column, marks[column.key].get(name, "")) for column in columns]
         failed = row["status"] != "ok"
         error = (row["error"] or f"status is '{row['status']}', with no error text") if failed else ""
-        rows.append(Row(numbers[name], name, anchors[name], cells, error))
+        rows.append(Row(names.numbers[name], names.short[name], anchors[name], cells, error, name))
     return rows
 
 

@@ -9,6 +9,7 @@ import pandas as pd
 from report import text
 from report.line_chart import line_chart
 from report.load import Results
+from report.names import Names
 from report.style import Style
 
 
@@ -20,7 +21,7 @@ class ValueTable:
     rows: list[tuple[str, str, list[str]]]
 
 
-def value_table(results: Results, numbers: dict[str, str]) -> ValueTable | None:
+def value_table(results: Results, names: Names) -> ValueTable | None:
     """Every value of every variant; of several frames the mean and the largest. None where nothing was reported."""
     if results.values.empty:
         return None
@@ -30,18 +31,18 @@ def value_table(results: Results, numbers: dict[str, str]) -> ValueTable | None:
     for name in results.ok["variant"]:
         cells = [_cell(groups.get((name, *key))) for key in keys]
         if any(cells):
-            rows.append((numbers[name], name, cells))
+            rows.append((names.numbers[name], names.short[name], cells))
     return ValueTable([f"{part}: {name}" for part, name in keys], rows)
 
 
-def value_charts(results: Results, styles: dict[str, Style], numbers: dict[str, str]) -> list[str]:
+def value_charts(results: Results, styles: dict[str, Style], names: Names) -> list[str]:
     """A chart for each value that some variant reported in several frames: a line a variant, over frames."""
     series = results.values[results.values["frame"].notna()]
     charts = []
     for i, (part, name) in enumerate(_keys(series)):
         rows = series[(series["pass"] == part) & (series["name"] == name)]
         if rows["frame"].nunique() > 1:
-            charts.append(line_chart(rows, "value", f"{part}: {name}", styles, numbers, f"values-{i}"))
+            charts.append(line_chart(rows, "value", f"{part}: {name}", styles, names, f"values-{i}"))
     return charts
 
 

@@ -36,7 +36,9 @@
     function readAddress() {
         set(Object.fromEntries(addressParts().filter((part) => part.includes("=")).map((part) => part.split("="))), false);
         const anchor = addressParts().find((part) => part && !part.includes("="));
-        if (anchor) document.getElementById(anchor)?.scrollIntoView();
+        const target = anchor && document.getElementById(anchor);
+        if (anchor === "reference") target?.querySelector("details").setAttribute("open", "");
+        target?.scrollIntoView();
     }
     function writeAddress() {
         const parts = addressParts().filter((part) => part && !part.includes("="));
@@ -101,6 +103,14 @@
             event.preventDefault();
             set({ show: "slider", split: String(Math.min(100, Math.max(0, Number(state.split) + steps[event.key]))) });
         });
+    }
+
+    // Small copies of images that stand elsewhere on the page.
+    for (const link of document.querySelectorAll(".thumbnail")) {
+        const copy = new Image();
+        copy.alt = "";
+        copy.src = document.getElementById(link.dataset.image).src;
+        link.prepend(copy);
     }
 
     // Zoomed images move together.

@@ -116,6 +116,23 @@ TEST(Sweep, LabelsTellWhatDiffers) {
     EXPECT_EQ(labels("[[{pass: a}, b], 'a + b', c]"), (Texts{"[{pass: a}, b]", "\"a + b\"", "c"}));
 }
 
+TEST(Sweep, AMapNamesItsValues) {
+    const auto variants = expand(
+        "  inject:\n"
+        "    from lights: inject_light_rays\n"
+        "    from the camera: [place_surfels, {pass: inject_camera_rays, bounces: 2}]\n"
+        "  voxelize.resolution: {coarse: 32, fine: 64}\n");
+    ASSERT_EQ(variants.size(), 4u);
+    EXPECT_EQ(variants[0].name, "inject-from-lights_resolution-coarse");
+    EXPECT_EQ(variants[3].values, (std::vector<std::string>{"from the camera", "fine"}));
+    EXPECT_EQ(variants[3].setup.graph.text(),
+              "[{pass: voxelize, resolution: 64}, {pass: place_surfels}, "
+              "{pass: inject_camera_rays, bounces: 2, id: inject}]");
+
+    EXPECT_CONTAINS(sweepError("  inject: {}\n"), "demo.yaml:7: sweep.inject: expected a list of values");
+    EXPECT_CONTAINS(sweepError("  inject: {pass: inject_rsm}\n"), "as in [{pass: inject_rsm}]");
+}
+
 TEST(Sweep, ConfigAxes) {
     const auto variants = expand(
         "  image.width: [16, 32]\n  scene.lights: [point, spot]\n  seed: [1, 2]\n"

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from report_support import NRMSE, ROOT, Page, ReportTest, made_up
 
-from report import page, ranking
+from report import bars, names, page, ranking, style, table
 from report.load import load
 from PIL import Image
 
@@ -36,9 +36,35 @@ class FullRun(unittest.TestCase):
         self.assertEqual(len(sources), 26)
         self.assertTrue(all(source.startswith("data:image/png;base64,") for source in sources))
         for words in ("6 of 7 variants finished. 1 variant failed", "needs 34.4 GiB", "a constant image",
-                      "light_rays-256 and rsm-256 cannot be told apart, from 0.3 to 0.31", "0.29–0.31",
-                      "Fastest frame: rsm-64 with 9 ms"):
+                      "Lowest nRMSE of the indirect light: 3 and 6 tie, from 0.300 to 0.310.", "0.29–0.31",
+                      "Fastest frame: 4 (resolution 64, rsm), 9.00 ms", "64 × 36 pixels", "point at [0, 1, 0]",
+                      "path_trace, 64 samples a pixel"):
             self.assertIn(words, self.page.text)
+
+    def test_variants_are_called_by_what_differs(self):
+        results = load(self.directory)
+        named = names.names_of(results)
+        self.assertEqual(named.full("light_rays-256"), "3 (resolution 256, light_rays)")
+        self.assertEqual(named.listed(["light_rays-64", "rsm-64"]), "1 and 4")
+        self.assertEqual(named.listed(list(named.numbers)), "1, 2, 3, 4, 5, 6 and 1 more")
+
+    def test_the_table_begins_with_time_error_and_energy(self):
+        columns = [column.heading for column in table.columns_of(load(self.directory), ["indirect"])]
+        self.assertEqual([heading.split("\u00a0")[0] for heading in columns[:4]],
+                         ["frame, ms", "nRMSE", "mean ratio", "relMSE"])
+
+    def test_memory_is_split_by_pass(self):
+        results = load(self.directory)
+        groups = bars.bar_groups(results, style.pass_colors(results), names.names_of(results),
+                                 {name: name for name in results.variants["variant"]})
+        memory = groups[-1].bars[0]  # 2^24 bytes for each of 12 ms, five passes with 2^20 each
+        self.assertEqual([segment.title for segment in memory.segments][-2:],
+                         ["composite: 1.00 MiB", "outside the passes: 187 MiB"])
+
+    def test_thumbnails_copy_images_of_the_page(self):
+        copied = self.page.attributes("data-image")
+        self.assertEqual(len(copied), 2 * (1 + 6))
+        self.assertLessEqual(set(copied), set(self.page.attributes("id")))
 
     def test_embeds_each_image_once(self):
         sources = [attrs["src"] for tag, attrs in self.page.tags if tag == "img"]
@@ -116,7 +142,7 @@ class PartOfARun(ReportTest):
         perfect = made_up.variant("perfect", 10, 0.0)
         perfect["psnr_db"] = "inf"
         shown = self.make([perfect, made_up.variant("good", 20, 0.1)], made_up.manifest([]))
-        self.assertIn("perfect (nRMSE, total)", shown.text)
+        self.assertIn("1 (perfect) (nRMSE, total)", shown.text)
         self.assertIn("∞", shown.text)
 
     def test_broken_files_are_named(self):
@@ -137,7 +163,7 @@ class PartOfARun(ReportTest):
             "b,compare,missed,,40\n")
         self.assertEqual(self.run_program()[0], 0)
         shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
-        for words in ("What passes report", "compare: missed", "1\u202f234\u202f567", "0.500 (most 0.750)", "a: 0.500 on average"):
+        for words in ("What passes report", "compare: missed", "1\u202f234\u202f567", "0.500 (most 0.750)", "1 (a): 0.500 on average"):
             self.assertIn(words, shown.text)
         self.assertEqual(shown.attributes("aria-label").count("probe: change"), 1)
         (self.directory / "values.csv").write_text("what,is\nthis,here\n")
@@ -152,7 +178,7 @@ class PartOfARun(ReportTest):
         made_up.write_csv(self.directory / "frames.csv", list(frames[1]), frames)
         self.assertEqual(self.run_program()[0], 0)
         shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
-        for words in ("Over frames", "temporal bias", "0.080–0.12", "calm: 0.220 on average"):
+        for words in ("Over frames", "temporal bias", "0.080–0.12", "1 (calm): 0.220 on average"):
             self.assertIn(words, shown.text)
         self.assertEqual(shown.count("svg", "chart"), 6 + 3)
         (self.directory / "frames.csv").write_text("what,is\nthis,here\n")
@@ -199,7 +225,7 @@ class PartOfARun(ReportTest):
         run = {"config": [1], "baselines": 3, "metrics": [3, {"name": "nrmse", "better": "yellow"}], "reference": None, "sweep_keys": "x", "warnings": {"a": 1},
                "image": [], "finished": True, "device": None}
         shown = self.make([made_up.variant("a", 10, 0.3), made_up.variant("b", 10, 0.3)], run)
-        self.assertIn("2 of 2 variants finished", shown.text)
+        self.assertIn("Fastest frame: 1 (a)", shown.text)
 
 
 class HostileText(ReportTest):

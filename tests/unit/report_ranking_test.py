@@ -7,7 +7,7 @@ import unittest
 
 from report_support import FLIP, NRMSE, Page, ReportTest, made_up
 
-from report import page, ranking
+from report import equal_error, names, page, ranking, summary
 from report.load import Metric, interval_of, load
 
 
@@ -17,14 +17,19 @@ class Comparing(ReportTest):
         run.update(changes)
         return load(made_up.write_results(self.directory, rows, run, images=False))
 
+    def summary(self, results):
+        named = names.names_of(results)
+        return summary.summary(results, "total", names.families_of(results, named), named)
+
     def test_scores_whose_intervals_overlap_tie_and_none_is_the_best(self):
         rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.23), ("c", 0.25))]
         for row in rows:
             row.update(made_up.spread("nrmse", row["nrmse"] - 0.02, row["nrmse"] + 0.02))
         results = self.results(rows)
         self.assertEqual(ranking.score_marks(results, NRMSE, "nrmse"), {"a": "tie", "b": "tie"})
-        self.assertIn("Lowest nRMSE of the total light: a and b cannot be told apart, from 0.2 to 0.23.",
-                      ranking.summary(results, "total"))
+        self.assertEqual(self.summary(results)[0],
+                         "Lowest nRMSE of the total light: 1 and 2 tie, from 0.200 to 0.230. Most variants tie: more "
+                         "samples in the reference tell them apart (raise reference.spp, now 64).")
         # Told apart, and without intervals: one is the best.
         del rows[1]
         self.assertEqual(ranking.score_marks(self.results(rows), NRMSE, "nrmse"), {"a": "best"})
@@ -98,6 +103,34 @@ class Comparing(ReportTest):
         for words in ("a black image (reference)", "a black image (reference.2)",
                       "the reference's own noise (reference.2)"):
             self.assertIn(words, shown.text)
+
+    def test_speed_up_at_equal_error(self):
+        # Raw paths' error falls with the root of their time, filtered ones' with the fourth root.
+        points = ([("lookup", 10, 0.3)] + [(f"paths, {spp} spp", 10.0 * spp, spp ** -0.5) for spp in (1, 4, 16)]
+                  + [(f"filtered paths, {spp} spp", 20.0 * spp, 0.5 * spp ** -0.25) for spp in (1, 16)])
+        rows = [made_up.variant(name, ms, error, method=name) for name, ms, error in points]
+        graphs = {name: [{"pass": "path_trace" if "paths" in name else "gather", "id": "indirect", "spp": name}]
+                  + [{"pass": "filter", "id": "filter"}] * ("filtered" in name) for name, _, _ in points}
+        results = self.results(rows, sweep_keys=["method"], variants=graphs)
+        named = names.names_of(results)
+        families = names.families_of(results, named)
+        self.assertEqual([family.name for family in families], ["lookup", "paths", "filtered paths"])
+        # 0.3 takes raw paths 10 / 0.3² = 111 ms and filtered ones 20 (0.5 / 0.3)⁴ = 154 ms.
+        self.assertIn("At equal nRMSE of the total light: a frame of 1 (lookup) takes 10.0 ms, one of paths 111 ms: "
+                      "11 times as long, builds not counted.", self.summary(results))
+        # None reaches 0.2: the slowest of both families are not enough. All have less than 2.
+        for error, expected in ((0.2, "one of paths more than 160 ms: more than 16 times as long, builds not counted."), (2.0, None)):
+            rows[0] |= {"nrmse": error}
+            said = [s for s in self.summary(self.results(rows, sweep_keys=["method"], variants=graphs)) if "equal" in s]
+            self.assertEqual([s.endswith(expected) for s in said], [True] if expected else [])
+
+    def test_time_to_reach_an_error(self):
+        points = [(10, 0.4), (40, 0.2), (50, 0.3), (160, 0.1)]  # 50 ms are beaten by 40
+        for error, expected in ((0.2, (40, "")), (0.4, (10, "")), (0.5, (10, "<")), (0.05, (160, ">"))):
+            reached = equal_error.time_to_reach(error, points)
+            self.assertAlmostEqual(reached.milliseconds, expected[0])
+            self.assertEqual(reached.bound, expected[1])
+        self.assertIsNone(equal_error.time_to_reach(0.1, []))
 
     def test_pareto_front(self):
         points = [(3, 1), (1, 5), (2, 5), (2, 3), (4, 1), (1, 6)]

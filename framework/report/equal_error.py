@@ -1,0 +1,83 @@
+"""How much longer path tracing takes to reach the error of another method."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from report import text
+from report.load import LIGHTS, Metric, Results, interval_of
+from report.names import Family, Names
+from report.ranking import beaten_by, pareto_front
+
+_RIVAL = "path_trace"  # the pass that a user would pick instead
+
+
+@dataclass(frozen=True)
+class Reached:
+    """The time in which a family of variants reaches an error. `bound` is "" for an interpolated time, "<" where its
+    fastest variant has less error already, ">" where none has as little."""
+
+    milliseconds: float
+    bound: str = ""
+
+
+def time_to_reach(error: float, points: list[tuple[float, float]]) -> Reached | None:
+    """Interpolates (ms, error) points, logarithm over logarithm, between those that no other one beats."""
+    front = [points[i] for i in pareto_front(points)]
+    if not front:
+        return None
+    if front[0][1] <= error:
+        return Reached(front[0][0], "<" if front[0][1] < error else "")
+    for (ms0, error0), (ms1, error1) in zip(front, front[1:]):
+        if error1 <= error:
+            at = math.log(error0 / error) / math.log(error0 / error1)
+            return Reached(ms0 * (ms1 / ms0) ** at)
+    return Reached(front[-1][0], ">")
+
+
+def sentences(results: Results, light: str, metric: Metric, families: list[Family], names: Names) -> list[str]:
+    """Of the methods next to path tracing in this run, the one that saves most time at equal error, and what its frame
+    and that of the fastest path-traced family take; none where the run has no path-traced family or no method that
+    is faster at its error."""
+    column = LIGHTS[light] + metric.key
+    rows = results.ok.set_index("variant", drop=False)
+    usable = {name for name in rows.index if rows.loc[name, "frame_ms_median"] > 0 and rows.loc[name, column] > 0}
+    rivals = [family for family in families if _RIVAL in family.passes and usable & set(family.variants)]
+    traced = {name for family in rivals for name in family.variants}
+    curves = [(family, [(rows.loc[name, "frame_ms_median"], rows.loc[name, column])
+                        for name in family.variants if name in usable]) for family in rivals]
+    best, best_factor = None, 1.0
+    for name in rows.index:
+        if name in traced or name not in usable or beaten_by(results, metric, column, rows.loc[name]):
+            continue
+        ms = rows.loc[name, "frame_ms_median"]
+        rival, reached = _fastest(rows.loc[name, column], curves)
+        if rival and reached.bound != "<" and reached.milliseconds / ms > best_factor:
+            best, best_factor = (name, ms, rival, reached), reached.milliseconds / ms
+    if best is None:
+        return []
+    name, ms, rival, reached = best
+    more = "more than " if reached.bound else ""
+    apart = ", builds not counted" if rows.loc[name, "build_ms"] > 0 else ""
+    return [f"At equal {metric.label} of the {light} light: a frame of {names.full(name)} takes {text.figures(ms)} ms, "
+            f"one of {rival.name} {more}{text.figures(reached.milliseconds)} ms: {more}"
+            f"{text.figures(best_factor, 2)} times as long{_range(rows.loc[name], column, ms, curves)}{apart}."]
+
+
+def _fastest(error: float, curves) -> tuple[Family | None, Reached | None]:
+    # Of families that reach the error the fastest; where none does, the least of what is not enough.
+    found = [(reached.bound == ">", reached.milliseconds, i, reached)
+             for i, (_, points) in enumerate(curves) if (reached := time_to_reach(error, points))]
+    if not found:
+        return None, None
+    _, _, i, reached = min(found, key=lambda entry: entry[:3])
+    return curves[i][0], reached
+
+
+def _range(row, column: str, ms: float, curves) -> str:
+    # What the error's own interval makes of the factor.
+    ends = [_fastest(error, curves)[1] for error in reversed(interval_of(row, column)) if error > 0]
+    if len(ends) < 2 or any(end.bound for end in ends) or ends[0].milliseconds == ends[1].milliseconds:
+        return ""
+    return f" ({text.span(*(end.milliseconds / ms for end in ends))} within the error's interval)"

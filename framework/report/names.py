@@ -1,0 +1,81 @@
+"""What variants are called on the page: by a number and by what differs between them."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+
+from report.load import Results
+from report.ranking import is_numeric
+
+
+@dataclass(frozen=True)
+class Family:
+    """Variants whose graphs hold the same passes and differ in parameters alone."""
+
+    name: str
+    variants: list[str]
+    passes: tuple[str, ...]  # names of the passes, not their ids
+
+
+@dataclass(frozen=True)
+class Names:
+    """For each variant its number in the table, and its short name."""
+
+    numbers: dict[str, str]
+    short: dict[str, str]
+
+    def full(self, variant: str) -> str:
+        """Number and short name, as sentences call it."""
+        return f"{self.numbers[variant]} ({self.short[variant]})"
+
+    def listed(self, variants: list[str], limit: int = 6) -> str:
+        """Several variants by their numbers; a single one by its name too."""
+        if len(variants) == 1:
+            return self.full(variants[0])
+        numbers = [self.numbers[name] for name in variants]
+        if len(numbers) > limit:
+            return f"{', '.join(numbers[:limit])} and {len(numbers) - limit} more"
+        return f"{', '.join(numbers[:-1])} and {numbers[-1]}"
+
+
+def names_of(results: Results) -> Names:
+    """Numbers in the order of the table. Short names tell what the sweep varied; where that does not tell variants
+    apart, they are the variants' own."""
+    variants = list(results.variants["variant"])
+    keys = [key for key in results.sweep_keys if results.variants[key].nunique() > 1]
+    short = {row["variant"]: _short(results, row, keys) for _, row in results.variants.iterrows()}
+    if len(set(short.values())) < len(variants) or "" in short.values():
+        short = {name: name for name in variants}
+    return Names({name: str(i) for i, name in enumerate(variants, 1)}, short)
+
+
+def families_of(results: Results, names: Names) -> list[Family]:
+    """The families of the variants that finished, in the order of their first members."""
+    groups: dict[tuple, list[str]] = {}
+    graphs = results.manifest.get("variants")
+    for name in results.ok["variant"]:
+        graph = graphs.get(name) if isinstance(graphs, dict) else None
+        passes = [entry for entry in graph if isinstance(entry, dict)] if isinstance(graph, list) else []
+        key = tuple((str(p.get("pass")), str(p.get("id")), str(p.get("inputs"))) for p in passes)
+        groups.setdefault(key or (name,), []).append(name)
+    return [Family(_common(members, names), members, tuple(p[0] for p in key if isinstance(p, tuple)))
+            for key, members in groups.items()]
+
+
+def _short(results: Results, row, keys: list[str]) -> str:
+    parts = []
+    for key in keys:
+        value = row[key]
+        if value == "-":  # the variant has no such pass
+            continue
+        bare = not is_numeric(results.variants.loc[results.variants[key] != "-", key])
+        parts.append(value if bare else f"{key.rpartition('.')[2]} {value}")
+    return ", ".join(parts)
+
+
+def _common(members: list[str], names: Names) -> str:
+    # The words that the members' names begin with.
+    words = [names.short[name].split() for name in members]
+    common = os.path.commonprefix(words) if len(members) > 1 else words[0]
+    return " ".join(common).rstrip(",:+ ") or names.short[members[0]]
