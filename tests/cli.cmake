@@ -1,5 +1,5 @@
 # The built program, from the outside.
-foreach(part commands generality run)
+foreach(part commands generality mistakes run)
   add_test(NAME cli.${part}
     COMMAND /usr/bin/python3 -m unittest -v ${part}_test
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/cli)

@@ -89,6 +89,19 @@ int indentedByTab(const std::string& text) {
     return 0;
 }
 
+/// What mostly lies behind a message of the parser, or "".
+std::string hintOf(const std::string& message) {
+    static const std::vector<std::pair<std::string, std::string>> hints{
+        {"end of map not found", "is this line, or the one before, indented unlike its neighbours?"},
+        {"end of sequence not found", "is this line, or the one before, indented unlike its neighbours?"},
+        {"end of map flow not found", "a '{' before it has no '}'"},
+        {"end of sequence flow not found", "a '[' before it has no ']'"},
+        {"illegal map value", "is a ':' missing in the line before?"}};
+    for (const auto& [part, hint] : hints)
+        if (message == part) return "; " + hint;
+    return {};
+}
+
 }  // namespace
 
 Value parseYaml(const std::string& text, const std::string& fileName) {
@@ -105,7 +118,7 @@ Value parseYaml(const std::string& text, const std::string& fileName) {
     } catch (const YAML::Exception& error) {
         if (const int line = indentedByTab(text); line > 0)
             throw UsageError({fileName, line}, "bad YAML: a tab in the indentation; YAML takes spaces");
-        throw UsageError(converter.locate(error.mark), "bad YAML: {}", error.msg);
+        throw UsageError(converter.locate(error.mark), "bad YAML: {}{}", error.msg, hintOf(error.msg));
     }
 }
 

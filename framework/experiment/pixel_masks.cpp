@@ -94,6 +94,10 @@ void forEachPixel(const SceneState& state, const Camera& camera, uint32_t width,
 
 }  // namespace
 
+void checkMaskNames(const std::vector<MaskSettings>& masks, const Scene& scene) {
+    for (const MaskSettings& mask : masks) conditionOf(mask, scene);
+}
+
 std::vector<PixelSelection> selectPixels(const std::vector<MaskSettings>& masks, const SceneState& state,
                                          const Camera& camera, uint32_t width, uint32_t height) {
     if (masks.empty()) return {};

@@ -20,6 +20,9 @@ struct PixelSelection {
     size_t count = 0;             ///< Of selected pixels.
 };
 
+/// @throws UsageError with file, line and the nearest name for a material or object that the scene lacks.
+void checkMaskNames(const std::vector<MaskSettings>& masks, const Scene& scene);
+
 /// A pixel is selected where all four of its sub-pixel centers (2 x 2) see a surface that meets the mask's
 /// conditions: one at an edge mixes surfaces, and is in no mask of either.
 /// @throws UsageError with file, line and the nearest name for a material or mesh that the scene lacks.

@@ -1,0 +1,104 @@
+"""Mistakes that newcomers make in configs: each is stopped before anything is rendered, with file, line and a way out."""
+import os
+import unittest
+
+from support import CommandTest
+
+CONFIG = """\
+name: mine
+scene:
+  builtin: cornell
+  camera: {position: [0, 1, 3], target: [0, 1, 0], fov_deg: 50}
+  lights:
+    - {point: [0, 1.8, 0], intensity: [1, 1, 1]}
+image: {width: 32, height: 24}
+seed: 7
+graph:
+  - {pass: gbuffer}
+  - {pass: voxelize, resolution: 16}
+  - {pass: inject_light_rays, id: inject, rays_per_light: 4096, bounces: 2}
+  - {pass: trace_gather_rays}
+  - {pass: gather_rays, id: gather}
+  - {pass: filter_irradiance, id: indirect, inputs: {noisy_irradiance: gather}}
+  - {pass: direct_shadow_rays, id: direct}
+  - {pass: composite}
+reference: {pass: path_trace, spp: 8, bounces: 3}
+sweep:
+  inject.rays_per_light: [4096, 8192]
+measure: {frames: 2, masks: {floor: {material: grey}}}
+profiles:
+  smaller: {image: {width: 16}}
+"""
+CAMERA = "camera: {position: [0, 1, 3], target: [0, 1, 0], fov_deg: 50}"
+
+# What is written in place of what; the line that is named; words of the message.
+MISTAKES = {
+    "a pass is misspelt": ("pass: voxelize", "pass: voxelise", 11, "did you mean 'voxelize'?"),
+    "the key 'pass' is misspelt": ("pass: gbuffer", "pas: gbuffer", 10, "expected a map with 'pass'"),
+    "a parameter is misspelt": ("bounces: 2", "bounce: 2", 12, "did you mean 'bounces'?"),
+    "a parameter of another pass": ("{pass: gbuffer}", "{pass: gbuffer, resolution: 64}", 10, "one of: method"),
+    "a word for a number": ("resolution: 16", "resolution: high", 11, "expected a whole number, not 'high'"),
+    "a fraction for a whole number": ("resolution: 16", "resolution: 16.5", 11, "expected a whole number, not '16.5'"),
+    "a list where the sweep belongs": ("resolution: 16", "resolution: [16, 32]", 11, "voxelize.resolution"),
+    "a number in quotes": ("seed: 7", 'seed: "7"', 8, "stands in quotes"),
+    "a negative size": ("width: 32", "width: -32", 7, "-32 is out of range"),
+    "an unknown key": ("seed: 7", "seeds: 7", 8, "did you mean 'seed'?"),
+    "a name that is no folder": ("name: mine", "name: my/run", 1, "can't name a folder"),
+    "an unknown built-in scene": ("builtin: cornell", "builtin: cornel", 3, "did you mean 'cornell'?"),
+    "a missing scene file": ("builtin: cornell", "file: nowhere.glb", 3, "no file 'nowhere.glb'"),
+    "a missing environment map": ("  lights:", "  environment: sky.exr\n  lights:", 5, "no file 'sky.exr'"),
+    "an unknown camera": (CAMERA, "camera: front", 4, "no camera 'front'; one of: camera"),
+    "a camera without a target": ("target: [0, 1, 0], ", "", 4, "'target' is missing"),
+    "a camera that looks along up": ("target: [0, 1, 0]", "target: [0, 2, 3]", 4, "looks along its own 'up'"),
+    "a decimal comma": ("1.8", "1,8", 6, "expected three numbers"),
+    "an unknown kind of light": ("{point: [", "{pont: [", 6, "did you mean 'point'?"),
+    "the unit of another light": ("intensity: [", "irradiance: [", 6, "unknown parameter 'irradiance'"),
+    "a light darker than black": ("intensity: [1, 1, 1]", "intensity: -1", 6, "-1 is out of range"),
+    "a light that is no list": ("    - {point", "    {point", 5, "expected a list of lights"),
+    "the same id twice": ("id: gather}", "id: inject}", 14, "two passes have the id 'inject'"),
+    "an input from a pass that isn't there": ("noisy_irradiance: gather", "noisy_irradiance: gathr", 15, "did you mean 'gather'?"),
+    "an input that the pass lacks": ("{noisy_irradiance: gather}", "{noisy: gather}", 15, "did you mean 'noisy_irradiance'?"),
+    "an input of another type": ("noisy_irradiance: gather", "noisy_irradiance: inject", 15, "'inject' writes no 'noisy_irradiance'"),
+    "a pass is missing": ("  - {pass: gbuffer}\n", "", 12, "these can: gbuffer"),
+    "passes in the wrong order": ("  - {pass: trace_gather_rays}\n  - {pass: gather_rays, id: gather}\n",
+                                  "  - {pass: gather_rays, id: gather}\n  - {pass: trace_gather_rays}\n", 13,
+                                  "move 'trace_gather_rays' up"),
+    "nothing writes the image": ("  - {pass: composite}\n", "", 9, "no pass writes 'final'"),
+    "a reference that is no path tracer": ("pass: path_trace, spp: 8, bounces: 3", "pass: gbuffer", 18, "use path_trace"),
+    "a reference of one sample": ("spp: 8", "spp: 1", 18, "2 or more"),
+    "a sweep of a pass that isn't there": ("inject.rays", "injekt.rays", 20, "did you mean 'inject'?"),
+    "a sweep of a parameter that isn't there": ("inject.rays_per_light", "inject.rays", 20, "did you mean 'rays_per_light'?"),
+    "a sweep of one value": ("[4096, 8192]", "4096", 20, "expected a list of values"),
+    "a sweep out of range": ("[4096, 8192]", "[4096, 0]", 20, "0 is out of range"),
+    "a mask of an unknown material": ("material: grey", "material: gray", 21, "did you mean 'grey'?"),
+    "an unknown measure": ("frames: 2", "frame: 2", 21, "did you mean 'frames'?"),
+    "a profile of an unknown key": ("smaller: {image:", "smaller: {imgae:", 23, "did you mean 'image'?"),
+    "a key twice": ("seed: 7", "seed: 7\nseed: 8", 9, "appears twice"),
+    "a line is indented too far": ("seed: 7", "  seed: 7", 8, "indented unlike its neighbours"),
+    "a lost dash": ("  - {pass: composite}", "  {pass: composite}", 17, "indented unlike its neighbours"),
+    "a tab": ("  - {pass: composite}", "\t- {pass: composite}", 17, "YAML takes spaces"),
+    "a lost brace": ("height: 24}", "height: 24", 8, "a '{' before it has no '}'"),
+    "a lost colon": ("seed: 7", "seed 7", 9, "is a ':' missing in the line before?"),
+}
+
+
+class Mistakes(CommandTest):
+    def test_each_is_stopped_where_it_stands(self):
+        for what, (right, wrong, line, words) in MISTAKES.items():
+            with self.subTest(what):
+                self.assertIn(right, CONFIG)
+                self.write("mine.yaml", CONFIG.replace(right, wrong, 1))
+                error = self.expect(2, "run", "mine.yaml", "--out", "out").stderr
+                self.assertIn(f"mine.yaml:{line}: ", error)
+                self.assertIn(words, error)
+                self.assertFalse(os.path.exists(self.path("out")), "a bad config leaves no results folder")
+
+    def test_the_config_without_a_mistake(self):
+        self.write("mine.yaml", CONFIG)
+        self.assertEqual(self.expect(0, "validate", "mine.yaml").stderr, "")
+        self.assertIn("did you mean 'smaller'?",
+                      self.expect(2, "run", "mine.yaml", "--profile", "smallest", "--out", "out").stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
