@@ -38,7 +38,8 @@ void validate(const std::filesystem::path& config, const ConfigOptions& options,
     for (const std::string& profile : profiles) {
         WiredExperiment wired =
             wireExperiment(loadExperiment(config, {profile, options.assignments}), registry);
-        checkPlans(wired, loader, capableDevice(), registry);
+        for (const std::string& warning : checkPlans(wired, loader, capableDevice(), registry))
+            fmt::print(stderr, "voxray: warning: {}\n", warning);
         const size_t variants = wired.variants.size();
         fmt::print("{}{}: valid, {} variant{}\n", config.string(),
                    profile.empty() ? "" : " --profile " + profile, variants, variants == 1 ? "" : "s");

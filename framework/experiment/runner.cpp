@@ -64,6 +64,7 @@ class Run {
     std::optional<Session> session_;
     std::optional<ResultsFolder> folder_;
     ManifestData manifest_;
+    std::vector<std::string> warnings_;        ///< More than the session's own.
     std::vector<std::string> notes_;           ///< What a reader of the results should know, a line each.
     std::map<size_t, VariantResult> results_;  ///< By index into variants_.
     std::optional<PreparedReference> reference_;
@@ -86,6 +87,7 @@ RunSummary Run::execute() {
     {
         Progress progress(variants_.size() - results_.size(), options_.quiet);
         for (const std::string& warning : session_->warnings()) progress.warn(warning);
+        for (const std::string& warning : warnings_) progress.warn(warning);
         for (const std::string& note : notes_) progress.note(note);
         for (size_t i = 0; i < variants_.size() && !summary_.interrupted; ++i)
             if (!results_.count(i)) runVariant(i, progress);
@@ -117,7 +119,7 @@ void Run::openSession() {
         session_->loader().key(variant.setup.scene);
         session_->tracerName(variant.setup);
     }
-    checkPlans(wired_, session_->loader(), session_->device().info(), registry_);
+    warnings_ = checkPlans(wired_, session_->loader(), session_->device().info(), registry_);
     manifest_.experiment = &experiment_;
     std::map<std::string, size_t> variantsWithout;  // By the pass that is left out.
     for (const WiredVariant& variant : variants_) {
@@ -222,9 +224,9 @@ const PreparedReference* Run::referenceOf(const WiredVariant& variant, Progress&
     std::vector<PixelSelection> masks = session_->selectPixels(experiment_, variant.setup, 0);
     for (const PixelSelection& mask : masks)
         if (mask.count == 0) {
-            notes_.push_back(fmt::format("mask '{}' selects no pixel of '{}': it has no scores there",
-                                         mask.name, variant.name));
-            progress.warn(notes_.back());
+            warnings_.push_back(fmt::format("mask '{}' selects no pixel of '{}': it has no scores there",
+                                            mask.name, variant.name));
+            progress.warn(warnings_.back());
         }
     const ReferenceImages& images = session_->reference(wired_, variant.setup, registry_,
                                                         [&](double fraction) { progress.update(fraction); });
@@ -314,7 +316,7 @@ std::string Run::outcome(const VariantResult& r) const {
 
 std::vector<std::string> Run::warnings() const {
     std::vector<std::string> lines = session_->warnings();
-    lines.insert(lines.end(), notes_.begin(), notes_.end());
+    lines.insert(lines.end(), warnings_.begin(), warnings_.end());
     return lines;
 }
 
@@ -322,6 +324,7 @@ void Run::writeTables() {
     std::vector<VariantResult> rows;
     for (const auto& [index, result] : results_) rows.push_back(result);
     manifest_.warnings = warnings();
+    manifest_.notes = notes_;
     folder_->writeText("manifest.json", manifestJson(manifest_));
     folder_->writeText("results.csv", resultsCsv(rows, sweepKeys(experiment_), experiment_.measure));
     folder_->writeText("passes.csv", passesCsv(rows));

@@ -1,8 +1,12 @@
 #include "experiment/validate.h"
 
+#include <algorithm>
 #include <limits>
+#include <map>
+#include <optional>
 
 #include "config/overrides.h"
+#include "experiment/pixel_masks.h"
 #include "experiment/reference.h"
 #include "experiment/session.h"
 
@@ -22,7 +26,49 @@ void checkPassNames(const Experiment& experiment, const Registry& registry) {
     for (const auto& [path, values] : experiment.sweep.members)
         for (const Value& entry : experiment.setup.graph.items)
             if (passId(entry) == path)
-                for (const Value& value : values.items) checkPassName(value, registry);
+                for (const Value& value : sweepValues(values)) checkPassName(value, registry);
+}
+
+/// Where light begins in a variant: its first pass with a parameter `bounces`, with its place in the config.
+struct Bounces {
+    std::string id;
+    TextLocation where;
+    int64_t value;
+};
+std::optional<Bounces> bouncesOf(const WiredVariant& variant) {
+    for (const Value& pass : variant.resolved.items)
+        if (const Value* bounces = pass.find("bounces"))
+            for (const Value& entry : variant.setup.graph.items)
+                if (passId(entry) == passId(pass)) {
+                    const Value* written = entry.find("bounces");
+                    return Bounces{passId(pass), written ? written->where : entry.where,
+                                   bounces->asInteger("bounces")};
+                }
+    return std::nullopt;
+}
+
+/// What to write where the indirect light of a variant and of the reference have different numbers of
+/// bounces, unless the sweep varies them; else empty. Both graphs are planned.
+std::string bounceDifference(const WiredVariant& variant, const WiredExperiment& wired,
+                             const Graph& referenceGraph) {
+    const auto* own = variant.graph.resource<FrameImage>("indirect");
+    const auto* right = referenceGraph.resource<FrameImage>("indirect");
+    const auto variesBounces = [](const auto& axis) { return axis.key.ends_with(".bounces"); };
+    if (std::ranges::any_of(wired.experiment.sweep.members, variesBounces)) return {};
+    if (!own || !right || !own->lightBounces || !right->lightBounces ||
+        *own->lightBounces == *right->lightBounces)
+        return {};
+    const int64_t has = *own->lightBounces, wanted = *right->lightBounces;
+    std::string advice = fmt::format("write 'bounces: {}' in the reference", has);
+
+    // What comes after the first pass adds bounces of its own
+    const std::optional<Bounces> first = bouncesOf(variant);
+    if (first && has >= first->value && first->value + wanted - has >= 0)
+        advice = fmt::format("write 'bounces: {}' in '{}', or {}", first->value + wanted - has, first->id,
+                             advice.substr(6));
+    const TextLocation where = first ? first->where : wired.experiment.reference.where;
+    return UsageError(where, "indirect light has {} bounces, the reference's {}: {}", has, wanted, advice)
+        .what();
 }
 
 }  // namespace
@@ -65,9 +111,10 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
     return wired;
 }
 
-void checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
-                const Registry& registry) {
+std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
+                                    const Registry& registry) {
     constexpr uint64_t kAnySize = std::numeric_limits<uint64_t>::max();
+    std::map<std::string, std::vector<std::string>> differences;  // What is said, of which variants.
     std::string key;
     PreparedScene prepared;
     for (WiredVariant& variant : wired.variants) {
@@ -75,17 +122,27 @@ void checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& d
         if (std::string own = loader.key(variant.setup.scene); own != key) {
             prepared = loader.prepare(variant.setup.scene);
             key = std::move(own);
+            checkMaskNames(wired.experiment.measure.masks, *prepared.state.scene);
         }
         const Frame frame = frameOf(variant.setup, prepared, variant.setup.general.seed);
         try {
             variant.graph.plan(frame, device, kAnySize);
-            if (!wired.reference.isNull())
-                referenceGraph(wired.experiment, registry).plan(frame, device, kAnySize);
+            if (wired.reference.isNull()) continue;
+            Graph reference = referenceGraph(wired.experiment, registry);
+            reference.plan(frame, device, kAnySize);
+            if (std::string text = bounceDifference(variant, wired, reference); !text.empty())
+                differences[std::move(text)].push_back(variant.name);
         } catch (const Error& error) {
             throw UsageError("{}{}", error.what(),
                              wired.variants.size() > 1 ? fmt::format(" (variant {})", variant.name) : "");
         }
     }
+    std::vector<std::string> warnings;
+    for (const auto& [text, names] : differences)
+        warnings.push_back(names.size() == 1
+                               ? fmt::format("{} ({})", text, names[0])
+                               : fmt::format("{} ({} and {} more)", text, names[0], names.size() - 1));
+    return warnings;
 }
 
 }  // namespace voxray

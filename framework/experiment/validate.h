@@ -30,9 +30,11 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry);
 
 /// Prepares the scene of every variant and plans its graph and the reference's there, so that what a pass
 /// refuses shows before anything is rendered. How much memory there is does not count: any size fits.
+/// @return warnings, each with file and line: variants whose light bounces more or fewer times than the
+/// reference's, which shows as a difference that no other parameter lowers. A config may ask for that.
 /// @throws UsageError with file and line, for a scene as SceneLoader::prepare().
-void checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
-                const Registry& registry);
+std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
+                                    const Registry& registry);
 
 /// The reference as a graph of one pass, for one rendering of it.
 Graph referenceGraph(const Experiment& experiment, const Registry& registry);

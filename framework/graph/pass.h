@@ -37,12 +37,21 @@ struct Resource {
     /// False for an output that nothing reads: its producer may leave it empty. Set by the graph, before
     /// plan().
     bool isRead = true;
+    /// Bounces of light between a source and the surface that the camera sees, at most, as `bounces` of
+    /// path_trace counts them; nullopt where it carries no indirect light or has no such bound. Of stored
+    /// light those before it arrives where it is stored. Set in plan().
+    std::optional<uint32_t> lightBounces;
     /// Float images and float buffers that are checked for NaN and infinity after the producing pass ran.
     virtual std::vector<const Image*> checkedImages() const { return {}; }
     virtual std::vector<const Buffer*> checkedBuffers() const { return {}; }
     /// What `run --aovs` writes of it, all of one size.
     virtual std::vector<Aov> aovs() const { return {}; }
 };
+
+/// Bounces of what surfaces reflect of stored light, from Resource::lightBounces of it.
+inline std::optional<uint32_t> oneMore(std::optional<uint32_t> bounces) {
+    return bounces ? std::optional(*bounces + 1) : std::nullopt;
+}
 
 /// A radiance image of the frame's size: RGBA32F, linear Rec.709, W/(m² sr).
 struct FrameImage : Resource {

@@ -52,6 +52,7 @@ void FilterIrradiance::plan(PassPlan& plan) {
             "filter_irradiance: the gather has rays for one texel in each {0}x{0}, which {1} levels leave "
             "with gaps; raise 'levels' to {2} or the gather's rays",
             noisy.spacing, params_.levels, minLevels);
+    plan.get(indirect_).lightBounces = noisy.lightBounces;
     plan.image(plan.get(indirect_).image, "filtered indirect", frameImageDesc(plan.frame));
     const ImageDesc values = elementsDesc(plan.frame, samples, VK_FORMAT_R32G32B32A32_SFLOAT);
     plan.image(surfaces_, "surfaces of pixels",

@@ -34,6 +34,8 @@ void FilterVoxels::plan(PassPlan& plan) {
             "set 'layout' to dense or svo, or the injection's own 'bounces', or take voxelize_clipmap and "
             "light_clipmap");
     RadianceVoxels& radiance = plan.get(radiance_);
+    if (const auto injected = plan.get(irradiance_).lightBounces)
+        radiance.lightBounces = *injected + params_.bounces + 1;
     radiance.layout = params_.layout;
     radiance.emission = params_.emission;
     radiance.grid = {grid.origin,     grid.voxelSize,

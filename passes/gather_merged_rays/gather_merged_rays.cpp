@@ -12,6 +12,7 @@ void GatherMergedRays::plan(PassPlan& plan) {
     settings.shadowRays = !plan.get(tree_).holdsDirect;
     settings.lightSamples = params_.lightSamples;
     settings.nearFieldCells = params_.nearFieldVoxels;
+    settings.storedBounces = plan.get(tree_).lightBounces;
     gather_.plan(plan, settings);
 }
 

@@ -13,6 +13,7 @@ void GatherRays::plan(PassPlan& plan) {
     settings.shadowRays = shadowRays();
     settings.lightSamples = params_.lightSamples;
     settings.nearFieldCells = params_.nearFieldVoxels;
+    settings.storedBounces = plan.get(irradiance_).lightBounces;
     gather_.plan(plan, settings);
     plan.buffer(grid_, "grid of voxels", sizeof(gpu::VoxelGrid));
     plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(plan.get(voxels_).voxelCount));

@@ -83,6 +83,7 @@ void GatherVpls::plan(PassPlan& plan) {
                                      texels);
     NoisyIrradiance& noisy = plan.get(noisy_);
     noisy.blockSize = params_.block;
+    noisy.lightBounces = plan.get(indirect_).lightBounces = vpls.lightBounces;
     plan.image(noisy.irradiance, "noisy irradiance", NoisyIrradiance::desc(plan.frame, samples));
     plan.image(sums_, "sums over virtual point lights", NoisyIrradiance::desc(plan.frame, samples));
     plan.buffer(noisy.moments, "moments of virtual point lights", noisy.momentsBytes(texels));

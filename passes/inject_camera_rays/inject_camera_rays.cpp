@@ -31,6 +31,7 @@ void InjectCameraRays::declare(PassBuilder& builder) {
 }
 
 void InjectCameraRays::plan(PassPlan& plan) {
+    plan.get(irradiance_).lightBounces = params_.bounces;
     sources_ = requireLightSources(*plan.frame.scene, kName);
     const uint32_t batch = std::min(params_.raysPerImage, kBatchRays);
     injection_.plan(plan, kName, params_, {batch, false, true, params_.lightSamples}, plan.get(voxels_));

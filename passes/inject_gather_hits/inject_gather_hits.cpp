@@ -29,6 +29,7 @@ void InjectGatherHits::declare(PassBuilder& builder) {
 }
 
 void InjectGatherHits::plan(PassPlan& plan) {
+    plan.get(irradiance_).lightBounces = params_.bounces;
     sources_ = requireLightSources(*plan.frame.scene, kName);
     const SurfaceVoxels& voxels = plan.get(voxels_);
     injection_.plan(plan, kName, params_, {Surfels::kChunk, true, params_.bounces > 0, params_.lightSamples},

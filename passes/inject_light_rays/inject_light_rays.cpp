@@ -17,6 +17,7 @@ void InjectLightRays::declare(PassBuilder& builder) {
 }
 
 void InjectLightRays::plan(PassPlan& plan) {
+    plan.get(irradiance_).lightBounces = params_.lastBounce();
     paths_.plan(plan, kName, params_, std::min(params_.raysPerLight, kMaxBatchRays), plan.get(voxels_),
                 requireLightSources(*plan.frame.scene, kName));
 }

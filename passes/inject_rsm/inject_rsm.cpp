@@ -26,6 +26,7 @@ void InjectRsm::declare(PassBuilder& builder) {
 }
 
 void InjectRsm::plan(PassPlan& plan) {
+    plan.get(irradiance_).lightBounces = params_.lastBounce();
     const std::vector<LightSource> sources = requireViewpoints(*plan.frame.scene, kName);
     map_.plan(plan, params_.rsmResolution);
     paths_.plan(plan, kName, params_, std::min(texels(), kMaxBatchTexels), plan.get(voxels_), sources);

@@ -25,6 +25,7 @@ void InjectShadowMap::declare(PassBuilder& builder) {
 }
 
 void InjectShadowMap::plan(PassPlan& plan) {
+    plan.get(irradiance_).lightBounces = params_.bounces;
     sources_ = requireViewpoints(*plan.frame.scene, kName);
     injection_.plan(plan, kName, params_, {Surfels::kChunk, false, params_.bounces > 0}, plan.get(voxels_));
     shadowMap_.plan(plan, params_.shadowResolution);

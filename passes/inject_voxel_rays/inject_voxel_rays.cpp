@@ -11,6 +11,7 @@ void InjectVoxelRays::declare(PassBuilder& builder) {
 }
 
 void InjectVoxelRays::plan(PassPlan& plan) {
+    plan.get(irradiance_).lightBounces = params_.bounces;
     sources_ = requireLightSources(*plan.frame.scene, kName);
     injection_.plan(plan, kName, params_, {Surfels::kChunk, true, params_.bounces > 0, params_.lightSamples},
                     plan.get(voxels_));

@@ -31,6 +31,7 @@ void LightClipmap::plan(PassPlan& plan) {
     sources_ = requireViewpoints(*plan.frame.scene, kName);
     const ClipmapVoxels& clipmap = plan.get(clipmap_);
     RadianceVoxels& radiance = plan.get(radiance_);
+    radiance.lightBounces = params_.bounces + 1;
     radiance.layout = RadianceLayout::Clipmap;
     radiance.grid = clipmap.grid;
     storage_ = RadianceClipmap(clipmap.grid, clipmap.windows.side());

@@ -30,6 +30,7 @@ void MergeVoxels::declare(PassBuilder& builder) {
 
 void MergeVoxels::plan(PassPlan& plan) {
     const SurfaceVoxels& voxels = plan.get(voxels_);
+    plan.get(tree_).lightBounces = plan.get(irradiance_).lightBounces;
     plan.get(tree_).holdsDirect = params_.light == MergedLight::All;
     plan.buffer(plan.get(tree_).header, "header of the irradiance tree", sizeof(Header));
     plan.reserve("irradiance tree (at most)", maxBytes(voxels.voxelCount));

@@ -50,6 +50,7 @@ void PathTracePass::plan(PassPlan& plan) {
                 .bounces = params_.bounces,
                 .light = params_.light};
     uint64_t largest = 0;
+    for (const RenderedImage& image : images_) plan.get(image.port).lightBounces = params_.bounces;
     for (const RenderedImage& image : images_)
         if (FrameImage& frame = plan.get(image.port); frame.isRead && isRendered(image)) {
             plan.image(frame.image, image.name, frameImageDesc(plan.frame));
@@ -58,6 +59,7 @@ void PathTracePass::plan(PassPlan& plan) {
     if (NoisyIrradiance& noisy = plan.get(noisy_); noisy.isRead) {
         const uint32_t texels = plan.has(gbuffer_) ? plan.get(gbuffer_).samples : 1;
         options_.irradianceTexels = texels;
+        noisy.lightBounces = params_.bounces;
         noisy.spacing = texels;
         noisy.blockSize = texels * options_.momentsPixels();
         const ImageDesc desc = NoisyIrradiance::desc(plan.frame, texels);

@@ -60,6 +60,7 @@ void SampleVpls::plan(PassPlan& plan) {
     vpls.paths = std::accumulate(pathsOf_.begin(), pathsOf_.end(), 0u);
     vpls.areaPerPath = float(surfaceArea(plan.frame.scene->geometry) / vpls.paths);
     vpls.bounces = params_.bounces;
+    vpls.lightBounces = params_.bounces;
     const uint64_t points = uint64_t(vpls.paths) * vpls.bounces;
     const uint64_t batch = *std::max_element(pathsOf_.begin(), pathsOf_.end());
     plan.buffer(vpls.points, "virtual point lights", vpls.pointsBytes(kName));

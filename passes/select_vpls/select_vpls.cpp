@@ -39,6 +39,7 @@ void SelectVpls::plan(PassPlan& plan) {
     const uint64_t points = uint64_t(candidates.paths) * candidates.bounces;
     Vpls& vpls = plan.get(vpls_);
     vpls.bounces = candidates.bounces;
+    vpls.lightBounces = candidates.lightBounces;
     vpls.paths = uint32_t(std::min<uint64_t>(params_.count, points));
     vpls.areaPerPath = float(surfaceArea(plan.frame.scene->geometry) * vpls.bounces / vpls.paths);
     plan.buffer(vpls.points, "selected virtual point lights", vpls.pointsBytes(kName));

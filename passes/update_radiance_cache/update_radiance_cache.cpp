@@ -84,6 +84,7 @@ void UpdateRadianceCache::plan(PassPlan& plan) {
         std::ldexp(1.0f, 28) / std::max(meanIrradiance(sources_, plan.frame.scene->geometry), 1e-30f);
 
     RadianceCache& cache = plan.get(cache_);
+    if (params_.samplesToEnd == 0) cache.lightBounces = params_.bounces;  // Else light of all bounces.
     plan.buffer(cache.gridAt, "grid of the radiance cache", sizeof(gpu::RadianceCacheGrid));
     plan.buffer(cache.keys, "keys of the radiance cache", params_.capacity * RadianceCache::kKeyBytes);
     plan.buffer(cache.sums, "sums of the radiance cache", params_.capacity * RadianceCache::kSumBytes);

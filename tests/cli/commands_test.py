@@ -196,6 +196,26 @@ class Validate(CommandTest):
     def test_missing_port(self):
         self.bad("  - {pass: gbuffer}\n", "", "direct_shadow_rays: missing port 'gbuffer'", line=8)
 
+    def test_bounces_are_counted_to_the_image(self):
+        # Each brings three bounces: to what it looks up, and one more where it gathers from what reflects.
+        methods = {"lookup": "[{pass: inject_light_rays, bounces: 3}, gather_irradiance]",
+                   "rays": "[trace_gather_rays, gather_rays, filter_irradiance]",
+                   "cones": "[filter_voxels, gather_cones]",
+                   "more cones": "[{pass: inject_light_rays, bounces: 1}, {pass: filter_voxels, bounces: 1}, gather_cones]",
+                   "merged": "[merge_voxels, trace_gather_rays, gather_merged_rays]",
+                   "cache": "[{pass: update_radiance_cache, bounces: 2}, trace_gather_rays, gather_cached_rays]",
+                   "vpls": "[{pass: sample_vpls, bounces: 3}, gather_vpls]",
+                   "paths": "[{pass: path_trace, bounces: 3, light: indirect}, filter_irradiance]"}
+        sweep = "sweep:\n  gather_irradiance:\n" + "".join(f"    {k}: {v}\n" for k, v in methods.items())
+        self.write("same.yaml", TINY.replace("spp: 8, bounces: 2", "spp: 8, bounces: 3").replace(
+            "sweep:\n  voxelize.resolution: [8, 16]\n", sweep))
+        self.assertEqual(self.expect(0, "validate", "same.yaml").stderr, "")
+        warnings = self.expect(0, "validate", "same.yaml", "--set", "reference.bounces=4").stderr
+        for method in ("lookup", "more-cones", "cache", "vpls", "paths"):
+            self.assertIn(f"(gather_irradiance-{method})", warnings)
+        self.assertIn("same.yaml:8: indirect light has 3 bounces, the reference's 4: write 'bounces: 3' in 'inject', or "
+                      "'bounces: 3' in the reference (gather_irradiance-rays and 2 more)", warnings)
+
     def test_names_in_scenes(self):
         scene = "{builtin: cornell}"
         for more, word in (("override: {floo: {roughness: 1}}", "no material 'floo'"),

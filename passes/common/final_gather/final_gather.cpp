@@ -57,6 +57,7 @@ void FinalGather::plan(PassPlan& plan, const Settings& settings) {
     const GatherHits& hits = plan.get(hits_);
     const uint32_t texelsPerBlock = hits.layout.blockSize * hits.layout.blockSize;
     NoisyIrradiance& noisy = plan.get(noisy_);
+    noisy.lightBounces = plan.get(indirect_).lightBounces = oneMore(settings.storedBounces);
     noisy.spacing = hits.layout.raysPerBlock < texelsPerBlock ? hits.layout.blockSize : 1;
     if (plan.get(indirect_).isRead && noisy.spacing > 1)
         throw Error(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ class FinalGather {
         uint32_t lightSamples = 1;  ///< Of the emissive surfaces and of the environment, at each such hit.
         float nearFieldCells = 0;   ///< Rays shorter than this go on; 0: no ray does.
         uint32_t maxSteps = 3;      ///< That a ray goes on, at most.
+        std::optional<uint32_t> storedBounces = {};  ///< Resource::lightBounces of the stored light.
     };
 
     void declare(PassBuilder& builder);

@@ -23,6 +23,8 @@ void VoxelLookupPass::declare(PassBuilder& builder) {
 }
 
 void VoxelLookupPass::plan(PassPlan& plan) {
+    if (flux_ == &VoxelIrradiance::indirect)
+        plan.get(reflected_).lightBounces = plan.get(irradiance_).lightBounces;
     plan.image(plan.get(reflected_).image, portName_, frameImageDesc(plan.frame));
 }
 
