@@ -9,6 +9,7 @@ namespace voxray {
 void addRunCommand(CLI::App& app, int& status);
 void addValidateCommand(CLI::App& app, int& status);
 void addSchemaCommand(CLI::App& app, int& status);
+void addSceneCommand(CLI::App& app, int& status);
 void addExportSceneCommand(CLI::App& app, int& status);
 void addCompareCommand(CLI::App& app, int& status);
 void addPassesCommand(CLI::App& app, int& status);

@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
     addRunCommand(app, status);
     addValidateCommand(app, status);
     addSchemaCommand(app, status);
+    addSceneCommand(app, status);
     addExportSceneCommand(app, status);
     addCompareCommand(app, status);
     addPassesCommand(app, status);

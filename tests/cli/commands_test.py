@@ -1,4 +1,5 @@
-"""Commands that render nothing: usage, compare, passes, devices, validate, schema, export-scene."""
+"""Commands that render nothing: usage, compare, passes, devices, validate, schema, scene, export-scene."""
+import base64
 import glob
 import json
 import os
@@ -302,6 +303,49 @@ class Schema(CommandTest):
         with open(os.path.join(SOURCE, "docs", "writing-a-config.md"), encoding="utf-8") as file:
             row = next(line for line in file if line.startswith("| `metrics` |"))
         self.assertEqual([name for name in names if f"`{name}`" not in row], [])
+
+
+class SceneCommand(CommandTest):
+    def test_a_built_in_scene_and_its_picture(self):
+        out = self.expect(0, "scene", "cornell", "--picture", "box.png").stdout
+        for words in ("36 triangles", "2 x 2 x 2 m", "emits [20, 20, 20] W/(m² sr)",
+                      "camera: {position: [0, 1, 3.8], target: [0, 1, 0], fov_deg: 40}"):
+            self.assertIn(words, out)
+        with Image.open(self.path("box.png")) as picture:
+            pixels = np.asarray(picture, float)
+        self.assertEqual(pixels.shape, (180, 320, 3))
+        # Red wall on the left, green one on the right
+        left, right = pixels[90, 95], pixels[90, 224]
+        self.assertGreater(left[0], 1.5 * left[1])
+        self.assertGreater(right[1], 1.5 * right[0])
+
+    def test_the_camera_to_paste_is_one_that_a_config_takes(self):
+        # A square without a camera and lights: what is suggested looks at it.
+        data = np.array([[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 0, 0], [2, 2, 0], [0, 2, 0]], np.float32).tobytes()
+        self.write("square.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3", "min": [0, 0, 0],
+                           "max": [2, 2, 0]}],
+            "bufferViews": [{"buffer": 0, "byteLength": len(data)}],
+            "buffers": [{"byteLength": len(data),
+                         "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]}))
+        out = self.expect(0, "scene", "square.gltf", "--picture", "square.png").stdout
+        self.assertIn("nothing shines", out)
+        camera = out.splitlines()[out.splitlines().index("a camera to begin with:") + 1].strip()
+        with Image.open(self.path("square.png")) as picture:
+            pixels = np.asarray(picture, float)
+        self.assertNotEqual(pixels[90, 160].tolist(), pixels[2, 2].tolist())
+        self.write("tiny.yaml", TINY.replace("{builtin: cornell}",
+                                             "{file: square.gltf, environment: 1, " + camera + "}"))
+        self.expect(0, "validate", "tiny.yaml")
+        position = camera[:camera.index("target")]  # the target may be another point of the same line
+        self.assertIn(position, self.expect(0, "scene", "tiny.yaml").stdout)
+
+    def test_unknown_scenes(self):
+        self.assertIn("did you mean 'cornell'", self.expect(2, "scene", "cornel").stderr)
+        self.assertIn("no file 'nowhere.glb'", self.expect(2, "scene", "nowhere.glb").stderr)
+        self.expect(2, "scene", "nowhere.yaml")
 
 
 class ExportScene(CommandTest):

@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <memory>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/config_options.h"
+#include "app/scene_view.h"
+#include "experiment/scene_setup.h"
+#include "passes/path_trace/path_tracer.h"
+#include "scene/load.h"
+
+namespace voxray {
+
+namespace {
+
+struct SceneArguments : ConfigArguments {
+    std::filesystem::path what;
+    std::filesystem::path picture;
+};
+
+bool isConfig(const std::filesystem::path& what) {
+    return what.extension() == ".yaml" || what.extension() == ".yml";
+}
+
+/// The scene that a config renders, of a file, or that is built in.
+SceneSettings settingsOf(const SceneArguments& arguments) {
+    if (isConfig(arguments.what)) return loadExperiment(arguments.what, arguments.config).setup.scene;
+    if (!arguments.config.profile.empty() || !arguments.config.assignments.empty())
+        throw UsageError("--profile and --set change a config; {} is a scene", arguments.what.string());
+    const bool isFile = arguments.what.extension() == ".glb" || arguments.what.extension() == ".gltf";
+    Value map = Value::map();
+    const bool isHere = isFile && std::filesystem::exists(arguments.what);
+    map.set(isFile ? "file" : "builtin",
+            Value::fromScalar((isHere ? absolute(arguments.what) : arguments.what).string(), true));
+    return readSceneSettings(map);
+}
+
+std::string triple(glm::vec3 v) {
+    return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v.x, v.y, v.z);
+}
+
+std::string block(const CameraSettings& camera) {
+    // Upright cameras need no 'up'
+    const glm::vec3 right = glm::cross(camera.target - camera.position, camera.up);
+    const bool isUpright = camera.up.y > 0 && std::abs(right.y) < 1e-3f * glm::length(right);
+    const std::string up = isUpright ? "" : ", up: " + triple(camera.up);
+    return fmt::format("camera: {{position: {}, target: {}{}, fov_deg: {:.4g}}}", triple(camera.position),
+                       triple(camera.target), up, camera.fovDegrees);
+}
+
+void printLights(const SceneState& state) {
+    for (const Light& light : state.lights) {
+        const char* name = light.type == LightType::Point  ? "point"
+                           : light.type == LightType::Spot ? "spot"
+                                                           : "directional";
+        if (light.type == LightType::Directional)
+            fmt::print("  - {{{}: {}, irradiance: {}}}  # W/m²\n", name, triple(light.direction),
+                       triple(light.intensity));
+        else
+            fmt::print("  - {{{}: {}, {}intensity: {}}}  # W/sr\n", name, triple(light.position),
+                       light.type == LightType::Spot ? "direction: " + triple(light.direction) + ", " : "",
+                       triple(light.intensity));
+    }
+    const Environment& environment = state.scene->environment;
+    if (environment.radiance != glm::vec3(0.0f))
+        fmt::print("  environment {}{}\n", triple(environment.radiance),
+                   environment.map ? " times a map" : " W/(m² sr)");
+}
+
+/// Square metres and triangles of each material.
+std::vector<std::pair<double, size_t>> usesOf(const SceneState& state) {
+    const Geometry& g = state.geometry;
+    std::vector<std::pair<double, size_t>> uses(state.scene->materials.size());
+    for (size_t i = 0; i < g.triangles.size(); ++i) {
+        const glm::vec3 a = g.positions[g.triangles[i].x];
+        auto& [area, count] = uses[g.triangleMaterials[i]];
+        area += 0.5 * double(glm::length(
+                          glm::cross(g.positions[g.triangles[i].y] - a, g.positions[g.triangles[i].z] - a)));
+        ++count;
+    }
+    return uses;
+}
+
+/// @return whether anything shines: a light, a surface or the environment.
+bool printMaterials(const SceneState& state) {
+    const auto uses = usesOf(state);
+    bool shines = !state.lights.empty() || state.scene->environment.radiance != glm::vec3(0.0f);
+    fmt::print("materials: {}\n  {:32} {:>10} {:>10}  {:22} {:>8} {:>9}\n", uses.size(), "name", "triangles",
+               "area, m²", "base color", "metallic", "roughness");
+    for (size_t i = 0; i < uses.size(); ++i) {
+        const Material& m = state.scene->materials[i];
+        const bool emits = m.emission != glm::vec3(0.0f);
+        shines |= emits && uses[i].second > 0;
+        fmt::print("  {:32} {:10} {:10.3g}  {:22} {:8.2g} {:9.2g}{}{}\n", m.name, uses[i].second,
+                   uses[i].first, triple(glm::vec3(m.baseColor)), m.metallic, m.roughness,
+                   m.baseColorTexture.texture >= 0 ? ", textured" : "",
+                   emits ? ", emits " + triple(m.emission) + " W/(m² sr)" : "");
+    }
+    return shines;
+}
+
+/// A path-traced picture of a few samples. What nothing lights is shown in even light from all sides.
+void writePicture(SceneState state, const EmbreeScene& tracer, const Camera& camera, bool shines,
+                  const std::filesystem::path& file) {
+    if (!shines) {
+        auto lit = std::make_shared<Scene>(*state.scene);
+        lit->environment.radiance = glm::vec3(1.0f);
+        state.scene = lit;
+    }
+    const PathTraceOptions options{.width = 320, .height = 180, .spp = 32, .bounces = 4};
+    writePng(file, preview(pathTrace(state, tracer, camera, options).total, 0));
+    fmt::print("{}: 320 x 180 pixels{}\n", file.string(),
+               shines ? "" : ", in even light, for the scene has none");
+}
+
+void describe(const SceneArguments& arguments) {
+    SceneSettings settings = settingsOf(arguments);
+    const auto folders = sceneFolders(arguments.scenes, VOXRAY_SOURCE_DIR, arguments.what);
+
+    // All cameras of the scene itself; where it has none and the config gives none, one that sees it
+    const SceneState own =
+        evaluate(settings.source.file.empty()
+                     ? makeBuiltinScene(settings.source.builtin, settings.source.builtinParameters)
+                     : loadGltf(findSceneFile(settings.source.file, folders, settings.where)),
+                 settings.options.time);
+    const bool hasCamera = settings.camera || !own.cameras.empty();
+    if (!hasCamera) settings.camera = suggestCamera(own.geometry, EmbreeScene(own));
+    SceneLoader loader(folders);
+    const PreparedScene scene = loader.prepare(settings);
+    const Geometry& g = scene.state.geometry;
+
+    const glm::vec3 size = g.boundsMax - g.boundsMin;
+    fmt::print("{}: {} triangles in {} objects, {} textures\n", arguments.what.string(), g.triangles.size(),
+               scene.state.scene->instances.size(), scene.state.scene->textures.size());
+    fmt::print("bounds: {} to {}, {:.4g} x {:.4g} x {:.4g} m\n", triple(g.boundsMin), triple(g.boundsMax),
+               size.x, size.y, size.z);
+    fmt::print("cameras: {}\n", own.cameras.size());
+    for (const Camera& camera : own.cameras)
+        fmt::print("  {}: {}\n", camera.name, block(settingsOf(camera, g)));
+    fmt::print("lights: {}\n", scene.state.lights.size());
+    printLights(scene.state);
+    const bool shines = printMaterials(scene.state);
+    if (!shines) fmt::print("nothing shines: add lights, or an environment as in\n  environment: 1\n");
+    fmt::print("{}:\n  {}\n", hasCamera ? "the camera in use" : "a camera to begin with",
+               block(settingsOf(scene.camera, g)));
+    for (const std::string& warning : loader.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
+    if (!arguments.picture.empty())
+        writePicture(scene.state, EmbreeScene(scene.state), scene.camera, shines, arguments.picture);
+}
+
+}  // namespace
+
+void addSceneCommand(CLI::App& app, int&) {
+    CLI::App* command = app.add_subcommand(
+        "scene", "Tell what is in a scene: bounds, cameras, lights, materials, and a camera to paste.");
+    auto arguments = std::make_shared<SceneArguments>();
+    command
+        ->add_option("SCENE", arguments->what,
+                     "A .glb or .gltf file, the name of a built-in scene, or a config, whose scene it is "
+                     "with all that the config changes. Sweeps are left out.")
+        ->required();
+    command->add_option("--picture", arguments->picture, "Write a small path-traced picture.")
+        ->type_name("OUT.png");
+    addConfigOptions(*command, *arguments);
+    command->callback([arguments] { describe(*arguments); });
+}
+
+}  // namespace voxray
