@@ -22,13 +22,13 @@ def summary(results: Results, light: str, families: list[Family], names: Names) 
                          "reason stands below the table.")
     metric = results.metrics[0] if results.metrics else None
     if metric:
-        sentences += _most_accurate(results, light, metric, names)
+        sentences += _lowest_error(results, light, metric, names)
         sentences += equal_error.sentences(results, light, metric, families, names)
     sentences += _fastest(results, names)
     return sentences + _worse_than_nothing(results, light, names)
 
 
-def _most_accurate(results: Results, light: str, metric, names: Names) -> list[str]:
+def _lowest_error(results: Results, light: str, metric, names: Names) -> list[str]:
     column = LIGHTS[light] + metric.key
     scores = results.ok.set_index("variant")[column].dropna()
     if scores.empty:
