@@ -28,6 +28,7 @@
 #include "passes/render_rsm/render_rsm.h"
 #include "passes/sample_vpls/sample_vpls.h"
 #include "passes/select_vpls/select_vpls.h"
+#include "passes/show_voxels/show_voxels.h"
 #include "passes/trace_gather_rays/trace_gather_rays.h"
 #include "passes/update_radiance_cache/update_radiance_cache.h"
 #include "passes/voxelize/voxelize_pass.h"
@@ -52,6 +53,7 @@ void registerPasses(Registry& registry) {
     registry.add<GatherCones>();
     registry.add<ProbeIrradiance>();
     registry.add<GatherIrradiance>();
+    registry.add<ShowVoxels>();
     registry.add<TraceGatherRays>();
     registry.add<GatherRays>();
     registry.add<MergeVoxels>();

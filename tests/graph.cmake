@@ -10,12 +10,13 @@ voxray_tests(chain SHARDS 12
            physics/memory_test.cpp physics/merged_voxels_test.cpp
            physics/moving_scene_test.cpp physics/moving_voxels_test.cpp physics/octree_test.cpp
            physics/radiance_cache_test.cpp physics/radiance_voxels_test.cpp physics/shadow_map_test.cpp physics/specular_cones_test.cpp
-           physics/stable_light_test.cpp physics/svo_layout_test.cpp physics/thin_walls_test.cpp
+           physics/show_voxels_test.cpp physics/stable_light_test.cpp physics/svo_layout_test.cpp physics/thin_walls_test.cpp
            physics/voxel_accumulator_test.cpp
            physics/voxel_ends_test.cpp physics/voxel_march_test.cpp physics/voxel_visibility_test.cpp physics/voxel_packing_test.cpp
            physics/voxelize_exact_test.cpp physics/voxelize_material_test.cpp
            physics/voxelize_methods_test.cpp physics/voxelize_test.cpp house/march/mutual_visibility.cpp
-           house/march/mutual_visibility_test.cpp support/watched_device.cpp
+           house/march/mutual_visibility_test.cpp house/occlusion/ambient_occlusion.cpp
+           house/occlusion/ambient_occlusion_test.cpp support/watched_device.cpp
   DEPENDS voxray_experiment voxray_passes)
 # Each chain compiles some twenty shaders.
 target_compile_definitions(tests_chain PRIVATE VOXRAY_TEST_CACHE="${CMAKE_BINARY_DIR}/test_cache")

@@ -147,11 +147,17 @@ def problem_of_third_party(includer, header):
     return None
 
 
+# A shader that C++ names, to compile it, is used as if it were included.
+SHADER = re.compile(r'(?<!#include )"((?:framework|passes|shaders|tests)/[\w/]+\.(?:comp|vert|geom|frag|glsl))"')
+
+
 def check(root):
     problems = []
     for path in sources(root):
         with open(os.path.join(root, path), encoding="utf-8", errors="replace") as file:
             for number, line in enumerate(file, 1):
+                problems += [f"{path}:{number}: {problem}" for shader in SHADER.findall(line)
+                             if (problem := problem_of_own(path, shader))]
                 match = INCLUDE.match(line)
                 if not match:
                     continue

@@ -85,6 +85,13 @@ class Layers(Tree):
         self.allowed("passes/register_passes.cpp", '"passes/two/two.h"')
         self.allowed("framework/app/x.cpp", '"passes/register_passes.h"')
 
+    def test_shaders_that_are_compiled(self):
+        for path, shader, is_allowed in (("passes/one/x.cpp", "passes/one/one.comp", True),
+                                         ("passes/one/x.cpp", "passes/two/two.comp", False),
+                                         ("passes/one/x.cpp", "tests/house/template/tint.comp", False)):
+            self.write(path, f'    program_ = compiler.compile("{shader}");\n')
+            self.assertEqual(layers.check(self.root) == [], is_allowed, shader)
+
     def test_rooms(self):
         # Upwards, in circles, and what is in no room.
         self.refused("passes/common/voxels/x.cpp", '"passes/common/octree/octree.h"')

@@ -1,0 +1,49 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What the first voxel on the ray through each pixel's center holds.
+#include "shaders/voxel_march/voxel_march.glsl"
+#ifdef SHOW_IRRADIANCE
+#include "shaders/voxels/face_irradiance.glsl"
+#endif
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(rgba32f) writeonly uniform image2D result;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    vec3 origin;
+    vec3 forward;
+    vec3 right;  // From the image's center to its edge, at a distance of 1.
+    vec3 up;
+    uint show;
+} push;
+
+#define SHOW_ALBEDO 0u
+#define SHOW_OPACITY 2u
+
+vec3 held(VoxelHit hit) {
+    const uint number = voxelNumber(push.grid, hit.voxel);
+#ifdef SHOW_IRRADIANCE
+    // From within a voxel no face is seen
+    if (hit.face == NO_FACE) return vec3(0.0);
+    const vec4 light = faceLight(number, hit.voxel, hit.face);
+    return light.w > 0.0 ? light.rgb / 3.14159265358979 : vec3(1.0, 0.0, 1.0);
+#else
+    const VoxelMaterial material = voxelMaterial(number);
+    if (push.show == SHOW_ALBEDO) return material.albedo;
+    if (push.show == SHOW_OPACITY) return vec3(material.opacity);
+    return 0.5 * material.normal + 0.5;
+#endif
+}
+
+void main() {
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    const ivec2 size = imageSize(result);
+    if (any(greaterThanEqual(pixel, size))) return;
+    const vec2 at = 2.0 * (vec2(pixel) + 0.5) / vec2(size) - 1.0;
+    const vec3 direction = normalize(push.forward + at.x * push.right - at.y * push.up);
+    VoxelHit hit;
+    vec3 color = vec3(0.0);
+    if (closest(push.grid, push.origin, direction, 0.0, 1.0e30, hit)) color = held(hit);
+    imageStore(result, pixel, vec4(color, 1.0));
+    countMarch();
+}

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "passes/common/view/frame_image.h"
+#include "passes/common/voxel_march/voxel_march.h"
+#include "passes/common/voxels/face_irradiance.h"
+
+namespace voxray {
+
+enum class ShownValue { Albedo, Irradiance, Opacity, Normal };
+
+template <>
+struct EnumNames<ShownValue> {
+    static constexpr std::array names{
+        std::pair{ShownValue::Albedo, "albedo"}, std::pair{ShownValue::Irradiance, "irradiance"},
+        std::pair{ShownValue::Opacity, "opacity"}, std::pair{ShownValue::Normal, "normal"}};
+};
+
+/// The voxels themselves, as cubes, seen by the camera: for looking at what other passes read.
+class ShowVoxels final : public Pass {
+ public:
+    static constexpr const char* kName = "show_voxels";
+    static constexpr const char* kHelp =
+        "An image of the surface voxels as cubes, each in the color of what it holds: the first voxel on the "
+        "ray through each pixel's center, without antialiasing. For looking at, not for scores. Exact, no "
+        "noise of its own.";
+    struct Params {
+        ShownValue show = ShownValue::Albedo;
+        static constexpr auto schema() {
+            return std::tuple{field("show", &Params::show,
+                                    "albedo: diffuse reflectance. irradiance: what arrives at the face that "
+                                    "is seen, as the radiance "
+                                    "of a white surface there (over pi); magenta where the injection did not "
+                                    "look. opacity: 0 to 1. "
+                                    "normal: each component from -1 to 1 as 0 to 1.")};
+        }
+    };
+
+    explicit ShowVoxels(const Params& params) : params_(params) {}
+    Phase phase() const override { return Phase::Frame; }
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    bool showsLight() const { return params_.show == ShownValue::Irradiance; }
+
+    Params params_;
+    Port<const SurfaceVoxels> voxels_;
+    Port<const VoxelIrradiance> irradiance_;
+    Port<FrameImage> final_;
+    VoxelMarch march_{VoxelWalk::Bricks};
+    FaceIrradiance faces_;
+    std::optional<std::pair<uint64_t, uint64_t>> facesVersion_;  ///< Of the voxels and the light in them.
+    Program program_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,23 @@
+// A batch of ambient rays: those of its pixels one after another, of a pixel those of its texels.
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/trace/ray_types.h"
+
+layout(push_constant, scalar) uniform Push {
+    uint width;
+    uint firstPixel;
+    uint pixels;
+    uint samples;  // Texels of the g-buffer along each side of a pixel.
+    uint raysPerTexel;
+    float radius;
+    uint seed;
+    vec3 ambient;
+} push;
+
+// The place of a texel in the g-buffer, by its number in the batch.
+ivec2 texelOf(uint number) {
+    const uint perPixel = push.samples * push.samples, within = number % perPixel;
+    const uint pixel = push.firstPixel + number / perPixel;
+    return ivec2(uvec2(pixel % push.width, pixel / push.width) * push.samples +
+                 uvec2(within % push.samples, within / push.samples));
+}
