@@ -348,6 +348,18 @@ class SceneCommand(CommandTest):
         self.expect(2, "scene", "nowhere.yaml")
 
 
+class Tutorial(CommandTest):
+    def test_its_config_renders_the_scene_of_a_file(self):
+        with open(os.path.join(SOURCE, "docs", "tutorial.md"), encoding="utf-8") as file:
+            config = file.read().split("```yaml\n")[1].split("```")[0]
+        self.write("tiny.yaml", TINY)
+        self.expect(0, "export-scene", "tiny.yaml", "room.glb")
+        self.assertIn("cameras: 1", self.expect(0, "scene", "room.glb").stdout)
+        self.write("room.yaml", config)
+        done = self.expect(0, "validate", "room.yaml")
+        self.assertEqual((done.stdout, done.stderr), ("room.yaml: valid, 3 variants\n", ""))
+
+
 class ExportScene(CommandTest):
     def document(self, name):
         data = self.bytes(name)
