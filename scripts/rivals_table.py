@@ -4,8 +4,9 @@
 rivals_table.py DIR: for each scene and number of samples a pixel, the frame time of path tracing (G-buffer, paths, filter)
 and its errors of indirect light; then that time over the time in which gather rays into voxels, or into a radiance cache,
 reach as small an nRMSE / relMSE: with light and geometry that stand still (frames alone), with light that is new in each
-frame (what brings light counts, too), and with geometry that is new, too (all that is built counts). Of a method's variants
-those count that no other one beats in time and error; between them the time is interpolated, logarithm over logarithm.
+frame (what brings light counts, too), and with geometry that is new, too (all that is built counts). "voxels, rays alone" takes
+the G-buffer and the filter, which both sides share, off both sides: what the first column would come to if these cost
+nothing. Of a method's variants those count that no other one beats in time and error; between them the time is interpolated, logarithm over logarithm.
 `>` where the fastest of them already has less error, `-` where none has as little. Direct light is in neither.
 """
 import csv
@@ -15,15 +16,17 @@ import re
 import sys
 
 LEFT_OUT = {"direct", "composite"}
+SHARED = {"gbuffer", "filter_irradiance"}
 LIGHT = {"inject", "few_rays", "update_radiance_cache"}
 ERRORS = ("indirect_nrmse", "indirect_relmse")
 
-# Of each column: its title, the gather that it is about, and whether a build pass counts.
-COLUMNS = (("voxels", "gather_rays", lambda name: False),
-           ("cache", "gather_cached_rays", lambda name: False),
-           ("voxels, new light", "gather_rays", lambda name: name in LIGHT),
-           ("cache, new light", "gather_cached_rays", lambda name: name in LIGHT),
-           ("voxels, new geometry", "gather_rays", lambda name: True))
+# Of each column: its title, the gather that it is about, whether a build pass counts, and what does not count.
+COLUMNS = (("voxels", "gather_rays", lambda name: False, LEFT_OUT),
+           ("voxels, rays alone", "gather_rays", lambda name: False, LEFT_OUT | SHARED),
+           ("cache", "gather_cached_rays", lambda name: False, LEFT_OUT),
+           ("voxels, new light", "gather_rays", lambda name: name in LIGHT, LEFT_OUT),
+           ("cache, new light", "gather_cached_rays", lambda name: name in LIGHT, LEFT_OUT),
+           ("voxels, new geometry", "gather_rays", lambda name: True, LEFT_OUT))
 
 
 def read(*parts):
@@ -43,10 +46,10 @@ def variants(folder):
     return scenes
 
 
-def time_of(passes, counts_build):
+def time_of(passes, counts_build, left_out):
     """Milliseconds a frame."""
     return sum(float(p["ms_median"]) for p in passes
-               if p["pass"] not in LEFT_OUT and (p["phase"] == "frame" or counts_build(p["pass"])))
+               if p["pass"] not in left_out and (p["phase"] == "frame" or counts_build(p["pass"])))
 
 
 def front(points):
@@ -72,20 +75,22 @@ def speed_up(ms, error, points):
 
 
 def table(folder):
-    yield "| scene | spp | ms | nRMSE / relMSE | " + " | ".join(title for title, _, _ in COLUMNS) + " |"
+    yield "| scene | spp | ms | nRMSE / relMSE | " + " | ".join(title for title, _, _, _ in COLUMNS) + " |"
     yield "|" + " --- |" * (4 + len(COLUMNS))
     for scene, found in variants(folder).items():
         fronts = {}
-        for title, gather, counts_build in COLUMNS:
+        for title, gather, counts_build, left_out in COLUMNS:
             mine = [(passes, row) for passes, row in found if any(p["pass"] == gather for p in passes)]
             for name in ERRORS:
-                fronts[title, name] = front([(time_of(passes, counts_build), float(row[name])) for passes, row in mine])
+                fronts[title, name] = front([(time_of(passes, counts_build, left_out), float(row[name]))
+                                             for passes, row in mine])
         for passes, row in found:
             if not any(p["pass"] == "paths" for p in passes):
                 continue
-            ms = time_of(passes, lambda name: False)
-            cells = [" / ".join(speed_up(ms, float(row[name]), fronts[title, name]) for name in ERRORS)
-                     for title, _, _ in COLUMNS]
+            ms = time_of(passes, lambda name: False, LEFT_OUT)
+            cells = [" / ".join(speed_up(time_of(passes, lambda name: False, left_out), float(row[name]), fronts[title, name])
+                                for name in ERRORS)
+                     for title, _, _, left_out in COLUMNS]
             samples = re.search(r"path_trace spp (\d+)", row["indirect"])[1]
             errors = " / ".join(f"{float(row[name]):.3f}" for name in ERRORS)
             yield f"| {scene} | {samples} | {ms:.0f} | {errors} | {' | '.join(cells)} |"

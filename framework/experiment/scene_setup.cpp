@@ -255,6 +255,7 @@ PreparedScene SceneLoader::prepare(const SceneSettings& settings) {
 std::vector<Box> SceneLoader::goToFrame(PreparedScene& prepared, const SceneSettings& settings, int frame) {
     const SceneOptions& options = settings.options;
     std::vector<Box> changed = advance(prepared.state, options.time + frame * options.timeStep);
+    if (!changed.empty()) prepared.memo = std::make_shared<PlanMemo>();
     chooseLightsAndCamera(prepared, settings, frame);
     return changed;
 }

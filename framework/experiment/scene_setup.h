@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "config/config.h"
+#include "graph/plan_memo.h"
 #include "scene/geometry.h"
 #include "scene/scene.h"
 
@@ -28,6 +29,8 @@ std::filesystem::path findSceneFile(const std::string& name,
 struct PreparedScene {
     SceneState state;  ///< Its lights are those that shine, its only camera is `camera`.
     Camera camera;
+    /// Of its surfaces: another one where they have moved.
+    std::shared_ptr<PlanMemo> memo = std::make_shared<PlanMemo>();
 };
 
 /// Loads scenes, composes what a config adds and overrides, and puts its camera, lights, environment and

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 
 #include "base/schema.h"
 #include "graph/memory_plan.h"
+#include "graph/plan_memo.h"
 #include "scene/geometry.h"
 #include "trace/gpu_scene.h"
 #include "trace/ray_tracer.h"
@@ -111,6 +113,8 @@ class PassBuilder {
 /// What all passes of a graph share. Everything outlives the graph.
 struct Frame {
     const SceneState* scene = nullptr;
+    /// What plans found out about `scene`; without it each plan finds out for itself.
+    std::shared_ptr<PlanMemo> memo;
     Camera camera;               ///< World space.
     glm::vec3 cameraMove{0.0f};  ///< From this frame to the next, m.
     uint32_t width = 0;
@@ -151,6 +155,13 @@ class PassPlan : public PortAccess, public MemoryPlan {
     const Frame& frame;
     const DeviceInfo& device;
     const Phase phase;  ///< In which the pass runs.
+
+    /// The answer of `find`, which depends on the scene's surfaces and on what `key` names alone: asked once
+    /// for all variants of a scene (PlanMemo).
+    template <typename Find>
+    auto ofScene(const std::string& key, const Find& find) const {
+        return frame.memo ? frame.memo->get(key, find) : find();
+    }
 };
 
 /// For making programs, and for uploading to buffers and images that were described.

@@ -54,8 +54,7 @@ void DirectShadowRays::plan(PassPlan& plan) {
     plan.buffer(carried_, "shadow ray radiance", rays * 4 * sizeof(float));
     plan.buffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
     plan.image(plan.get(direct_).image, "direct", frameImageDesc(plan.frame));
-    if (params_.visibility == Visibility::Voxels)
-        voxelTracer_.plan(plan, plan.frame.scene->geometry, plan.get(voxels_));
+    if (params_.visibility == Visibility::Voxels) voxelTracer_.plan(plan, plan.get(voxels_));
 }
 
 void DirectShadowRays::prepare(PassSetup& setup) {

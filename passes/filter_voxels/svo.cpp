@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/octree/octree_builder.h"
-#include "passes/common/voxels/voxel_count.h"
 #include "passes/filter_voxels/radiance_storage.h"
 #include "passes/filter_voxels/svo_collapse.h"
 #include "passes/filter_voxels/svo_values.h"
@@ -24,8 +23,7 @@ class SvoStorage final : public RadianceStorage {
  public:
     void plan(PassPlan& plan, const SurfaceVoxels& voxels, RadianceVoxels& radiance) override {
         radiance.grid.unit = 1;  // Values have an exponent of their own.
-        const OctreeSize size{radiance.grid.resolution,
-                              countSurfaceVoxels(plan.frame.scene->geometry, voxels.grid)};
+        const OctreeSize size{radiance.grid.resolution, voxels.expectedCounts};
         const uint64_t octree = size.bytes() + svoValueBytes(size, radiance.grid.directions);
         plan.reserve("octree (estimated)", octree);
         const uint64_t lists = size.leafBytes() + SvoFilter::changedBytes(size);

@@ -89,7 +89,7 @@ void GatherVpls::plan(PassPlan& plan) {
     plan.buffer(noisy.moments, "moments of virtual point lights", noisy.momentsBytes(texels));
     if (FrameImage& indirect = plan.get(indirect_); indirect.isRead)
         plan.image(indirect.image, "indirect", frameImageDesc(plan.frame));
-    if (voxelTracer_) voxelTracer_->plan(plan, plan.frame.scene->geometry, plan.get(voxels_));
+    if (voxelTracer_) voxelTracer_->plan(plan, plan.get(voxels_));
 }
 
 void GatherVpls::prepare(PassSetup& setup) {

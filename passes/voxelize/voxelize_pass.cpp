@@ -1,5 +1,7 @@
 #include "passes/voxelize/voxelize_pass.h"
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "passes/common/voxels/voxel_count.h"
 
@@ -32,7 +34,9 @@ void VoxelizePass::plan(PassPlan& plan) {
     v.unoccludedOnly = params_.visibilityRays > 0;
     v.grid = makeVoxelGrid(geometry.boundsMin, geometry.boundsMax, params_.resolution);
     v.grid.directions = params_.directions;
-    v.voxelCount = countSurfaceVoxels(geometry, v.grid).front();
+    v.expectedCounts = plan.ofScene(fmt::format("voxels of {}", params_.resolution),
+                                    [&] { return countSurfaceVoxels(geometry, v.grid); });
+    v.voxelCount = v.expectedCounts.front();
     VoxelBuilder::planVoxels(plan, v);
     builder_.planWork(plan, v, !movingRuns(geometry).empty());
 }

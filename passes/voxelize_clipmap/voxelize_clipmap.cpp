@@ -1,5 +1,7 @@
 #include "passes/voxelize_clipmap/voxelize_clipmap.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/error.h"
@@ -37,7 +39,9 @@ void VoxelizeClipmap::plan(PassPlan& plan) {
                     finest.directions, 1};
     clipmap.windows = ClipmapWindows(clipmap.grid, params_.clipmapResolution);
 
-    const std::vector<uint32_t> counts = countWindowVoxels(geometry, finest, params_.clipmapResolution);
+    const std::vector<uint32_t> counts = plan.ofScene(
+        fmt::format("voxels of {} in windows of {}", params_.resolution, params_.clipmapResolution),
+        [&] { return countWindowVoxels(geometry, finest, params_.clipmapResolution); });
     clipmap.levels.resize(clipmap.windows.firstWhole() + 1);
     SurfaceVoxels largest;
     for (uint32_t level = 0; level < clipmap.levels.size(); ++level) {

@@ -11,7 +11,10 @@ namespace voxray::test {
 template <typename Walker>
 void prepare(Walker& walker, const SurfaceVoxels& voxels, const ShaderCompiler& compiler) {
     MemoryPlan plan;
-    walker.plan(plan, Geometry{}, voxels);
+    SurfaceVoxels planned;  // Of the same grid; how many voxels it expects is told to graphs alone.
+    planned.grid = voxels.grid;
+    planned.expectedCounts.resize(gridLevels(voxels.grid.resolution));
+    walker.plan(plan, planned);
     for (const MemoryPlan::Part& part : plan.parts())
         if (part.make) part.make(device());
     walker.prepare(device(), compiler);

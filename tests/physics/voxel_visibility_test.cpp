@@ -100,7 +100,7 @@ TEST(VoxelVisibility, RefusesGridsThatItCantWalkThrough) {
     window.grid = madeUpGrid(glm::uvec3(64), 1);
     window.grid.side = 32;
     MemoryPlan plan;
-    EXPECT_CONTAINS(errorOf([&] { march.plan(plan, Geometry{}, window); }), "64x64x64, of which 32 are held");
+    EXPECT_CONTAINS(errorOf([&] { march.plan(plan, window); }), "64x64x64, of which 32 are held");
 }
 
 TEST(VoxelVisibility, ShadowsNarrowToThoseOfSurfaces) {

@@ -81,7 +81,9 @@ TEST(ComposedSceneLoader, AddedAnimationsPlay) {
     PreparedScene moved = loader.prepare(at("0"));
     const PreparedScene there = loader.prepare(at("1.5"));
     EXPECT_NE(moved.state.geometry.positions, there.state.geometry.positions);
+    const std::shared_ptr<PlanMemo> memo = moved.memo;
     EXPECT_EQ(SceneLoader::goToFrame(moved, at("0"), 3).size(), 4u);  // Two spheres, before and after.
+    EXPECT_NE(moved.memo, memo);  // What plans found out held for where they were.
     EXPECT_EQ(moved.state.geometry.positions, there.state.geometry.positions);
 }
 

@@ -134,5 +134,25 @@ TEST_F(GraphMemory, WhatIsTakenBeyondThemNamesThePass) {
     expectError("reserve_scratch: 1024, record_kept: 1024", 1024, "kept", 0);
 }
 
+TEST(PlanMemo, AsksASceneOnceForAllItsVariants) {
+    int asked = 0;
+    const auto plan = [&](const std::shared_ptr<PlanMemo>& memo, const std::string& key) {
+        Frame frame;
+        frame.memo = memo;
+        const std::vector<Resource*> resources;
+        const DeviceInfo device;
+        return PassPlan(resources, frame, device, Phase::Build).ofScene(key, [&] {
+            return std::vector<int>{++asked};
+        });
+    };
+    const auto memo = std::make_shared<PlanMemo>();
+    EXPECT_EQ(plan(memo, "voxels of 16"), std::vector<int>{1});
+    EXPECT_EQ(plan(memo, "voxels of 16"), std::vector<int>{1});
+    EXPECT_EQ(plan(memo, "voxels of 32"), std::vector<int>{2});
+    EXPECT_EQ(plan(memo, "voxels of 16"), std::vector<int>{1});
+    EXPECT_EQ(plan(std::make_shared<PlanMemo>(), "voxels of 16"), std::vector<int>{3});  // Another scene.
+    EXPECT_EQ(plan(nullptr, "voxels of 16"), std::vector<int>{4});
+}
+
 }  // namespace
 }  // namespace voxray

@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <string>
+
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/triangle_walk/triangle_tiles.h"
 #include "passes/common/triangle_walk/triangle_walk.h"
@@ -12,7 +16,12 @@ namespace {
 class ExactWalk final : public TriangleWalk {
  public:
     void plan(PassPlan& plan, const gpu::VoxelGrid& grid) override {
-        plan.reserveScratch("tiles of triangles", TriangleTiles::bytes(plan.frame.scene->geometry, grid));
+        const glm::vec3& o = grid.origin;
+        const std::string key =
+            fmt::format("tiles for voxels of {} m from {} {} {} on", grid.voxelSize, o.x, o.y, o.z);
+        plan.reserveScratch("tiles of triangles", plan.ofScene(key, [&] {
+            return TriangleTiles::bytes(plan.frame.scene->geometry, grid);
+        }));
     }
 
     void prepare(PassSetup&) override {}

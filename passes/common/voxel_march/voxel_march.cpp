@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
-#include "passes/common/voxels/voxel_count.h"
 
 namespace voxray {
 namespace {
@@ -59,7 +58,7 @@ void require(const gpu::VoxelGrid& grid) {
 
 }  // namespace
 
-void VoxelMarch::plan(MemoryPlan& plan, const Geometry& geometry, const SurfaceVoxels& voxels) {
+void VoxelMarch::plan(MemoryPlan& plan, const SurfaceVoxels& voxels) {
     require(voxels.grid);
     plan.buffer(counts_, "voxel march counts", kCountBytes);
     const glm::uvec3 resolution = voxels.grid.resolution;
@@ -70,7 +69,7 @@ void VoxelMarch::plan(MemoryPlan& plan, const Geometry& geometry, const SurfaceV
         plan.scratchBuffer(fewerAxes_, kFewerAxes, bytes);
     }
     if (!isOctree(walk_)) return;
-    const OctreeSize size{resolution, countSurfaceVoxels(geometry, voxels.grid)};
+    const OctreeSize size{resolution, voxels.expectedCounts};
     const uint64_t bytes = hasDistances(walk_) ? distanceBytes(resolution, distanceLevel(size)) : 0;
     plan.reserve("octree (estimated)", size.bytes() - size.tableBytes() + bytes);
     plan.reserveScratch("building (estimated)",

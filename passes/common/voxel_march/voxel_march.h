@@ -33,9 +33,9 @@ class VoxelMarch {
     /// paper, which skips what is thinner; 0 steps exactly.
     explicit VoxelMarch(VoxelWalk walk, float epsilon = 0) : walk_(walk), epsilon_(epsilon) {}
 
-    /// Describes what a walk takes besides the voxels, which stand for `geometry`.
+    /// Describes what a walk takes besides the voxels.
     /// @throws Error for a grid that it can't walk through.
-    void plan(MemoryPlan& plan, const Geometry& geometry, const SurfaceVoxels& voxels);
+    void plan(MemoryPlan& plan, const SurfaceVoxels& voxels);
     void prepare(Device& device, const ShaderCompiler& compiler);
 
     /// Takes over the voxels where their content is another one, and sets the counts to 0. `voxels` must

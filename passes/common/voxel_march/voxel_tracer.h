@@ -15,9 +15,7 @@ class VoxelTracer final : public RayTracer {
     explicit VoxelTracer(VoxelWalk walk, float epsilon = 0) : march_(walk, epsilon) {}
 
     /// As VoxelMarch::plan().
-    void plan(MemoryPlan& plan, const Geometry& geometry, const SurfaceVoxels& voxels) {
-        march_.plan(plan, geometry, voxels);
-    }
+    void plan(MemoryPlan& plan, const SurfaceVoxels& voxels) { march_.plan(plan, voxels); }
     void prepare(Device& device, const ShaderCompiler& compiler);
     std::string_view name() const override { return "voxels"; }
     /// Takes over the voxels, as VoxelMarch::begin(); before the first rays and where the voxels have

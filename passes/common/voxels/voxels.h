@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "graph/pass.h"
 #include "passes/common/compute/large_buffer.h"
@@ -24,10 +25,13 @@ struct SurfaceVoxels : Resource {
     /// Areas count only sides of surfaces with open space in front of them, and so must the light on them.
     bool unoccludedOnly = false;
     uint32_t voxelCount = 0;  ///< Occupied voxels; known once the voxelizing pass has run.
-    uint64_t version = 0;     ///< Another one whenever the content is.
-    Buffer occupancy;         ///< 1 bit a voxel of the grid.
-    Buffer rank;              ///< 1 uint a word of `occupancy`: occupied voxels before it.
-    LargeBuffer materials;    ///< PackedVoxelMaterial a surface voxel.
+    /// About as many voxels as surfaces will pass through, by level of ever larger ones, those of the grid
+    /// first: known from plan() on (voxel_count.h).
+    std::vector<uint32_t> expectedCounts;
+    uint64_t version = 0;   ///< Another one whenever the content is.
+    Buffer occupancy;       ///< 1 bit a voxel of the grid.
+    Buffer rank;            ///< 1 uint a word of `occupancy`: occupied voxels before it.
+    LargeBuffer materials;  ///< PackedVoxelMaterial a surface voxel.
 
     uint64_t words() const {
         const glm::uvec3 held = heldVoxels(grid).size;

@@ -17,7 +17,7 @@ void MutualVisibility::declare(PassBuilder& builder) {
 }
 
 void MutualVisibility::plan(PassPlan& plan) {
-    march_.plan(plan, plan.frame.scene->geometry, plan.get(voxels_));
+    march_.plan(plan, plan.get(voxels_));
     plan.image(plan.get(seen_).image, "seen", frameImageDesc(plan.frame));
 }
 
