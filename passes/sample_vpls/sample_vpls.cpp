@@ -73,7 +73,7 @@ void SampleVpls::plan(PassPlan& plan) {
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
     plan.scratchBuffer(paths_, "light paths", batch * sizeof(gpu::LightPath));
     if (params_.first == FirstVertices::Rsm) rsmSampling_.plan(plan, plan.get(rsm_));
-    if (voxelTracer_) voxelTracer_->plan(plan, plan.frame.scene->geometry, plan.get(voxels_));
+    if (voxelTracer_) voxelTracer_->plan(plan, plan.get(voxels_));
 }
 
 void SampleVpls::prepare(PassSetup& setup) {
