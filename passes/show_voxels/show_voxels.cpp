@@ -29,7 +29,7 @@ void ShowVoxels::declare(PassBuilder& builder) {
 
 void ShowVoxels::plan(PassPlan& plan) {
     plan.image(plan.get(final_).image, "voxels", frameImageDesc(plan.frame));
-    march_.plan(plan, plan.frame.scene->geometry, plan.get(voxels_));
+    march_.plan(plan, plan.get(voxels_));
     if (showsLight())
         plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(plan.get(voxels_).voxelCount));
 }
