@@ -1,12 +1,14 @@
 #!/usr/bin/python3
-"""Prints how much faster gather rays are than filtered path tracing at equal error, from results of configs/bench/rivals.yaml.
+"""Prints how much faster gather rays or virtual lights are than filtered path tracing at equal error, from results of
+configs/bench/rivals.yaml or configs/papers/sun2015/rivals.yaml.
 
 rivals_table.py DIR: for each scene and number of samples a pixel, the frame time of path tracing (G-buffer, paths, filter)
 and its errors of indirect light; then that time over the time in which gather rays into voxels, or into a radiance cache,
 reach as small an nRMSE / relMSE: with light and geometry that stand still (frames alone), with light that is new in each
 frame (what brings light counts, too), and with geometry that is new, too (all that is built counts). "voxels, rays alone" takes
 the G-buffer and the filter, which both sides share, off both sides: what the first column would come to if these cost
-nothing. Of a method's variants those count that no other one beats in time and error; between them the time is interpolated, logarithm over logarithm.
+nothing. For virtual lights what samples and selects them counts. Of a method's variants those count that no other one beats
+in time and error; between them the time is interpolated, logarithm over logarithm.
 `>` where the fastest of them already has less error, `-` where none has as little. Direct light is in neither.
 """
 import csv
@@ -17,7 +19,7 @@ import sys
 
 LEFT_OUT = {"direct", "composite"}
 SHARED = {"gbuffer", "filter_irradiance"}
-LIGHT = {"inject", "few_rays", "update_radiance_cache"}
+LIGHT = {"inject", "few_rays", "update_radiance_cache", "sample_vpls", "select_vpls"}
 ERRORS = ("indirect_nrmse", "indirect_relmse")
 
 # Of each column: its title, the gather that it is about, whether a build pass counts, and what does not count.
@@ -26,7 +28,8 @@ COLUMNS = (("voxels", "gather_rays", lambda name: False, LEFT_OUT),
            ("cache", "gather_cached_rays", lambda name: False, LEFT_OUT),
            ("voxels, new light", "gather_rays", lambda name: name in LIGHT, LEFT_OUT),
            ("cache, new light", "gather_cached_rays", lambda name: name in LIGHT, LEFT_OUT),
-           ("voxels, new geometry", "gather_rays", lambda name: True, LEFT_OUT))
+           ("voxels, new geometry", "gather_rays", lambda name: True, LEFT_OUT),
+           ("virtual lights", "gather_vpls", lambda name: name in LIGHT, LEFT_OUT))
 
 
 def read(*parts):
@@ -75,11 +78,14 @@ def speed_up(ms, error, points):
 
 
 def table(folder):
-    yield "| scene | spp | ms | nRMSE / relMSE | " + " | ".join(title for title, _, _, _ in COLUMNS) + " |"
-    yield "|" + " --- |" * (4 + len(COLUMNS))
-    for scene, found in variants(folder).items():
+    scenes = variants(folder)
+    present = {p["pass"] for found in scenes.values() for passes, _ in found for p in passes}
+    columns = [column for column in COLUMNS if column[1] in present]
+    yield "| scene | spp | ms | nRMSE / relMSE | " + " | ".join(title for title, _, _, _ in columns) + " |"
+    yield "|" + " --- |" * (4 + len(columns))
+    for scene, found in scenes.items():
         fronts = {}
-        for title, gather, counts_build, left_out in COLUMNS:
+        for title, gather, counts_build, left_out in columns:
             mine = [(passes, row) for passes, row in found if any(p["pass"] == gather for p in passes)]
             for name in ERRORS:
                 fronts[title, name] = front([(time_of(passes, counts_build, left_out), float(row[name]))
@@ -90,7 +96,7 @@ def table(folder):
             ms = time_of(passes, lambda name: False, LEFT_OUT)
             cells = [" / ".join(speed_up(time_of(passes, lambda name: False, left_out), float(row[name]), fronts[title, name])
                                 for name in ERRORS)
-                     for title, _, _, left_out in COLUMNS]
+                     for title, _, _, left_out in columns]
             samples = re.search(r"path_trace spp (\d+)", row["indirect"])[1]
             errors = " / ".join(f"{float(row[name]):.3f}" for name in ERRORS)
             yield f"| {scene} | {samples} | {ms:.0f} | {errors} | {' | '.join(cells)} |"

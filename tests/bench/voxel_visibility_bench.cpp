@@ -91,6 +91,7 @@ void voxelVisibility(benchmark::State& state, const std::string& scene) {
         ->ArgName("resolution")                       \
         ->Arg(128)                                    \
         ->Arg(256)                                    \
+        ->Arg(512)                                    \
         ->MeasureProcessCPUTime()                     \
         ->Iterations(1)                               \
         ->Unit(benchmark::kMillisecond)
