@@ -23,6 +23,8 @@ class InjectGatherHits final : public Pass {
         "trace_gather_rays (which must come before) does not hit.";
     struct Params : SurfelParams {
         uint32_t lightSamples = 1;
+        /// In each frame, for gather rays, which average over many points: few paths do.
+        Params() { pathsPerPoint = 1; }
         static constexpr auto schema() {
             return std::tuple_cat(
                 SurfelParams::schema(),

@@ -20,7 +20,7 @@ class InjectLightRays final : public Pass {
         "given rays enough. With diffuse bounces all surfaces are Lambert surfaces of their base colour. "
         "Source: Magalhães 2020, section 3.3.";
     struct Params : LightPathParams {
-        uint32_t raysPerLight = 262144;
+        uint32_t raysPerLight = 1048576;
         static constexpr auto schema() {
             return std::tuple_cat(
                 std::tuple{field("rays_per_light", &Params::raysPerLight,

@@ -134,7 +134,7 @@ class Passes(CommandTest):
 
     def test_one(self):
         out = self.expect(0, "passes", "inject_light_rays").stdout
-        self.assertRegex(" ".join(out.split()), r"rays_per_light Rays .* Default 262144; integer from 1 to 67108864\.")
+        self.assertRegex(" ".join(out.split()), r"rays_per_light Rays .* Default 1048576; integer from 1 to 67108864\.")
         self.assertIn("Outputs:", out)
 
     def test_ports_of_values(self):

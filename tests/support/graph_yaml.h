@@ -13,6 +13,8 @@ struct TestDefault {
 inline constexpr TestDefault kTestDefaults[] = {
     {"voxelize", "resolution", "32"},
     {"inject_light_rays", "rays_per_light", "65536"},
+    {"inject_voxel_rays", "paths_per_point", "1"},
+    {"inject_shadow_map", "paths_per_point", "1"},
 };
 
 /// A graph as YAML. Each entry is a pass and its parameters, such as "voxelize, resolution: 24"; empty

@@ -10,7 +10,8 @@ namespace voxray {
 
 /// The parameters of a pass that lights surfels by paths.
 struct SurfelParams : WriteParams {
-    uint32_t pathsPerPoint = 1;
+    /// So many that a lookup beats a constant image (docs/injection.md).
+    uint32_t pathsPerPoint = 16;
     uint32_t bounces = 8;
     static constexpr auto schema() {
         return std::tuple_cat(
