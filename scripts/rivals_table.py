@@ -72,7 +72,8 @@ def speed_up(ms, error, points):
         return f">{ms / points[0][0]:.1f}"
     for (ms0, error0), (ms1, error1) in zip(points, points[1:]):
         if error1 <= error < error0:
-            at = math.log(error0 / error) / math.log(error0 / error1)
+            # An error that can't be told from none is reached at the slower point, no sooner.
+            at = math.log(error0 / error) / math.log(error0 / error1) if error1 > 0 else 1
             return f"{ms / (ms0 * (ms1 / ms0) ** at):.1f}"
     raise AssertionError("errors of a front decrease")
 
