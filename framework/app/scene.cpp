@@ -11,6 +11,7 @@
 #include "app/config_options.h"
 #include "app/scene_view.h"
 #include "experiment/scene_setup.h"
+#include "passes/common/lights/light_sources.h"
 #include "passes/path_trace/path_tracer.h"
 #include "scene/load.h"
 
@@ -77,10 +78,8 @@ std::vector<std::pair<double, size_t>> usesOf(const SceneState& state) {
     const Geometry& g = state.geometry;
     std::vector<std::pair<double, size_t>> uses(state.scene->materials.size());
     for (size_t i = 0; i < g.triangles.size(); ++i) {
-        const glm::vec3 a = g.positions[g.triangles[i].x];
         auto& [area, count] = uses[g.triangleMaterials[i]];
-        area += 0.5 * double(glm::length(
-                          glm::cross(g.positions[g.triangles[i].y] - a, g.positions[g.triangles[i].z] - a)));
+        area += double(triangleArea(g, g.triangles[i]));
         ++count;
     }
     return uses;
@@ -120,17 +119,12 @@ void writePicture(SceneState state, const EmbreeScene& tracer, const Camera& cam
 
 void describe(const SceneArguments& arguments) {
     SceneSettings settings = settingsOf(arguments);
-    const auto folders = sceneFolders(arguments.scenes, VOXRAY_SOURCE_DIR, arguments.what);
 
     // All cameras of the scene itself; where it has none and the config gives none, one that sees it
-    const SceneState own =
-        evaluate(settings.source.file.empty()
-                     ? makeBuiltinScene(settings.source.builtin, settings.source.builtinParameters)
-                     : loadGltf(findSceneFile(settings.source.file, folders, settings.where)),
-                 settings.options.time);
+    SceneLoader loader(sceneFolders(arguments.scenes, VOXRAY_SOURCE_DIR, arguments.what));
+    const SceneState own = evaluate(loader.load(settings.source), settings.options.time);
     const bool hasCamera = settings.camera || !own.cameras.empty();
     if (!hasCamera) settings.camera = suggestCamera(own.geometry, EmbreeScene(own));
-    SceneLoader loader(folders);
     const PreparedScene scene = loader.prepare(settings);
     const Geometry& g = scene.state.geometry;
 

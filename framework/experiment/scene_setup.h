@@ -39,6 +39,10 @@ class SceneLoader {
  public:
     explicit SceneLoader(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
 
+    /// A file or a built-in scene, as it is. @throws UsageError for one that isn't there or takes other
+    /// parameters, Error for a broken file.
+    std::shared_ptr<const Scene> load(const SceneSource& source);
+
     /// Hash of everything that the prepared scene depends on, file contents included.
     /// @throws UsageError for a scene, parameter, file or overridden material that isn't there, Error for a
     /// broken file.
@@ -56,7 +60,6 @@ class SceneLoader {
     std::vector<std::string> warnings() const;
 
  private:
-    std::shared_ptr<const Scene> load(const SceneSource& source);
     /// @throws UsageError for an overridden material that no scene has.
     void checkOverrides(const SceneSettings& settings);
     /// The scene with all that is added and overridden.

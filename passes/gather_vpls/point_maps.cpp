@@ -33,11 +33,7 @@ std::vector<float> areasUpTo(const Geometry& g) {
     std::vector<float> upTo;
     upTo.reserve(g.triangles.size());
     double sum = 0;
-    for (const glm::uvec3 t : g.triangles) {
-        const glm::vec3 a = g.positions[t.x], b = g.positions[t.y], c = g.positions[t.z];
-        sum += 0.5 * double(glm::length(glm::cross(b - a, c - a)));
-        upTo.push_back(float(sum));
-    }
+    for (const glm::uvec3 t : g.triangles) upTo.push_back(float(sum += double(triangleArea(g, t))));
     for (float& area : upTo) area = float(area / sum);
     return upTo;
 }

@@ -1,9 +1,7 @@
 #include "passes/show_voxels/show_voxels.h"
 
-#include <cmath>
-#include <glm/geometric.hpp>
-
 #include "passes/common/compute/dispatch.h"
+#include "scene/camera_rays.h"
 
 namespace voxray {
 namespace {
@@ -61,14 +59,12 @@ void ShowVoxels::record(PassContext& context) {
     } else {
         bindings.emplace_back("VoxelMaterialsAt", voxels.materials.at());
     }
-    const Camera& camera = context.frame.camera;
-    const float halfHeight = std::tan(camera.verticalFovRadians / 2);
-    const float aspect = float(context.frame.width) / float(context.frame.height);
-    const glm::vec3 right = glm::cross(camera.forward, camera.up);
-    context.stream.dispatch(program_, bindings,
-                            Push{voxels.grid, camera.position, camera.forward, halfHeight * aspect * right,
-                                 halfHeight * camera.up, uint32_t(params_.show)},
-                            pixelGroups(context.frame.width, context.frame.height));
+    const Frame& frame = context.frame;
+    const CameraRays camera = cameraRays(frame.camera, frame.width, frame.height);
+    context.stream.dispatch(
+        program_, bindings,
+        Push{voxels.grid, camera.origin, camera.forward, camera.right, camera.up, uint32_t(params_.show)},
+        pixelGroups(frame.width, frame.height));
     context.voxelCounts.push_back(&march_.counts());
 }
 

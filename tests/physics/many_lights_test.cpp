@@ -102,8 +102,18 @@ TEST(ManyLights, AllWalksThroughVoxelsGiveTheSameImage) {
     EXPECT_NE(bits, image("exact"));
 }
 
+/// Mean difference of two images, over the mean of the exact one.
+double meanDifference(const std::vector<float>& image, const std::vector<float>& exact) {
+    double difference = 0, all = 0;
+    for (size_t i = 0; i < exact.size(); ++i) {
+        difference += std::abs(image[i] - exact[i]);
+        all += exact[i];
+    }
+    return difference / all;
+}
+
 TEST(ManyLights, ShadowMapsComeNearToExactShadows) {
-    // Mean difference of the images, over the mean of the exact one. What stays lies along edges of the room,
+    // What stays lies along edges of the room,
     // which pixels' centers fall on here: texels next to an edge see the other wall
     const auto image = [](const std::string& visibility) {
         return indirect("cornell", "{lights: point}",
@@ -113,14 +123,10 @@ TEST(ManyLights, ShadowMapsComeNearToExactShadows) {
     double before = 0.05;
     for (const int resolution : {16, 64, 256}) {
         const std::vector<float> map = image(fmt::format("shadow_map, map_resolution: {}", resolution));
-        double difference = 0, all = 0;
-        for (size_t i = 0; i < exact.size(); ++i) {
-            difference += std::abs(map[i] - exact[i]);
-            all += exact[i];
-        }
-        std::printf("maps of %d texels a side: %.4f\n", resolution, difference / all);
-        EXPECT_LT(difference / all, 0.8 * before);
-        before = difference / all;
+        const double difference = meanDifference(map, exact);
+        std::printf("maps of %d texels a side: %.4f\n", resolution, difference);
+        EXPECT_LT(difference, 0.8 * before);
+        before = difference;
     }
     EXPECT_LT(before, 0.007);
 }
@@ -136,14 +142,10 @@ TEST(ManyLights, ImperfectShadowMapsComeNearToExactShadowsWithMorePoints) {
     for (const int points : {512, 4096, 32768}) {
         const std::vector<float> map =
             image(fmt::format("imperfect_shadow_map, map_resolution: 64, map_points: {}", points));
-        double difference = 0, all = 0;
-        for (size_t i = 0; i < exact.size(); ++i) {
-            difference += std::abs(map[i] - exact[i]);
-            all += exact[i];
-        }
-        std::printf("maps of %d points: %.4f\n", points, difference / all);
-        EXPECT_LT(difference / all, 0.8 * before);
-        before = difference / all;
+        const double difference = meanDifference(map, exact);
+        std::printf("maps of %d points: %.4f\n", points, difference);
+        EXPECT_LT(difference, 0.8 * before);
+        before = difference;
     }
     EXPECT_LT(before, 0.02);
     const std::string same = "imperfect_shadow_map, map_resolution: 64, map_points: 4096";

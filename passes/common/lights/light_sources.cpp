@@ -15,12 +15,12 @@ float largest(glm::vec3 v) {
     return std::max({v.x, v.y, v.z});
 }
 
+}  // namespace
+
 float triangleArea(const Geometry& g, glm::uvec3 t) {
     return 0.5f *
            glm::length(glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x]));
 }
-
-}  // namespace
 
 std::vector<LightSource> lightSources(const SceneState& state) {
     std::vector<LightSource> all;

@@ -22,6 +22,9 @@ std::vector<LightSource> lightSources(const SceneState& state);
 /// The same. @throws Error naming the pass where there is none.
 std::vector<LightSource> requireLightSources(const SceneState& state, const std::string& pass);
 
+/// Area of one side of a triangle, by its vertices, m².
+float triangleArea(const Geometry& geometry, glm::uvec3 triangle);
+
 /// Area of one side of all surfaces, m².
 double surfaceArea(const Geometry& geometry);
 
