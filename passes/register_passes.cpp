@@ -1,5 +1,6 @@
 #include "passes/register_passes.h"
 
+#include "passes/build_hybrid_leaves/build_hybrid_leaves.h"
 #include "passes/compare_voxels/compare_voxels.h"
 #include "passes/composite/composite.h"
 #include "passes/direct_shadow_maps/direct_shadow_maps.h"
@@ -40,6 +41,7 @@ void registerPasses(Registry& registry) {
     registry.add<GBufferPass>();
     registry.add<VoxelizePass>();
     registry.add<CompareVoxels>();
+    registry.add<BuildHybridLeaves>();
     registry.add<InjectLightRays>();
     registry.add<PlaceSurfels>();
     registry.add<InjectVoxelRays>();

@@ -14,16 +14,39 @@
 uint marchSteps = 0u;
 uint marchVisits = 0u;
 
-// A walk declares bool walkVoxels(VoxelGrid g, VoxelSegment s, out ivec3 voxel): the first occupied voxel on a segment, false where
-// there is none. All walks find the same one.
+// A walk declares
+//  - void beginWalk(VoxelGrid g, VoxelSegment s), before the first step on a segment;
+//  - bool walkOn(VoxelGrid g, VoxelSegment s, inout ivec3 at): from voxel `at` of the segment, counted as the segment sees voxels, to
+//    the first occupied one, which may be `at` itself; false where there is none. All walks find the same one.
 #if defined(MARCH_WALK_BITS)
 #include "shaders/voxel_march/walk_bits.glsl"
 #elif defined(MARCH_WALK_BRICKS)
 #include "shaders/voxel_march/walk_bricks.glsl"
-#elif defined(MARCH_WALK_SVO_RESTART)
+#elif defined(MARCH_WALK_SVO_RESTART) || defined(MARCH_WALK_SVO_VOXELS)
 #include "shaders/voxel_march/walk_svo_restart.glsl"
 #elif defined(MARCH_WALK_SVO)
 #include "shaders/voxel_march/walk_svo.glsl"
+#endif
+
+#ifndef MARCH_EPSILON
+// The first occupied voxel on a segment; false where there is none.
+bool walkVoxels(VoxelGrid g, VoxelSegment s, out ivec3 voxel) {
+    voxel = firstVoxel(s);
+    beginWalk(g, s);
+    const bool found = walkOn(g, s, voxel);
+    voxel ^= s.flip;
+    return found;
+}
+
+// From a voxel to the next one on a segment, as the segment sees them; false where the segment ends in it.
+bool leaveVoxel(VoxelSegment s, inout ivec3 at) {
+    ++marchSteps;
+    ivec3 next = at;
+    const int state = leaveBox(s, at + 1, next);
+    if (state == MARCH_UNSURE) return leaveBoxExactly(s, at + 1, at);
+    at = next;
+    return state == MARCH_MOVED;
+}
 #endif
 
 // Steps and visits of all threads, 64 bits each, low words first.

@@ -1,15 +1,16 @@
 // Voxel by voxel over the occupancy bits: a digital differential analyser (Amanatides and Woo 1987). Steps are as in leaveBox(),
 // less what boxes of one voxel don't need.
-bool walkVoxels(VoxelGrid g, VoxelSegment s, out ivec3 voxel) {
+void beginWalk(VoxelGrid g, VoxelSegment s) {}
+
+bool walkOn(VoxelGrid g, VoxelSegment s, inout ivec3 at) {
     const uint bound = voxelsBetween(s);
-    ivec3 at = firstVoxel(s);
     uint tests = 0u;
     bool found = false;
     int state = MARCH_UNSURE;
     while (state == MARCH_UNSURE) {
         ivec3 units = unitsTo(s, at + 1);
         for (state = MARCH_MOVED; state == MARCH_MOVED; ++tests) {
-            voxel = at ^ s.flip;
+            const ivec3 voxel = at ^ s.flip;
             found = (voxelOccupancy.words[voxelWord(g, voxel)] & voxelBit(g, voxel)) != 0u;
             const vec3 parts = partsTo(s, units);
             const float part = min(parts.x, min(parts.y, parts.z));

@@ -1,5 +1,5 @@
 // Through the octree, from the root down in each step: to the empty node around the walk's place, and out of it (Sun and Agu 2015,
-// figure 3).
+// figure 3); or, with MARCH_WALK_SVO_VOXELS, to the next voxel, however large the empty node is (Seok 2021, figure 12).
 #include "shaders/octree/octree.glsl"
 
 ivec3 walkFlip;
@@ -44,7 +44,11 @@ bool walkVoxels(VoxelGrid g, VoxelSegment s, out ivec3 voxel) {
 #else
 bool emptyBox(ivec3 at, out ivec3 planes) {
     const int cube = emptyCube(at ^ walkFlip);
+#ifdef MARCH_WALK_SVO_VOXELS
+    planes = at + 1;
+#else
     planes = (at | cube) + 1;
+#endif
     return cube >= 0;
 }
 

@@ -30,6 +30,7 @@ ROOMS = {
     "voxel_builder": {"compute", "voxels", "triangle_walk"},
     "octree": {"compute", "voxels"},
     "voxel_march": {"compute", "voxels", "octree"},
+    "hybrid_leaves": {"compute", "voxels", "octree", "voxel_march"},
     "radiance": {"compute", "voxels", "octree"},
     "clipmap": {"compute", "voxels", "radiance"},
     "lights": {"compute", "view", "voxels"},

@@ -38,7 +38,7 @@ struct DistancesPush {
 };
 
 bool isOctree(VoxelWalk walk) {
-    return walk == VoxelWalk::SvoRestart || walk == VoxelWalk::Svo;
+    return walk == VoxelWalk::SvoRestart || walk == VoxelWalk::SvoVoxels || walk == VoxelWalk::Svo;
 }
 
 bool hasDistances(VoxelWalk walk) {
@@ -137,6 +137,8 @@ Defines VoxelMarch::defines() const {
             if (epsilon_ > 0)
                 return {{"MARCH_WALK_SVO_RESTART", "1"}, {"MARCH_EPSILON", fmt::format("{:.9e}", epsilon_)}};
             return {{"MARCH_WALK_SVO_RESTART", "1"}};
+        case VoxelWalk::SvoVoxels:
+            return {{"MARCH_WALK_SVO_VOXELS", "1"}};
         case VoxelWalk::Svo:
             return {{"MARCH_WALK_SVO", "1"}};
     }

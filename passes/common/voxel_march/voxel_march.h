@@ -15,13 +15,15 @@ enum class VoxelWalk {
     Bits,        ///< Voxel by voxel over the occupancy bits.
     Bricks,      ///< Bits by bricks of 4^3 voxels, and how far space is empty before each.
     SvoRestart,  ///< The octree, from its root down in each step (Sun and Agu 2015, figure 3).
+    SvoVoxels,   ///< The same voxel by voxel, through empty ones too (Seok 2021, figure 12).
     Svo,         ///< The octree, from a level with distances on down.
 };
 template <>
 struct EnumNames<VoxelWalk> {
     static constexpr std::array names{
         std::pair{VoxelWalk::Bits, "bits"}, std::pair{VoxelWalk::Bricks, "bricks"},
-        std::pair{VoxelWalk::SvoRestart, "svo_restart"}, std::pair{VoxelWalk::Svo, "svo"}};
+        std::pair{VoxelWalk::SvoRestart, "svo_restart"}, std::pair{VoxelWalk::SvoVoxels, "svo_voxels"},
+        std::pair{VoxelWalk::Svo, "svo"}};
 };
 
 /// What rays walk through: surface voxels and what a walk needs besides, built of them. A shader that walks

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/parallel.h"
+#include "passes/common/voxels/triangle_voxels.h"
 
 namespace voxray {
 namespace {
@@ -48,52 +49,6 @@ class Bits {
     std::vector<uint64_t> words_;
 };
 
-/// Marks the voxels that a triangle, in units of voxels, passes through.
-void markTriangle(Bits& bits, const std::array<glm::dvec3, 3>& corners) {
-    const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    const glm::dvec3 size = glm::abs(normal);
-    const int w = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const int u = (w + 1) % 3, v = (w + 2) % 3;
-    if (size[w] <= 0) return;
-    const glm::dvec3 low = glm::min(corners[0], glm::min(corners[1], corners[2]));
-    const glm::dvec3 high = glm::max(corners[0], glm::max(corners[1], corners[2]));
-    const glm::ivec3 first = glm::max(glm::ivec3(glm::floor(low)), glm::ivec3(0));
-    const glm::ivec3 last = glm::min(glm::ivec3(glm::floor(high)), glm::ivec3(bits.size()) - 1);
-
-    // Within one voxel
-    if (first == last) {
-        bits.mark(first);
-        return;
-    }
-
-    // Edges as lines in the plane across the axis: outward normal and the most that a point inside reaches
-    // along it.
-    std::array<glm::dvec3, 3> edges;  // (normal u, normal v, reach)
-    for (size_t i = 0; i < 3; ++i) {
-        const glm::dvec3 along = corners[(i + 1) % 3] - corners[i];
-        const glm::dvec2 outward = (normal[w] > 0 ? 1.0 : -1.0) * glm::dvec2(along[v], -along[u]);
-        edges[i] = {outward, outward.x * corners[i][u] + outward.y * corners[i][v]};
-    }
-    const double slopeU = -normal[u] / normal[w], slopeV = -normal[v] / normal[w];
-    for (int y = first[v]; y <= last[v]; ++y)
-        for (int x = first[u]; x <= last[u]; ++x) {
-            // A column is passed by where for each edge its nearest corner is outside.
-            const bool outside = std::ranges::any_of(edges, [&](const glm::dvec3& e) {
-                return e.x * (e.x < 0 ? x + 1 : x) + e.y * (e.y < 0 ? y + 1 : y) > e.z;
-            });
-            if (outside) continue;
-            const double center =
-                corners[0][w] + slopeU * (x + 0.5 - corners[0][u]) + slopeV * (y + 0.5 - corners[0][v]);
-            const double reach = 0.5 * (std::abs(slopeU) + std::abs(slopeV));
-            const int from = std::max(int(std::floor(std::max(center - reach, low[w]))), first[w]);
-            const int to = std::min(int(std::floor(std::min(center + reach, high[w]))), last[w]);
-            glm::ivec3 voxel;
-            voxel[u] = x;
-            voxel[v] = y;
-            for (voxel[w] = from; voxel[w] <= to; ++voxel[w]) bits.mark(voxel);
-        }
-}
-
 /// The most voxels that a window of `side` voxels holds.
 uint32_t fullestWindow(const Bits& bits, uint32_t side) {
     // Voxels by block
@@ -124,15 +79,11 @@ template <typename Measure>
 std::vector<uint32_t> count(const Geometry& geometry, const gpu::VoxelGrid& grid,
                             const std::vector<bool>& selected, const Measure& measure) {
     Bits bits(grid.resolution);
-    const glm::dvec3 origin(grid.origin);
     parallelRanges(geometry.triangles.size(), 1024, [&](size_t begin, size_t end) {
         for (size_t t = begin; t < end; ++t) {
             if (!selected[t]) continue;
-            std::array<glm::dvec3, 3> corners;
-            for (int i = 0; i < 3; ++i)
-                corners[size_t(i)] = (glm::dvec3(geometry.positions[geometry.triangles[t][i]]) - origin) /
-                                     double(grid.voxelSize);
-            markTriangle(bits, corners);
+            const std::array<glm::dvec3, 3> corners = cornersInVoxels(geometry, grid, uint32_t(t));
+            visitVoxels(bits.size(), corners, 0, [&](glm::ivec3 voxel) { bits.mark(voxel); });
         }
     });
 

@@ -1,0 +1,15 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What kind each leaf is of (Seok 2021, section 3.2). A thread takes a leaf.
+#include "passes/build_hybrid_leaves/leaves_push.glsl"
+#include "shaders/hybrid_leaves/hybrid_types.h"
+
+readonly buffer Counts { uint triangles[]; } counts;
+buffer Words { uint data[]; } words;  // Where lists would begin; then what leaves hold.
+
+void main() {
+    const uint leaf = linearIndex();
+    if (leaf >= push.leaves) return;
+    const uint count = counts.triangles[leaf];
+    if (count == 0u || count > push.capacity) words.data[leaf] = LEAF_EMPTY;
+}

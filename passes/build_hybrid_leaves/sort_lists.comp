@@ -1,0 +1,39 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Sorts each list in place, in ascending order, and marks its end: heap sort (Williams 1964), since lists are short and some are long.
+// A thread takes a leaf.
+#include "passes/build_hybrid_leaves/leaves_push.glsl"
+#include "shaders/hybrid_leaves/hybrid_leaves.glsl"
+
+readonly buffer Counts { uint triangles[]; } counts;
+
+// Moves the item at `root` down the heap of `count` items until no item below it is larger.
+void siftDown(uint first, uint root, uint count) {
+    const uint item = hybridLeaves.primitives.data[first + root];
+    while (2u * root + 1u < count) {
+        uint child = 2u * root + 1u, larger = hybridLeaves.primitives.data[first + child];
+        if (child + 1u < count) {
+            const uint other = hybridLeaves.primitives.data[first + child + 1u];
+            if (other > larger) ++child, larger = other;
+        }
+        if (larger <= item) break;
+        hybridLeaves.primitives.data[first + root] = larger;
+        root = child;
+    }
+    hybridLeaves.primitives.data[first + root] = item;
+}
+
+void main() {
+    const uint leaf = linearIndex();
+    if (leaf >= push.leaves) return;
+    const uint first = hybridLeaves.words.data[leaf], count = counts.triangles[leaf];
+    if (isEmptyLeaf(first) || isGridLeaf(first)) return;
+    for (uint root = count / 2u; root > 0u; --root) siftDown(first, root - 1u, count);
+    for (uint left = count - 1u; left > 0u; --left) {
+        const uint largest = hybridLeaves.primitives.data[first];
+        hybridLeaves.primitives.data[first] = hybridLeaves.primitives.data[first + left];
+        hybridLeaves.primitives.data[first + left] = largest;
+        siftDown(first, 0u, left);
+    }
+    hybridLeaves.primitives.data[first + count - 1u] |= LIST_ENDS;
+}

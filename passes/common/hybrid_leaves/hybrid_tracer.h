@@ -1,0 +1,64 @@
+#pragma once
+
+#include "passes/common/hybrid_leaves/hybrid_leaves.h"
+#include "passes/common/voxel_march/voxel_march.h"
+#include "trace/gpu_scene.h"
+#include "trace/ray_tracer.h"
+
+namespace voxray {
+
+/// How a ray gets from leaf to leaf.
+enum class HybridWalk {
+    Hierarchical,  ///< Past empty nodes of all sizes (VoxelWalk::Svo).
+    VoxelByVoxel,  ///< From the root for each finest voxel, empty ones too (Seok 2021, figure 12).
+};
+template <>
+struct EnumNames<HybridWalk> {
+    static constexpr std::array names{std::pair{HybridWalk::Hierarchical, "hierarchical"},
+                                      std::pair{HybridWalk::VoxelByVoxel, "voxel_by_voxel"}};
+};
+
+/// Streams of rays through hybrid leaves, with the interface of rays through triangles. A hit's `triangle`
+/// may be more than a triangle's number: shaders/hybrid_leaves/hybrid_types.h. A pass calls plan() and
+/// prepare() in its own.
+class HybridTracer final : public RayTracer {
+ public:
+    explicit HybridTracer(HybridWalk walk);
+
+    /// Describes what a walk takes besides voxels and leaves: the octree. @throws Error as
+    /// VoxelMarch::plan().
+    void plan(MemoryPlan& plan, const SurfaceVoxels& voxels);
+    void prepare(Device& device, const ShaderCompiler& compiler);
+    std::string_view name() const override { return "hybrid"; }
+    /// Takes over voxels and leaves, before the first rays and where either has changed, and sets the counts
+    /// to 0. All must outlive the walks. Waits for the device where it builds the octree.
+    void begin(CommandStream& stream, const GpuScene& scene, const SurfaceVoxels& voxels,
+               const HybridLeaves& leaves);
+    /// closestHit() for rays that leave surfaces or widen. @param starts a RayStart
+    /// (shaders/hybrid_leaves/hybrid_types.h) for each ray.
+    void closestFrom(CommandStream& stream, const Buffer& rays, const Buffer& starts, const Buffer& hits,
+                     uint32_t count);
+    /// Nothing: begin() takes over what has moved.
+    void update(CommandStream&) override {}
+    /// Of the octree.
+    size_t memoryBytes() const override { return march_.memoryBytes(); }
+    /// Steps and visits of nodes (PassContext::voxelCounts), and tests of triangles, since begin(): 64 bits
+    /// each.
+    const Buffer& counts() const { return march_.counts(); }
+    const Buffer& testCounts() const { return testCounts_; }
+
+ private:
+    void trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
+               Coherence coherence) override;
+    void dispatch(CommandStream& stream, const Program& program, VkDeviceAddress rays, VkDeviceAddress starts,
+                  VkDeviceAddress results, uint32_t count);
+
+    VoxelMarch march_;
+    Program closestHit_, occluded_;
+    const GpuScene* scene_ = nullptr;
+    const HybridLeaves* leaves_ = nullptr;
+    gpu::VoxelGrid grid_{};
+    Buffer testCounts_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,38 @@
+// What leaves of a hybrid octree hold, shared by C++ (passes/common/hybrid_leaves/hybrid_leaves.h) and GLSL
+// (shaders/hybrid_leaves/hybrid_leaves.glsl).
+#ifndef VOXRAY_HYBRID_TYPES_H
+#define VOXRAY_HYBRID_TYPES_H
+
+#include "shaders/shared/types.h"
+
+// A leaf's word: nothing; or the place where its list of triangles begins; or, with this bit, its grid's number.
+#define LEAF_EMPTY 0xffffffffu
+#define LEAF_IS_GRID 0x80000000u
+// A word of a list is a triangle's number, the last one with this bit. Scenes have fewer than 2^31 triangles.
+#define LIST_ENDS 0x80000000u
+
+// Hit::triangle of a ray through hybrid leaves: a triangle's number; or, with this bit, the number of a grid's cell; or NO_HIT; or
+// this, where the ray has become wider than a voxel, at Hit::t.
+#define HIT_IS_CELL 0x80000000u
+#define HIT_IS_WIDE 0xfffffffeu
+
+VOXRAY_SHARED_BEGIN
+
+// Where the arrays are is told by their addresses, before this one (HybridLeaves::header).
+struct HybridShape {
+    uint leaves;          // As many as surface voxels, and in their order.
+    uint capacity;        // Triangles of a list, at most.
+    uint gridResolution;  // Cells along an edge of a leaf's grid; 0 where no leaf has one.
+    uint wordsPerGrid;    // Bits of a grid's cells, in words.
+};
+
+// What a ray leaves behind: the surface, and how wide it is. All 0 for a bare ray.
+struct RayStart {
+    vec3 normal;   // Unit length, on the ray's side: of grids, cells that its plane touches are passed over. 0: no surface.
+    float width;   // m, at the origin.
+    float spread;  // Growth of the width for each unit of t.
+};
+
+VOXRAY_SHARED_END
+
+#endif
