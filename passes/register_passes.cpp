@@ -12,6 +12,7 @@
 #include "passes/gather_cones/gather_cones.h"
 #include "passes/gather_irradiance/gather_irradiance.h"
 #include "passes/gather_merged_rays/gather_merged_rays.h"
+#include "passes/gather_mirror/gather_mirror.h"
 #include "passes/gather_rays/gather_rays.h"
 #include "passes/gather_vpls/gather_vpls.h"
 #include "passes/gbuffer/gbuffer_pass.h"
@@ -66,6 +67,7 @@ void registerPasses(Registry& registry) {
     registry.add<SampleVpls>();
     registry.add<SelectVpls>();
     registry.add<GatherVpls>();
+    registry.add<GatherMirror>();
     registry.add<FilterIrradiance>();
     registry.add<DirectShadowRays>();
     registry.add<DirectShadowMaps>();

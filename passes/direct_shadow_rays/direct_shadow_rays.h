@@ -24,7 +24,8 @@ class DirectShadowRays final : public Pass {
         "lights; noisy by "
         "`light_samples` for emissive surfaces (picked by power, uniform over area) and for the environment "
         "(by "
-        "cosine). Mirrors reflect no lamp and no environment: what they show of these is left out. With "
+        "cosine). Mirrors reflect no lamp and no environment: gather_mirror brings what they show of these. "
+        "With "
         "`visibility: voxels` biased by voxel size. Compare with direct_voxels.";
     struct Params {
         uint32_t lightSamples = 4;

@@ -32,6 +32,9 @@ void GatherCones::declare(PassBuilder& builder) {
     gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
     radiance_ = builder.read<RadianceVoxels>("radiance", "light that leaves surfaces, at all scales");
     indirect_ = builder.write<FrameImage>("indirect", "radiance reflected of indirect light");
+    if (params_.specular > 0)
+        lobes_ = builder.write<SpecularLobes>(
+            "lobes", "what specular lobes reflect; a pass that reads it joins it with 'indirect'");
 }
 
 void GatherCones::plan(PassPlan& plan) {
@@ -48,7 +51,11 @@ void GatherCones::plan(PassPlan& plan) {
         near_.plan(plan, {params_.nearFieldVoxels, params_.cones, params_.stride, traced.extent,
                           coneSet(params_.cones).back().width});
     }
-    if (params_.specular > 0) specular_.plan(plan, plan.get(gbuffer_), params_.specular);
+    if (params_.specular == 0) return;
+    SpecularLobes& lobes = plan.get(lobes_);
+    lobes.isJoined = false;
+    lobes.emission = plan.get(radiance_).emission;
+    specular_.plan(plan, plan.get(gbuffer_), params_.specular, lobes.reflected);
 }
 
 void GatherCones::prepare(PassSetup& setup) {
@@ -61,7 +68,7 @@ void GatherCones::prepare(PassSetup& setup) {
     else
         trace_ = program("passes/gather_cones/trace.comp", radiance.defines());
     resolve_ = program("passes/gather_cones/resolve.comp",
-                       params_.specular > 0 ? Defines{{"SPECULAR", "1"}} : Defines{});
+                       reflectsLobes(setup) ? Defines{{"SPECULAR", "1"}} : Defines{});
     if (params_.specular > 0) specular_.prepare(setup, radiance);
     sampler_ = texelSampler(setup.device);
     setup.stream.upload(cones_, coneSet(params_.cones));
@@ -80,8 +87,9 @@ void GatherCones::record(PassContext& context) {
                               {"normal", gbuffer.normal, sampler_},
                               {"result", context.get(indirect_).image}};
     if (params_.specular > 0) {
-        specular_.record(context, gbuffer, radiance);
-        seen.emplace_back("reflected", specular_.reflected(), sampler_);
+        const Image& reflected = context.get(lobes_).reflected;
+        specular_.record(context, gbuffer, radiance, reflected);
+        if (reflectsLobes(context)) seen.emplace_back("reflected", reflected, sampler_);
     }
     context.stream.dispatch(resolve_, seen,
                             ResolvePush{gbuffer.samples, params_.stride, radiance.grid.voxelSize},

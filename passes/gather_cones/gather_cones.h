@@ -51,6 +51,11 @@ class GatherCones final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    /// Whether specular light goes into `indirect`: else a later pass joins `lobes`. Known once all have
+    /// planned.
+    bool reflectsLobes(const PortAccess& ports) const {
+        return params_.specular > 0 && !ports.get(lobes_).isJoined;
+    }
     bool hasNearField() const { return params_.nearFieldVoxels > 0; }
     /// Cones alone.
     void trace(PassContext& context, const GBuffer& gbuffer, const RadianceVoxels& radiance) const;
@@ -59,6 +64,7 @@ class GatherCones final : public Pass {
     Port<const GBuffer> gbuffer_;
     Port<const RadianceVoxels> radiance_;
     Port<FrameImage> indirect_;
+    Port<SpecularLobes> lobes_;  ///< With `specular`.
     Program trace_, resolve_;
     Sampler sampler_;
     Buffer cones_;

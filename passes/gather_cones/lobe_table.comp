@@ -14,16 +14,6 @@ layout(push_constant) uniform Push {
     uint points;  // For each stratum.
 } push;
 
-// Half vector drawn from those visible from `out_` (+z the normal). Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with
-// Spherical Caps".
-vec3 visibleNormal(vec3 out_, float alpha, vec2 u) {
-    const vec3 stretched = normalize(vec3(out_.xy * alpha, out_.z));
-    const float phi = 2.0 * PI * u.x, z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
-    const float sine = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
-    const vec3 h = vec3(sine * cos(phi), sine * sin(phi), z) + stretched;
-    return normalize(vec3(h.xy * alpha, max(h.z, 1e-7)));
-}
-
 // The corner and the size of a stratum in the unit square that half vectors are drawn by.
 vec4 stratumSquare(uint stratum) {
     uint before = 0u, ring = 1u;

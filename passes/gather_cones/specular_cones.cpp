@@ -27,10 +27,10 @@ ImageDesc reflectedImage(const Frame& frame, const GBuffer& gbuffer) {
 
 }  // namespace
 
-void SpecularCones::plan(PassPlan& plan, const GBuffer& gbuffer, uint32_t strata) {
+void SpecularCones::plan(PassPlan& plan, const GBuffer& gbuffer, uint32_t strata, Image& reflected) {
     strata_ = strata;
     plan.buffer(table_, "specular lobes", uint64_t(LOBES) * strata * sizeof(gpu::LobeStratum));
-    plan.image(reflected_, "specular reflection", reflectedImage(plan.frame, gbuffer));
+    plan.image(reflected, "specular reflection", reflectedImage(plan.frame, gbuffer));
 }
 
 void SpecularCones::prepare(PassSetup& setup, const RadianceVoxels& radiance) {
@@ -47,8 +47,8 @@ void SpecularCones::prepare(PassSetup& setup, const RadianceVoxels& radiance) {
     setup.stream.finish();
 }
 
-void SpecularCones::record(PassContext& context, const GBuffer& gbuffer,
-                           const RadianceVoxels& radiance) const {
+void SpecularCones::record(PassContext& context, const GBuffer& gbuffer, const RadianceVoxels& radiance,
+                           const Image& reflected) const {
     std::vector<Binding> bindings = radiance.bindings();
     bindings.insert(bindings.end(), {{"position", gbuffer.position, sampler_},
                                      {"normal", gbuffer.normal, sampler_},
@@ -56,8 +56,8 @@ void SpecularCones::record(PassContext& context, const GBuffer& gbuffer,
                                      {"specular", gbuffer.specular, sampler_},
                                      {"fresnel", gbuffer.fresnel, sampler_},
                                      {"strata", table_},
-                                     {"reflected", reflected_}});
-    const glm::uvec3 texels = reflected_.desc().extent;
+                                     {"reflected", reflected}});
+    const glm::uvec3 texels = reflected.desc().extent;
     context.stream.dispatch(trace_, bindings, TracePush{context.frame.camera.position, strata_},
                             pixelGroups(texels.x, texels.y));
 }

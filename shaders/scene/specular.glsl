@@ -57,6 +57,16 @@ float ggx(float cosIn, float cosOut, float sin2Half, float alpha) {
            (cosIn * smithRoot(cosOut, alpha) + cosOut * smithRoot(cosIn, alpha));
 }
 
+// Half vector drawn from those visible from `out_` (+z the normal). Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with
+// Spherical Caps".
+vec3 visibleNormal(vec3 out_, float alpha, vec2 u) {
+    const vec3 stretched = normalize(vec3(out_.xy * alpha, out_.z));
+    const float phi = 2.0 * 3.14159265358979 * u.x, z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
+    const float sine = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
+    const vec3 h = vec3(sine * cos(phi), sine * sin(phi), z) + stretched;
+    return normalize(vec3(h.xy * alpha, max(h.z, 1e-7)));
+}
+
 // The shading normal for a surface seen from `out_`: one that leans away has no specular lobe, and is bent back.
 vec3 specularNormal(vec3 normal, vec3 out_) {
     const float minCosine = 1e-3, cosOut = dot(normal, out_);

@@ -39,4 +39,24 @@ vec3 irradianceAt(VoxelGrid g, vec3 position, vec3 normal, out bool known) {
     return known ? sum / area : vec3(0.0);
 }
 
+// The same with tent weights one voxel wide about the point, for surfaces that are looked at as they are: the mean over the eight
+// voxels round it, by the area that they hold. A voxel that the surface only grazes weighs little.
+vec3 interpolatedIrradianceAt(VoxelGrid g, vec3 position, vec3 normal, out bool known) {
+    const vec3 center = (position - g.origin) / g.voxelSize - 0.5, corner = floor(center), part = center - corner;
+    vec3 sum = vec3(0.0);
+    float area = 0.0;
+    for (int i = 0; i < 8; ++i) {
+        const ivec3 far = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+        const vec3 tent = mix(1.0 - part, part, vec3(far));
+        vec3 voxelSum = vec3(0.0);
+        float voxelArea = 0.0;
+        addFaces(g, ivec3(corner) + far, normal, voxelSum, voxelArea);
+        sum += tent.x * tent.y * tent.z * voxelSum;
+        area += tent.x * tent.y * tent.z * voxelArea;
+    }
+    if (area < 0.05) return irradianceAt(g, position, normal, known);
+    known = true;
+    return sum / area;
+}
+
 #endif

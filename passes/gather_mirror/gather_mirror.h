@@ -1,0 +1,109 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "passes/common/compute/compaction.h"
+#include "passes/common/surfels/surfel_light.h"
+#include "passes/common/view/gbuffer.h"
+#include "passes/common/view/specular_lobes.h"
+#include "passes/common/voxels/face_irradiance.h"
+#include "passes/gather_mirror/mirror_types.h"
+
+namespace voxray {
+
+/// Where direct light at what mirrors show comes from.
+enum class MirrorDirect { Voxels, ShadowRays };
+template <>
+struct EnumNames<MirrorDirect> {
+    static constexpr std::array names{std::pair{MirrorDirect::Voxels, "voxels"},
+                                      std::pair{MirrorDirect::ShadowRays, "shadow_rays"}};
+};
+
+/// What mirror-like surfaces show: reflected rays from each texel of the g-buffer, lit where they end. Docs:
+/// docs/mirrors.md. Source: Seok 2021 (rays for mirrors, cones for all else).
+class GatherMirror final : public Pass {
+ public:
+    static constexpr const char* kName = "gather_mirror";
+    static constexpr const char* kHelp =
+        "Specular light of mirror-like surfaces by reflected rays, joined with the direct and the indirect "
+        "light of other passes; lamps and environment that a mirror shows, and mirrors in mirrors. "
+        "Biased by: voxel size (indirect light where rays end; direct light too with `direct_at_hits: "
+        "voxels`); specular light of what mirrors show is left out where it is rougher than the hand-over; "
+        "light that mirrors throw at other surfaces is in no voxel. "
+        "Noisy by: `rays` where surfaces are no perfect mirrors; light_samples. "
+        "Source: Seok 2021, chapter 4.";
+    struct Params {
+        float maxRoughness = 0.1f;
+        float blendRoughness = 0.1f;
+        uint32_t rays = 1;
+        uint32_t bounces = 4;
+        MirrorDirect directAtHits = MirrorDirect::ShadowRays;
+        uint32_t lightSamples = 1;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("max_roughness", &Params::maxRoughness,
+                      "Up to this roughness rays alone bring specular light. Perfect mirrors end at 0.0316.",
+                      0.0f, 1.0f),
+                field("blend_roughness", &Params::blendRoughness,
+                      "Over this much more roughness rays hand over to the cones of gather_cones, or to none "
+                      "where no pass writes 'lobes'.",
+                      0.0f, 1.0f),
+                field("rays", &Params::rays,
+                      "Rays of each g-buffer texel whose surface is no perfect mirror; a mirror sends one.",
+                      1u, 64u),
+                field("bounces", &Params::bounces,
+                      "Mirrors that light meets one after another, at most, the one that the camera sees "
+                      "among them; what the last one shows of further mirrors is black.",
+                      1u, 32u),
+                field("direct_at_hits", &Params::directAtHits,
+                      "Direct light where rays end. voxels: as coarse as voxels. shadow_rays: exact, by a "
+                      "shadow ray to each light; voxels bring indirect light alone."),
+                field("light_samples", &Params::lightSamples,
+                      "Shadow rays to the emissive surfaces, and to the environment, from each ray's end.",
+                      1u, 256u)};
+        }
+    };
+
+    explicit GatherMirror(const Params& params) : params_(params) {}
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    bool shadowRays() const { return params_.directAtHits == MirrorDirect::ShadowRays; }
+    gpu::MirrorBatch firstBatch(const Frame& frame, uint32_t samples, uint32_t frameIndex) const;
+    /// Light in voxels, by face; kept until it changes.
+    void updateFaces(PassContext& context);
+    /// Sends the rays of a batch and adds up what they bring.
+    void gather(PassContext& context, const gpu::MirrorBatch& batch);
+    /// Where `count` rays end. @return the number of rays that mirrors send on.
+    uint32_t end(PassContext& context, const gpu::MirrorBatch& batch, uint32_t depth, uint32_t count);
+    void resolve(PassContext& context, const gpu::MirrorBatch& batch);
+
+    Params params_;
+    Port<const GBuffer> gbuffer_;
+    Port<const SurfaceVoxels> voxels_;
+    Port<const VoxelIrradiance> irradiance_;
+    Port<const SpecularLobes> lobes_;
+    Port<const FrameImage> otherDirect_, otherIndirect_;
+    Port<FrameImage> direct_, indirect_;
+
+    Program mark_, begin_, shade_, reflect_, resolve_;
+    Sampler sampler_;
+    std::optional<Compaction> compaction_;
+    FaceIrradiance faces_;
+    std::optional<std::pair<uint64_t, uint64_t>> facesVersion_;  ///< Of the voxels and the light in them.
+    std::vector<LightSource> sources_;
+    SurfelLight hitLight_;
+    uint64_t rayHits_ = 0, rayMisses_ = 0;  ///< Of a frame.
+    Image black_;
+    Buffer grid_, grazing_, counts_;
+    Buffer flags_, slots_, light_;        ///< Of a batch.
+    std::array<Buffer, 2> paths_, rays_;  ///< Those on their way, and those that go on.
+    Buffer hits_, surfels_, hitDirect_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,43 @@
+// What a ray meets, as the camera would see it there.
+#ifndef VOXRAY_MIRROR_SURFACE_GLSL
+#define VOXRAY_MIRROR_SURFACE_GLSL
+
+#include "shaders/scene/footprint.glsl"
+#include "shaders/scene/specular.glsl"
+#include "shaders/trace/ray_types.h"
+
+struct MirrorSurface {
+    vec3 position;
+    vec3 faceNormal;  // Geometric, on the side that the ray came from.
+    vec3 normal;      // Shading normal, likewise.
+    vec3 albedo;
+    vec3 emission;    // Towards the ray, W/(m² sr).
+    Specular specular;
+};
+
+// At a hit of a ray along unit `direction`, whose footprint there is `area` m² across the ray. False for a triangle without area.
+bool surfaceAtHit(Hit hit, vec3 direction, float area, out MirrorSurface at) {
+    const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
+    if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return false;
+    const GpuMaterial m = sceneMaterials.data[s.material];
+    const float cosine = -dot(s.geometricNormal, direction);
+    const bool isFront = cosine >= 0.0;
+    at.position = s.position;
+    at.faceNormal = isFront ? s.geometricNormal : -s.geometricNormal;
+
+    // Textures at the mip level of the footprint on the surface. Mip levels of a cut-out mix in the colour of what is cut away.
+    const float onSurface = area / max(abs(cosine), 1e-4);
+    at.normal = shadingNormal(m, s, footprintLevel(m.normalTexture, s, onSurface));
+    if (dot(at.normal, at.faceNormal) < 0.0) at.normal = -at.normal;
+    const vec3 base = baseColor(m, s, m.alphaMode == ALPHA_MASK ? 0.0 : footprintLevel(m.baseColorTexture, s, onSurface)).rgb;
+    const vec2 rough =
+        lookup(m.metallicRoughnessTexture, s.texCoords, footprintLevel(m.metallicRoughnessTexture, s, onSurface)).gb;
+    const float metallic = m.metallic * rough.y;
+    at.albedo = clamp(base * (1.0 - metallic), 0.0, 1.0);
+    at.specular = makeSpecular(base, metallic, m.roughness * rough.x, m.specular, m.specularColor, m.ior);
+    const bool emits = isFront || m.doubleSided != 0u;
+    at.emission = emits ? emission(m, s, footprintLevel(m.emissiveTexture, s, onSurface)) : vec3(0.0);
+    return true;
+}
+
+#endif

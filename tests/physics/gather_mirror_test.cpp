@@ -1,0 +1,249 @@
+// Rays of mirrors: closed forms of facing mirrors and furnaces, lamps and environment, the reference, the
+// hand-over to cones.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "passes/common/view/gbuffer.h"
+#include "scene/shapes.h"
+#include "tests/gpu/chain.h"
+#include "tests/support/errors.h"
+
+namespace voxray::test {
+namespace {
+
+using State = std::shared_ptr<const SceneState>;
+
+/// Ends a scene.
+State evaluated(SceneBuilder& b) {
+    return std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
+}
+
+Material metal(const glm::vec3& color, float roughness = 0.0f) {
+    Material material;
+    material.baseColor = glm::vec4(color, 1.0f);
+    material.roughness = roughness;
+    return material;
+}
+
+/// Voxels, their light, and mirrors that read them. Direct light and composite follow where asked for.
+std::string mirrorGraph(const std::string& mirror, const std::string& inject = "bounces: 0",
+                        const std::string& before = "") {
+    return graphYaml({"gbuffer, samples_per_pixel_edge: 1", "voxelize, resolution: 16",
+                      "inject_light_rays, rays_per_light: 4096, " + inject, before,
+                      "gather_mirror, " + mirror, "composite"});
+}
+
+double centerOf(const ImageF& image, size_t channel = 0) {
+    return image.data[3 * (size_t(image.height / 2) * image.width + image.width / 2) + channel];
+}
+
+/// A mirror at z = 0 that faces the camera, and `behind` it at z = 4 a quad that faces back.
+State facing(const Material& front, const Material& behind) {
+    SceneBuilder b("facing");
+    b.quad("front", {-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, b.material(front));
+    b.quad("behind", {-4, -4, 4}, {0, 8, 0}, {8, 0, 0}, b.material(behind));
+    b.camera({0, 0, 2}, {0, 0, 0}, 0.5f);
+    return evaluated(b);
+}
+
+TEST(GatherMirror, ShowsALampAsDirectLight) {
+    Material lamp = metal(glm::vec3(0.0f), 1.0f);
+    lamp.metallic = lamp.specular = 0.0f;
+    lamp.emission = {5, 3, 2};
+    Chain chain(facing(metal({0.9f, 0.5f, 0.2f}), lamp), mirrorGraph("bounces: 4"), 8, 8, 1);
+    EXPECT_NEAR(centerOf(chain.image("direct"), 0), 0.9 * 5, 4.5e-3);
+    EXPECT_NEAR(centerOf(chain.image("direct"), 1), 0.5 * 3, 1.5e-3);
+    EXPECT_NEAR(centerOf(chain.image("direct"), 2), 0.2 * 2, 4e-4);
+    EXPECT_EQ(mean(chain.image("indirect")), 0.0);
+}
+
+TEST(GatherMirror, ShowsTheEnvironmentAsDirectLight) {
+    SceneBuilder b("sky");
+    b.quad("mirror", {-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, b.material(metal(glm::vec3(0.8f))));
+    b.camera({0, 0, 2}, {0, 0, 0}, 0.5f);
+    b.scene().environment.radiance = {1, 2, 3};
+    Chain chain(evaluated(b), mirrorGraph("bounces: 1"), 8, 8, 1);
+    for (size_t channel = 0; channel < 3; ++channel)
+        EXPECT_NEAR(centerOf(chain.image("direct"), channel), 0.8 * double(channel + 1), 2e-3);
+    EXPECT_EQ(mean(chain.image("indirect")), 0.0);
+}
+
+TEST(GatherMirror, FacingMirrorsAreAGeometricSeries) {
+    // Both emit e and reflect r: e (1 + r + r² + ... + r^n), of which the first reflection is direct light.
+    const double e = 2, r = 0.7;
+    Material mirror = metal(glm::vec3(float(r)));
+    mirror.emission = glm::vec3(float(e));
+    for (const int n : {1, 2, 7}) {
+        Chain chain(facing(mirror, mirror), mirrorGraph("bounces: " + std::to_string(n)), 8, 8, 1);
+        const double series = e * r * r * (1 - std::pow(r, n - 1)) / (1 - r);
+        EXPECT_NEAR(centerOf(chain.image("direct")), e * r, 1e-3 * e) << n;
+        EXPECT_NEAR(centerOf(chain.image("indirect")), series, 1e-3 * e) << n;
+        EXPECT_NEAR(centerOf(chain.image("final")), e + e * r + series, 1e-3 * e) << n;
+    }
+}
+
+/// A closed box that emits 1, all of one material.
+State furnace(const std::function<void(Material&)>& change) {
+    auto copy = std::make_shared<Scene>(
+        *makeBuiltinScene("furnace", parseYaml("{shape: box, albedo: 1, emission: 1}", "scene")));
+    for (Material& material : copy->materials) change(material);
+    return std::make_shared<SceneState>(evaluate(copy, 0.0));
+}
+
+TEST(GatherMirror, KeepsTheEnergyOfAFurnaceOfMirrors) {
+    // White metal loses nothing, at any angle: 1 more from each reflection. Half floats of the g-buffer keep
+    // 2^-11.
+    Chain chain(furnace([](Material& m) { m.metallic = 1, m.roughness = 0; }), mirrorGraph("bounces: 5"), 16,
+                16, 1);
+    const ImageF direct = chain.image("direct"), indirect = chain.image("indirect");
+    for (const float value : direct.data) EXPECT_NEAR(value, 1.0f, 6e-4f);
+    for (const float value : indirect.data) EXPECT_NEAR(value, 4.0f, 24e-4f);
+}
+
+TEST(GatherMirror, KeepsTheEnergyOfAFurnaceOfGlossyMetal) {
+    // A glossy surface's light straight from lamps is another pass's: the reference's indirect light alone.
+    for (const float roughness : {0.1f, 0.5f}) {
+        const State state = furnace([&](Material& m) { m.metallic = 1, m.roughness = roughness; });
+        Chain reference(state, graphYaml({"path_trace, spp: 256, bounces: 2"}), 16, 16, 1);
+        Chain chain(state, mirrorGraph("max_roughness: 1, rays: 32, bounces: 3"), 16, 16, 1);
+        EXPECT_EQ(mean(chain.image("direct")), 0.0);
+        EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.005)
+            << roughness;
+    }
+}
+
+/// A room whose wall at -Z is of `material`, a box before it, and a point light. With one bounce the wall
+/// shows what light does to the others directly.
+State wallRoom(const Material& material, float intensity = 1.0f) {
+    SceneBuilder b("wall");
+    const uint32_t white = b.lambert("white", glm::vec3(0.7f)), red = b.lambert("red", {0.7f, 0.2f, 0.1f});
+    const uint32_t wall = b.material(material);
+    b.room({-1, 0, -1}, {1, 2, 1}, {red, white, white, white, wall, white});
+    b.box("box", {0.3f, 0, 0}, {0.5f, 0.7f, 0.5f}, 0.3f, red);
+    b.pointLight({-0.3f, 1.6f, 0.3f}, glm::vec3(intensity));
+    b.camera({-0.2f, 1, 0.9f}, {0, 0.9f, -1}, 70);
+    return evaluated(b);
+}
+
+/// Over the pixels whose surface lies at z < `depth`: mean difference from the reference over its mean, and
+/// the ratio of the means.
+std::pair<double, double> errorAt(Chain& chain, const std::string& port, const ImageF& expected,
+                                  float depth) {
+    const GBuffer& gbuffer = *chain.graph().resource<GBuffer>("gbuffer");
+    const auto positions = chain.readImage<glm::vec4>(gbuffer.position);
+    const ImageF image = chain.image(port);
+    const uint32_t s = gbuffer.samples, width = uint32_t(image.width);
+    double difference = 0, own = 0, theirs = 0;
+    for (uint32_t i = 0; i < width * uint32_t(image.height); ++i) {
+        bool isThere = true;
+        for (uint32_t k = 0; k < s * s; ++k)
+            isThere &= positions[size_t(i / width * s + k / s) * width * s + i % width * s + k % s].z < depth;
+        for (size_t channel = 3 * size_t(i); isThere && channel < 3 * size_t(i) + 3; ++channel) {
+            difference += std::abs(double(image.data[channel]) - expected.data[channel]);
+            own += image.data[channel];
+            theirs += expected.data[channel];
+        }
+    }
+    return {difference / theirs, own / theirs};
+}
+
+/// Light in the whole chain for wallRoom.
+std::string roomGraph(const std::string& mirror, const std::vector<std::string>& before = {},
+                      const std::string& voxels = "32") {
+    std::vector<std::string> passes{"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: " + voxels,
+                                    "inject_light_rays, rays_per_light: 524288, bounces: 0"};
+    passes.insert(passes.end(), before.begin(), before.end());
+    passes.push_back("gather_mirror, " + mirror);
+    return graphYaml(passes);
+}
+
+TEST(GatherMirror, ConvergesToTheReference) {
+    const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}));
+    Chain reference(state, graphYaml({"path_trace, spp: 256, bounces: 1"}), 32, 32, 1);
+    const ImageF expected = reference.image("indirect");
+    const auto error = [&](const std::string& direct, const std::string& voxels) {
+        Chain chain(state, roomGraph("direct_at_hits: " + direct, {}, voxels), 32, 32, 1);
+        const auto [difference, ratio] = errorAt(chain, "indirect", expected, -0.999f);
+        std::printf("%s, %s: %.4f, ratio %.4f\n", direct.c_str(), voxels.c_str(), difference, ratio);
+        EXPECT_NEAR(ratio, 1.0, 0.03) << direct;
+        return difference;
+    };
+    // One bounce: exact with shadow rays, however coarse voxels are, but for edges within a pixel.
+    EXPECT_LT(error("shadow_rays", "8"), 0.02);
+    const double coarse = error("voxels", "8"), fine = error("voxels", "32");
+    EXPECT_LT(fine, 0.03);
+    EXPECT_LT(fine, 0.6 * coarse);
+}
+
+TEST(GatherMirror, VarnishTakesFromTheDiffuseLobe) {
+    // A mirror over a red wall: what the mirror reflects is missing below it.
+    Material varnish = metal({0.8f, 0.2f, 0.1f});
+    varnish.metallic = 0;
+    varnish.ior = 2.5f;
+    const State state = wallRoom(varnish);
+    Chain reference(state, graphYaml({"path_trace, spp: 1024, bounces: 1"}), 32, 32, 1);
+    Chain chain(state,
+                roomGraph("bounces: 1", {"trace_gather_rays, rays_per_block: 64",
+                                         "gather_rays, direct_at_hits: shadow_rays, near_field_voxels: 0"}),
+                32, 32, 1);
+    const auto [difference, ratio] = errorAt(chain, "indirect", reference.image("indirect"), -0.999f);
+    std::printf("%.4f, ratio %.4f\n", difference, ratio);
+    EXPECT_NEAR(ratio, 1.0, 0.01);
+    EXPECT_LT(difference, 0.04);
+}
+
+TEST(GatherMirror, HandsOverToCones) {
+    // Cones alone, both, rays alone: the same lobe, whoever brings which part of it.
+    const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}, 0.4f));
+    Chain reference(state, graphYaml({"path_trace, spp: 512, bounces: 1"}), 32, 32, 1);
+    const ImageF expected = reference.image("indirect");
+    const std::vector<std::string> cones{"filter_voxels", "gather_cones, cones: 5, stride: 16, specular: 19"};
+    for (const std::string range :
+         {"max_roughness: 0.1, blend_roughness: 0.1", "max_roughness: 0.3, blend_roughness: 0.2",
+          "max_roughness: 0.4, blend_roughness: 0.2"}) {
+        Chain chain(state, roomGraph(range + ", rays: 16", cones, "64"), 32, 32, 1);
+        const auto [difference, ratio] = errorAt(chain, "indirect", expected, -0.999f);
+        std::printf("%s: %.4f, ratio %.4f\n", range.c_str(), difference, ratio);
+        EXPECT_NEAR(ratio, 1.0, 0.03) << range;
+        EXPECT_LT(difference, 0.12) << range;
+    }
+}
+
+TEST(GatherMirror, LeavesConesAsTheyAreWithoutMirrors) {
+    // Nothing is left to rays: what gather_cones shows by itself.
+    const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}, 0.4f));
+    const std::vector<std::string> cones{"filter_voxels", "gather_cones, cones: 5, stride: 16, specular: 7"};
+    Chain both(state, roomGraph("max_roughness: 0, blend_roughness: 0", cones), 16, 16, 1);
+    std::vector<std::string> alone{"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 32",
+                                   "inject_light_rays, rays_per_light: 524288, bounces: 0"};
+    alone.insert(alone.end(), cones.begin(), cones.end());
+    Chain one(state, graphYaml(alone), 16, 16, 1);
+    const ImageF joined = both.image("indirect"), expected = one.image("indirect");
+    for (size_t i = 0; i < joined.data.size(); ++i)
+        EXPECT_NEAR(joined.data[i], expected.data[i], 1e-5f + 1e-4f * expected.data[i]);
+}
+
+TEST(GatherMirror, IsLinearInLightAndDeterministic) {
+    const auto image = [](float intensity) {
+        Chain chain(wallRoom(metal(glm::vec3(0.9f), 0.15f), intensity),
+                    roomGraph("max_roughness: 0.2, rays: 2, bounces: 2"), 16, 16, 1);
+        return chain.image("indirect");
+    };
+    const ImageF one = image(1), seven = image(7);
+    EXPECT_NEAR(mean(seven) / mean(one), 7.0, 7e-3);
+    EXPECT_EQ(image(1).data, one.data);
+}
+
+TEST(GatherMirror, RefusesConesThatBringLamps) {
+    EXPECT_CONTAINS(errorOf([] {
+                        Chain chain(
+                            "mirror_room", "{}",
+                            roomGraph("bounces: 1", {"filter_voxels, emission: true", "gather_cones"}));
+                    }),
+                    "set 'emission' of filter_voxels to false");
+}
+
+}  // namespace
+}  // namespace voxray::test
