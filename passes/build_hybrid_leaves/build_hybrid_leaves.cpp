@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
 #include "base/error.h"
+#include "passes/build_hybrid_leaves/cell_sums.h"
 #include "passes/build_hybrid_leaves/leaf_counts.h"
 #include "passes/common/compute/dispatch.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 /// The buffer `hybridLeaves` of shaders/hybrid_leaves/hybrid_leaves.glsl.
 struct Header {
-    VkDeviceAddress words, primitives;
+    VkDeviceAddress words, primitives, gridBits, gridRanks, cells;
     gpu::HybridShape shape;
 };
 
@@ -23,10 +24,53 @@ struct LeavesPush {
     uint32_t capacity;
 };
 
-constexpr uint64_t kMaxWords = 1ull << 31;  // shaders/hybrid_leaves/hybrid_types.h
+/// What size_lists.comp finds.
+struct Found {
+    uint32_t empty;         ///< Leaves.
+    uint32_t maxTriangles;  ///< Of a leaf.
+};
+
+constexpr uint64_t kMaxListWords = 1ull << 31;            // shaders/hybrid_leaves/hybrid_types.h
+constexpr uint64_t kMaxCells = (1ull << 32) / SUM_UINTS;  // cell_sums.h, by 32 bits.
+constexpr uint64_t kMaxBoundBytes = 128u << 20;           // What Vulkan guarantees of maxStorageBufferRange.
 
 uint64_t wordBytes(uint64_t count) {
     return std::max<uint64_t>(count, 1) * sizeof(uint32_t);
+}
+
+/// Triangles with an alpha mask, in ascending order.
+std::vector<uint32_t> maskedTriangles(const SceneState& state) {
+    std::vector<uint32_t> found;
+    for (uint32_t t = 0; t < state.geometry.triangles.size(); ++t)
+        if (state.scene->materials[state.geometry.triangleMaterials[t]].alphaMode == AlphaMode::Mask)
+            found.push_back(t);
+    return found;
+}
+
+uint32_t wordsPerGrid(uint32_t m) {
+    return (m * m * m + 31) / 32;
+}
+
+/// Units of area for a cell's face in 31 bits, for a cell of so many triangles: each is at most sqrt(2) faces
+/// large there and counts at least one unit. At most 2^20: an area of a millionth of a face still counts.
+float unitsPerFace(uint32_t triangles) {
+    const double room = std::ldexp(1.0, 31) / std::max(triangles, 1u) - 1;
+    return float(std::exp2(std::clamp(std::floor(std::log2(std::max(room, 1.0) / 1.5)), 0.0, 20.0)));
+}
+
+/// Which voxels are leaves, and `more`.
+std::vector<Binding> leafBindings(const SurfaceVoxels& voxels, std::vector<Binding> more) {
+    more.insert(more.end(), {{"voxelOccupancy", voxels.occupancy}, {"voxelRank", voxels.rank}});
+    return more;
+}
+
+void require(uint64_t count, uint64_t limit, const char* what) {
+    if (count >= limit)
+        throw Error(
+            "build_hybrid_leaves: leaves need {} {}, of which {} are possible: lower voxelize's "
+            "'resolution', or "
+            "change 'primitives' or 'grid'",
+            count, what, limit - 1);
 }
 
 }  // namespace
@@ -38,86 +82,207 @@ void BuildHybridLeaves::declare(PassBuilder& builder) {
 
 void BuildHybridLeaves::plan(PassPlan& plan) {
     const SurfaceVoxels& voxels = plan.get(voxels_);
-    if (voxels.grid.side <
-        std::max({voxels.grid.resolution.x, voxels.grid.resolution.y, voxels.grid.resolution.z}))
+    const gpu::VoxelGrid& grid = voxels.grid;
+    if (grid.side < std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z}))
         throw Error(
-            "build_hybrid_leaves: leaves are those of all voxels, of which this grid holds a window; take "
-            "voxelize");
+            "build_hybrid_leaves needs all voxels, and this grid holds a window of them: take voxelize");
     const Geometry& geometry = plan.frame.scene->geometry;
-    const std::vector<uint32_t> counts =
-        plan.ofScene(fmt::format("triangles of leaves {}", voxels.grid.voxelSize),
-                     [&] { return countLeafTriangles(geometry, voxels.grid); });
-    const uint64_t words = std::reduce(counts.begin(), counts.end(), uint64_t(0));
-    if (words >= kMaxWords)
-        throw Error(
-            "build_hybrid_leaves: lists hold at most {} triangles' numbers; these are {}: lower voxelize's "
-            "'resolution' or 'primitives'",
-            kMaxWords, words);
+    const std::string key = fmt::format("triangles of leaves {}", grid.voxelSize);
+    const LeafCounts counts = plan.ofScene(key, [&] { return countLeaves(geometry, grid); });
+    const uint64_t listed = counts.listed(params_.primitives);
+    const uint64_t grids = counts.grids(params_.primitives), gridWords = grids * wordsPerGrid(params_.grid);
+    require(listed, kMaxListWords, "words of lists");
+    require(gridWords, kMaxBoundBytes / sizeof(uint32_t) + 1, "words of grids");
+    const uint64_t cells = plan.ofScene(
+        fmt::format("cells {} {} {}", key, params_.primitives, params_.grid),
+        [&] { return countGridCells(geometry, grid, counts, params_.primitives, params_.grid); });
+    require(cells, kMaxCells, "cells of grids");
+
     plan.buffer(plan.get(leaves_).header, "hybrid leaves' header", sizeof(Header));
     plan.reserve("hybrid leaves (estimated)", wordBytes(voxels.voxelCount));
-    plan.reserve("lists of triangles (at most)", wordBytes(words));
-    plan.reserveScratch("triangles of each leaf (estimated)",
-                        2 * wordBytes(voxels.voxelCount) + PrefixSum::scratchBytes(voxels.voxelCount));
-    walk_->plan(plan, voxels.grid);
+    if (!maskedTriangles(*plan.frame.scene).empty())
+        plan.reserve("voxels with masks", 2 * wordBytes(voxels.words()));
+    plan.reserve("lists of triangles (at most)", wordBytes(listed));
+    plan.reserve("grids (at most)", 2 * wordBytes(gridWords) + wordBytes(cells * GRID_CELL_WORDS));
+    const uint64_t flags = (geometry.triangles.size() + 31) / 32;
+    plan.reserveScratch("triangles of each leaf (estimated)", 4 * wordBytes(voxels.voxelCount));
+    plan.reserveScratch("triangles in grids", wordBytes(flags) + wordBytes(geometry.triangles.size()) +
+                                                  Compaction::scratchBytes(uint32_t(flags)));
+    plan.reserveScratch("sums of cells (at most)",
+                        cells * SUM_UINTS * sizeof(uint32_t) + PrefixSum::scratchBytes(uint32_t(gridWords)));
+    walk_->plan(plan, grid);
 }
 
 void BuildHybridLeaves::prepare(PassSetup& setup) {
     const auto program = [&](const char* file) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file));
     };
+    const auto visitor = [&](const char* file, const Defines& defines = {}) {
+        return walk_->compileVisitor(setup, file, defines);
+    };
     walk_->prepare(setup);
-    count_ = walk_->compileVisitor(setup, "passes/build_hybrid_leaves/count_triangles");
-    fill_ = walk_->compileVisitor(setup, "passes/build_hybrid_leaves/fill_lists");
+    const Defines lists = params_.lists == LeafLists::Fragments ? Defines{{"FRAGMENTS", "1"}} : Defines{};
+    markLeaves_ = visitor("passes/build_hybrid_leaves/mark_leaves");
+    count_ = visitor("passes/build_hybrid_leaves/count_triangles", lists);
+    fill_ = visitor("passes/build_hybrid_leaves/fill_lists", lists);
+    mark_ = visitor("passes/build_hybrid_leaves/mark_cells");
+    write_ = params_.write == CellWrite::Average ? visitor("passes/build_hybrid_leaves/add_cells")
+                                                 : visitor("passes/build_hybrid_leaves/write_cells");
     size_ = program("passes/build_hybrid_leaves/size_lists.comp");
     number_ = program("passes/build_hybrid_leaves/number_leaves.comp");
     sort_ = program("passes/build_hybrid_leaves/sort_lists.comp");
-    prefixSum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
+    resolve_ = program("passes/build_hybrid_leaves/resolve_cells.comp");
+    sum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
+    sumBits_.emplace(setup.device, setup.compiler, PrefixSum::Of::SetBits);
+    compaction_.emplace(setup.device, setup.compiler);
     version_.reset();
 }
 
 void BuildHybridLeaves::record(PassContext& context) {
-    const SurfaceVoxels& voxels = context.get(voxels_);
-    if (version_ == voxels.version) return;
-    version_ = voxels.version;
+    const SurfaceVoxels& surface = context.get(voxels_);
+    if (version_ == surface.version) return;
+    version_ = surface.version;
     HybridLeaves& leaves = context.get(leaves_);
+    leaves.release();
+    const std::vector<uint32_t> masked = maskedTriangles(*context.frame.scene);
+    if (!masked.empty()) addMasked(context, masked, surface, leaves);
+    const SurfaceVoxels& voxels = leaves.voxels(surface);
+
+    const VoxelRegion all(voxels.grid);
+    walk_->select(context, voxels.grid, all, all.triangles(context.frame.scene->geometry));
+    const Buffer counts = number(context, voxels, leaves);
+    const Buffer touching = fillLists(context, voxels, counts, leaves);
+    walk_->release();
+    fillGrids(context, voxels, touching, leaves);
+    ++leaves.version;
+    context.report("leaves with a list", double(voxels.voxelCount - leaves.gridCount - leaves.emptyCount));
+    context.report("leaves with a grid", leaves.gridCount);
+    context.report("triangles in lists", leaves.primitiveCount);
+    context.report("cells in grids", leaves.cellCount);
+    context.report("bytes of leaves", double(leaves.structureBytes()));
+    context.report("bytes of lists", double(leaves.listBytes()));
+    context.report("bytes of grids", double(leaves.gridBytes()));
+}
+
+void BuildHybridLeaves::addMasked(PassContext& context, const std::vector<uint32_t>& triangles,
+                                  const SurfaceVoxels& voxels, HybridLeaves& leaves) {
+    CommandStream& stream = context.stream;
+    SurfaceVoxels& all = leaves.masked;
+    all.grid = voxels.grid;
+    all.version = voxels.version;
+    all.occupancy = Buffer(context.device, "occupancy with masks", voxels.occupancy.bytes());
+    all.rank = Buffer(context.device, "ranks with masks", voxels.rank.bytes());
+    stream.copy(voxels.occupancy, all.occupancy, voxels.occupancy.bytes());
+    walk_->select(context, all.grid, VoxelRegion(all.grid), triangles);
+    walk_->run(context, markLeaves_, all.grid, std::vector<Binding>{{"occupancy", all.occupancy}}, 0);
+    all.voxelCount = sumBits_->run(stream, all.occupancy, all.rank, uint32_t(all.words()));
+    walk_->release();
+}
+
+Buffer BuildHybridLeaves::number(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves) {
+    // How many triangles each leaf has
     CommandStream& stream = context.stream;
     const LeavesPush push{voxels.voxelCount, params_.primitives};
     const glm::uvec3 groups = linearGroups(push.leaves);
-    const VoxelRegion all(voxels.grid);
-    walk_->select(context, voxels.grid, all, all.triangles(context.frame.scene->geometry));
-
-    // How many triangles each leaf has, and where its list begins: an exclusive sum (Seok 2021, figure 7,
-    // without its order of arrival).
     Buffer counts(context.device, "triangles of each leaf", wordBytes(push.leaves));
-    const Buffer sizes(context.device, "sizes of lists", wordBytes(push.leaves));
     stream.fill(counts, 0);
-    walk_->run(context, count_, voxels.grid, voxels.bindings({{"counts", counts}}), 0);
-    const Buffer over(context.device, "leaves over the capacity", sizeof(uint32_t));
-    stream.fill(over, 0);
-    stream.dispatch(size_, {{"counts", counts}, {"sizes", sizes}, {"over", over}}, push, groups);
-    if (const uint32_t full = stream.readAs<uint32_t>(over, 1)[0]; full > 0)
-        throw Error("build_hybrid_leaves: {} leaves hold more than {} triangles: raise 'primitives'", full,
-                    params_.primitives);
-    leaves.words = {};
+    walk_->run(context, count_, voxels.grid, leafBindings(voxels, {{"counts", counts}}), 0);
+
+    // Where its list begins, or which number its grid has: exclusive sums, for which Seok 2021, figure 7,
+    // takes the order of arrival
+    const Buffer sizes(context.device, "sizes of lists", wordBytes(push.leaves));
+    const Buffer grids(context.device, "grids", wordBytes(push.leaves));
+    const Buffer found(context.device, "what leaves are", sizeof(Found));
+    stream.fill(found, 0);
+    stream.dispatch(size_, {{"counts", counts}, {"sizes", sizes}, {"grids", grids}, {"found", found}}, push,
+                    groups);
     leaves.words = Buffer(context.device, "hybrid leaves", wordBytes(push.leaves));
-    leaves.primitiveCount = prefixSum_->run(stream, sizes, leaves.words, push.leaves);
-    stream.dispatch(number_, {{"counts", counts}, {"words", leaves.words}}, push, groups);
-
-    leaves.primitives = {};
-    leaves.primitives = Buffer(context.device, "lists of triangles", wordBytes(leaves.primitiveCount));
-    leaves.shape = {push.leaves, push.capacity, 0, 0};
-    const Header header{leaves.words.address(), leaves.primitives.address(), leaves.shape};
-    stream.upload(leaves.header, std::as_bytes(std::span(&header, 1)));
-
-    // The lists, in ascending order whatever the order of arrival (Seok 2021, figure 8)
-    std::vector<Binding> bindings = voxels.bindings({{"sizes", sizes}});
-    bindings.push_back({"hybridLeaves", leaves.header});
-    walk_->run(context, fill_, voxels.grid, bindings, 0);
-    stream.dispatch(sort_, {{"counts", counts}, {"hybridLeaves", leaves.header}}, push, groups);
+    leaves.primitiveCount = sum_->run(stream, sizes, leaves.words, push.leaves);
+    leaves.gridCount = sum_->run(stream, grids, grids, push.leaves);
+    const Found numbers = stream.readAs<Found>(found, 1)[0];
+    maxTriangles_ = numbers.maxTriangles;
+    leaves.emptyCount = numbers.empty;
+    stream.dispatch(number_, {{"counts", counts}, {"grids", grids}, {"words", leaves.words}}, push, groups);
     stream.finish();
+    return counts;
+}
+
+Buffer BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& voxels, const Buffer& counts,
+                                    HybridLeaves& leaves) {
+    CommandStream& stream = context.stream;
+    const LeavesPush push{voxels.voxelCount, params_.primitives};
+    leaves.primitives = Buffer(context.device, "lists of triangles", wordBytes(leaves.primitiveCount));
+    leaves.shape = {push.leaves, push.capacity, params_.grid, wordsPerGrid(params_.grid)};
+    writeHeader(stream, leaves);
+
+    // From the last place to the first, in order of arrival (Seok 2021, figure 8), then sorted: the same bits
+    // each time. Triangles in leaves with grids are flagged (figure 9).
+    const uint64_t flags = (context.frame.scene->geometry.triangles.size() + 31) / 32;
+    Buffer touching(context.device, "triangles in grids", wordBytes(flags));
+    const Buffer left(context.device, "places left in lists", counts.bytes());
+    stream.fill(touching, 0);
+    stream.copy(counts, left, counts.bytes());
+    const std::vector<Binding> bindings =
+        leafBindings(voxels, {{"left", left}, {"touching", touching}, {"hybridLeaves", leaves.header}});
+    walk_->run(context, fill_, voxels.grid, bindings, 0);
+    stream.dispatch(sort_, {{"counts", counts}, {"hybridLeaves", leaves.header}}, push,
+                    linearGroups(push.leaves));
+    stream.finish();
+    return touching;
+}
+
+void BuildHybridLeaves::fillGrids(PassContext& context, const SurfaceVoxels& voxels, const Buffer& touching,
+                                  HybridLeaves& leaves) {
+    if (leaves.gridCount == 0) return;
+    CommandStream& stream = context.stream;
+    const uint32_t words = leaves.gridCount * leaves.shape.wordsPerGrid;
+    leaves.gridBits = Buffer(context.device, "bits of grids", wordBytes(words));
+    leaves.gridRanks = Buffer(context.device, "ranks of grids", wordBytes(words));
+    stream.fill(leaves.gridBits, 0);
+    writeHeader(stream, leaves);
+
+    // Only the triangles that touch these leaves
+    const uint32_t flagWords = uint32_t(touching.bytes() / sizeof(uint32_t));
+    std::vector<uint32_t> triangles;
+    {
+        const Buffer listed(context.device, "triangles to voxelize", wordBytes(32ull * flagWords));
+        const uint32_t count = compaction_->run(stream, touching, listed, flagWords);
+        triangles = stream.readAs<uint32_t>(listed, count);
+    }
+    walk_->select(context, voxels.grid, VoxelRegion(voxels.grid), triangles);
+
+    // Mark their cells, then number them.
+    std::vector<Binding> bindings = leafBindings(voxels, {{"hybridLeaves", leaves.header}});
+    walk_->run(context, mark_, voxels.grid, bindings, 0);
+    leaves.cellCount = sumBits_->run(stream, leaves.gridBits, leaves.gridRanks, words);
+    require(leaves.cellCount, kMaxCells, "cells of grids");
+    leaves.cells =
+        Buffer(context.device, "cells of grids", wordBytes(uint64_t(leaves.cellCount) * GRID_CELL_WORDS));
+    stream.fill(leaves.cells, 0);
+    writeHeader(stream, leaves);
+
+    // What they hold
+    if (params_.write == CellWrite::None) {
+        walk_->run(context, write_, voxels.grid, bindings, 0);
+        stream.finish();
+    } else {
+        const LargeBuffer sums(context.device, "sums of cells",
+                               wordBytes(uint64_t(leaves.cellCount) * SUM_UINTS));
+        stream.fill(sums, 0);
+        bindings.push_back({"CellSumsAt", sums.at()});
+        walk_->run(context, write_, voxels.grid, bindings, unitsPerFace(maxTriangles_));
+        stream.dispatch(resolve_, {{"CellSumsAt", sums.at()}, {"hybridLeaves", leaves.header}},
+                        leaves.cellCount, linearGroups(leaves.cellCount));
+        stream.finish();
+    }
     walk_->release();
-    ++leaves.version;
-    context.report("triangles in lists", leaves.primitiveCount);
+}
+
+void BuildHybridLeaves::writeHeader(CommandStream& stream, HybridLeaves& leaves) const {
+    const auto address = [](const Buffer& buffer) { return buffer ? buffer.address() : VkDeviceAddress(0); };
+    const Header header{address(leaves.words),     address(leaves.primitives), address(leaves.gridBits),
+                        address(leaves.gridRanks), address(leaves.cells),      leaves.shape};
+    stream.upload(leaves.header, std::as_bytes(std::span(&header, 1)));
 }
 
 }  // namespace voxray

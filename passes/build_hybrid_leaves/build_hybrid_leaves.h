@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "graph/registry.h"
+#include "passes/common/compute/compaction.h"
 #include "passes/common/compute/prefix_sum.h"
 #include "passes/common/hybrid_leaves/hybrid_leaves.h"
 #include "passes/common/triangle_walk/triangle_walk.h"
@@ -12,21 +13,57 @@
 
 namespace voxray {
 
-/// Fills the leaves of the octree over surface voxels with lists of triangles.
+/// Which triangles leaves list.
+enum class LeafLists { Exact, Fragments };
+template <>
+struct EnumNames<LeafLists> {
+    static constexpr std::array names{std::pair{LeafLists::Exact, "exact"},
+                                      std::pair{LeafLists::Fragments, "fragments"}};
+};
+
+/// How the surfaces in a cell become its value.
+enum class CellWrite { Average, None };
+template <>
+struct EnumNames<CellWrite> {
+    static constexpr std::array names{std::pair{CellWrite::Average, "average"},
+                                      std::pair{CellWrite::None, "none"}};
+};
+
+/// Fills the leaves of the octree over surface voxels with lists of triangles, or with grids of finer voxels.
 class BuildHybridLeaves final : public Pass {
  public:
     static constexpr const char* kName = "build_hybrid_leaves";
     static constexpr const char* kHelp =
-        "Gives each leaf of the octree over surface voxels the list of the triangles in it, for rays that "
-        "meet triangles where they are few. "
-        "Exact: no bias, no noise. Source: Seok 2021, chapter 3.";
+        "Gives each leaf of the octree over surface voxels the list of the triangles in it, or, where they "
+        "are "
+        "more than a capacity, a grid of finer voxels, for rays sharper than voxels are. "
+        "Biased by: grid, where leaves hold grids: surfaces are as thick as its cells. lists: fragments "
+        "misses "
+        "triangles, write: none flickers. "
+        "Source: Seok 2021, chapter 3.";
     struct Params {
         uint32_t primitives = 64;
+        uint32_t grid = 16;
+        LeafLists lists = LeafLists::Exact;
+        CellWrite write = CellWrite::Average;
         static constexpr auto schema() {
-            return std::tuple{field("primitives", &Params::primitives,
-                                    "Capacity p of a leaf: its list holds at most as many triangles "
-                                    "(Seok 2021, section 3.2).",
-                                    1u, 1u << 20)};
+            return std::tuple{
+                field("primitives", &Params::primitives,
+                      "Capacity p of a leaf: the most triangles that it lists; a leaf with more gets a grid "
+                      "(Seok 2021, section 3.2).",
+                      1u, 1u << 20),
+                field(
+                    "grid", &Params::grid,
+                    "Resolution m of a leaf's grid: cells along its edge. Only those that hold surfaces take "
+                    "memory besides two bits.",
+                    2u, 16u),
+                field("lists", &Params::lists,
+                      "exact: every triangle that overlaps the leaf. fragments: those of which a raster pass "
+                      "makes a fragment there, which misses some (Seok 2021, figures 24 and 25)."),
+                field(
+                    "write", &Params::write,
+                    "average: a cell is the mean of its surfaces, weighted by area. none: the last one that "
+                    "is written, which changes from run to run (Seok 2021, section 3.2).")};
         }
     };
 
@@ -37,12 +74,28 @@ class BuildHybridLeaves final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    /// Adds the voxels in which alpha masks leave too little to make them surface voxels.
+    void addMasked(PassContext& context, const std::vector<uint32_t>& triangles, const SurfaceVoxels& voxels,
+                   HybridLeaves& leaves);
+    /// Counts triangles, tells kinds, and gives lists and grids their places. @return the triangles of each
+    /// leaf.
+    Buffer number(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves);
+    /// Fills lists; @return a bit for each triangle that touches a grid leaf.
+    Buffer fillLists(PassContext& context, const SurfaceVoxels& voxels, const Buffer& counts,
+                     HybridLeaves& leaves);
+    /// Voxelizes the triangles that touch grid leaves into their cells.
+    void fillGrids(PassContext& context, const SurfaceVoxels& voxels, const Buffer& touching,
+                   HybridLeaves& leaves);
+    void writeHeader(CommandStream& stream, HybridLeaves& leaves) const;
+
     Params params_;
     Port<const SurfaceVoxels> voxels_;
     Port<HybridLeaves> leaves_;
     std::unique_ptr<TriangleWalk> walk_;
-    Program count_, size_, number_, fill_, sort_;
-    std::optional<PrefixSum> prefixSum_;
+    Program markLeaves_, count_, size_, number_, fill_, sort_, mark_, write_, resolve_;
+    std::optional<PrefixSum> sum_, sumBits_;
+    std::optional<Compaction> compaction_;
+    uint32_t maxTriangles_ = 0;        ///< Of a leaf.
     std::optional<uint64_t> version_;  ///< Of the voxels that it is built over.
 };
 

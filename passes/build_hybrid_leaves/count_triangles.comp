@@ -1,12 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // A walk's visitor: counts the triangles of each leaf, those too of which an alpha mask leaves little: a ray may meet what it leaves.
-#include "passes/common/triangle_walk/exact.glsl"
+#include "passes/build_hybrid_leaves/listed.glsl"
 #include "shaders/voxels/voxels.glsl"
 
 buffer Counts { uint triangles[]; } counts;  // By leaf.
 
 void visitFragment(TriangleFragment f) {
     const uint leaf = voxelNumber(walk.grid, f.voxel);
-    if (leaf != NO_VOXEL) atomicAdd(counts.triangles[leaf], 1u);
+    if (leaf != NO_VOXEL && isListed(f)) atomicAdd(counts.triangles[leaf], 1u);
 }

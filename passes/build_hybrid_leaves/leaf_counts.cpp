@@ -9,27 +9,76 @@ namespace {
 
 constexpr double kMargin = 1.0 / 4096;  // As in passes/common/triangle_walk/grid_triangle.glsl.
 
+uint32_t packed(glm::ivec3 v) {
+    return uint32_t(v.x | v.y << 10 | v.z << 20);
+}
+
+/// 1 for triangles that stay, 2 for those that move.
+std::vector<uint32_t> weights(const Geometry& geometry) {
+    std::vector<uint32_t> result(geometry.triangles.size(), 1);
+    for (const InstanceRange& run : movingRuns(geometry))
+        std::fill_n(result.begin() + run.firstTriangle, run.triangleCount, 2u);
+    return result;
+}
+
 }  // namespace
 
-std::vector<uint32_t> countLeafTriangles(const Geometry& geometry, const gpu::VoxelGrid& grid) {
-    std::vector<uint32_t> twice(geometry.triangles.size(), 0);
-    for (const InstanceRange& run : movingRuns(geometry))
-        std::fill_n(twice.begin() + run.firstTriangle, run.triangleCount, 1u);
+uint64_t LeafCounts::listed(uint32_t capacity) const {
+    uint64_t sum = 0;
+    for (const uint32_t count : triangles) sum += count <= capacity ? count : 0;
+    return sum;
+}
 
-    // The voxel of each pair, which has 10 bits along an axis
-    std::vector<uint32_t> voxels;
+uint32_t LeafCounts::grids(uint32_t capacity) const {
+    return uint32_t(std::ranges::count_if(triangles, [&](uint32_t count) { return count > capacity; }));
+}
+
+LeafCounts countLeaves(const Geometry& geometry, const gpu::VoxelGrid& grid) {
+    const std::vector<uint32_t> weight = weights(geometry);
+    std::vector<uint32_t> pairs;  // The voxel of each.
     for (uint32_t t = 0; t < geometry.triangles.size(); ++t)
-        visitVoxels(grid.resolution, cornersInVoxels(geometry, grid, t), kMargin, [&](glm::ivec3 v) {
-            voxels.insert(voxels.end(), 1 + twice[t], uint32_t(v.x | v.y << 10 | v.z << 20));
-        });
-    std::ranges::sort(voxels);
+        visitVoxels(grid.resolution, cornersInVoxels(geometry, grid, t), kMargin,
+                    [&](glm::ivec3 v) { pairs.insert(pairs.end(), weight[t], packed(v)); });
+    std::ranges::sort(pairs);
 
-    std::vector<uint32_t> counts;
-    for (size_t i = 0; i < voxels.size(); ++i) {
-        if (i == 0 || voxels[i] != voxels[i - 1]) counts.push_back(0);
-        ++counts.back();
+    LeafCounts counts;
+    for (const uint32_t voxel : pairs) {
+        if (counts.voxels.empty() || counts.voxels.back() != voxel) {
+            counts.voxels.push_back(voxel);
+            counts.triangles.push_back(0);
+        }
+        ++counts.triangles.back();
     }
     return counts;
+}
+
+uint64_t countGridCells(const Geometry& geometry, const gpu::VoxelGrid& grid, const LeafCounts& counts,
+                        uint32_t capacity, uint32_t m) {
+    std::vector<uint32_t> grids;
+    for (size_t i = 0; i < counts.voxels.size(); ++i)
+        if (counts.triangles[i] > capacity) grids.push_back(counts.voxels[i]);
+    const size_t cellsOfGrid = size_t(m) * m * m;
+    const auto countOf = [&](bool moving) {
+        const std::vector<uint32_t> weight = weights(geometry);
+        std::vector<bool> marked(grids.size() * cellsOfGrid);
+        for (uint32_t t = 0; t < geometry.triangles.size(); ++t) {
+            if ((weight[t] == 2) != moving) continue;
+            const std::array<glm::dvec3, 3> corners = cornersInVoxels(geometry, grid, t);
+            visitVoxels(grid.resolution, corners, kMargin, [&](glm::ivec3 voxel) {
+                const auto found = std::ranges::lower_bound(grids, packed(voxel));
+                if (found == grids.end() || *found != packed(voxel)) return;
+                const size_t first = size_t(found - grids.begin()) * cellsOfGrid;
+                std::array<glm::dvec3, 3> inCells;
+                for (size_t k = 0; k < 3; ++k) inCells[k] = (corners[k] - glm::dvec3(voxel)) * double(m);
+                visitVoxels(glm::uvec3(m), inCells, kMargin, [&](glm::ivec3 cell) {
+                    marked[first + size_t(cell.x) + m * (size_t(cell.y) + m * size_t(cell.z))] = true;
+                });
+            });
+        }
+        return uint64_t(std::ranges::count(marked, true));
+    };
+    if (grids.empty()) return 0;
+    return countOf(false) + (movingRuns(geometry).empty() ? 0 : 2 * countOf(true));
 }
 
 }  // namespace voxray

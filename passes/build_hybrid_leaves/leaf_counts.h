@@ -8,9 +8,23 @@
 
 namespace voxray {
 
-/// How many triangles touch each voxel that any touches, in no order: counted on the host without a device,
-/// to predict memory. An upper bound, by about a hundredth. What moves counts twice, as in
-/// countSurfaceVoxels(). Takes 4 bytes for each pair of a triangle and a voxel.
-std::vector<uint32_t> countLeafTriangles(const Geometry& geometry, const gpu::VoxelGrid& grid);
+/// How many triangles touch each voxel that any touches, counted on the host without a device, to predict
+/// memory: an upper bound, by about a hundredth. What moves counts twice, as in countSurfaceVoxels(). Takes 4
+/// bytes for each pair of a triangle and a voxel.
+struct LeafCounts {
+    std::vector<uint32_t> voxels;     ///< Ascending; 10 bits for each coordinate, x lowest.
+    std::vector<uint32_t> triangles;  ///< As many, by voxel.
+
+    /// Words of the lists of leaves that hold at most `capacity` triangles.
+    uint64_t listed(uint32_t capacity) const;
+    /// Leaves that hold more.
+    uint32_t grids(uint32_t capacity) const;
+};
+LeafCounts countLeaves(const Geometry& geometry, const gpu::VoxelGrid& grid);
+
+/// Cells that are not empty in the grids, m³ cells each, of the leaves that hold more than `capacity`
+/// triangles: an upper bound likewise. Takes a bit for each cell.
+uint64_t countGridCells(const Geometry& geometry, const gpu::VoxelGrid& grid, const LeafCounts& counts,
+                        uint32_t capacity, uint32_t m);
 
 }  // namespace voxray

@@ -5,11 +5,13 @@
 #include "shaders/hybrid_leaves/hybrid_types.h"
 
 readonly buffer Counts { uint triangles[]; } counts;
+readonly buffer Grids { uint before[]; } grids;
 buffer Words { uint data[]; } words;  // Where lists would begin; then what leaves hold.
 
 void main() {
     const uint leaf = linearIndex();
     if (leaf >= push.leaves) return;
     const uint count = counts.triangles[leaf];
-    if (count == 0u || count > push.capacity) words.data[leaf] = LEAF_EMPTY;
+    if (count == 0u) words.data[leaf] = LEAF_EMPTY;
+    if (count > push.capacity) words.data[leaf] = LEAF_IS_GRID | grids.before[leaf];
 }

@@ -1,16 +1,22 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How long each leaf's list is: 0 for leaves over the capacity. A thread takes a leaf.
+// How long each leaf's list is, and whether it has a grid instead: where it has more triangles than the capacity. A thread takes a leaf.
 #include "passes/build_hybrid_leaves/leaves_push.glsl"
 
 readonly buffer Counts { uint triangles[]; } counts;
 writeonly buffer Sizes { uint words[]; } sizes;
-buffer Over { uint leaves; } over;  // The capacity.
+writeonly buffer Grids { uint isGrid[]; } grids;
+buffer Found {
+    uint empty;
+    uint maxTriangles;  // Of a leaf.
+} found;
 
 void main() {
     const uint leaf = linearIndex();
     if (leaf >= push.leaves) return;
     const uint count = counts.triangles[leaf];
-    if (count > push.capacity) atomicAdd(over.leaves, 1u);
     sizes.words[leaf] = count <= push.capacity ? count : 0u;
+    grids.isGrid[leaf] = count > push.capacity ? 1u : 0u;
+    if (count == 0u) atomicAdd(found.empty, 1u);
+    atomicMax(found.maxTriangles, count);
 }

@@ -14,10 +14,31 @@
 layout(scalar) buffer HybridLeaves {
     LargeUints words;       // One a leaf.
     LargeUints primitives;  // Lists, one after the other, each in ascending order.
+    LargeUints gridBits;    // Which cells of each grid are not empty: wordsPerGrid words a grid, x + m (y + m z) a bit.
+    LargeUints gridRanks;   // Such cells before each word.
+    LargeUints cells;       // GRID_CELL_WORDS each (shaders/hybrid_leaves/grid_cell.glsl).
     HybridShape shape;
 } hybridLeaves;
 
 bool isEmptyLeaf(uint leaf) { return leaf == LEAF_EMPTY; }
 bool isGridLeaf(uint leaf) { return leaf != LEAF_EMPTY && (leaf & LEAF_IS_GRID) != 0u; }
+
+// A cell of a grid by its bit.
+struct GridBit {
+    uint word;
+    uint bit;
+};
+GridBit gridBit(uint grid, ivec3 cell) {
+    const uint m = hybridLeaves.shape.gridResolution, at = uint(cell.x) + m * (uint(cell.y) + m * uint(cell.z));
+    return GridBit(grid * hybridLeaves.shape.wordsPerGrid + (at >> 5), 1u << (at & 31u));
+}
+
+// Its number among the cells of all grids that are not empty; NO_CELL where it is.
+#define NO_CELL 0xffffffffu
+uint gridCellNumber(GridBit at) {
+    const uint bits = hybridLeaves.gridBits.data[at.word];
+    if ((bits & at.bit) == 0u) return NO_CELL;
+    return hybridLeaves.gridRanks.data[at.word] + uint(bitCount(bits & (at.bit - 1u)));
+}
 
 #endif

@@ -16,6 +16,8 @@
 #define HIT_IS_CELL 0x80000000u
 #define HIT_IS_WIDE 0xfffffffeu
 
+#define GRID_CELL_WORDS 3u
+
 VOXRAY_SHARED_BEGIN
 
 // Where the arrays are is told by their addresses, before this one (HybridLeaves::header).

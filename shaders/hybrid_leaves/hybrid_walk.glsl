@@ -5,7 +5,7 @@
 #ifndef VOXRAY_HYBRID_WALK_GLSL
 #define VOXRAY_HYBRID_WALK_GLSL
 
-#include "shaders/hybrid_leaves/hybrid_leaves.glsl"
+#include "shaders/hybrid_leaves/grid_cell.glsl"
 #include "shaders/hybrid_leaves/ray_triangle.glsl"
 #include "shaders/voxel_march/voxel_march.glsl"
 
@@ -24,9 +24,52 @@ void meetList(vec3 origin, vec3 direction, float tMin, uint first, inout Hit bes
     }
 }
 
+// The closest of the cells of a leaf's grid on the part [begin, end] of a ray (Amanatides and Woo 1987; Seok 2021, figure 15). A ray
+// meets the plane that a cell's surfaces keep: where it enters the cell, if the plane lies before, and at most a cell's diagonal behind
+// the cell, if it lies there and nothing is closer. So cells are passed over only where they hold the surface that the ray leaves.
+void meetGrid(VoxelGrid g, vec3 origin, vec3 direction, float begin, float end, ivec3 voxel, uint grid, RayStart start,
+              inout Hit best) {
+    const int m = int(hybridLeaves.shape.gridResolution);
+    const float width = g.voxelSize / float(m);
+    const vec3 from = (origin - (g.origin + vec3(voxel) * g.voxelSize)) / width, way = direction / width;
+    const bvec3 isDown = lessThan(way, vec3(0.0)), isLevel = equal(way, vec3(0.0));
+    const ivec3 next = mix(ivec3(1), ivec3(-1), isDown);
+    const float diagonal = 1.7320508 / length(way);
+
+    // Heights above the plane of the surface that the ray leaves, up to which that plane's cells reach; walks are off by units of
+    // a voxel
+    const float widest = width * (1.0 + VOXEL_MARGIN) + g.voxelSize * 4.0 / float(MARCH_UNITS);
+    const float rise = dot(start.normal, direction), reach = dot(abs(start.normal), vec3(1.0)) * widest;
+    ivec3 cell = clamp(ivec3(floor(from + begin * way)), ivec3(0), ivec3(m - 1));
+    float enters = begin;
+    for (int i = 0; i < 3 * m && enters <= min(end, best.t); ++i) {
+        const vec3 planes = vec3(cell) + mix(vec3(1.0), vec3(0.0), isDown);
+        const vec3 parts = mix((planes - from) / way, vec3(1.0e30), isLevel);
+        const float leaves = min(parts.x, min(parts.y, parts.z));
+        ++marchSteps;
+        ++marchVisits;
+        const uint number = gridCellNumber(gridBit(grid, cell));
+        const bool isOwn = start.normal != vec3(0.0) && enters * rise < reach;
+        if (number != NO_CELL && !isOwn) {
+            const GridCell c = gridCell(number);
+            const float slope = dot(c.normal, way);
+            const float onPlane = (c.distance_ - dot(c.normal, from - (vec3(cell) + 0.5))) / slope;
+            const float t = slope == 0.0 ? enters : clamp(onPlane, enters, max(leaves, enters) + diagonal);
+            // A triangle of another leaf that the ray meets within the cell is closer to the truth.
+            const bool isTriangle = best.triangle < HIT_IS_CELL && best.t <= leaves;
+            if (t < best.t && !isTriangle) best = Hit(t, HIT_IS_CELL | number, 0.0, 0.0);
+        }
+        const int axis = parts.x <= parts.y && parts.x <= parts.z ? 0 : parts.y <= parts.z ? 1 : 2;
+        cell[axis] += next[axis];
+        if (cell[axis] < 0 || cell[axis] >= m) return;
+        enters = max(enters, leaves);
+    }
+}
+
 // The closest surface on a ray from `origin` (m) between tMin and tMax, which may be infinite; t counts in multiples of `direction`.
 // Hit::triangle tells what it is (shaders/hybrid_leaves/hybrid_types.h), Hit::t is tMax where it is NO_HIT. `start`: what the ray
-// leaves behind, RayStart(vec3(0.0), 0.0, 0.0) for a bare ray.
+// leaves behind, RayStart(vec3(0.0), 0.0, 0.0) for a bare ray. Where the ray has become wider than a voxel and has met nothing,
+// HIT_IS_WIDE: from there on cones go on through the octree's levels (section 4: "when the cone is large").
 Hit hybridClosest(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float tMax, RayStart start) {
     Hit best = Hit(tMax, NO_HIT, 0.0, 0.0);
     float from = tMin, to = tMax;
@@ -38,13 +81,23 @@ Hit hybridClosest(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float tM
     const uint bound = voxelsBetween(s);
     for (uint i = 0u; i <= bound; ++i) {
         if (!walkOn(g, s, at)) break;
-        const uint leaf = hybridLeaves.words.data[voxelNumber(g, at ^ s.flip)];
-        if (!isEmptyLeaf(leaf)) meetList(origin, direction, tMin, leaf, best);
-
+        const ivec3 voxel = at ^ s.flip;
+        const vec3 entries = mix(partsTo(s, unitsTo(s, at)), vec3(0.0), equal(s.run, vec3(0.0)));
+        const float enters = from + clamp(max(entries.x, max(entries.y, entries.z)), 0.0, 1.0) * (to - from);
+        if (best.t < enters - rounding) break;
+        if (start.width + start.spread * enters > g.voxelSize) {
+            best = Hit(enters, HIT_IS_WIDE, 0.0, 0.0);
+            break;
+        }
+        const vec3 parts = partsTo(s, unitsTo(s, at + 1));
+        const float leaves = from + min(min(parts.x, min(parts.y, parts.z)), 1.0) * (to - from);
+        const uint leaf = hybridLeaves.words.data[voxelNumber(g, voxel)];
+        if (isGridLeaf(leaf))
+            meetGrid(g, origin, direction, enters, leaves, voxel, leaf & ~LEAF_IS_GRID, start, best);
+        else if (!isEmptyLeaf(leaf))
+            meetList(origin, direction, tMin, leaf, best);
         // A hit within the leaf is the closest: whatever is closer has a part in this leaf or in those before. One behind it may be
         // hidden yet.
-        const vec3 parts = partsTo(s, unitsTo(s, at + 1));
-        const float leaves = from + min(parts.x, min(parts.y, parts.z)) * (to - from);
         if (best.triangle != NO_HIT && best.t <= leaves - rounding) break;
         if (!leaveVoxel(s, at)) break;
     }

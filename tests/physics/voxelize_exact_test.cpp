@@ -3,28 +3,11 @@
 
 #include <random>
 
+#include "tests/physics/triangle_box.h"
 #include "tests/physics/voxels_read.h"
 
 namespace voxray::test {
 namespace {
-
-using Triangle = std::array<glm::dvec3, 3>;  // In voxels.
-
-/// Overlap with a box by all 13 separating axes (Akenine-Möller 2001).
-bool overlaps(const Triangle& t, glm::dvec3 center, double half) {
-    std::vector<glm::dvec3> axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, glm::cross(t[1] - t[0], t[2] - t[0])};
-    for (int e = 0; e < 3; ++e)
-        for (int k = 0; k < 3; ++k)
-            axes.push_back(glm::cross(axes[size_t(k)], t[size_t(e + 1) % 3] - t[size_t(e)]));
-    for (const glm::dvec3& axis : axes) {
-        if (glm::length(axis) < 1e-12) continue;
-        const double a = glm::dot(axis, t[0] - center), b = glm::dot(axis, t[1] - center),
-                     c = glm::dot(axis, t[2] - center);
-        const double reach = half * (std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z));
-        if (std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach) return false;
-    }
-    return true;
-}
 
 /// Area of a triangle within a voxel: its polygon cut by the six faces.
 double areaInside(const Triangle& t, glm::dvec3 low) {
@@ -64,6 +47,7 @@ std::vector<glm::vec3> randomCorners(uint32_t seed, int triangles) {
     return corners;
 }
 
+/// In voxels.
 std::vector<Triangle> inVoxels(const std::vector<glm::vec3>& corners, const gpu::VoxelGrid& grid) {
     std::vector<Triangle> triangles(corners.size() / 3);
     for (size_t i = 0; i < corners.size(); ++i)

@@ -3,24 +3,46 @@
 #include <vector>
 
 #include "graph/pass.h"
+#include "passes/common/voxels/voxels.h"
 #include "shaders/hybrid_leaves/hybrid_types.h"
 
 namespace voxray {
 
-/// What the leaves of the octree over surface voxels hold: lists of triangles (Seok 2021, section 3.1).
-/// Leaves are numbered as surface voxels are; the octree's structure is its users' (VoxelMarch). GLSL access:
-/// shaders/hybrid_leaves/hybrid_leaves.glsl.
+/// What the leaves of the octree over surface voxels hold: lists of triangles, or grids of finer voxels,
+/// cells, where triangles are many (Seok 2021, section 3.1). Leaves are numbered as voxels() are; the
+/// octree's structure is its users' (VoxelMarch). GLSL access: shaders/hybrid_leaves/hybrid_leaves.glsl.
 struct HybridLeaves : Resource {
     gpu::HybridShape shape{};
-    uint64_t version = 0;         ///< Another one whenever the content is.
+    uint64_t version = 0;  ///< Another one whenever the content is.
+    uint32_t gridCount = 0;
+    uint32_t emptyCount = 0;      ///< Leaves that hold nothing.
     uint32_t primitiveCount = 0;  ///< Words of all lists.
+    uint32_t cellCount = 0;       ///< Of all grids, those that are not empty.
     Buffer header;                ///< Addresses of the arrays, and `shape`.
     Buffer words;                 ///< A word a leaf.
     Buffer primitives;            ///< Triangles' numbers, list by list; at least one word.
+    Buffer gridBits, gridRanks;   ///< A bit for each cell, and the cells before each word.
+    Buffer cells;                 ///< GRID_CELL_WORDS each. Like the bits, none where no leaf has a grid.
 
+    /// Surface voxels and those in which alpha masks leave too little to make them one; without materials.
+    /// Not there in scenes without masks.
+    SurfaceVoxels masked;
+
+    /// The voxels that the leaves are numbered by, out of the surface voxels that they are built over.
+    const SurfaceVoxels& voxels(const SurfaceVoxels& surface) const {
+        return masked.occupancy ? masked : surface;
+    }
     std::vector<Binding> bindings() const { return {ifUsed({"hybridLeaves", header})}; }
-    uint64_t structureBytes() const { return header.bytes() + words.bytes(); }
+    uint64_t structureBytes() const {
+        return header.bytes() + words.bytes() + masked.occupancy.bytes() + masked.rank.bytes();
+    }
     uint64_t listBytes() const { return primitives.bytes(); }
+    uint64_t gridBytes() const { return gridBits.bytes() + gridRanks.bytes() + cells.bytes(); }
+    /// Frees all but the header.
+    void release() {
+        words = {}, primitives = {}, gridBits = {}, gridRanks = {}, cells = {}, masked = {};
+        gridCount = emptyCount = primitiveCount = cellCount = 0;
+    }
 };
 
 }  // namespace voxray

@@ -36,7 +36,7 @@ void HybridTracer::prepare(Device& device, const ShaderCompiler& compiler) {
 
 void HybridTracer::begin(CommandStream& stream, const GpuScene& scene, const SurfaceVoxels& voxels,
                          const HybridLeaves& leaves) {
-    march_.begin(stream, voxels);
+    march_.begin(stream, leaves.voxels(voxels));
     stream.fill(testCounts_, 0);
     scene_ = &scene;
     leaves_ = &leaves;

@@ -27,9 +27,11 @@ class DominantAxisWalk final : public RasterWalk {
         geometry_ = setup.compiler.compile("passes/common/triangle_walk/dominant_axis.geom");
     }
 
-    Program compileVisitor(PassSetup& setup, const std::string& shader) const override {
-        const ShaderModule modules[] = {vertex_, geometry_,
-                                        setup.compiler.compile(shader + ".frag", {{"DOMINANT_AXIS", "1"}})};
+    Program compileVisitor(PassSetup& setup, const std::string& shader,
+                           const Defines& defines) const override {
+        Defines all = defines;
+        all.emplace("DOMINANT_AXIS", "1");
+        const ShaderModule modules[] = {vertex_, geometry_, setup.compiler.compile(shader + ".frag", all)};
         return makeRasterProgram(setup.device, modules, {});
     }
 

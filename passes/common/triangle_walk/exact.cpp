@@ -26,8 +26,9 @@ class ExactWalk final : public TriangleWalk {
 
     void prepare(PassSetup&) override {}
 
-    Program compileVisitor(PassSetup& setup, const std::string& shader) const override {
-        return makeComputeProgram(setup.device, setup.compiler.compile(shader + ".comp"));
+    Program compileVisitor(PassSetup& setup, const std::string& shader,
+                           const Defines& defines) const override {
+        return makeComputeProgram(setup.device, setup.compiler.compile(shader + ".comp", defines));
     }
 
     void select(PassContext& context, const gpu::VoxelGrid& grid, const VoxelRegion& region,

@@ -14,8 +14,9 @@ class ThreeAxisWalk final : public RasterWalk {
         vertex_ = setup.compiler.compile("passes/common/triangle_walk/three_axis.vert");
     }
 
-    Program compileVisitor(PassSetup& setup, const std::string& shader) const override {
-        const ShaderModule modules[] = {vertex_, setup.compiler.compile(shader + ".frag")};
+    Program compileVisitor(PassSetup& setup, const std::string& shader,
+                           const Defines& defines) const override {
+        const ShaderModule modules[] = {vertex_, setup.compiler.compile(shader + ".frag", defines)};
         return makeRasterProgram(setup.device, modules, {});
     }
 

@@ -26,7 +26,8 @@ class TriangleWalk {
     virtual void prepare(PassSetup& setup) = 0;
     /// Compiles a visitor for this method. @param shader its path without the extension: `shader`.comp
     /// includes triangle_walk/exact.glsl, `shader`.frag triangle_walk/raster.glsl.
-    virtual Program compileVisitor(PassSetup& setup, const std::string& shader) const = 0;
+    virtual Program compileVisitor(PassSetup& setup, const std::string& shader,
+                                   const Defines& defines = {}) const = 0;
     /// Chooses what run() visits: `triangles`, those that may have a part in the region. All pairs with
     /// voxels of the region are visited; others may be.
     virtual void select(PassContext& context, const gpu::VoxelGrid& grid, const VoxelRegion& region,

@@ -1,0 +1,38 @@
+// What a clipped fragment is made of, at its center and filtered to a voxel's width.
+#ifndef VOXRAY_FRAGMENT_MATERIAL_GLSL
+#define VOXRAY_FRAGMENT_MATERIAL_GLSL
+
+#include "shaders/scene/scene.glsl"
+
+struct FragmentMaterial {
+    SurfacePoint at;
+    vec3 albedo;  // Diffuse.
+    vec3 normal;  // Of shading, front side.
+    float metallic;
+    float roughness;
+};
+
+// Mip level whose texels are as wide as a voxel.
+float footprintLevel(GpuTextureRef ref, vec2 texCoordWidth_) {
+    if (ref.texture == NO_TEXTURE) return 0.0;
+    const ivec2 size = textureSize(sceneTextures[nonuniformEXT(ref.texture)], 0);
+    const float texels = abs(ref.rowU.x * ref.rowV.y - ref.rowU.y * ref.rowV.x) * float(size.x) * float(size.y);
+    return max((ref.texCoord == 0u ? texCoordWidth_.x : texCoordWidth_.y) + 0.5 * log2(max(texels, 1.0e-30)), 0.0);
+}
+
+FragmentMaterial fragmentMaterial(TriangleFragment f, ClippedFragment c) {
+    FragmentMaterial result;
+    result.at = surfacePoint(f.triangle, c.center);
+    const GpuMaterial m = sceneMaterials.data[result.at.material];
+    const vec2 metallicRoughness =
+        vec2(m.metallic, m.roughness) *
+        lookup(m.metallicRoughnessTexture, result.at.texCoords, footprintLevel(m.metallicRoughnessTexture, c.texCoordWidth)).bg;
+    result.metallic = metallicRoughness.x;
+    result.roughness = metallicRoughness.y;
+    result.albedo =
+        baseColor(m, result.at, footprintLevel(m.baseColorTexture, c.texCoordWidth)).rgb * (1.0 - metallicRoughness.x);
+    result.normal = shadingNormal(m, result.at, footprintLevel(m.normalTexture, c.texCoordWidth));
+    return result;
+}
+
+#endif
