@@ -1,6 +1,8 @@
 #include "passes/register_passes.h"
 
 #include "passes/build_hybrid_leaves/build_hybrid_leaves.h"
+#include "passes/cluster_visibility/cluster_visibility.h"
+#include "passes/cluster_voxels/cluster_voxels.h"
 #include "passes/compare_voxels/compare_voxels.h"
 #include "passes/composite/composite.h"
 #include "passes/direct_shadow_maps/direct_shadow_maps.h"
@@ -9,6 +11,7 @@
 #include "passes/filter_irradiance/filter_irradiance.h"
 #include "passes/filter_voxels/filter_voxels.h"
 #include "passes/gather_cached_rays/gather_cached_rays.h"
+#include "passes/gather_clusters/gather_clusters.h"
 #include "passes/gather_cones/gather_cones.h"
 #include "passes/gather_irradiance/gather_irradiance.h"
 #include "passes/gather_merged_rays/gather_merged_rays.h"
@@ -17,6 +20,7 @@
 #include "passes/gather_vpls/gather_vpls.h"
 #include "passes/gbuffer/gbuffer_pass.h"
 #include "passes/inject_camera_rays/inject_camera_rays.h"
+#include "passes/inject_clusters/inject_clusters.h"
 #include "passes/inject_gather_hits/inject_gather_hits.h"
 #include "passes/inject_light_rays/inject_light_rays.h"
 #include "passes/inject_rsm/inject_rsm.h"
@@ -61,6 +65,10 @@ void registerPasses(Registry& registry) {
     registry.add<GatherRays>();
     registry.add<MergeVoxels>();
     registry.add<GatherMergedRays>();
+    registry.add<ClusterVoxels>();
+    registry.add<FindClusterVisibility>();
+    registry.add<InjectClusters>();
+    registry.add<GatherClusters>();
     registry.add<UpdateRadianceCache>();
     registry.add<GatherCachedRays>();
     registry.add<RenderRsm>();

@@ -16,6 +16,7 @@
 #define VOXRAY_RADIANCE_CONE_GLSL
 
 #include "shaders/radiance/radiance_voxels.glsl"
+#include "shaders/voxels/face.glsl"
 
 // A cone ends where less than this part of what lies behind would still be seen.
 #define MIN_TRANSMITTANCE 0.002
@@ -32,12 +33,6 @@ struct ConeBase {
     // By face +x -x +y -y +z -z: what a cone that sets out that way meets within the start's own voxel.
     vec4 ownVoxel[6];
 };
-
-vec3 faceNormal(uint face) {
-    vec3 axis = vec3(0.0);
-    axis[face >> 1] = (face & 1u) == 0u ? 1.0 : -1.0;
-    return axis;
-}
 
 // Radiance and opacity of a wall that stands on the surface within the start's own voxel, against a cone that goes along `face`.
 // The voxel alone can't tell whether the wall is in front of the start or behind it:

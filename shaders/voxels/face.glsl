@@ -13,4 +13,11 @@ uint faceBits(vec3 normal) {
     return bits;
 }
 
+// The way that a face looks.
+vec3 faceNormal(uint face) {
+    vec3 axis = vec3(0.0);
+    axis[face >> 1] = (face & 1u) == 0u ? 1.0 : -1.0;
+    return axis;
+}
+
 #endif

@@ -45,7 +45,7 @@ void ConeBounces::prepare(PassSetup& setup, const RadianceVoxels& radiance) {
     const auto program = [&](const char* file, const Defines& defines) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
-    list_ = program("passes/common/radiance/cone_bounces_list.comp", {});
+    list_ = program("passes/common/voxels/list_voxels.comp", {});
     gather_ = program("passes/common/radiance/cone_bounces_gather.comp", radiance.defines());
     setup.stream.upload(coneSet_, coneSet(cones_));
 }

@@ -5,6 +5,7 @@
 #include "shaders/radiance/cone_set.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance/surface_radiance.glsl"
+#include "shaders/voxels/mean_normal.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer VoxelCoordinates { uvec3 data[]; } voxelCoordinates;
@@ -16,14 +17,6 @@ layout(push_constant, scalar) uniform Push {
     uint pairs;
     uint cones;
 } push;
-
-// The normal of a voxel's surfaces that face `axis` (unit). Of one plane it is their mean normal, towards `axis`. The length of the
-// mean tells how far normals are spread: where it is the root of 1/2, as where two planes at right angles meet, or less, surfaces
-// are taken to face along the axis.
-vec3 meanNormal(vec3 mean, vec3 axis) {
-    const float flatness = clamp(2.0 * dot(mean, mean) - 1.0, 0.0, 1.0);
-    return flatness > 0.0 ? normalize(mix(axis, normalize(dot(mean, axis) < 0.0 ? -mean : mean), flatness)) : axis;
-}
 
 // W
 vec3 gather(uint voxel, uint face) {

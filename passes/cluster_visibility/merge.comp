@@ -1,0 +1,59 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Sorts the targets of each face's rays and merges equal ones: a thread takes a face.
+#include "shaders/clusters/seen_types.h"
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) buffer Targets { uint data[]; } targets;  // By face and ray; after it, of each face first what it sees.
+layout(scalar) writeonly buffer Counts { uint data[]; } counts;
+layout(push_constant) uniform Push {
+    uint faces;
+    uint raysPerFace;
+} push;
+
+// Moves the target at `at` of a heap of `count` down to its place.
+void sink(uint first, uint at, uint count) {
+    const uint moved = targets.data[first + at];
+    for (uint child = 2u * at + 1u; child < count; child = 2u * at + 1u) {
+        if (child + 1u < count && targets.data[first + child + 1u] > targets.data[first + child]) ++child;
+        if (targets.data[first + child] <= moved) break;
+        targets.data[first + at] = targets.data[first + child];
+        at = child;
+    }
+    targets.data[first + at] = moved;
+}
+
+void heapSort(uint first, uint count) {
+    for (uint at = count / 2u; at > 0u; --at) sink(first, at - 1u, count);
+    for (uint end = count - 1u; end > 0u; --end) {
+        const uint last = targets.data[first + end];
+        targets.data[first + end] = targets.data[first];
+        targets.data[first] = last;
+        sink(first, 0u, end);
+    }
+}
+
+void main() {
+    const uint face = linearIndex();
+    if (face > push.faces) return;
+    uint merged = 0u;
+    if (face < push.faces) {
+        const uint first = face * push.raysPerFace;
+        heapSort(first, push.raysPerFace);
+        uint target = targets.data[first], rays = 0u;
+        for (uint i = 0u; i < push.raysPerFace && target != NO_TARGET; ++i) {
+            const uint next = targets.data[first + i];
+            if (next == target) {
+                ++rays;
+                continue;
+            }
+            targets.data[first + merged++] = packSeen(target, rays);
+            target = next;
+            rays = 1u;
+        }
+        if (target != NO_TARGET) targets.data[first + merged++] = packSeen(target, rays);
+    }
+    counts.data[face] = merged;  // One more than there are faces: where the last one ends.
+}

@@ -1,0 +1,27 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Each cluster asks for the voxels in its reach whose normals are within the angle limit (Cosin and Patow 2022, algorithm 1, lines 4
+// to 12). A voxel goes to the least distance, then to the first seed: a total order, so threads may run in any. Equation 1 is 1 within
+// the limit, though line 7 minimizes: it is read as no distance within the limit, and then the first seed has the voxel.
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_shader_atomic_int64 : require
+#include "passes/cluster_voxels/neighbourhood.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Seeds { ClusterSeed data[]; } seeds;
+layout(scalar) buffer Nearest { uint64_t data[]; } nearest;  // By voxel: distance, then number of the seed.
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const ClusterSeed seed = seeds.data[i];
+    if (seed.members == 0u) return;
+    ivec3 first, last;
+    boxWithinReach(seed.center, first, last);
+    for (BoxWalk w = walkBox(first, last); nextVoxel(w);) {
+        const float cosine = dot(seed.normal, normals.data[w.number]);
+        if (cosine < push.minCosine) continue;
+        const float away = push.first == 1u ? 0.0 : max(clusterDistance(seed.center, w.voxel, cosine), 0.0);
+        atomicMin(nearest.data[w.number], (uint64_t(floatBitsToUint(away)) << 32) | uint64_t(i));
+    }
+}

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <tuple>
+#include <utility>
+
+#include "base/error.h"
+#include "graph/registry.h"
+#include "passes/common/clusters/voxel_clusters.h"
+
+namespace voxray {
+
+/// Which of the clusters that ask for a voxel has it.
+enum class ClusterAssignment { First, Nearest };
+template <>
+struct EnumNames<ClusterAssignment> {
+    static constexpr std::array names{std::pair{ClusterAssignment::First, "first"},
+                                      std::pair{ClusterAssignment::Nearest, "nearest"}};
+};
+
+/// What becomes of voxels that no cluster has asked for.
+enum class UnassignedVoxels { Own, Nearest, Leave };
+template <>
+struct EnumNames<UnassignedVoxels> {
+    static constexpr std::array names{std::pair{UnassignedVoxels::Own, "own"},
+                                      std::pair{UnassignedVoxels::Nearest, "nearest"},
+                                      std::pair{UnassignedVoxels::Leave, "leave"}};
+};
+
+/// What a voxel's normal is.
+enum class ClusterNormals { Area, OpenSpace };
+template <>
+struct EnumNames<ClusterNormals> {
+    static constexpr std::array names{std::pair{ClusterNormals::Area, "area"},
+                                      std::pair{ClusterNormals::OpenSpace, "open_space"}};
+};
+
+/// The parameters of cluster_voxels.
+struct ClusterParams {
+    uint32_t initial = 0;
+    uint32_t target = 4096;
+    uint32_t iterations = 10;
+    float maxAngle = 35;
+    ClusterAssignment assign = ClusterAssignment::Nearest;
+    UnassignedVoxels unassigned = UnassignedVoxels::Own;
+    ClusterNormals normals = ClusterNormals::Area;
+    static constexpr auto schema() {
+        return std::tuple{
+            field(
+                "initial", &ClusterParams::initial,
+                "Seeds in the grid's whole volume, about, as the paper counts its clusters before the first "
+                "iteration; most of them have no voxel. 0: as many as `target` asks for.",
+                0u, 1u << 24),
+            field("target", &ClusterParams::target,
+                  "Without `initial`: about so many clusters, of flat surfaces as wide as the root of voxels "
+                  "over clusters; thin and curved ones take more.",
+                  1u, 1u << 22),
+            field("iterations", &ClusterParams::iterations,
+                  "Times that voxels are assigned; in between, clusters move to where their voxels are.", 1u,
+                  100u),
+            field("max_angle", &ClusterParams::maxAngle,
+                  "Largest angle between a cluster's normal and its voxels', degrees.", 1.0f, 89.0f),
+            field("assign", &ClusterParams::assign,
+                  "nearest: a voxel goes to the cluster that is nearest by place and normal. first: to the "
+                  "first in the order of seeds, as in the paper, where the order is that of threads: fewer "
+                  "clusters, less round."),
+            field(
+                "unassigned", &ClusterParams::unassigned,
+                "Voxels that no cluster asked for. own: they form clusters of their own. nearest: they join "
+                "the nearest, whatever its normal. leave: they belong to none, block light and send none."),
+            field("normals", &ClusterParams::normals,
+                  "Of a voxel. area: of the surfaces that open space lies before. open_space: where surfaces "
+                  "disagree, the axis along which fewest voxels round it are occupied (the paper's).")};
+    }
+};
+
+/// Assigns each surface voxel to a seed or to a voxel that begins a cluster.
+class ClusterGrowth {
+ public:
+    explicit ClusterGrowth(const ClusterParams& params) : params_(params) {}
+
+    /// Seeds in the grid.
+    uint64_t seeds(const SurfaceVoxels& voxels) const;
+    /// Bytes that grow() takes, at most.
+    uint64_t scratchBytes(const SurfaceVoxels& voxels) const;
+    void prepare(Device& device, const ShaderCompiler& compiler);
+
+    struct Result {
+        uint32_t seeds = 0;       ///< Numbers below are seeds; from there on voxels.
+        uint32_t unassigned = 0;  ///< Voxels that no seed's cluster asked for.
+        Buffer owners;            ///< By voxel: a seed, `seeds` plus the number of a voxel, or NO_CLUSTER.
+        Buffer normals;           ///< By voxel: unit, 3 floats.
+        Buffer seedList;  ///< gpu::ClusterSeed each: as they were when voxels were compared with them last.
+    };
+    /// @param coordinates of voxels. Waits for the device.
+    Result grow(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates) const;
+
+ private:
+    /// Cells along each axis, one a seed.
+    glm::uvec3 cells(const gpu::VoxelGrid& grid, uint32_t voxelCount) const;
+
+    ClusterParams params_;
+    Program normals_, seed_, assign_, add_, update_, own_, lead_, join_, nearest_;
+};
+
+}  // namespace voxray

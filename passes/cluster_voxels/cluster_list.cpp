@@ -1,0 +1,93 @@
+#include "passes/cluster_voxels/cluster_list.h"
+
+#include <bit>
+
+#include "passes/common/compute/dispatch.h"
+
+namespace voxray {
+namespace {
+
+struct BeginPush {
+    uint32_t clusters;
+    uint32_t firstOwn;
+};
+
+struct RenumberPush {
+    uint32_t count;
+    uint32_t clusters;
+};
+
+struct DescribePush {
+    gpu::VoxelGrid grid;
+    uint32_t count;
+};
+
+}  // namespace
+
+uint64_t ClusterList::scratchBytes(uint64_t voxels, uint64_t seeds) {
+    const uint64_t numbers = voxels + seeds, words = (numbers + 31) / 32;
+    return (4 * numbers + words + voxels) * sizeof(uint32_t) + PrefixSum::scratchBytes(uint32_t(numbers)) +
+           Compaction::scratchBytes(uint32_t(words));
+}
+
+void ClusterList::prepare(Device& device, const ShaderCompiler& compiler) {
+    const auto program = [&](const char* file) { return makeComputeProgram(device, compiler.compile(file)); };
+    histogram_.emplace(device, compiler);
+    prefixSum_.emplace(device, compiler, PrefixSum::Of::Values);
+    compaction_.emplace(device, compiler);
+    sort_.emplace(device, compiler);
+    occupied_ = program("passes/cluster_voxels/occupied.comp");
+    begin_ = program("passes/cluster_voxels/begin.comp");
+    renumber_ = program("passes/cluster_voxels/renumber.comp");
+    describe_ = program("passes/cluster_voxels/describe.comp");
+}
+
+void ClusterList::make(CommandStream& stream, const SurfaceVoxels& voxels,
+                       const ClusterGrowth::Result& growth, VoxelClusters& clusters) {
+    Device& device = stream.device();
+    const uint32_t count = voxels.voxelCount, numbers = growth.seeds + count, words = (numbers + 31) / 32;
+    const auto uints = [&](const char* name, uint64_t n) {
+        return Buffer(device, name, n * sizeof(uint32_t));
+    };
+
+    // Clusters that have voxels, and where their members begin
+    const Buffer members = uints("voxels by number", numbers), before = uints("voxels before", numbers);
+    const Buffer flags = uints("numbers in use", words), kept = uints("clusters kept", numbers);
+    const Buffer renumbered = uints("new numbers", numbers);
+    histogram_->record(stream, growth.owners, members, count, numbers);
+    prefixSum_->run(stream, members, before, numbers);
+    stream.dispatch(occupied_, {{"members", members}, {"flags", flags}}, numbers, linearGroups(words));
+    clusters.count = compaction_->run(stream, flags, kept, words);
+    clusters.clusters = Buffer(device, "clusters", clusters.count * sizeof(gpu::VoxelCluster));
+    stream.dispatch(begin_,
+                    {{"numbers", kept},
+                     {"members", members},
+                     {"before", before},
+                     {"renumbered", renumbered},
+                     {"seeds", growth.seedList},
+                     {"normals", growth.normals},
+                     {"clusters", clusters.clusters}},
+                    BeginPush{clusters.count, growth.seeds}, linearGroups(clusters.count));
+
+    // Voxels by cluster: the sort is stable, so those of a cluster stay in their order
+    Buffer keys = uints("clusters of voxels", count);
+    clusters.ofVoxel = uints("clusters of voxels", count);
+    clusters.members = uints("voxels by cluster", count);
+    stream.dispatch(renumber_,
+                    {{"owners", growth.owners},
+                     {"renumbered", renumbered},
+                     {"ofVoxel", clusters.ofVoxel},
+                     {"keys", keys},
+                     {"members", clusters.members}},
+                    RenumberPush{count, clusters.count}, linearGroups(count));
+    sort_->record(stream, keys, clusters.members, count, uint32_t(std::bit_width(clusters.count)));
+    stream.dispatch(describe_,
+                    voxels.bindings({{"members", clusters.members},
+                                     {"coordinates", clusters.coordinates},
+                                     {"normals", growth.normals},
+                                     {"clusters", clusters.clusters}}),
+                    DescribePush{voxels.grid, clusters.count}, linearGroups(clusters.count));
+    stream.finish();
+}
+
+}  // namespace voxray

@@ -1,0 +1,18 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// A bit for each number of a cluster that has voxels. A thread takes a word of 32.
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+readonly buffer Members { uint data[]; } members;  // By number.
+writeonly buffer Flags { uint words[]; } flags;
+layout(push_constant) uniform Push { uint numbers; } push;
+
+void main() {
+    const uint word = linearIndex();
+    if (32u * word >= push.numbers) return;
+    uint bits = 0u;
+    for (uint i = 0u; i < 32u && 32u * word + i < push.numbers; ++i)
+        if (members.data[32u * word + i] != 0u) bits |= 1u << i;
+    flags.words[word] = bits;
+}

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <tuple>
+
+#include "graph/registry.h"
+#include "passes/common/clusters/cluster_light.h"
+
+namespace voxray {
+
+/// Indirect light of voxels' faces out of the clusters that they see, filtered over neighbours. Source: Cosin
+/// and Patow 2022, section 4.4.
+class GatherClusters final : public Pass {
+ public:
+    static constexpr const char* kName = "gather_clusters";
+    static constexpr const char* kHelp =
+        "Gathers what each face of each voxel receives from the clusters that it sees (cluster_visibility, "
+        "inject_clusters) and smooths it over neighbouring voxels. The result is irradiance of voxels, with "
+        "the injection's direct light: gather_irradiance or gather_rays show it. "
+        "Biased by: voxel and cluster size, the filter (light creeps round edges). Noisy by: the lists' "
+        "rays. "
+        "Source: Cosin and Patow 2022, section 4.4.";
+    struct Params {
+        uint32_t filterPasses = 2;
+        uint32_t filterSize = 5;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("filter_passes", &Params::filterPasses,
+                      "Times that faces are averaged with the same faces of the voxels round them.", 0u, 8u),
+                field(
+                    "filter_size", &Params::filterSize,
+                    "Voxels along each edge of the filter's cube, with binomial weights (about a Gaussian). "
+                    "Empty voxels and faces without surfaces don't count.",
+                    std::vector{3u, 5u})};
+        }
+    };
+
+    explicit GatherClusters(const Params& params) : params_(params) {}
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    Params params_;
+    Port<const SurfaceVoxels> voxels_;
+    Port<const VoxelIrradiance> injected_;
+    Port<const VoxelClusters> clusters_;
+    Port<const ClusterVisibility> visibility_;
+    Port<const ClusterLight> light_;
+    Port<VoxelIrradiance> irradiance_;
+    ClusterGather gather_;
+    Program filter_, store_;
+    std::optional<std::tuple<uint64_t, uint64_t, uint64_t>> version_;  ///< Of lists, lights of both kinds.
+};
+
+}  // namespace voxray

@@ -1,0 +1,279 @@
+// Clusters of voxels: how voxels are grouped, what faces see of them, and light that is gathered from them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "passes/common/clusters/cluster_light.h"
+#include "passes/common/clusters/cluster_visibility.h"
+#include "passes/common/clusters/voxel_clusters.h"
+#include "tests/physics/voxels_read.h"
+#include "tests/support/errors.h"
+
+namespace voxray::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Clusters of a chain, read back.
+struct Clusters {
+    explicit Clusters(Chain& chain) : voxels(chain) {
+        const auto* resource = chain.graph().resource<VoxelClusters>("clusters");
+        clusters = chain.read<gpu::VoxelCluster>(resource->clusters);
+        ofVoxel = chain.read<uint32_t>(resource->ofVoxel);
+        members = chain.read<uint32_t>(resource->members);
+        coordinates = chain.read<glm::uvec3>(resource->coordinates);
+        seen = reported(chain.buildSamples.at(1), "voxels no seed reached, %");
+    }
+    Voxels voxels;
+    std::vector<gpu::VoxelCluster> clusters;
+    std::vector<uint32_t> ofVoxel, members;
+    std::vector<glm::uvec3> coordinates;
+    double seen;  ///< Voxels that no seed's cluster asked for, %.
+};
+
+Clusters clustersOf(const std::string& scene, const std::string& parameters, const std::string& pass,
+                    const std::string& resolution = "32") {
+    Chain chain(scene, parameters,
+                graphYaml({"voxelize, resolution: " + resolution, "cluster_voxels, " + pass}), 16, 16);
+    return Clusters(chain);
+}
+
+/// As normals.comp has it, for surfaces of one way alone.
+glm::vec3 normalOf(const gpu::VoxelMaterial& m) {
+    const glm::vec3 net = m.unoccludedPositive - m.unoccludedNegative;
+    return glm::normalize(glm::sign(net) * glm::sqrt(glm::abs(net)));
+}
+
+const std::vector<std::string> kKinds = {"target: 200, assign: nearest", "target: 200, assign: first",
+                                         "initial: 3000, assign: first", "target: 200, normals: open_space"};
+
+TEST(ClusterVoxels, GroupEachVoxelOnceAndTheSameInEachRun) {
+    for (const std::string& kind : kKinds) {
+        const Clusters c = clustersOf("cornell", "{lights: point}", kind);
+        const Clusters again = clustersOf("cornell", "{lights: point}", kind);
+        EXPECT_EQ(c.ofVoxel, again.ofVoxel) << kind;
+        EXPECT_EQ(c.members, again.members) << kind;
+        std::vector<bool> isListed(c.voxels.count, false);
+        uint32_t next = 0;
+        for (uint32_t i = 0; i < c.clusters.size(); ++i) {
+            const gpu::VoxelCluster& cluster = c.clusters[i];
+            ASSERT_GT(cluster.members, 0u);
+            EXPECT_EQ(cluster.firstMember, next);
+            next += cluster.members;
+            for (uint32_t k = 0; k < cluster.members; ++k) {
+                const uint32_t voxel = c.members[cluster.firstMember + k];
+                EXPECT_FALSE(isListed[voxel]);
+                isListed[voxel] = true;
+                EXPECT_EQ(c.ofVoxel[voxel], i);
+                EXPECT_TRUE(glm::all(glm::greaterThanEqual(c.coordinates[voxel], cluster.first)));
+                EXPECT_TRUE(glm::all(glm::lessThanEqual(c.coordinates[voxel], cluster.last)));
+            }
+        }
+        EXPECT_EQ(next, c.voxels.count) << "0 unassigned: " << kind;
+        std::printf("%s: %zu clusters of %u voxels, no seed reached %.2f %%\n", kind.c_str(),
+                    c.clusters.size(), c.voxels.count, c.seen);
+    }
+}
+
+TEST(ClusterVoxels, KeepNormalsWithinTheAngleLimit) {
+    for (const double degrees : {35.0, 10.0})
+        for (const std::string assign : {"first", "nearest"}) {
+            const Clusters c =
+                clustersOf("cornell", "{lights: point}",
+                           "target: 200, assign: " + assign + ", max_angle: " + std::to_string(degrees));
+            const double limit = std::cos(degrees * kPi / 180) - 1e-4;
+            double worst = 1;
+            for (uint32_t voxel = 0; voxel < c.voxels.count; ++voxel)
+                worst = std::min(worst, double(glm::dot(c.clusters[c.ofVoxel[voxel]].axis,
+                                                        normalOf(c.voxels.materials[voxel]))));
+            EXPECT_GT(worst, limit) << assign << degrees;
+        }
+}
+
+TEST(ClusterVoxels, LeaveVoxelsOnlyWhereAsked) {
+    const std::string few = "target: 12, iterations: 1, unassigned: ";
+    const auto unassigned = [](const Clusters& c) { return std::ranges::count(c.ofVoxel, NO_CLUSTER); };
+    const Clusters left = clustersOf("cornell", "{lights: point}", few + "leave");
+    EXPECT_GT(unassigned(left), 0);
+    EXPECT_NEAR(100.0 * double(unassigned(left)) / left.voxels.count, left.seen, 1e-6);
+    EXPECT_EQ(unassigned(clustersOf("cornell", "{lights: point}", few + "own")), 0);
+    const Clusters nearest = clustersOf("cornell", "{lights: point}", few + "nearest");
+    EXPECT_EQ(unassigned(nearest), 0);
+    EXPECT_EQ(nearest.clusters.size(), left.clusters.size());
+}
+
+TEST(ClusterVoxels, OfAPlaneLookItsWay) {
+    const Clusters c = clustersOf("plane", "{}", "target: 50");
+    EXPECT_GT(c.clusters.size(), 25u);
+    EXPECT_LT(c.clusters.size(), 100u);
+    double voxels = 0;
+    for (const gpu::VoxelCluster& cluster : c.clusters) {
+        EXPECT_NEAR(cluster.normal.y, 1, 1e-4);
+        EXPECT_NEAR(cluster.albedo.x, 0.5, 1e-3);
+        voxels += cluster.members;
+    }
+    EXPECT_EQ(voxels, c.voxels.count);
+}
+
+TEST(ClusterVoxels, TakeAnyNumberOfVoxelsAndClusters) {
+    // One voxel; more clusters than voxels, of which each then is one; one cluster for each way.
+    EXPECT_EQ(clustersOf("cornell", "{lights: point}", "target: 5", "1").clusters.size(), 1u);
+    const Clusters many = clustersOf("white_room", "{}", "target: 100000", "8");
+    EXPECT_EQ(many.clusters.size(), many.voxels.count);
+    const Clusters few = clustersOf("white_room", "{}", "target: 1");
+    EXPECT_GE(few.clusters.size(), 6u);
+    EXPECT_CONTAINS(errorOf([] { clustersOf("plane", "{}", "target: 0"); }), "target");
+}
+
+std::vector<std::string> clusterGraph(const std::string& inject, const std::string& cluster,
+                                      const std::string& visibility, const std::string& bounces,
+                                      const std::string& gather, const std::string& resolution = "24") {
+    return {"gbuffer",
+            "voxelize, resolution: " + resolution,
+            "inject_light_rays, " + inject,
+            "cluster_voxels, " + cluster,
+            "cluster_visibility, " + visibility,
+            "inject_clusters, bounces: " + bounces,
+            "gather_clusters, " + gather,
+            "gather_irradiance"};
+}
+
+/// What all faces hold of indirect light, W, green.
+double indirectFlux(Chain& chain) {
+    const std::vector<float> flux =
+        readFlux(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->indirect);
+    double sum = 0;
+    for (size_t i = 1; i < flux.size(); i += 3) sum += flux[i];
+    return sum;
+}
+
+const std::string kDirect = "rays_per_light: 262144, bounces: 0";
+
+TEST(GatherClusters, KeepTheEnergyOfAFurnace) {
+    // Walls that emit e and reflect a: direct irradiance is pi e, and after n bounces between clusters and
+    // one of the gather pi e (a + ... + a^(n + 1)) is indirect. Rays of a closed box all meet a wall.
+    for (const std::string near : {"0", "4"})
+        for (const int bounces : {0, 4}) {
+            const double a = 0.7, expected = a * a * (1 - std::pow(a, bounces + 1)) / (1 - a);
+            Chain chain("furnace", "{shape: box, albedo: 0.7, emission: 1}",
+                        graphYaml(clusterGraph(kDirect, "target: 200", "rays: 64, near_distance: " + near,
+                                               std::to_string(bounces), "filter_passes: 0")));
+            // The walls' outer faces see nothing.
+            EXPECT_EQ(reported(chain.buildSamples.at(3), "rays that met nothing, %"), 50);
+            const double ratio = mean(chain.image("indirect")) / expected;
+            std::printf("near %s, %d bounces: %.4f of the closed form\n", near.c_str(), bounces, ratio);
+            EXPECT_NEAR(ratio, 1, 0.01);
+        }
+}
+
+TEST(GatherClusters, KeepTheEnergyOfASphere) {
+    // Its walls are sheets at all angles to the voxels, whose dark outer faces must not be seen from within.
+    Chain chain("furnace", "{shape: sphere, albedo: 0.7, emission: 1}",
+                graphYaml(clusterGraph(kDirect, "target: 200", "rays: 64", "1", "filter_passes: 0")));
+    const double ratio = mean(chain.image("indirect")) / (0.7 * (0.7 + 0.7 * 0.7));
+    std::printf("sphere: %.4f of the closed form\n", ratio);
+    EXPECT_NEAR(ratio, 1, 0.01);
+}
+
+TEST(GatherClusters, KeepTheFluxOfALamp) {
+    // A point light of I W/sr in a closed room: 4 pi I arrives, and a of it again with each bounce.
+    for (const std::string gather : {"filter_passes: 0", "filter_passes: 2"}) {
+        Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
+                    graphYaml(clusterGraph(kDirect, "target: 200", "rays: 128", "2", gather)));
+        const double ratio = indirectFlux(chain) / (4 * kPi * 2 * (0.5 + 0.25 + 0.125));
+        std::printf("%s: %.4f of the flux\n", gather.c_str(), ratio);
+        EXPECT_NEAR(ratio, 1, 0.02);
+    }
+}
+
+TEST(GatherClusters, AreLinearInLightAndTheSameTwice) {
+    const auto run = [](const std::string& intensity) {
+        Chain chain("white_room", "{intensity: " + intensity + "}",
+                    graphYaml(clusterGraph(kDirect, "target: 100", "rays: 32", "1", "filter_size: 3")));
+        return std::pair{
+            chain.read<uint32_t>(chain.graph().resource<VoxelIrradiance>("irradiance")->indirect),
+            indirectFlux(chain)};
+    };
+    const auto [words, flux] = run("2");
+    EXPECT_EQ(words, run("2").first);
+    EXPECT_NEAR(run("8").second / flux, 4, 1e-3);
+}
+
+TEST(GatherClusters, AgreeWithGatheringFromEveryVoxel) {
+    // Clusters average over their voxels; the sum of light stays.
+    const auto run = [](const std::string& near) {
+        Chain chain("cornell", "{lights: point}",
+                    graphYaml(clusterGraph(kDirect, "target: 400", "rays: 128, near_distance: " + near, "0",
+                                           "filter_passes: 0", "32")));
+        return mean(chain.image("indirect"));
+    };
+    const double voxels = run("10000");
+    const double clusters = run("0") / voxels, mixed = run("4") / voxels;
+    std::printf("clusters %.4f, near by voxels %.4f of every voxel\n", clusters, mixed);
+    EXPECT_NEAR(clusters, 1, 0.03);
+    EXPECT_NEAR(mixed, 1, 0.01);
+}
+
+TEST(GatherClusters, AgreeWithTheReferenceOnCornell) {
+    Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 512, bounces: 3"}));
+    const double expected = mean(reference.image("indirect"));
+    for (const std::string visibility : {"voxels", "exact"}) {
+        Chain chain("cornell", "{lights: point}",
+                    graphYaml(clusterGraph(kDirect, "target: 800", "rays: 128, visibility: " + visibility,
+                                           "2", "filter_passes: 2, filter_size: 3", "48")));
+        const double ratio = mean(chain.image("indirect")) / expected;
+        std::printf("%s: %.4f of the reference\n", visibility.c_str(), ratio);
+        EXPECT_NEAR(ratio, 1, 0.05) << visibility;
+    }
+}
+
+TEST(ClusterVisibility, CountsFormFactors) {
+    // Parallel unit squares, 1 m apart: F = 0.19982 (Howell, C-11). Of what each voxel's face that looks up
+    // from the lower one sees, rays that meet the upper one.
+    for (const std::string visibility : {"voxels", "exact"}) {
+        Chain chain("quad_light", "{}",
+                    graphYaml({"voxelize, resolution: 32", "cluster_voxels, target: 100",
+                               "cluster_visibility, rays: 256, near_distance: 0, visibility: " + visibility}),
+                    16, 16);
+        const Clusters c(chain);
+        const auto* lists = chain.graph().resource<ClusterVisibility>("cluster_visibility");
+        double sum = 0, area = 0;
+        for (const ClusterVisibility::Chunk& chunk : lists->chunks) {
+            const auto faces = chain.read<uint32_t>(chunk.faces), first = chain.read<uint32_t>(chunk.first);
+            const auto seen = chain.read<uint32_t>(chunk.seen);
+            for (uint32_t i = 0; i < chunk.count; ++i) {
+                if (faces[i] % 6 != 2 || c.coordinates[faces[i] / 6].y > 16) continue;
+                const double own = c.voxels.materials[faces[i] / 6].unoccludedPositive.y;
+                area += own;
+                for (uint32_t k = first[i]; k < first[i + 1]; ++k)
+                    if (c.clusters[gpu::seenTarget(seen[k]) / 6].position.y > 0.5f)
+                        sum += own * gpu::seenRays(seen[k]) / lists->rays;
+            }
+        }
+        std::printf("%s: form factor %.4f\n", visibility.c_str(), sum / area);
+        // The rays begin a voxel of 1/32 m above the square and end one before the other.
+        EXPECT_NEAR(sum / area, 0.19982, 0.02);
+    }
+}
+
+TEST(ClusterVisibility, RefusesWhatMakesNoSense) {
+    const auto message = [](const std::string& visibility) {
+        return errorOf([&] {
+            Chain chain("cornell", "{lights: point}",
+                        graphYaml(clusterGraph(kDirect, "target: 50", visibility, "0", "filter_size: 3")));
+        });
+    };
+    EXPECT_CONTAINS(message("rays: 0"), "rays");
+    EXPECT_CONTAINS(message("rays: 2000"), "rays");
+    // A voxel alone sees nothing, and nothing comes back.
+    Chain one("cornell", "{lights: point}",
+              graphYaml(clusterGraph(kDirect, "target: 50", "rays: 16", "0", "filter_size: 3", "1")));
+    EXPECT_EQ(mean(one.image("indirect")), 0);
+}
+
+}  // namespace
+}  // namespace voxray::test
