@@ -18,5 +18,3 @@ voxray_tests(chain SHARDS 12
            house/march/mutual_visibility_test.cpp house/occlusion/ambient_occlusion.cpp
            house/occlusion/ambient_occlusion_test.cpp support/watched_device.cpp
   DEPENDS voxray_experiment voxray_passes)
-# Each chain compiles some twenty shaders.
-target_compile_definitions(tests_chain PRIVATE VOXRAY_TEST_CACHE="${CMAKE_BINARY_DIR}/test_cache")

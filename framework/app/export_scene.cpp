@@ -5,6 +5,7 @@
 
 #include "app/commands.h"
 #include "app/config_options.h"
+#include "app/source_root.h"
 #include "experiment/scene_setup.h"
 #include "scene/load.h"
 
@@ -19,7 +20,7 @@ struct ExportArguments : ConfigArguments {
 
 void exportScene(const ExportArguments& arguments) {
     const Experiment experiment = loadExperiment(arguments.file, arguments.config);
-    SceneLoader loader(sceneFolders(arguments.scenes, VOXRAY_SOURCE_DIR, arguments.file));
+    SceneLoader loader(sceneFolders(arguments.scenes, sourceRoot(), arguments.file));
     const PreparedScene scene = loader.prepare(experiment.setup.scene);
     for (const std::string& warning : loader.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     exportGlb(scene.state, arguments.target);

@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/config_options.h"
+#include "app/source_root.h"
 #include "experiment/runner.h"
 #include "experiment/validate.h"
 #include "passes/register_passes.h"
@@ -59,7 +60,7 @@ int run(const RunArguments& arguments) {
     for (size_t i = 0; i < experiments.size(); ++i) {
         RunOptions options = arguments.options;
         options.scenes = arguments.scenes;
-        options.sourceRoot = VOXRAY_SOURCE_DIR;
+        options.sourceRoot = sourceRoot();
         if (experiments.size() > 1 && !options.out.empty()) options.out /= nameOf(i);
         const RunSummary summary = runExperiment(std::move(experiments[i]), options, registry);
         printSummary(summary, options);

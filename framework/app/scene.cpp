@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/config_options.h"
 #include "app/scene_view.h"
+#include "app/source_root.h"
 #include "experiment/scene_setup.h"
 #include "passes/common/lights/light_sources.h"
 #include "passes/path_trace/path_tracer.h"
@@ -121,7 +122,7 @@ void describe(const SceneArguments& arguments) {
     SceneSettings settings = settingsOf(arguments);
 
     // All cameras of the scene itself; where it has none and the config gives none, one that sees it
-    SceneLoader loader(sceneFolders(arguments.scenes, VOXRAY_SOURCE_DIR, arguments.what));
+    SceneLoader loader(sceneFolders(arguments.scenes, sourceRoot(), arguments.what));
     const SceneState own = evaluate(loader.load(settings.source), settings.options.time);
     const bool hasCamera = settings.camera || !own.cameras.empty();
     if (!hasCamera) settings.camera = suggestCamera(own.geometry, EmbreeScene(own));

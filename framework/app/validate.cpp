@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/config_options.h"
+#include "app/source_root.h"
 #include "experiment/validate.h"
 #include "passes/register_passes.h"
 
@@ -53,7 +54,7 @@ int validateAll(const ValidateArguments& arguments) {
     int status = 0;
     std::map<std::filesystem::path, SceneLoader> loaders;  // By the config's folder, which is searched, too.
     for (const std::filesystem::path& config : arguments.configs) {
-        const auto folders = sceneFolders(arguments.scenes, VOXRAY_SOURCE_DIR, config);
+        const auto folders = sceneFolders(arguments.scenes, sourceRoot(), config);
         SceneLoader& loader = loaders.try_emplace(config.parent_path(), folders).first->second;
         try {
             validate(config, arguments.config, loader, registry);

@@ -9,6 +9,7 @@
 
 #include "passes/common/compute/compaction.h"
 #include "passes/common/compute/radix_sort.h"
+#include "tests/support/places.h"
 
 namespace voxray {
 namespace {
@@ -25,7 +26,7 @@ std::vector<uint32_t> randomKeys() {
 /// A device with the keys on it.
 struct OnDevice {
     Device device{DeviceOptions{}};
-    ShaderCompiler compiler{VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE};
+    ShaderCompiler compiler{test::sourceRoot(), test::shaderCache()};
     CommandStream stream{device};
     std::vector<uint32_t> keys = randomKeys();
     Buffer buffer{device, "keys", uint64_t(kCount) * sizeof(uint32_t)};

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "tests/gpu/chain.h"
+#include "tests/support/places.h"
 
 namespace voxray {
 namespace {
@@ -41,9 +42,8 @@ void splitTriangles(Geometry& geometry) {
 /// gather_cones in Sponza at 128³, the pass alone, with as many triangles as it has (1) or four times as many
 /// (4).
 void coneGather(benchmark::State& state) {
-    const char* folder = std::getenv("VOXRAY_SCENES");
-    const std::filesystem::path scenes = folder ? folder : VOXRAY_SOURCE_DIR "/../shared/scenes";
-    const auto scene = std::make_shared<SceneState>(evaluate(loadGltf(scenes / "sponza.glb"), 0.0));
+    const auto scene =
+        std::make_shared<SceneState>(evaluate(loadGltf(test::scenesFolder() / "sponza.glb"), 0.0));
     if (state.range(0) == 4) splitTriangles(scene->geometry);
     Camera camera;
     camera.position = {-9, 1.2f, -0.3f};

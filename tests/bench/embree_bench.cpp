@@ -13,6 +13,7 @@
 
 #include "base/parallel.h"
 #include "scene/load.h"
+#include "tests/support/places.h"
 #include "trace/embree_scene.h"
 
 namespace voxray {
@@ -22,12 +23,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr size_t kRays = 1 << 20;
 constexpr size_t kGrain = 4096;
 
-/// sponza.glb where $VOXRAY_SCENES or the shared folder next to the repository has it.
 std::filesystem::path sponzaPath() {
-    const char* folder = std::getenv("VOXRAY_SCENES");
-    return (folder ? std::filesystem::path(folder)
-                   : std::filesystem::path(VOXRAY_SOURCE_DIR) / "../shared/scenes") /
-           "sponza.glb";
+    return test::scenesFolder() / "sponza.glb";
 }
 
 /// A scene with all alpha masks off: the bare loop has no filter.

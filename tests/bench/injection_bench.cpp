@@ -5,15 +5,15 @@
 #include <filesystem>
 
 #include "tests/gpu/chain.h"
+#include "tests/support/places.h"
 
 namespace voxray {
 namespace {
 
 /// Sponza under a spot light as in configs/papers/magalhaes2020/output_resolution.yaml.
 std::unique_ptr<test::Chain> sponza(uint32_t width, uint32_t height) {
-    const char* folder = std::getenv("VOXRAY_SCENES");
-    const std::filesystem::path scenes = folder ? folder : VOXRAY_SOURCE_DIR "/../shared/scenes";
-    const auto scene = std::make_shared<SceneState>(evaluate(loadGltf(scenes / "sponza.glb"), 0.0));
+    const auto scene =
+        std::make_shared<SceneState>(evaluate(loadGltf(test::scenesFolder() / "sponza.glb"), 0.0));
     Camera camera;
     camera.position = {-9, 1.2f, -0.3f};
     camera.forward = glm::normalize(glm::vec3(9, 1.8f, 0.3f));

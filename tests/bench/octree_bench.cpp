@@ -8,6 +8,7 @@
 #include "passes/filter_voxels/svo_values.h"
 #include "scene/moving_spheres.h"
 #include "tests/bench/sponza.h"
+#include "tests/support/places.h"
 
 namespace voxray {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 /// Building the structure over Sponza, and filtering; memory as the octree holds it.
 void octreeBuild(benchmark::State& state) {
     const SurfaceVoxels& voxels = *sponza(uint32_t(state.range(0))).graph().resource<SurfaceVoxels>("voxels");
-    const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE);
+    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
     const OctreeBuilder builder(test::device(), compiler);
     const SvoFilter filter(test::device(), compiler);
     CommandStream stream(test::device());
@@ -52,7 +53,7 @@ BENCHMARK(octreeBuild)
 /// both, and how they compare. The update has that of scene and ray tracer too. The octree's structure is
 /// built again in either case; light is left out.
 void octreeUpdate(benchmark::State& state) {
-    auto scene = std::make_shared<Scene>(*loadGltf(scenesFolder() / "sponza.glb"));
+    auto scene = std::make_shared<Scene>(*loadGltf(test::scenesFolder() / "sponza.glb"));
     MovingSpheres spheres;
     spheres.count = uint32_t(state.range(1));
     spheres.center = {0, 2.5f, 0};
@@ -62,7 +63,7 @@ void octreeUpdate(benchmark::State& state) {
     start->cameras.emplace_back();
     test::Chain chain(start, fmt::format("[{{pass: voxelize, resolution: {}}}]", state.range(0)), 16, 16, 1);
     const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
-    const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE);
+    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
     const OctreeBuilder builder(test::device(), compiler);
     const SvoFilter filter(test::device(), compiler);
     CommandStream stream(test::device());
@@ -120,7 +121,7 @@ void thinCone(benchmark::State& state) {
                             kThinConeLayouts.at(size_t(state.range(2)))))
              .graph()
              .resource<RadianceVoxels>("radiance");
-    const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE);
+    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
     const Program program = makeComputeProgram(
         test::device(), compiler.compile("tests/bench/thin_cone.comp", radiance.defines()));
     constexpr uint32_t kCones = 20000;

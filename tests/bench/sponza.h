@@ -9,14 +9,9 @@
 #include <tuple>
 
 #include "tests/gpu/chain.h"
+#include "tests/support/places.h"
 
 namespace voxray {
-
-inline std::filesystem::path scenesFolder() {
-    const char* folder = std::getenv("VOXRAY_SCENES");
-    return folder ? std::filesystem::path(folder)
-                  : std::filesystem::path(VOXRAY_SOURCE_DIR "/../shared/scenes");
-}
 
 /// Sponza's surface voxels, under a sun; `more`: passes after voxelization.
 inline test::Chain& sponza(uint32_t resolution, uint32_t directions = 6, const std::string& more = "") {
@@ -24,7 +19,8 @@ inline test::Chain& sponza(uint32_t resolution, uint32_t directions = 6, const s
     static std::map<std::tuple<uint32_t, uint32_t, std::string>, std::unique_ptr<test::Chain>> chains;
     std::unique_ptr<test::Chain>& chain = chains[{resolution, directions, more}];
     if (chain) return *chain;
-    const auto scene = std::make_shared<SceneState>(evaluate(loadGltf(scenesFolder() / "sponza.glb"), 0.0));
+    const auto scene =
+        std::make_shared<SceneState>(evaluate(loadGltf(test::scenesFolder() / "sponza.glb"), 0.0));
     scene->cameras.emplace_back();
     Light sun;
     sun.type = LightType::Directional;

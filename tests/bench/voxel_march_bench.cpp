@@ -7,6 +7,7 @@
 #include "passes/common/voxel_march/voxel_tracer.h"
 #include "tests/bench/sponza.h"
 #include "tests/gpu/prepared.h"
+#include "tests/support/places.h"
 
 namespace voxray {
 namespace {
@@ -68,7 +69,7 @@ void voxelMarch(benchmark::State& state) {
     constexpr size_t kWalks = EnumNames<VoxelWalk>::names.size();
     test::Chain& chain = sponza(uint32_t(state.range(0)));
     const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
-    const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE);
+    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
     CommandStream stream(test::device());
     const Buffer rays(test::device(), "rays", kRays * sizeof(Ray));
     stream.upload(rays, shadowRays(chain.state().geometry, voxels.grid.voxelSize, kRays));

@@ -11,6 +11,7 @@
 #include "passes/common/vpls/vpls.h"
 #include "tests/bench/sponza.h"
 #include "tests/gpu/between_surfaces.h"
+#include "tests/support/places.h"
 
 namespace voxray {
 namespace {
@@ -55,9 +56,8 @@ LightRays lightRays(test::Chain& chain, size_t count) {
 void voxelVisibility(benchmark::State& state, const std::string& scene) {
     constexpr size_t kRays = 200000;
     test::device();
-    const std::filesystem::path file =
-        std::filesystem::path(VOXRAY_SOURCE_DIR) / "configs/generality" / (scene + ".yaml");
-    SceneLoader loader(sceneFolders({}, VOXRAY_SOURCE_DIR, file));
+    const std::filesystem::path file = test::sourceRoot() / "configs/generality" / (scene + ".yaml");
+    SceneLoader loader(sceneFolders({}, test::sourceRoot(), file));
     const auto prepared =
         std::make_shared<SceneState>(loader.prepare(loadExperiment(file).setup.scene).state);
     test::Chain chain(

@@ -5,6 +5,7 @@
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/voxel_march/voxel_march.h"
 #include "tests/gpu/prepared.h"
+#include "tests/support/places.h"
 #include "trace/embree_scene.h"
 
 namespace voxray::test {
@@ -18,7 +19,7 @@ struct SurfacePair {
 inline std::vector<uint32_t> hiddenByVoxels(const SurfaceVoxels& voxels,
                                             const std::vector<SurfacePair>& pairs) {
     CommandStream stream(device());
-    const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE);
+    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
     VoxelMarch march(VoxelWalk::Bricks);
     prepare(march, voxels, compiler);
     march.begin(stream, voxels);

@@ -12,6 +12,7 @@
 #include "scene/load.h"
 #include "tests/support/device.h"
 #include "tests/support/graph_yaml.h"
+#include "tests/support/places.h"
 
 namespace voxray::test {
 
@@ -29,7 +30,7 @@ class Chain {
     Chain(const std::shared_ptr<const SceneState>& state, const std::string& graphYaml, uint32_t width,
           uint32_t height, uint64_t seed, const std::function<void(Registry&)>& addPasses = {})
         : state_(std::make_shared<SceneState>(*state)),
-          compiler_(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE),
+          compiler_(test::sourceRoot(), test::shaderCache()),
           stream_(device()),
           tracer_(makeRayTracer(TracerKind::Embree, device(), compiler_, *state_)),
           scene_(makeGpuScene(device(), stream_, *state_)) {

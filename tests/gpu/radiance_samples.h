@@ -8,6 +8,7 @@
 #include "passes/common/radiance/radiance_voxels.h"
 #include "shaders/voxels/voxel_types.h"
 #include "tests/gpu/chain.h"
+#include "tests/support/places.h"
 
 namespace voxray::test {
 
@@ -39,7 +40,7 @@ inline std::vector<RadianceQuery> randomQueries(const gpu::VoxelGrid& grid, size
 /// What sampleRadiance() answers, one by one. Works for every layout.
 inline std::vector<glm::vec4> sampleRadiance(const RadianceVoxels& radiance,
                                              const std::vector<RadianceQuery>& queries) {
-    const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE);
+    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
     const Program program =
         makeComputeProgram(device(), compiler.compile("tests/gpu/radiance_samples.comp", radiance.defines()));
     CommandStream stream(device());

@@ -7,6 +7,7 @@
 #include "shaders/scene/scene_types.h"
 #include "shaders/voxels/voxel_types.h"
 #include "tests/gpu/chain.h"
+#include "tests/support/places.h"
 #include "trace/ray.h"
 
 namespace voxray::test {
@@ -17,7 +18,7 @@ constexpr uint32_t kOne = 0x3f800000u;
 // Words that count upwards from the bits of 1.0f (so that none is a denormal), read member by member in GLSL.
 template <typename T>
 std::vector<uint32_t> readByShader(const char* define) {
-    ShaderCompiler compiler(VOXRAY_SOURCE_DIR, {});
+    ShaderCompiler compiler(test::sourceRoot(), {});
     const Program program =
         makeComputeProgram(device(), compiler.compile("tests/gpu/shared_structs.comp", {{define, "1"}}));
     std::vector<uint32_t> words(2 * sizeof(T) / 4);

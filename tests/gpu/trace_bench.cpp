@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "gpu/trace_scenes.h"
 #include "scene/load.h"
+#include "tests/support/places.h"
 #include "trace/embree_scene.h"
 #include "trace/ray_tracer.h"
 
@@ -22,14 +23,8 @@ struct Workload {
     std::vector<Hit> expected;
 };
 
-std::filesystem::path scenesFolder() {
-    const char* folder = std::getenv("VOXRAY_SCENES");
-    return folder ? std::filesystem::path(folder)
-                  : std::filesystem::path(VOXRAY_SOURCE_DIR "/../shared/scenes");
-}
-
 Workload load(const std::string& file) {
-    Workload work{evaluate(loadGltf(scenesFolder() / file), 0.0), {}, std::vector<Hit>(kRays)};
+    Workload work{evaluate(loadGltf(test::scenesFolder() / file), 0.0), {}, std::vector<Hit>(kRays)};
     const glm::vec3 low = work.state.geometry.boundsMin, high = work.state.geometry.boundsMax;
     TestRandom random(1);
     const float infinity = std::numeric_limits<float>::infinity();
@@ -96,7 +91,7 @@ void compare(benchmark::State& state, const Workload& work, const std::vector<Hi
 
 void trace(benchmark::State& state, const std::string& file, TracerKind kind, bool occluded) {
     Device device;
-    ShaderCompiler compiler(VOXRAY_SOURCE_DIR, {});
+    ShaderCompiler compiler(test::sourceRoot(), {});
     std::unique_ptr<RayTracer> tracer;
     try {
         const Workload& work = workload(file);

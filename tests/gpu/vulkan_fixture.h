@@ -7,6 +7,7 @@
 
 #include "tests/support/device.h"
 #include "tests/support/errors.h"
+#include "tests/support/places.h"
 #include "vulkan/commands.h"
 
 namespace voxray {
@@ -15,7 +16,7 @@ namespace voxray {
 class VulkanTest : public testing::Test {
  protected:
     static Device& device() { return test::device(); }
-    static ShaderCompiler compiler() { return ShaderCompiler(VOXRAY_SOURCE_DIR, {}); }
+    static ShaderCompiler compiler() { return ShaderCompiler(test::sourceRoot(), {}); }
     static Program computeProgram(const std::string& file, const Defines& defines = {},
                                   const SpecializationConstants& constants = {}) {
         return makeComputeProgram(device(), compiler().compile("tests/gpu/" + file, defines), constants);

@@ -10,6 +10,7 @@
 #include "passes/filter_voxels/svo_collapse.h"
 #include "tests/gpu/radiance_samples.h"
 #include "tests/physics/made_up_voxels.h"
+#include "tests/support/places.h"
 
 namespace voxray::test {
 
@@ -244,7 +245,7 @@ class TestOctree {
 
     // Programs take longer to make than these octrees.
     static const ShaderCompiler& compiler() {
-        static const ShaderCompiler shared(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE);
+        static const ShaderCompiler shared(test::sourceRoot(), test::shaderCache());
         return shared;
     }
     static const OctreeBuilder& builder() {

@@ -6,6 +6,7 @@
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/voxels/voxel_accumulator.h"
 #include "tests/physics/voxels_read.h"
+#include "tests/support/places.h"
 
 namespace voxray::test {
 namespace {
@@ -25,7 +26,7 @@ struct Merged {
            float white = 8) {
         static Chain room("white_room", "{}", graphYaml({"voxelize, resolution: 12"}));
         const SurfaceVoxels& voxels = *room.graph().resource<SurfaceVoxels>("voxels");
-        const ShaderCompiler compiler(VOXRAY_SOURCE_DIR, {});
+        const ShaderCompiler compiler(test::sourceRoot(), {});
         VoxelAccumulator writes(device(), compiler, {write, white});
         const Program writer = makeComputeProgram(
             device(), compiler.compile("tests/gpu/voxel_accumulator.comp", VoxelAccumulator::defines(write)));

@@ -10,6 +10,7 @@
 
 #include "tests/physics/voxels_read.h"
 #include "tests/support/errors.h"
+#include "tests/support/places.h"
 
 namespace voxray::test {
 namespace {
@@ -50,8 +51,7 @@ TEST(VoxelizeMethods, DominantAxisMissesNoVoxel) {
 }
 
 TEST(VoxelizeMethods, DominantAxisMissesNoVoxelOfSponza) {
-    const std::filesystem::path file =
-        std::filesystem::path(VOXRAY_SOURCE_DIR) / ".." / "shared" / "scenes" / "sponza.glb";
+    const std::filesystem::path file = test::scenesFolder() / "sponza.glb";
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "sponza.glb is not there";
     auto scene = std::make_shared<Scene>(*loadGltf(file));
     if (scene->cameras.empty()) scene->cameras.emplace_back();

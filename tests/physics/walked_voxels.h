@@ -10,6 +10,7 @@
 #include "tests/gpu/chain.h"
 #include "tests/gpu/prepared.h"
 #include "tests/physics/made_up_voxels.h"
+#include "tests/support/places.h"
 
 namespace voxray::test {
 
@@ -30,7 +31,7 @@ struct WalkAnswer {
 class WalkedVoxels {
  public:
     WalkedVoxels(glm::uvec3 resolution, float voxelSize, const std::function<bool(glm::ivec3)>& occupied)
-        : stream_(device()), compiler_(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE) {
+        : stream_(device()), compiler_(test::sourceRoot(), test::shaderCache()) {
         grid = madeUpGrid(resolution, voxelSize);
         voxels_ = madeUpVoxels(stream_, grid, [&](glm::ivec3 v) {
             bits_.push_back(occupied(v));

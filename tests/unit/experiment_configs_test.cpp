@@ -6,6 +6,7 @@
 #include "experiment/scene_setup.h"
 #include "experiment/validate.h"
 #include "passes/register_passes.h"
+#include "tests/support/places.h"
 
 using namespace voxray;
 namespace fs = std::filesystem;
@@ -22,7 +23,7 @@ TEST(ShippedConfigs, ReadAndValidate) {
     Registry registry;
     registerPasses(registry);
     int configs = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(VOXRAY_SOURCE_DIR) / "configs")) {
+    for (const auto& entry : fs::recursive_directory_iterator(test::sourceRoot() / "configs")) {
         if (entry.path().extension() != ".yaml") continue;
         ++configs;
         std::vector<std::string> profiles = profileNames(entry.path());

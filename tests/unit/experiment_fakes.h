@@ -14,6 +14,7 @@
 #include "base/files.h"
 #include "experiment/runner.h"
 #include "graph/graph.h"
+#include "tests/support/places.h"
 
 /// Tiny passes that write constant images, and a folder for each test.
 namespace voxray::fakes {
@@ -254,7 +255,7 @@ class RunTest : public testing::Test {
         o.quiet = true;
         o.report = false;
         o.validation = true;
-        o.sourceRoot = VOXRAY_SOURCE_DIR;
+        o.sourceRoot = test::sourceRoot();
         return o;
     }
     RunSummary run(const std::string& rest, const RunOptions& o) const {

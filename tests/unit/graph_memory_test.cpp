@@ -4,6 +4,7 @@
 #include "config/yaml.h"
 #include "graph/graph.h"
 #include "scene/load.h"
+#include "tests/support/places.h"
 
 namespace voxray {
 namespace {
@@ -85,7 +86,7 @@ class GraphMemory : public testing::Test {
     }
 
     Device device_{{.name = "", .validation = true}};
-    ShaderCompiler compiler_{VOXRAY_SOURCE_DIR, {}};
+    ShaderCompiler compiler_{test::sourceRoot(), {}};
     CommandStream stream_{device_};
     const SceneState state_ = evaluate(makeBuiltinScene("cornell", Value()), 0.0);
     const GpuScene scene_ = makeGpuScene(device_, stream_, state_);

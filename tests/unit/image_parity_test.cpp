@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "image/score.h"
+#include "tests/support/places.h"
 
 /// Every metric against tests/images/metrics_reference.py, an independent numpy version, on synthetic pairs.
 namespace voxray {
@@ -86,7 +87,8 @@ TEST(ImageParity, EveryMetricAgreesWithNumpy) {
     const fs::path folder = fs::temp_directory_path() / ("voxray-parity-" + std::to_string(::getpid()));
     fs::create_directories(folder);
     const std::vector<Pair> pairs = syntheticPairs();
-    std::string command = "/usr/bin/python3 " VOXRAY_SOURCE_DIR "/tests/images/metrics_reference.py";
+    std::string command =
+        "/usr/bin/python3 " + (test::sourceRoot() / "tests/images/metrics_reference.py").string();
     for (size_t i = 0; i < pairs.size(); ++i) {
         const fs::path file = folder / (std::to_string(i) + ".pair");
         store(file, pairs[i]);

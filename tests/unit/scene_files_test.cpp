@@ -2,6 +2,7 @@
 #include <map>
 
 #include "scene_gltf_builder.h"
+#include "tests/support/places.h"
 
 namespace voxray::test {
 namespace {
@@ -88,17 +89,10 @@ TEST(GltfFiles, ContentHashesFollowContent) {
     EXPECT_NE(hash, b.load()->contentHash);
 }
 
-/// The shared scenes, where they are.
-std::filesystem::path scenesFolder() {
-    const char* variable = std::getenv("VOXRAY_SCENES");
-    return variable != nullptr ? variable
-                               : std::filesystem::path(VOXRAY_SOURCE_DIR) / ".." / "shared" / "scenes";
-}
-
 void expectTriangles(const std::map<std::string, size_t>& counts) {
     for (const auto& [name, triangles] : counts) {
         SCOPED_TRACE(name);
-        const std::filesystem::path path = scenesFolder() / name;
+        const std::filesystem::path path = test::scenesFolder() / name;
         if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
         const Geometry g = evaluate(loadGltf(path), 0).geometry;
         EXPECT_EQ(g.triangles.size(), triangles);

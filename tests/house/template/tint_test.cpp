@@ -5,6 +5,7 @@
 #include "graph/graph.h"
 #include "scene/load.h"
 #include "tests/support/device.h"
+#include "tests/support/places.h"
 
 namespace voxray {
 namespace {
@@ -58,7 +59,7 @@ TEST(TemplatePass, MultipliesEveryPixelByTheColour) {
     list.items = {entry("known_image"), tint};
 
     Device& device = test::device();
-    ShaderCompiler compiler(VOXRAY_SOURCE_DIR, {});
+    ShaderCompiler compiler(test::sourceRoot(), {});
     CommandStream stream(device);
     const SceneState state = evaluate(makeBuiltinScene("cornell", Value()), 0.0);
     const GpuScene scene = makeGpuScene(device, stream, state);
