@@ -13,8 +13,8 @@ add_library(sanitized_readers OBJECT
   ${CONFIG}/sweep.cpp ${CONFIG}/value_labels.cpp ${CONFIG}/yaml.cpp)
 target_link_libraries(sanitized_readers PRIVATE voxray_options fmt::fmt glm::glm TBB::tbb Vulkan::Headers
   nlohmann_json::nlohmann_json yaml-cpp PkgConfig::XXHASH)
-# Lightly optimized: the compiler takes longer than the test.
-target_compile_options(sanitized_readers PRIVATE ${SANITIZERS} -fno-omit-frame-pointer -O1 -g1)
+# Not optimized: the compiler takes longer than the test.
+target_compile_options(sanitized_readers PRIVATE ${SANITIZERS} -fno-omit-frame-pointer -O0 -g1)
 target_precompile_headers(sanitized_readers PRIVATE ${CMAKE_SOURCE_DIR}/framework/precompiled.h)
 
 voxray_tests(mutation SHARDS 3

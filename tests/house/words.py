@@ -61,14 +61,20 @@ def is_compound(name):
     return "_" in name.strip("_") or re.search(r"[a-z0-9][A-Z]", name) is not None
 
 
+# Nearly all lines hold none of the words: one look tells.
+ANY_WORD = re.compile("|".join(pattern for pattern, _, _ in WORDS), re.I)
+ANY_IDENTIFIER = re.compile("|".join(pattern.rstrip("$") for pattern, _, _ in IDENTIFIERS), re.I)
+
+
 def problems_of(line):
-    for pattern, instead, stays in WORDS:
-        text = split(line)
+    separate = split(line)
+    for pattern, instead, stays in WORDS if ANY_WORD.search(separate) else ():
+        text = separate
         for kept in stays:
             text = re.sub(kept, "", text, flags=re.I)
         for found in re.findall(rf"\b(?:{pattern})\b", text, re.I):
             yield f"'{found}': say {instead}"
-    for name in IDENTIFIER.findall(line):
+    for name in IDENTIFIER.findall(line) if ANY_IDENTIFIER.search(separate) else ():
         if not is_compound(name) and not name.isupper():
             continue
         for pattern, instead, stays in IDENTIFIERS:
