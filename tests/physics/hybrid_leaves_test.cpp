@@ -16,6 +16,7 @@
 #include "tests/physics/triangle_box.h"
 #include "tests/physics/voxels_read.h"
 #include "tests/support/errors.h"
+#include "tests/support/places.h"
 
 namespace voxray::test {
 namespace {
@@ -35,7 +36,7 @@ class Hybrid {
                  graphYaml({fmt::format("voxelize, resolution: {}, visibility_rays: 0", resolution),
                             "build_hybrid_leaves, " + parameters}),
                  16, 16, 1),
-          compiler_(VOXRAY_SOURCE_DIR, VOXRAY_TEST_CACHE),
+          compiler_(sourceRoot(), shaderCache()),
           stream_(device()),
           scene_(makeGpuScene(device(), stream_, *state)),
           state_(state) {}
