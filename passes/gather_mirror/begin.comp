@@ -15,6 +15,10 @@ uniform sampler2D fresnel;
 readonly buffer Slots { uint data[]; } slots;
 layout(scalar) writeonly buffer Paths { MirrorPath data[]; } paths;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+#ifdef HYBRID
+#include "shaders/hybrid_leaves/hybrid_types.h"
+layout(scalar) writeonly buffer Starts { RayStart data[]; } starts;
+#endif
 layout(push_constant, scalar) uniform Push {
     MirrorBatch batch;
     uint count;
@@ -60,4 +64,7 @@ void main() {
     const bool isLost = all(equal(throughput, vec3(0.0)));
     paths.data[i] = MirrorPath(throughput, slot, texelSpread * length(away), spread, isMirror(s) ? 1u : 0u);
     rays.data[i] = isLost ? kNoRay : Ray(p + side * surfaceOffset(p), 0.0, ray.direction, 1.0e30);
+#ifdef HYBRID
+    starts.data[i] = RayStart(side, 0.0, 0.0);
+#endif
 }

@@ -29,11 +29,12 @@ struct ShadePush {
     uint32_t count;
     uint32_t depth;
     uint32_t isLast;
+    float cellSize;
 };
 
 /// As in shade.comp.
 struct Counts {
-    uint32_t next, surfels, hit, missed;
+    uint32_t next, surfels, triangles, cells, missed;
 };
 
 /// Pixels whose rays are traced together.
@@ -51,6 +52,8 @@ void GatherMirror::declare(PassBuilder& builder) {
     gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
     irradiance_ = builder.read<VoxelIrradiance>("irradiance", "light that arrives at the voxels' surfaces");
+    if (isHybrid())
+        leaves_ = builder.read<HybridLeaves>("hybrid_leaves", "what each leaf of the octree holds");
     lobes_ = builder.readOptional<SpecularLobes>("lobes", "specular light by cones, for what is rougher");
     otherDirect_ = builder.readOptional<FrameImage>("direct", "radiance reflected of direct light");
     otherIndirect_ = builder.readOptional<FrameImage>(
@@ -87,6 +90,13 @@ void GatherMirror::plan(PassPlan& plan) {
     plan.buffer(light_, "light of mirror rays", slots * sizeof(gpu::MirrorLight));
     for (Buffer& paths : paths_) plan.buffer(paths, "paths of mirror rays", slots * sizeof(gpu::MirrorPath));
     for (Buffer& rays : rays_) plan.buffer(rays, "mirror rays", slots * sizeof(Ray));
+    if (isHybrid()) {
+        hybrid_.emplace(params_.walk == MirrorWalk::Hierarchical ? HybridWalk::Hierarchical
+                                                                 : HybridWalk::VoxelByVoxel);
+        hybrid_->plan(plan, plan.get(voxels_));
+        for (Buffer& starts : starts_)
+            plan.buffer(starts, "starts of mirror rays", slots * sizeof(gpu::RayStart));
+    }
     plan.buffer(hits_, "hits of mirror rays", slots * sizeof(Hit));
     plan.buffer(surfels_, "surfels at hits", (shadowRays() ? slots : 1) * sizeof(gpu::Surfel));
     plan.reserveScratch("listing mirror rays", Compaction::scratchBytes(flagWords(slots)));
@@ -97,9 +107,11 @@ void GatherMirror::plan(PassPlan& plan) {
 }
 
 void GatherMirror::prepare(PassSetup& setup) {
+    const Defines defines = isHybrid() ? Defines{{"HYBRID", "1"}} : Defines{};
     const auto program = [&](const char* file, const SpecializationConstants& constants) {
-        return makeComputeProgram(setup.device, setup.compiler.compile(file), constants);
+        return makeComputeProgram(setup.device, setup.compiler.compile(file, defines), constants);
     };
+    if (hybrid_) hybrid_->prepare(setup.device, setup.compiler);
     mark_ = program("passes/gather_mirror/mark.comp", {});
     begin_ = program("passes/gather_mirror/begin.comp", {});
     shade_ = program("passes/gather_mirror/shade.comp", {{0, shadowRays()}});
@@ -138,15 +150,19 @@ void GatherMirror::record(PassContext& context) {
     const uint32_t samples = context.get(gbuffer_).samples, pixels = frame.width * frame.height;
     const uint32_t perBatch = batchPixels(frame, samples, params_.rays);
     gpu::MirrorBatch batch = firstBatch(frame, samples, context.frameIndex);
-    rayHits_ = rayMisses_ = 0;
+    triangleHits_ = cellHits_ = misses_ = 0;
+    if (hybrid_) hybrid_->begin(context.stream, context.scene, context.get(voxels_), context.get(leaves_));
     for (uint32_t first = 0; first < pixels; first += perBatch) {
         batch.firstPixel = first;
         batch.pixels = std::min(perBatch, pixels - first);
         gather(context, batch);
         resolve(context, batch);
     }
-    context.report("mirror rays that hit", double(rayHits_));
-    context.report("mirror rays that missed", double(rayMisses_));
+    context.report("mirror rays that hit triangles", double(triangleHits_));
+    context.report("mirror rays that missed", double(misses_));
+    if (!hybrid_) return;
+    context.report("mirror rays that hit cells of grids", double(cellHits_));
+    context.voxelCounts.push_back(&hybrid_->counts());
 }
 
 void GatherMirror::updateFaces(PassContext& context) {
@@ -176,24 +192,35 @@ void GatherMirror::gather(PassContext& context, const gpu::MirrorBatch& batch) {
     if (count == 0) return;
 
     // Their first rays, and those that mirrors send on.
-    stream.dispatch(begin_,
-                    {{"position", gbuffer.position, sampler_},
-                     {"normal", gbuffer.normal, sampler_},
-                     {"geometricNormal", gbuffer.geometricNormal, sampler_},
-                     {"specular", gbuffer.specular, sampler_},
-                     {"fresnel", gbuffer.fresnel, sampler_},
-                     {"slots", slots_},
-                     {"paths", paths_[0]},
-                     {"rays", rays_[0]}},
-                    BeginPush{batch, count}, linearGroups(count));
-    for (uint32_t depth = 0; depth < params_.bounces && count > 0; ++depth)
+    std::vector<Binding> beginning{{"position", gbuffer.position, sampler_},
+                                   {"normal", gbuffer.normal, sampler_},
+                                   {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                                   {"specular", gbuffer.specular, sampler_},
+                                   {"fresnel", gbuffer.fresnel, sampler_},
+                                   {"slots", slots_},
+                                   {"paths", paths_[0]},
+                                   {"rays", rays_[0]}};
+    if (hybrid_) beginning.emplace_back("starts", starts_[0]);
+    stream.dispatch(begin_, beginning, BeginPush{batch, count}, linearGroups(count));
+    for (uint32_t depth = 0; depth < params_.bounces && count > 0; ++depth) {
+        trace(context, depth, count);
         count = end(context, batch, depth, count);
+    }
+}
+
+void GatherMirror::trace(PassContext& context, uint32_t depth, uint32_t count) {
+    const Buffer& rays = rays_[depth % 2];
+    if (!hybrid_) {
+        context.tracer.closestHit(context.stream, rays, hits_, count);
+        return;
+    }
+    hybrid_->closestFrom(context.stream, rays, starts_[depth % 2], hits_, count);
+    context.extraRays += count;
 }
 
 uint32_t GatherMirror::end(PassContext& context, const gpu::MirrorBatch& batch, uint32_t depth,
                            uint32_t count) {
     CommandStream& stream = context.stream;
-    context.tracer.closestHit(stream, rays_[depth % 2], hits_, count);
     stream.fill(counts_, 0);
     std::vector<Binding> bindings = context.scene.bindings({{"grazing", grazing_},
                                                             {"faceIrradiance", faces_.buffer()},
@@ -206,12 +233,21 @@ uint32_t GatherMirror::end(PassContext& context, const gpu::MirrorBatch& batch, 
                                                             {"surfels", surfels_},
                                                             {"light", light_},
                                                             {"counts", counts_}});
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    float cellSize = 0;
+    if (hybrid_) {
+        const HybridLeaves& leaves = context.get(leaves_);
+        for (const Binding& binding : leaves.bindings()) bindings.push_back(binding);
+        bindings.emplace_back("nextStarts", starts_[(depth + 1) % 2]);
+        cellSize = voxels.grid.voxelSize / float(std::max(leaves.shape.gridResolution, 1u));
+    }
     const uint32_t isLast = depth + 1 == params_.bounces ? 1 : 0;
-    stream.dispatch(shade_, context.get(voxels_).bindings(bindings), ShadePush{batch, count, depth, isLast},
+    stream.dispatch(shade_, voxels.bindings(bindings), ShadePush{batch, count, depth, isLast, cellSize},
                     linearGroups(count));
     const Counts counts = stream.readAs<Counts>(counts_, 1)[0];
-    rayHits_ += counts.hit;
-    rayMisses_ += counts.missed;
+    triangleHits_ += counts.triangles;
+    cellHits_ += counts.cells;
+    misses_ += counts.missed;
 
     // Direct light there.
     if (counts.surfels > 0) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "passes/common/compute/compaction.h"
+#include "passes/common/hybrid_leaves/hybrid_tracer.h"
 #include "passes/common/surfels/surfel_light.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/view/specular_lobes.h"
@@ -21,6 +22,16 @@ struct EnumNames<MirrorDirect> {
                                       std::pair{MirrorDirect::ShadowRays, "shadow_rays"}};
 };
 
+/// What finds the ends of rays: the scene's ray tracer, or one of two walks through hybrid leaves
+/// (HybridWalk).
+enum class MirrorWalk { Exact, Hierarchical, VoxelByVoxel };
+template <>
+struct EnumNames<MirrorWalk> {
+    static constexpr std::array names{std::pair{MirrorWalk::Exact, "exact"},
+                                      std::pair{MirrorWalk::Hierarchical, "hierarchical"},
+                                      std::pair{MirrorWalk::VoxelByVoxel, "voxel_by_voxel"}};
+};
+
 /// What mirror-like surfaces show: reflected rays from each texel of the g-buffer, lit where they end. Docs:
 /// docs/mirrors.md. Source: Seok 2021 (rays for mirrors, cones for all else).
 class GatherMirror final : public Pass {
@@ -31,7 +42,9 @@ class GatherMirror final : public Pass {
         "light of other passes; lamps and environment that a mirror shows, and mirrors in mirrors. "
         "Biased by: voxel size (indirect light where rays end; direct light too with `direct_at_hits: "
         "voxels`); specular light of what mirrors show is left out where it is rougher than the hand-over; "
-        "light that mirrors throw at other surfaces is in no voxel. "
+        "light that mirrors throw at other surfaces is in no voxel; grids of hybrid leaves hold neither "
+        "lamps nor "
+        "mirrors. "
         "Noisy by: `rays` where surfaces are no perfect mirrors; light_samples. "
         "Source: Seok 2021, chapter 4.";
     struct Params {
@@ -39,6 +52,7 @@ class GatherMirror final : public Pass {
         float blendRoughness = 0.1f;
         uint32_t rays = 1;
         uint32_t bounces = 4;
+        MirrorWalk walk = MirrorWalk::Exact;
         MirrorDirect directAtHits = MirrorDirect::ShadowRays;
         uint32_t lightSamples = 1;
         static constexpr auto schema() {
@@ -57,6 +71,12 @@ class GatherMirror final : public Pass {
                       "Mirrors that light meets one after another, at most, the one that the camera sees "
                       "among them; what the last one shows of further mirrors is black.",
                       1u, 32u),
+                field("walk", &Params::walk,
+                      "What finds the ends of rays. exact: the ray tracer. hierarchical, voxel_by_voxel: "
+                      "leaves of "
+                      "the octree, which hold triangles or grids of fine voxels, past empty nodes of all "
+                      "sizes or, "
+                      "as in the paper, through each finest voxel on the way, from the root each time."),
                 field("direct_at_hits", &Params::directAtHits,
                       "Direct light where rays end. voxels: as coarse as voxels. shadow_rays: exact, by a "
                       "shadow ray to each light; voxels bring indirect light alone."),
@@ -73,13 +93,16 @@ class GatherMirror final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    bool isHybrid() const { return params_.walk != MirrorWalk::Exact; }
     bool shadowRays() const { return params_.directAtHits == MirrorDirect::ShadowRays; }
     gpu::MirrorBatch firstBatch(const Frame& frame, uint32_t samples, uint32_t frameIndex) const;
     /// Light in voxels, by face; kept until it changes.
     void updateFaces(PassContext& context);
     /// Sends the rays of a batch and adds up what they bring.
     void gather(PassContext& context, const gpu::MirrorBatch& batch);
-    /// Where `count` rays end. @return the number of rays that mirrors send on.
+    /// Finds where `count` rays end.
+    void trace(PassContext& context, uint32_t depth, uint32_t count);
+    /// Lights their ends. @return the number of rays that mirrors send on.
     uint32_t end(PassContext& context, const gpu::MirrorBatch& batch, uint32_t depth, uint32_t count);
     void resolve(PassContext& context, const gpu::MirrorBatch& batch);
 
@@ -87,6 +110,7 @@ class GatherMirror final : public Pass {
     Port<const GBuffer> gbuffer_;
     Port<const SurfaceVoxels> voxels_;
     Port<const VoxelIrradiance> irradiance_;
+    Port<const HybridLeaves> leaves_;  ///< With a walk through them.
     Port<const SpecularLobes> lobes_;
     Port<const FrameImage> otherDirect_, otherIndirect_;
     Port<FrameImage> direct_, indirect_;
@@ -98,11 +122,13 @@ class GatherMirror final : public Pass {
     std::optional<std::pair<uint64_t, uint64_t>> facesVersion_;  ///< Of the voxels and the light in them.
     std::vector<LightSource> sources_;
     SurfelLight hitLight_;
-    uint64_t rayHits_ = 0, rayMisses_ = 0;  ///< Of a frame.
+    std::optional<HybridTracer> hybrid_;
+    uint64_t triangleHits_ = 0, cellHits_ = 0, misses_ = 0;  ///< Of a frame.
     Image black_;
     Buffer grid_, grazing_, counts_;
     Buffer flags_, slots_, light_;        ///< Of a batch.
     std::array<Buffer, 2> paths_, rays_;  ///< Those on their way, and those that go on.
+    std::array<Buffer, 2> starts_;        ///< Of rays through hybrid leaves, a gpu::RayStart each.
     Buffer hits_, surfels_, hitDirect_;
 };
 

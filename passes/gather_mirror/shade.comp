@@ -17,15 +17,19 @@ layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(scalar) writeonly buffer NextPaths { MirrorPath data[]; } nextPaths;
 layout(scalar) writeonly buffer NextRays { Ray data[]; } nextRays;
+#ifdef HYBRID
+layout(scalar) writeonly buffer NextStarts { RayStart data[]; } nextStarts;
+#endif
 layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;  // Where direct light is measured; `parent` is the slot.
 layout(scalar) buffer Light { MirrorLight data[]; } light;
-// Of next paths, of surfels, of rays that hit and of those that missed.
-buffer Counts { uint next, surfels, hit, missed; } counts;
+// Of next paths, of surfels, of rays that hit triangles, of those that hit cells of grids, and of those that missed.
+buffer Counts { uint next, surfels, triangles, cells, missed; } counts;
 layout(push_constant, scalar) uniform Push {
     MirrorBatch batch;
     uint count;
     uint depth;   // Reflections before these rays, less one.
     uint isLast;  // 1: mirrors send nothing on.
+    float cellSize;  // m: edge of a grid's cells.
 } push;
 
 // Emitted light by one reflection is direct light, as in the reference.
@@ -47,10 +51,20 @@ void main() {
         addEmitted(path, environmentRadiance(ray.direction));
         return;
     }
-    atomicAdd(counts.hit, 1u);
     const float width = abs(path.width + path.spread * hit.t);
     MirrorSurface at;
-    if (!surfaceAtHit(hit, ray.direction, width * width, at)) return;
+    float clearance = 0.0;  // m: shadow rays start so far off the surface.
+#ifdef HYBRID
+    if (isCell(hit)) {
+        atomicAdd(counts.cells, 1u);
+        surfaceOfCell(hit, ray, at);
+        clearance = push.cellSize;
+    } else
+#endif
+    {
+        atomicAdd(counts.triangles, 1u);
+        if (!surfaceAtHit(hit, ray.direction, width * width, at)) return;
+    }
     addEmitted(path, at.emission);
 
     // What the diffuse lobe reflects of the light in voxels, and of what shadow rays bring.
@@ -63,7 +77,8 @@ void main() {
         bool isKnown;
         light.data[path.slot].indirect += diffuse * interpolatedIrradianceAt(grid.data, at.position, at.faceNormal, isKnown);
         if (kShadowRays)
-            surfels.data[atomicAdd(counts.surfels, 1u)] = Surfel(at.position, NO_VOXEL, at.normal, id, diffuse, path.slot, 1.0);
+            surfels.data[atomicAdd(counts.surfels, 1u)] =
+                Surfel(at.position + clearance * at.faceNormal, NO_VOXEL, at.normal, id, diffuse, path.slot, 1.0);
     }
 
     // A mirror in a mirror.
@@ -74,4 +89,7 @@ void main() {
     const uint next = atomicAdd(counts.next, 1u);
     nextPaths.data[next] = MirrorPath(throughput, path.slot, width, sqrt(path.spread * path.spread + on.solidAngle), 1u);
     nextRays.data[next] = Ray(at.position + at.faceNormal * surfaceOffset(at.position), 0.0, on.direction, 1.0e30);
+#ifdef HYBRID
+    nextStarts.data[next] = RayStart(at.faceNormal, 0.0, 0.0);
+#endif
 }

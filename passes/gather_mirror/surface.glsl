@@ -40,4 +40,21 @@ bool surfaceAtHit(Hit hit, vec3 direction, float area, out MirrorSurface at) {
     return true;
 }
 
+#ifdef HYBRID
+#include "shaders/hybrid_leaves/grid_cell.glsl"
+
+bool isCell(Hit hit) { return (hit.triangle & HIT_IS_CELL) != 0u && hit.triangle != NO_HIT; }
+
+// A cell of a grid: a Lambert surface. Lamps and mirrors are none that cells hold.
+void surfaceOfCell(Hit hit, Ray ray, out MirrorSurface at) {
+    const GridCell cell = gridCell(hit.triangle & ~HIT_IS_CELL);
+    const bool isFront = dot(cell.normal, ray.direction) <= 0.0;
+    at.position = ray.origin + hit.t * ray.direction;
+    at.normal = at.faceNormal = isFront ? cell.normal : -cell.normal;
+    at.albedo = cell.albedo;
+    at.emission = vec3(0.0);
+    at.specular = Specular(vec3(0.0), 0.0, 1.0, 0.0, 0.0);
+}
+#endif
+
 #endif

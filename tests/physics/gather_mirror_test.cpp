@@ -236,6 +236,49 @@ TEST(GatherMirror, IsLinearInLightAndDeterministic) {
     EXPECT_EQ(image(1).data, one.data);
 }
 
+TEST(GatherMirror, WalksThroughListsFindWhatTheRayTracerFinds) {
+    // Triangles in all leaves: the same points, lit the same way, but for ties and the rounding of distances.
+    const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}));
+    const auto run = [&](const std::string& walk) {
+        return std::make_unique<Chain>(
+            state, roomGraph("bounces: 2, walk: " + walk, {"build_hybrid_leaves, primitives: 4096"}), 24, 24,
+            1);
+    };
+    const auto exact = run("exact");
+    const ImageF expected = exact->image("indirect");
+    for (const std::string walk : {"hierarchical", "voxel_by_voxel"}) {
+        const auto hybrid = run(walk);
+        const ImageF image = hybrid->image("indirect");
+        double difference = 0;
+        for (size_t i = 0; i < image.data.size(); ++i)
+            difference += std::abs(double(image.data[i]) - expected.data[i]);
+        EXPECT_LT(difference / double(image.data.size()), 1e-4 * mean(expected)) << walk;
+        for (const std::string value : {"mirror rays that hit triangles", "mirror rays that missed"})
+            EXPECT_EQ(reported(hybrid->frameSamples.back(), value),
+                      reported(exact->frameSamples.back(), value));
+    }
+}
+
+TEST(GatherMirror, GridsShowWhatVoxelsOfTheirSizeCan) {
+    // Where a leaf holds more than one triangle, cells of 1/2 and of 1/16 of a voxel stand for them.
+    const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}));
+    Chain reference(state, graphYaml({"path_trace, spp: 256, bounces: 1"}), 32, 32, 1);
+    const ImageF expected = reference.image("indirect");
+    const auto error = [&](const std::string& cells) {
+        Chain chain(state,
+                    roomGraph("walk: hierarchical, bounces: 1",
+                              {"build_hybrid_leaves, primitives: 1, grid: " + cells}, "16"),
+                    32, 32, 1);
+        const auto [difference, ratio] = errorAt(chain, "indirect", expected, -0.999f);
+        std::printf("grids of %s: %.4f, ratio %.4f\n", cells.c_str(), difference, ratio);
+        EXPECT_NEAR(ratio, 1.0, 0.05) << cells;
+        return difference;
+    };
+    const double coarse = error("2"), fine = error("16");
+    EXPECT_LT(fine, 0.1);
+    EXPECT_LT(fine, 0.8 * coarse);
+}
+
 TEST(GatherMirror, RefusesConesThatBringLamps) {
     EXPECT_CONTAINS(errorOf([] {
                         Chain chain(
