@@ -9,6 +9,7 @@
 #include "passes/build_hybrid_leaves/cell_sums.h"
 #include "passes/build_hybrid_leaves/leaf_counts.h"
 #include "passes/common/compute/dispatch.h"
+#include "passes/common/triangle_walk/walk_types.h"
 
 namespace voxray {
 namespace {
@@ -28,6 +29,12 @@ struct LeavesPush {
 struct Found {
     uint32_t empty;         ///< Leaves.
     uint32_t maxTriangles;  ///< Of a leaf.
+    uint32_t pairs;         ///< Of a triangle and a leaf with a grid.
+};
+
+struct ResolvePush {
+    uint32_t cells;
+    float unitsPerFace;
 };
 
 constexpr uint64_t kMaxListWords = 1ull << 31;            // shaders/hybrid_leaves/hybrid_types.h
@@ -104,10 +111,8 @@ void BuildHybridLeaves::plan(PassPlan& plan) {
         plan.reserve("voxels with masks", 2 * wordBytes(voxels.words()));
     plan.reserve("lists of triangles (at most)", wordBytes(listed));
     plan.reserve("grids (at most)", 2 * wordBytes(gridWords) + wordBytes(cells * GRID_CELL_WORDS));
-    const uint64_t flags = (geometry.triangles.size() + 31) / 32;
     plan.reserveScratch("triangles of each leaf (estimated)", 4 * wordBytes(voxels.voxelCount));
-    plan.reserveScratch("triangles in grids", wordBytes(flags) + wordBytes(geometry.triangles.size()) +
-                                                  Compaction::scratchBytes(uint32_t(flags)));
+    plan.reserveScratch("triangles in grids (at most)", 3 * wordBytes(counts.all() - listed));
     plan.reserveScratch("sums of cells (at most)",
                         cells * SUM_UINTS * sizeof(uint32_t) + PrefixSum::scratchBytes(uint32_t(gridWords)));
     walk_->plan(plan, grid);
@@ -125,16 +130,15 @@ void BuildHybridLeaves::prepare(PassSetup& setup) {
     markLeaves_ = visitor("passes/build_hybrid_leaves/mark_leaves");
     count_ = visitor("passes/build_hybrid_leaves/count_triangles", lists);
     fill_ = visitor("passes/build_hybrid_leaves/fill_lists", lists);
-    mark_ = visitor("passes/build_hybrid_leaves/mark_cells");
-    write_ = params_.write == CellWrite::Average ? visitor("passes/build_hybrid_leaves/add_cells")
-                                                 : visitor("passes/build_hybrid_leaves/write_cells");
+    mark_ = program("passes/build_hybrid_leaves/mark_cells.comp");
+    write_ = params_.write == CellWrite::Average ? program("passes/build_hybrid_leaves/add_cells.comp")
+                                                 : program("passes/build_hybrid_leaves/write_cells.comp");
     size_ = program("passes/build_hybrid_leaves/size_lists.comp");
     number_ = program("passes/build_hybrid_leaves/number_leaves.comp");
     sort_ = program("passes/build_hybrid_leaves/sort_lists.comp");
     resolve_ = program("passes/build_hybrid_leaves/resolve_cells.comp");
     sum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
     sumBits_.emplace(setup.device, setup.compiler, PrefixSum::Of::SetBits);
-    compaction_.emplace(setup.device, setup.compiler);
     version_.reset();
 }
 
@@ -150,10 +154,12 @@ void BuildHybridLeaves::record(PassContext& context) {
 
     const VoxelRegion all(voxels.grid);
     walk_->select(context, voxels.grid, all, all.triangles(context.frame.scene->geometry));
-    const Buffer counts = number(context, voxels, leaves);
-    const Buffer touching = fillLists(context, voxels, counts, leaves);
+    number(context, voxels, leaves);
+    fillLists(context, voxels, leaves);
     walk_->release();
-    fillGrids(context, voxels, touching, leaves);
+    counts_ = {};
+    if (leaves.gridCount > 0) fillGrids(context, voxels, leaves);
+    pairs_ = {};
     ++leaves.version;
     context.report("leaves with a list", double(voxels.voxelCount - leaves.gridCount - leaves.emptyCount));
     context.report("leaves with a grid", leaves.gridCount);
@@ -179,14 +185,14 @@ void BuildHybridLeaves::addMasked(PassContext& context, const std::vector<uint32
     walk_->release();
 }
 
-Buffer BuildHybridLeaves::number(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves) {
+void BuildHybridLeaves::number(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves) {
     // How many triangles each leaf has
     CommandStream& stream = context.stream;
     const LeavesPush push{voxels.voxelCount, params_.primitives};
     const glm::uvec3 groups = linearGroups(push.leaves);
-    Buffer counts(context.device, "triangles of each leaf", wordBytes(push.leaves));
-    stream.fill(counts, 0);
-    walk_->run(context, count_, voxels.grid, leafBindings(voxels, {{"counts", counts}}), 0);
+    counts_ = Buffer(context.device, "triangles of each leaf", wordBytes(push.leaves));
+    stream.fill(counts_, 0);
+    walk_->run(context, count_, voxels.grid, leafBindings(voxels, {{"counts", counts_}}), 0);
 
     // Where its list begins, or which number its grid has: exclusive sums, for which Seok 2021, figure 7,
     // takes the order of arrival
@@ -194,21 +200,20 @@ Buffer BuildHybridLeaves::number(PassContext& context, const SurfaceVoxels& voxe
     const Buffer grids(context.device, "grids", wordBytes(push.leaves));
     const Buffer found(context.device, "what leaves are", sizeof(Found));
     stream.fill(found, 0);
-    stream.dispatch(size_, {{"counts", counts}, {"sizes", sizes}, {"grids", grids}, {"found", found}}, push,
+    stream.dispatch(size_, {{"counts", counts_}, {"sizes", sizes}, {"grids", grids}, {"found", found}}, push,
                     groups);
     leaves.words = Buffer(context.device, "hybrid leaves", wordBytes(push.leaves));
     leaves.primitiveCount = sum_->run(stream, sizes, leaves.words, push.leaves);
     leaves.gridCount = sum_->run(stream, grids, grids, push.leaves);
     const Found numbers = stream.readAs<Found>(found, 1)[0];
     maxTriangles_ = numbers.maxTriangles;
+    pairCount_ = numbers.pairs;
     leaves.emptyCount = numbers.empty;
-    stream.dispatch(number_, {{"counts", counts}, {"grids", grids}, {"words", leaves.words}}, push, groups);
+    stream.dispatch(number_, {{"counts", counts_}, {"grids", grids}, {"words", leaves.words}}, push, groups);
     stream.finish();
-    return counts;
 }
 
-Buffer BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& voxels, const Buffer& counts,
-                                    HybridLeaves& leaves) {
+void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves) {
     CommandStream& stream = context.stream;
     const LeavesPush push{voxels.voxelCount, params_.primitives};
     leaves.primitives = Buffer(context.device, "lists of triangles", wordBytes(leaves.primitiveCount));
@@ -216,24 +221,23 @@ Buffer BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& v
     writeHeader(stream, leaves);
 
     // From the last place to the first, in order of arrival (Seok 2021, figure 8), then sorted: the same bits
-    // each time. Triangles in leaves with grids are flagged (figure 9).
-    const uint64_t flags = (context.frame.scene->geometry.triangles.size() + 31) / 32;
-    Buffer touching(context.device, "triangles in grids", wordBytes(flags));
-    const Buffer left(context.device, "places left in lists", counts.bytes());
-    stream.fill(touching, 0);
-    stream.copy(counts, left, counts.bytes());
-    const std::vector<Binding> bindings =
-        leafBindings(voxels, {{"left", left}, {"touching", touching}, {"hybridLeaves", leaves.header}});
+    // each time. What is voxelized further (figure 9) is summed in whole numbers: its order does not matter.
+    const Buffer left(context.device, "places left in lists", counts_.bytes());
+    const Buffer pairCount(context.device, "number of pairs", sizeof(uint32_t));
+    stream.copy(counts_, left, counts_.bytes());
+    stream.fill(pairCount, 0);
+    pairs_ = LargeBuffer(context.device, "triangles in grids", 3 * wordBytes(pairCount_));
+    const std::vector<Binding> bindings = leafBindings(voxels, {{"left", left},
+                                                                {"pairCount", pairCount},
+                                                                {"PairsAt", pairs_.at()},
+                                                                {"hybridLeaves", leaves.header}});
     walk_->run(context, fill_, voxels.grid, bindings, 0);
-    stream.dispatch(sort_, {{"counts", counts}, {"hybridLeaves", leaves.header}}, push,
+    stream.dispatch(sort_, {{"counts", counts_}, {"hybridLeaves", leaves.header}}, push,
                     linearGroups(push.leaves));
     stream.finish();
-    return touching;
 }
 
-void BuildHybridLeaves::fillGrids(PassContext& context, const SurfaceVoxels& voxels, const Buffer& touching,
-                                  HybridLeaves& leaves) {
-    if (leaves.gridCount == 0) return;
+void BuildHybridLeaves::fillGrids(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves) {
     CommandStream& stream = context.stream;
     const uint32_t words = leaves.gridCount * leaves.shape.wordsPerGrid;
     leaves.gridBits = Buffer(context.device, "bits of grids", wordBytes(words));
@@ -241,19 +245,18 @@ void BuildHybridLeaves::fillGrids(PassContext& context, const SurfaceVoxels& vox
     stream.fill(leaves.gridBits, 0);
     writeHeader(stream, leaves);
 
-    // Only the triangles that touch these leaves
-    const uint32_t flagWords = uint32_t(touching.bytes() / sizeof(uint32_t));
-    std::vector<uint32_t> triangles;
-    {
-        const Buffer listed(context.device, "triangles to voxelize", wordBytes(32ull * flagWords));
-        const uint32_t count = compaction_->run(stream, touching, listed, flagWords);
-        triangles = stream.readAs<uint32_t>(listed, count);
-    }
-    walk_->select(context, voxels.grid, VoxelRegion(voxels.grid), triangles);
+    // Each pair by tiles of 8x8 columns of cells (grid_cells.glsl)
+    const uint32_t tilesPerEdge = (params_.grid + 7) / 8;
+    gpu::TriangleWalkPush push{};
+    push.grid = voxels.grid;
+    push.tiles = pairCount_ * tilesPerEdge * tilesPerEdge;
+    push.visitorScale = unitsPerFace(maxTriangles_);
+    const glm::uvec3 groups = linearGroups(push.tiles);
+    std::vector<Binding> bindings =
+        context.scene.bindings({{"PairsAt", pairs_.at()}, {"hybridLeaves", leaves.header}});
 
     // Mark their cells, then number them.
-    std::vector<Binding> bindings = leafBindings(voxels, {{"hybridLeaves", leaves.header}});
-    walk_->run(context, mark_, voxels.grid, bindings, 0);
+    stream.dispatch(mark_, bindings, push, groups);
     leaves.cellCount = sumBits_->run(stream, leaves.gridBits, leaves.gridRanks, words);
     require(leaves.cellCount, kMaxCells, "cells of grids");
     leaves.cells =
@@ -263,19 +266,18 @@ void BuildHybridLeaves::fillGrids(PassContext& context, const SurfaceVoxels& vox
 
     // What they hold
     if (params_.write == CellWrite::None) {
-        walk_->run(context, write_, voxels.grid, bindings, 0);
+        stream.dispatch(write_, bindings, push, groups);
         stream.finish();
     } else {
         const LargeBuffer sums(context.device, "sums of cells",
                                wordBytes(uint64_t(leaves.cellCount) * SUM_UINTS));
         stream.fill(sums, 0);
         bindings.push_back({"CellSumsAt", sums.at()});
-        walk_->run(context, write_, voxels.grid, bindings, unitsPerFace(maxTriangles_));
+        stream.dispatch(write_, bindings, push, groups);
         stream.dispatch(resolve_, {{"CellSumsAt", sums.at()}, {"hybridLeaves", leaves.header}},
-                        leaves.cellCount, linearGroups(leaves.cellCount));
+                        ResolvePush{leaves.cellCount, push.visitorScale}, linearGroups(leaves.cellCount));
         stream.finish();
     }
-    walk_->release();
 }
 
 void BuildHybridLeaves::writeHeader(CommandStream& stream, HybridLeaves& leaves) const {

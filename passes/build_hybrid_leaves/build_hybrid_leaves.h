@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "graph/registry.h"
-#include "passes/common/compute/compaction.h"
+#include "passes/common/compute/large_buffer.h"
 #include "passes/common/compute/prefix_sum.h"
 #include "passes/common/hybrid_leaves/hybrid_leaves.h"
 #include "passes/common/triangle_walk/triangle_walk.h"
@@ -77,15 +77,12 @@ class BuildHybridLeaves final : public Pass {
     /// Adds the voxels in which alpha masks leave too little to make them surface voxels.
     void addMasked(PassContext& context, const std::vector<uint32_t>& triangles, const SurfaceVoxels& voxels,
                    HybridLeaves& leaves);
-    /// Counts triangles, tells kinds, and gives lists and grids their places. @return the triangles of each
-    /// leaf.
-    Buffer number(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves);
-    /// Fills lists; @return a bit for each triangle that touches a grid leaf.
-    Buffer fillLists(PassContext& context, const SurfaceVoxels& voxels, const Buffer& counts,
-                     HybridLeaves& leaves);
-    /// Voxelizes the triangles that touch grid leaves into their cells.
-    void fillGrids(PassContext& context, const SurfaceVoxels& voxels, const Buffer& touching,
-                   HybridLeaves& leaves);
+    /// Counts triangles, tells kinds, and gives lists and grids their places.
+    void number(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves);
+    /// Fills lists, and pairs of a triangle and a grid leaf.
+    void fillLists(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves);
+    /// Voxelizes the triangles of these pairs into cells.
+    void fillGrids(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves);
     void writeHeader(CommandStream& stream, HybridLeaves& leaves) const;
 
     Params params_;
@@ -94,7 +91,9 @@ class BuildHybridLeaves final : public Pass {
     std::unique_ptr<TriangleWalk> walk_;
     Program markLeaves_, count_, size_, number_, fill_, sort_, mark_, write_, resolve_;
     std::optional<PrefixSum> sum_, sumBits_;
-    std::optional<Compaction> compaction_;
+    Buffer counts_;      ///< Triangles of each leaf, while it is built.
+    LargeBuffer pairs_;  ///< Of triangles and grid leaves, while it is built: three words each.
+    uint32_t pairCount_ = 0;
     uint32_t maxTriangles_ = 0;        ///< Of a leaf.
     std::optional<uint64_t> version_;  ///< Of the voxels that it is built over.
 };

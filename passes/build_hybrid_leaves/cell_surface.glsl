@@ -6,11 +6,33 @@
 #include "passes/common/voxel_builder/fragment_material.glsl"
 #include "shaders/hybrid_leaves/grid_cell.glsl"
 
-// Its centroid from the cell's center, in cells. @param center as barycentric coordinates
-vec3 meanPoint(TriangleFragment cell, vec2 center) {
+struct CellSurface {
+    uint number;  // Of the cell, among those that are not empty.
+    float area;   // In units of a cell's face.
+    vec3 point;   // Centroid from the cell's center, in cells.
+    FragmentMaterial material;
+};
+
+// False where the alpha mask cuts all of it away. Area and centroid are as in clipFragment(); sub-samples, which cost most there, are
+// taken of masked triangles alone.
+bool cellSurface(TriangleFragment cell, out CellSurface s) {
+    s.number = gridCellNumber(gridBit(cellGrid, cell.voxel));
+    if (s.number == NO_CELL) return false;
     const GridTriangle t = cell.permutedTriangle;
-    const vec3 point = t.p0 + center.x * (t.p1 - t.p0) + center.y * (t.p2 - t.p0) - (vec3(cell.permutedVoxel) + 0.5);
-    return clamp(t.axis == 0u ? point.zxy : t.axis == 1u ? point.yzx : point, -0.5, 0.5);
+    vec2 center;
+    s.area = clippedArea(t, cell.permutedVoxel, center);
+    if (isAlphaMasked(cell)) {
+        const uint all = ownSubSamples(t, cell.permutedVoxel), opaque = opaqueSubSamples(cell, all);
+        if (opaque == 0u) return false;
+        if (all != 0u) s.area *= float(bitCount(opaque)) / float(bitCount(all));
+    }
+    ClippedFragment c;
+    c.center = barycentricsAt(t, center);
+    c.texCoordWidth = t.texCoordWidth;
+    s.material = fragmentMaterial(cell, c);
+    const vec3 point = t.p0 + c.center.x * (t.p1 - t.p0) + c.center.y * (t.p2 - t.p0) - (vec3(cell.permutedVoxel) + 0.5);
+    s.point = clamp(t.axis == 0u ? point.zxy : t.axis == 1u ? point.yzx : point, -0.5, 0.5);
+    return true;
 }
 
 #endif

@@ -1,19 +1,26 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A walk's visitor: adds a triangle to the list of its leaf, from the last place to the first, or flags it where the leaf has a grid.
+// A walk's visitor: adds a triangle to the list of its leaf, from the last place to the first; or the pair of both to those that are
+// voxelized further, where the leaf has a grid.
 #include "passes/build_hybrid_leaves/listed.glsl"
 #include "shaders/hybrid_leaves/hybrid_leaves.glsl"
+#include "shaders/octree/octree_cells.glsl"
 #include "shaders/voxels/voxels.glsl"
 
-buffer Left { uint places[]; } left;         // In each leaf's list.
-buffer Touching { uint words[]; } touching;  // A bit for each triangle.
+buffer Left { uint places[]; } left;  // In each leaf's list.
+buffer PairCount { uint count; } pairCount;
+layout(scalar) readonly buffer PairsAt { LargeUints leafPairs; };  // Triangle, voxel by packCell(), and grid of each.
 
 void visitFragment(TriangleFragment f) {
     const uint leaf = voxelNumber(walk.grid, f.voxel);
     if (leaf == NO_VOXEL || !isListed(f)) return;
     const uint word = hybridLeaves.words.data[leaf];
-    if (isGridLeaf(word))
-        atomicOr(touching.words[f.triangle >> 5], 1u << (f.triangle & 31u));
-    else
+    if (isGridLeaf(word)) {
+        const uint at = 3u * atomicAdd(pairCount.count, 1u);
+        leafPairs.data[at] = f.triangle;
+        leafPairs.data[at + 1u] = packCell(f.voxel);
+        leafPairs.data[at + 2u] = word & ~LEAF_IS_GRID;
+    } else {
         hybridLeaves.primitives.data[word + atomicAdd(left.places[leaf], ~0u) - 1u] = f.triangle;
+    }
 }

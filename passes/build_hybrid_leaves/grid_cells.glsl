@@ -1,37 +1,36 @@
-// The cells of a leaf's grid that a triangle overlaps: the walk over voxels once more, within one voxel, in which coordinates are
-// small. The including shader defines visitCell() and calls visitCells() for each pair of a triangle and a grid leaf.
+// The cells of a leaf's grid that a triangle overlaps: the walk over voxels once more, within one voxel, where coordinates are small. A
+// thread takes 8x8 columns of cells for one pair of a triangle and a leaf. Entry point of compute shaders that define visitFragment(),
+// to whom a fragment's voxel is the cell in the grid; the grid's number is cellGrid.
 #ifndef VOXRAY_GRID_CELLS_GLSL
 #define VOXRAY_GRID_CELLS_GLSL
 
+#define OWN_MAIN
 #include "passes/common/triangle_walk/exact.glsl"
 #include "shaders/hybrid_leaves/hybrid_leaves.glsl"
-#include "shaders/voxels/voxels.glsl"
+#include "shaders/octree/octree_cells.glsl"
 
-// @param cell the triangle's fragment in it; its place in the grid is cell.voxel. @param grid the leaf's grid, by number.
-void visitCell(TriangleFragment cell, uint grid);
+// Triangle, voxel by packCell(), and grid of each.
+layout(scalar) readonly buffer PairsAt { LargeUints leafPairs; };
 
-void visitCells(TriangleFragment f) {
-    const uint leaf = voxelNumber(walk.grid, f.voxel);
-    if (leaf == NO_VOXEL) return;
-    const uint word = hybridLeaves.words.data[leaf];
-    if (!isGridLeaf(word)) return;
+uint cellGrid;
+
+void main() {
+    const uint m = hybridLeaves.shape.gridResolution, tilesPerEdge = (m + 7u) / 8u, tilesPerPair = tilesPerEdge * tilesPerEdge;
+    const uint i = linearIndex();
+    if (i >= walk.tiles) return;
+    const uint pair = i / tilesPerPair, tile = i % tilesPerPair;
+    const uint triangle = leafPairs.data[3u * pair];
+    cellGrid = leafPairs.data[3u * pair + 2u];
 
     VoxelGrid cells = walk.grid;
-    cells.resolution = uvec3(hybridLeaves.shape.gridResolution);
-    cells.origin += vec3(f.voxel) * walk.grid.voxelSize;
-    cells.voxelSize /= float(cells.resolution.x);
-    const GridTriangle t = gridTriangle(cells, f.triangle, f.permutedTriangle.axis);
-    if (t.area == 0.0) return;
-    const ivec2 resolution = ivec2(cells.resolution);
-    const ivec4 range = columnRange(t, kMargin, resolution);
-    for (int y = range.y; y <= range.w; ++y)
-        for (int x = range.x; x <= range.z; ++x) {
-            if (!overlapsColumn(t, ivec2(x, y), kMargin)) continue;
-            const ivec2 depths = depthRange(t, ivec2(x, y), kMargin, resolution.x);
-            for (int z = depths.x; z <= depths.y; ++z)
-                if (overlapsVoxel(t, ivec3(x, y, z), kMargin))
-                    visitCell(triangleFragment(t, ivec3(x, y, z)), word & ~LEAF_IS_GRID);
-        }
+    cells.resolution = uvec3(m);
+    cells.origin += vec3(unpackCell(leafPairs.data[3u * pair + 1u])) * walk.grid.voxelSize;
+    cells.voxelSize /= float(m);
+    const uvec3 v = triangleVertices(triangle);
+    const vec3 p0 = gridVertex(cells, v.x);
+    const GridTriangle t =
+        gridTriangle(cells, triangle, dominantAxis(cross(gridVertex(cells, v.y) - p0, gridVertex(cells, v.z) - p0)));
+    if (t.area > 0.0) visitTile(t, 8 * ivec2(tile % tilesPerEdge, tile / tilesPerEdge), ivec3(m));
 }
 
 #endif

@@ -15,6 +15,8 @@ struct LeafCounts {
     std::vector<uint32_t> voxels;     ///< Ascending; 10 bits for each coordinate, x lowest.
     std::vector<uint32_t> triangles;  ///< As many, by voxel.
 
+    /// Pairs of a triangle and a leaf.
+    uint64_t all() const { return listed(UINT32_MAX); }
     /// Words of the lists of leaves that hold at most `capacity` triangles.
     uint64_t listed(uint32_t capacity) const;
     /// Leaves that hold more.

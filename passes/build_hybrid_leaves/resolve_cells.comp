@@ -7,7 +7,10 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer CellSumsAt { LargeUints cellSums; };
-layout(push_constant) uniform Push { uint cells; } push;
+layout(push_constant) uniform Push {
+    uint cells;
+    float unitsPerFace;
+} push;
 
 float signedSum(uint at) { return float(int(cellSums.data[at])); }
 vec3 signedSums(uint at) { return vec3(signedSum(at), signedSum(at + 1u), signedSum(at + 2u)); }
@@ -19,8 +22,8 @@ void main() {
     const float area = max(signedSum(at + SUM_AREA), 1.0);
     const vec3 sum = signedSums(at + SUM_NORMAL);
     const vec3 normal = dot(sum, sum) > 0.0 ? normalize(sum) : vec3(0.0, 0.0, 1.0);
-    int met = 0;
-    for (uint axis = 0u; axis < 3u; ++axis) met = max(met, bitCount(cellSums.data[at + SUB_SAMPLES + axis]));
+    const vec3 projected = signedSums(at + SUM_PROJECTED) / push.unitsPerFace;
     storeGridCell(cell, GridCell(normal, dot(normal, signedSums(at + SUM_POINT) / area), signedSums(at + SUM_ALBEDO) / area,
-                                 float(met) / 16.0, signedSum(at + SUM_METALLIC) / area, signedSum(at + SUM_ROUGHNESS) / area));
+                                 max(projected.x, max(projected.y, projected.z)), signedSum(at + SUM_METALLIC) / area,
+                                 signedSum(at + SUM_ROUGHNESS) / area));
 }

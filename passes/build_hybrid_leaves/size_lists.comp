@@ -9,6 +9,7 @@ writeonly buffer Grids { uint isGrid[]; } grids;
 buffer Found {
     uint empty;
     uint maxTriangles;  // Of a leaf.
+    uint pairs;         // Of a triangle and a leaf with a grid.
 } found;
 
 void main() {
@@ -18,5 +19,6 @@ void main() {
     sizes.words[leaf] = count <= push.capacity ? count : 0u;
     grids.isGrid[leaf] = count > push.capacity ? 1u : 0u;
     if (count == 0u) atomicAdd(found.empty, 1u);
+    if (count > push.capacity) atomicAdd(found.pairs, count);
     atomicMax(found.maxTriangles, count);
 }

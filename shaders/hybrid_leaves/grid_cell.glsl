@@ -10,7 +10,7 @@ struct GridCell {
     vec3 normal;      // Unit length: of front-side shading normals.
     float distance_;  // Of the surfaces' mean point from the cell's center, along the normal, in cells.
     vec3 albedo;      // Diffuse reflectance.
-    float coverage;   // Fraction of 4x4 sub-samples that surfaces meet, along the axis where it is largest.
+    float coverage;   // Area of surfaces over that of the cell's face, as seen along the axis where it is largest; at most 1.
     float metallic;
     float roughness;
 };

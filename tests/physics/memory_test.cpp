@@ -43,6 +43,8 @@ const Case kCases[] = {
      graphYaml({"gbuffer", "voxelize_clipmap, resolution: 96, clipmap_resolution: 32",
                 "light_clipmap, shadow_resolution: 128, bounces: 1", "gather_cones"}),
      "{lights: point}", 1.3},  // Planned for the fullest places of the scene, wherever the camera goes.
+    {"lists", graphYaml({"voxelize, resolution: 48", "build_hybrid_leaves"})},
+    {"grids", graphYaml({"voxelize, resolution: 48", "build_hybrid_leaves, primitives: 1, grid: 6"})},
     {"path_trace", graphYaml({"path_trace, spp: 1, bounces: 0"})},
 };
 

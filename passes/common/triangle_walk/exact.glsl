@@ -13,14 +13,9 @@ float measureFragment(GridTriangle t, ivec3 permutedVoxel, uint subSamples, out 
     return clippedArea(t, permutedVoxel, center);
 }
 
-void main() {
-    const uint i = linearIndex();
-    if (i >= walk.tiles) return;
-    const uvec2 tile = tiles.data[i];
-    const GridTriangle t = gridTriangle(walk.grid, tile.x, tile.y >> 20);
-    if (t.area == 0.0) return;
-    const ivec3 resolution = ivec3(permutedVoxels(walk.grid.resolution, t.axis));
-    const ivec2 first = ivec2(tile.y & 1023u, (tile.y >> 10) & 1023u);
+// Visits the voxels that a triangle overlaps in the 8x8 columns from `first` on, of a grid of `resolution` voxels, permuted as the
+// triangle is.
+void visitTile(GridTriangle t, ivec2 first, ivec3 resolution) {
     const ivec4 range = columnRange(t, kMargin, resolution.xy);
     const ivec2 from = max(range.xy, first), size = min(range.zw, first + 7) - from + 1;
     if (any(lessThan(size, ivec2(1)))) return;
@@ -46,3 +41,14 @@ void main() {
         visitFragment(triangleFragment(t, voxel));
     }
 }
+
+#ifndef OWN_MAIN
+void main() {
+    const uint i = linearIndex();
+    if (i >= walk.tiles) return;
+    const uvec2 tile = tiles.data[i];
+    const GridTriangle t = gridTriangle(walk.grid, tile.x, tile.y >> 20);
+    if (t.area == 0.0) return;
+    visitTile(t, ivec2(tile.y & 1023u, (tile.y >> 10) & 1023u), ivec3(permutedVoxels(walk.grid.resolution, t.axis)));
+}
+#endif

@@ -1,0 +1,139 @@
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+
+#include "passes/common/hybrid_leaves/hybrid_tracer.h"
+#include "tests/bench/sponza.h"
+#include "tests/gpu/prepared.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kSide = 512;  // Pixels.
+
+std::vector<Hit> closestHits(CommandStream& stream, RayTracer& tracer, const std::vector<Ray>& rays) {
+    const Buffer in(test::device(), "rays", rays.size() * sizeof(Ray));
+    const Buffer out(test::device(), "hits", rays.size() * sizeof(Hit));
+    stream.upload(in, rays);
+    tracer.closestHit(stream, in, out, uint32_t(rays.size()));
+    return stream.readAs<Hit>(out, rays.size());
+}
+
+/// What a mirror on every surface would reflect: rays from a camera in Sponza's nave, by pixel, reflected
+/// where they end.
+std::vector<Ray> mirrorRays(CommandStream& stream, RayTracer& tracer, const Geometry& geometry) {
+    std::vector<Ray> rays(kSide * kSide);
+    for (uint32_t i = 0; i < rays.size(); ++i) {
+        const float x = (float(i % kSide) + 0.5f) / kSide * 2 - 1,
+                    y = (float(i / kSide) + 0.5f) / kSide * 2 - 1;
+        rays[i] = {{-9, 3, -0.3f}, 0, glm::normalize(glm::vec3(1, -0.8f * y, 0.8f * x)), 1000};
+    }
+    const std::vector<Hit> hits = closestHits(stream, tracer, rays);
+    std::vector<Ray> reflected;
+    for (size_t i = 0; i < rays.size(); ++i) {
+        if (hits[i].triangle == Hit::kMiss) continue;
+        const glm::uvec3 t = geometry.triangles[hits[i].triangle];
+        const glm::vec3 a = geometry.positions[t.x];
+        glm::vec3 normal =
+            glm::normalize(glm::cross(geometry.positions[t.y] - a, geometry.positions[t.z] - a));
+        if (glm::dot(normal, rays[i].direction) > 0) normal = -normal;
+        const glm::vec3 at = rays[i].origin + hits[i].t * rays[i].direction;
+        reflected.push_back({at + 1e-4f * normal, 0, glm::reflect(rays[i].direction, normal), 1000});
+    }
+    return reflected;
+}
+
+/// Reflected rays through Sponza's leaves by both walks, and by the ray tracers, one after another in each
+/// iteration: rays a second of CPU time; steps, visits and tests of triangles a ray; the rays that meet a
+/// cell; those that meet another triangle than Embree's, of those that meet a triangle; memory by kind, and
+/// the build's time.
+void hybridLeaves(benchmark::State& state) {
+    test::Chain& chain = sponza(256, 1,
+                                fmt::format(", {{pass: build_hybrid_leaves, primitives: {}, grid: {}}}",
+                                            state.range(0), state.range(1)));
+    const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
+    const HybridLeaves& leaves = *chain.graph().resource<HybridLeaves>("hybrid_leaves");
+    ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
+    CommandStream stream(test::device());
+    const GpuScene scene = makeGpuScene(test::device(), stream, chain.state());
+    const auto embree = makeRayTracer(TracerKind::Embree, test::device(), compiler, chain.state());
+    const std::vector<Ray> rays = mirrorRays(stream, *embree, chain.state().geometry);
+    const std::vector<Hit> expected = closestHits(stream, *embree, rays);
+    const double count = double(rays.size());
+
+    // Once each outside of the measurement
+    std::vector<std::pair<std::string, std::unique_ptr<RayTracer>>> tracers;
+    for (const auto& [walk, name] : EnumNames<HybridWalk>::names) {
+        auto tracer = std::make_unique<HybridTracer>(walk);
+        test::prepare(*tracer, voxels, compiler);
+        tracer->begin(stream, scene, voxels, leaves);
+        const std::vector<Hit> hits = closestHits(stream, *tracer, rays);
+        const std::vector<uint64_t> walked = stream.readAs<uint64_t>(tracer->counts(), 2);
+        state.counters[std::string(name) + "_steps"] = double(walked[0]) / count;
+        state.counters[std::string(name) + "_visits"] = double(walked[1]) / count;
+        state.counters["tests"] = double(stream.readAs<uint64_t>(tracer->testCounts(), 1)[0]) / count;
+        size_t cells = 0, triangles = 0, different = 0;
+        for (size_t i = 0; i < rays.size(); ++i) {
+            const Hit &a = expected[i], &b = hits[i];
+            cells += b.triangle != Hit::kMiss && b.triangle >= HIT_IS_CELL;
+            if (b.triangle >= HIT_IS_CELL && b.triangle != Hit::kMiss) continue;
+            triangles += b.triangle != Hit::kMiss;
+            different += a.triangle != b.triangle && !(std::abs(a.t - b.t) <= 1e-5f * (1 + a.t));
+        }
+        state.counters["cells_percent"] = 100 * double(cells) / count;
+        state.counters["differ_ppm"] = 1e6 * double(different) / double(std::max<size_t>(triangles, 1));
+        tracers.emplace_back(name, std::move(tracer));
+    }
+    tracers.emplace_back("embree",
+                         makeRayTracer(TracerKind::Embree, test::device(), compiler, chain.state()));
+    if (test::device().info().rayQuery)
+        tracers.emplace_back("ray_query",
+                             makeRayTracer(TracerKind::RayQuery, test::device(), compiler, chain.state()));
+
+    const Buffer in(test::device(), "rays", rays.size() * sizeof(Ray));
+    const Buffer out(test::device(), "hits", rays.size() * sizeof(Hit));
+    stream.upload(in, rays);
+    std::vector<double> seconds(tracers.size(), 0);
+    for (size_t i = 0; i < tracers.size(); ++i)
+        tracers[i].second->closestHit(stream, in, out, uint32_t(rays.size()));
+    stream.finish();
+    for (auto _ : state)
+        for (size_t i = 0; i < tracers.size(); ++i) {
+            const double begin = cpuSeconds();
+            tracers[i].second->closestHit(stream, in, out, uint32_t(rays.size()));
+            stream.finish();
+            seconds[i] += cpuSeconds() - begin;
+        }
+    for (size_t i = 0; i < tracers.size(); ++i)
+        state.counters[tracers[i].first + "_Mrays_s"] = double(state.iterations()) * count / 1e6 / seconds[i];
+    state.counters["hierarchical_over_voxel_by_voxel"] = seconds[1] / seconds[0];
+    const auto build = [](test::Chain& built) {
+        const double begin = cpuSeconds();
+        built.rebuild();
+        return 1e3 * (cpuSeconds() - begin);
+    };
+    test::Chain& without = sponza(256, 1);
+    const double voxelize = std::min(build(without), build(without));
+    state.counters["voxelize_ms"] = voxelize;
+    state.counters["build_ms"] = std::min(build(chain), build(chain)) - voxelize;
+    state.counters["leaves_KiB"] = double(leaves.structureBytes()) / 1024;
+    state.counters["lists_KiB"] = double(leaves.listBytes()) / 1024;
+    state.counters["grids_KiB"] = double(leaves.gridBytes()) / 1024;
+    state.counters["grids"] = leaves.gridCount;
+    state.counters["leaves"] = leaves.shape.leaves;
+}
+BENCHMARK(hybridLeaves)
+    ->ArgNames({"primitives", "grid"})
+    ->Args({8, 8})
+    ->Args({8, 16})
+    ->Args({32, 8})
+    ->Args({32, 16})
+    ->Args({64, 16})
+    ->Args({128, 16})
+    ->Args({1 << 20, 16})
+    ->MeasureProcessCPUTime()
+    ->Iterations(3)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace voxray
