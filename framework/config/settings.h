@@ -91,6 +91,7 @@ struct MeasureSettings {
     uint32_t warmup = 3;
     uint32_t compareEvery = 0;
     uint32_t buildRepeats = 1;
+    bool secondSeed = false;
     uint64_t memoryLimitMb = 0;
     std::vector<std::string> metrics;  ///< As in the config: names out of metricNames().
     std::vector<MaskSettings> masks;
@@ -107,6 +108,9 @@ struct MeasureSettings {
                   0u, 100000u),
             field("build_repeats", &MeasureSettings::buildRepeats,
                   "Timed runs of the build passes, after one that is not timed.", 1u, 1000u),
+            field("second_seed", &MeasureSettings::secondSeed,
+                  "Render each variant once more with other random numbers, not timed: splits its error into "
+                  "bias and noise."),
             field("memory_limit_mb", &MeasureSettings::memoryLimitMb,
                   "Device memory in MiB that a graph may take; 0: what the device has.", uint64_t(0),
                   uint64_t(1) << 24)};

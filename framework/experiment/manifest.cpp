@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "base/files.h"
+#include "image/seed_error.h"
 #include "image/temporal.h"
 
 namespace voxray {
@@ -107,6 +108,7 @@ std::string manifestJson(const ManifestData& data) {
     json["measure"] = Json::parse(measure.json());
     json["measure"]["metrics"] = experiment.measure.metrics;
     json["metrics"] = metricsJson(metrics());
+    json["seed_metrics"] = metricsJson(seedMetrics());
     json["temporal_metrics"] = metricsJson(temporalMetrics());
 
     // What most runs have: one reference

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "image/seed_error.h"
 #include "image/temporal.h"
 
 namespace voxray {
@@ -113,10 +114,12 @@ std::string csvField(const std::string& text) {
 std::string resultsCsv(const std::vector<VariantResult>& results, const std::vector<std::string>& sweepKeys,
                        const MeasureSettings& measure) {
     std::vector<ScoreColumn> columns = scoreColumns(measure);
-    for (const std::string light : kLightPrefixes) {
-        if (measure.compareEvery == 0) break;
-        for (const MetricInfo& metric : temporalMetrics()) addColumns(columns, light, metric, "", "");
-    }
+    const auto addLights = [&](std::span<const MetricInfo> metrics) {
+        for (const std::string light : kLightPrefixes)
+            for (const MetricInfo& metric : metrics) addColumns(columns, light, metric, "", "");
+    };
+    if (measure.secondSeed) addLights(seedMetrics());
+    if (measure.compareEvery > 0) addLights(temporalMetrics());
     std::vector<std::string> header{"variant", "status", "error", "device", "tracer"};
     append(header, sweepKeys);
     append(header, {"build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes",

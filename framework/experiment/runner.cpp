@@ -260,8 +260,8 @@ void Run::runVariant(size_t index, Progress& progress) {
                     session_->frameReference(wired_, variant.setup, registry_, number, update),
                     session_->selectPixels(experiment_, variant.setup, number)};
             };
-        rendered = renderVariant(variant, experiment_, *session_, reference, referenceOfFrame, options_.aovs,
-                                 update);
+        rendered = renderVariant(variant, experiment_, *session_, reference, referenceOfFrame, registry_,
+                                 options_.aovs, update);
     } catch (const std::bad_alloc&) {
         failed.error = "out of memory";
     } catch (const std::exception& error) {

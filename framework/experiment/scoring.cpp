@@ -1,5 +1,6 @@
 #include "experiment/scoring.h"
 
+#include "image/seed_error.h"
 #include "image/temporal.h"
 
 namespace voxray {
@@ -73,6 +74,14 @@ ScoredFrame scoreFrame(const FrameImages& test, const ReferenceImages& reference
         scored.indirectFlip =
             addLight(kIndirect, *test.indirect, reference.indirect, pinned.indirectExposures);
     return scored;
+}
+
+void scoreSeeds(const FrameImages& first, const FrameImages& second, const ReferenceImages& reference,
+                Scores& scores) {
+    add(scores, kTotal, seedScores(first.final, second.final, reference.final.halves()), "");
+    if (first.indirect && second.indirect)
+        add(scores, kIndirect, seedScores(*first.indirect, *second.indirect, reference.indirect.halves()),
+            "");
 }
 
 void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReference& reference,

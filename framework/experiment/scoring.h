@@ -41,6 +41,11 @@ ScoredFrame scoreFrame(const FrameImages& test, const ReferenceImages& reference
                        const std::vector<PixelSelection>& masks, const ReferenceRecord& pinned,
                        float exposureStops);
 
+/// Scores what of the error in frame 0 is bias and what noise into `scores`, of both lights.
+/// @param first, second the frame with two seeds.
+void scoreSeeds(const FrameImages& first, const FrameImages& second, const ReferenceImages& reference,
+                Scores& scores);
+
 /// The reference of a measured frame and the pixels that masks select there.
 struct FrameReference {
     ReferenceImages images;

@@ -13,6 +13,11 @@
 namespace voxray {
 namespace {
 
+/// What of a variant is compared with the reference.
+std::vector<std::string> comparedPorts() {
+    return {"final", "indirect"};
+}
+
 void checkPassName(const Value& pass, const Registry& registry) {
     for (const Value& item : pass.items) checkPassName(item, registry);  // A chain.
     const Value* name = pass.isMap() ? pass.find("pass") : &pass;
@@ -82,6 +87,12 @@ Graph referenceGraph(const Experiment& experiment, const Registry& registry) {
     return graph;
 }
 
+Graph variantGraph(const Variant& variant, const Registry& registry) {
+    Graph graph(registry, variant.setup.graph);
+    graph.keepOnly(comparedPorts());
+    return graph;
+}
+
 WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) {
     checkPassNames(experiment, registry);
     WiredExperiment wired;
@@ -90,7 +101,7 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
         if (!graph.writes("final"))
             throw UsageError(variant.setup.graph.where,
                              "graph: no pass writes 'final', the image that is compared");
-        std::vector<std::string> leftOut = graph.keepOnly({"final", "indirect"});
+        std::vector<std::string> leftOut = graph.keepOnly(comparedPorts());
         Value resolved = graph.resolved();
         wired.variants.push_back(
             {std::move(variant), std::move(graph), std::move(resolved), std::move(leftOut)});

@@ -36,6 +36,10 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry);
 std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
                                     const Registry& registry);
 
+/// A variant's graph, wired for one more rendering of it: without passes that nothing of what is compared
+/// depends on.
+Graph variantGraph(const Variant& variant, const Registry& registry);
+
 /// The reference as a graph of one pass, for one rendering of it.
 Graph referenceGraph(const Experiment& experiment, const Registry& registry);
 

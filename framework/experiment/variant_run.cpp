@@ -29,11 +29,41 @@ FrameImages downloadFrame(const Graph& graph, uint32_t number, Session& session)
     return images;
 }
 
+/// How many times measureGraph() runs a graph.
+double runsOf(const MeasureSettings& measure) {
+    return 1.0 + measure.buildRepeats + measure.warmup + measure.frames;
+}
+
+/// What the second seed needs: frame 0 after as many frames as before the first one.
+MeasureSettings untimed(MeasureSettings measure) {
+    measure.buildRepeats = 0;
+    measure.frames = 1;
+    return measure;
+}
+
+/// Plans, prepares and measures a graph on the variant's scene; its memory is free again afterwards.
+Measurement runGraph(Graph graph, const Setup& setup, uint64_t seed, const MeasureSettings& measure,
+                     Session& session, const std::function<void(double)>& progress,
+                     const std::function<void(const Graph&, const Frame&, uint32_t)>& afterFrame) {
+    SceneOnDevice& scene = session.scene(setup);
+    const Frame frame = frameOf(setup, scene.prepared, seed);
+    session.plan(graph, frame, measure.memoryLimitMb);
+    graph.prepare(frame, session.device(), session.compiler(), session.stream());
+    GraphTarget target{frame, session.device(), session.stream(), *scene.tracer, scene.gpu, {}};
+    if (changesInTime(setup.scene))
+        target.goToFrame = [&](Frame& moved, int fromCompared) {
+            session.goToFrame(setup, moved, fromCompared);
+        };
+    return measureGraph(graph, target, measure, progress,
+                        [&](const Frame& now, uint32_t number) { afterFrame(graph, now, number); });
+}
+
 }  // namespace
 
 RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experiment, Session& session,
                               const PreparedReference* reference,
-                              const std::function<FrameReference(uint32_t)>& referenceOf, bool withAovs,
+                              const std::function<FrameReference(uint32_t)>& referenceOf,
+                              const Registry& registry, bool withAovs,
                               const std::function<void(double)>& progress) {
     const MeasureSettings& measure = experiment.measure;
     checkHostMemory(measure, variant.setup.image);
@@ -42,34 +72,33 @@ RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experimen
     RenderedVariant rendered;
     VariantResult& result = rendered.result;
     std::vector<FrameImages> frames;
-    {
-        // Plan, prepare, run
-        SceneOnDevice& scene = session.scene(variant.setup);
-        const Frame frame = frameOf(variant.setup, scene.prepared, variant.setup.general.seed);
-        Graph graph = std::move(variant.graph);  // Its memory is free again at the end.
-        session.plan(graph, frame, experiment.measure.memoryLimitMb);
-        graph.prepare(frame, device, session.compiler(), session.stream());
-        GraphTarget target{frame, device, session.stream(), *scene.tracer, scene.gpu, {}};
-        if (changesInTime(variant.setup.scene))
-            target.goToFrame = [&](Frame& moved, int fromCompared) {
-                session.goToFrame(variant.setup, moved, fromCompared);
-            };
-        Measurement m =
-            measureGraph(graph, target, measure, progress, [&](const Frame& now, uint32_t number) {
-                if (measure.compareEvery > 0 ? number % measure.compareEvery == 0 : number == 0)
-                    frames.push_back(downloadFrame(graph, number, session));
-                if (withAovs && number == 0)
-                    rendered.aovs = downloadAovs(graph, now, device, session.stream());
+    std::optional<FrameImages> second;
+    const uint64_t seed = variant.setup.general.seed;
+    const bool withSecond = measure.secondSeed && reference;
+    const double firstPart = withSecond ? runsOf(measure) / (runsOf(measure) + runsOf(untimed(measure))) : 1;
+    Measurement m = runGraph(
+        std::move(variant.graph), variant.setup, seed, measure, session,
+        [&](double part) { progress(firstPart * part); },
+        [&](const Graph& graph, const Frame& now, uint32_t number) {
+            if (measure.compareEvery > 0 ? number % measure.compareEvery == 0 : number == 0)
+                frames.push_back(downloadFrame(graph, number, session));
+            if (withAovs && number == 0) rendered.aovs = downloadAovs(graph, now, device, session.stream());
+        });
+    if (withSecond)
+        runGraph(
+            variantGraph(variant, registry), variant.setup, seed + 1, untimed(measure), session,
+            [&](double part) { progress(firstPart + (1 - firstPart) * part); },
+            [&](const Graph& graph, const Frame&, uint32_t number) {
+                second = downloadFrame(graph, number, session);
             });
-        result.tracer = scene.tracer->name();
-        result.buildMs = m.buildMs;
-        result.frameMs = m.frameMs;
-        result.memoryBytes = m.memoryBytes;
-        result.peakBytes = m.peakBytes;
-        result.rays = m.rays;
-        result.passes = std::move(m.passes);
-        result.values = std::move(m.values);
-    }
+    result.tracer = session.tracerName(variant.setup);
+    result.buildMs = m.buildMs;
+    result.frameMs = m.frameMs;
+    result.memoryBytes = m.memoryBytes;
+    result.peakBytes = m.peakBytes;
+    result.rays = m.rays;
+    result.passes = std::move(m.passes);
+    result.values = std::move(m.values);
     if (const auto messages = device.validationMessages(); messages.size() > messagesBefore)
         throw Error("Vulkan validation: {}", messages[messagesBefore]);
 
@@ -80,6 +109,7 @@ RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experimen
         rendered.flip = std::move(first.flip);
         rendered.indirectFlip = std::move(first.indirectFlip);
         result.scores = first.scores;
+        if (second) scoreSeeds(frames[0], *second, reference->images, result.scores);
         if (measure.compareEvery > 0)
             scoreSequence(frames, *reference, first.scores, referenceOf, stops, result);
     }

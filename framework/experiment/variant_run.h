@@ -20,11 +20,13 @@ struct RenderedVariant {
 
 /// Plans, prepares, runs, measures and scores a variant; takes its graph.
 /// @param reference of frame 0; nullptr: no scores. @param referenceOf the references of other frames, where
-/// frames are compared and not all show the same. @param withAovs whether AOVs of frame 0 are read back.
+/// frames are compared and not all show the same. @param registry for the graph of its second seed. @param
+/// withAovs whether AOVs of frame 0 are read back.
 /// @throws Error, Interrupted; validation messages are errors.
 RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experiment, Session& session,
                               const PreparedReference* reference,
-                              const std::function<FrameReference(uint32_t)>& referenceOf, bool withAovs,
+                              const std::function<FrameReference(uint32_t)>& referenceOf,
+                              const Registry& registry, bool withAovs,
                               const std::function<void(double)>& progress);
 
 /// Writes final, indirect and the FLIP maps as EXR and PNG into a folder, AOVs as EXR.

@@ -58,6 +58,7 @@ class Results:
         build; may be empty.
     manifest: the run's manifest.json, {} where it is absent or broken.
     metrics: the manifest's list, in the order in which tables show them; the first three are charted.
+    seed_metrics: likewise, bias and noise of nRMSE apart, of runs with a second seed.
     temporal_metrics: likewise, of differences of successive frames; the first one is of each frame too.
     sweep_keys: the columns of `variants` that the sweep varied.
     warnings: what was absent or odd in the files, for the reader's eye, after the run's own warnings.
@@ -70,6 +71,7 @@ class Results:
     frames: pd.DataFrame
     manifest: dict
     metrics: tuple[Metric, ...]
+    seed_metrics: tuple[Metric, ...]
     temporal_metrics: tuple[Metric, ...]
     sweep_keys: list[str]
     warnings: list[str] = field(default_factory=list)
@@ -185,10 +187,10 @@ def load(directory: str | Path) -> Results:
     metrics = _metrics_of(manifest, "metrics")
     if not metrics:
         warnings.append("The manifest doesn't list metrics with their directions: scores are left out.")
-    temporal = _metrics_of(manifest, "temporal_metrics")
+    seeds, temporal = _metrics_of(manifest, "seed_metrics"), _metrics_of(manifest, "temporal_metrics")
     regions = ["", *(f"@{name}" for name in _masks_of(manifest))]
     scores = [prefix + metric.key + region for prefix in LIGHTS.values() for metric in metrics for region in regions]
-    scores += [prefix + metric.key for prefix in LIGHTS.values() for metric in temporal]
+    scores += [prefix + metric.key for prefix in LIGHTS.values() for metric in (*seeds, *temporal)]
     scores += [end for column in scores for end in interval_columns(column) if end in variants or end in frames]
     _to_numbers(variants, scores)
     _to_numbers(frames, ["frame", *scores])
@@ -196,7 +198,7 @@ def load(directory: str | Path) -> Results:
     sweep_keys = [str(key) for key in declared if str(key) in variants.columns] if isinstance(declared, list) else []
     own = manifest.get("warnings")
     warnings = [str(text) for text in own] + warnings if isinstance(own, list) else warnings
-    results = Results(directory, variants, passes, values, frames, manifest, metrics, temporal, sweep_keys, warnings)
+    results = Results(directory, variants, passes, values, frames, manifest, metrics, seeds, temporal, sweep_keys, warnings)
     if (count := len(results.references())) > 1:
         warnings.append(f"The variants have {count} different references, so their scores are not of one "
                         "image. Each is compared with its own one's noise, black and constant image; charts "

@@ -11,7 +11,7 @@ import jinja2
 import pandas as pd
 
 from report import bars, charts, images, parts, style, table, text, values
-from report.load import IMAGES, LIGHTS, ReportError, Results, section
+from report.load import IMAGES, LIGHTS, Metric, ReportError, Results, section
 from report.names import families_of, names_of
 from report.setting import setting_of
 from report.summary import summary
@@ -20,7 +20,7 @@ _HERE = Path(__file__).parent
 _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's row numbers
 _MAX_NAMED_POINTS = 12
 # Of the manifest:
-_SHOWN_ELSEWHERE = ("config", "metrics", "temporal_metrics", "warnings", "baselines", "reference", "references", "variants")
+_SHOWN_ELSEWHERE = ("config", "metrics", "seed_metrics", "temporal_metrics", "warnings", "baselines", "reference", "references", "variants")
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ def render(results: Results) -> str:
         title=_title(results), setting=setting_of(results), lights=lights, light=lights[-1],
         is_finished=bool(results.manifest.get("finished")) or not results.manifest,
         summaries={light: summary(results, light, families, names) for light in lights},
-        columns=columns, metrics=results.metrics,
+        columns=columns, metrics=[*results.metrics, *_split(results, columns)],
         rows=table.variant_rows(results, columns, names, anchors),
         baselines=table.baseline_rows(results, columns), noises=table.noise_rows(results, columns),
         charts=chart_groups, not_drawn=not_drawn, legends=legends, markers=style.MARKERS, pass_colors=colors,
@@ -100,6 +100,11 @@ def render(results: Results) -> str:
 
 def _title(results: Results) -> str:
     return str(section(results.manifest, "config").get("name") or results.directory.resolve().name)
+
+
+def _split(results: Results, columns: list[table.Column]) -> list[Metric]:
+    """The metrics of a second seed, where the table has them."""
+    return [metric for metric in results.seed_metrics if any(column.metric == metric for column in columns)]
 
 
 def _charts(results: Results, lights, styles, names, anchors, curves) -> tuple[list[dict], list[str]]:

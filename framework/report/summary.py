@@ -24,6 +24,7 @@ def summary(results: Results, light: str, families: list[Family], names: Names) 
     if metric:
         sentences += _lowest_error(results, light, metric, names)
         sentences += equal_error.sentences(results, light, metric, families, names)
+        sentences += _mostly_noise(results, light, names)
     sentences += _fastest(results, names)
     return sentences + _worse_than_nothing(results, light, names)
 
@@ -45,6 +46,19 @@ def _lowest_error(results: Results, light: str, metric, names: Names) -> list[st
         found[0] += (" Most variants tie: more samples in the reference tell them apart (raise reference.spp"
                      f"{f', now {spp}' if spp else ''}).")
     return found
+
+
+def _mostly_noise(results: Results, light: str, names: Names) -> list[str]:
+    """Which variants' nRMSE is noise for the larger part, where the run rendered a second seed."""
+    if len(results.seed_metrics) < 2:
+        return []
+    bias, noise = (results.ok.set_index("variant")[LIGHTS[light] + metric.key] for metric in results.seed_metrics[:2])
+    noisy = [name for name in bias.index if noise[name] > bias[name]]
+    if not noisy:
+        return ["Bias is the larger part of every variant's error: more rays don't lower it."] if bias.notna().any() else []
+    rest = "; of the others bias, which more rays don't lower" if len(noisy) < int(bias.notna().sum()) else ""
+    return [f"Noise is the larger part of the error of {names.listed(noisy)}{rest}. What makes a pass noisy, and which "
+            "parameter lowers it, says ./voxray passes PASS."]
 
 
 def _fastest(results: Results, names: Names) -> list[str]:

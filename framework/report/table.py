@@ -70,9 +70,10 @@ class Row:
 
 
 def columns_of(results: Results, lights: list[str]) -> list[Column]:
-    """The columns after the number and the name, without scores that no variant and no baseline has: time, error and
-    energy first, then the other scores and costs, last what the sweep varied."""
-    metrics = results.metrics[:1] + tuple(m for m in results.metrics[1:] if m.better == "one")
+    """The columns after the number and the name, without scores that no variant and no baseline has: time, error, its
+    bias and noise, and energy first, then the other scores and costs, last what the sweep varied."""
+    metrics = results.metrics[:1] + results.seed_metrics
+    metrics += tuple(m for m in results.metrics[1:] if m.better == "one")
     metrics += tuple(m for m in results.metrics if m not in metrics)
     costs = {key: Column(key, cost.heading, cost.title) for key, cost in _COSTS.items()}
     columns = [costs.pop(_FIRST_COST), *score_columns(results, lights, metrics), *costs.values()]

@@ -44,20 +44,24 @@ class Constant : public Pass {
     struct Params {
         float value = 1;
         float flicker = 0;
+        float noise = 0;
         bool nan = false;
         bool fail = false;
         bool interrupt = false;
         bool misuse = false;
         uint32_t megabytes = 0;
         static constexpr auto schema() {
-            return std::tuple{field("value", &Params::value, "Radiance.", 0.0f, 100.0f),
-                              field("flicker", &Params::flicker,
-                                    "Added to radiance in even frames, taken off in odd ones.", 0.0f, 1.0f),
-                              field("nan", &Params::nan, "Write NaN instead."),
-                              field("fail", &Params::fail, "Throw with commands recorded."),
-                              field("interrupt", &Params::interrupt, "Raise SIGINT."),
-                              field("misuse", &Params::misuse, "Use Vulkan in a way that it forbids."),
-                              field("megabytes", &Params::megabytes, "Memory to ask for.", 0u, 1u << 20)};
+            return std::tuple{
+                field("value", &Params::value, "Radiance.", 0.0f, 100.0f),
+                field("flicker", &Params::flicker, "Added to radiance in even frames, taken off in odd ones.",
+                      0.0f, 1.0f),
+                field("noise", &Params::noise, "Added to radiance with even seeds, taken off with odd ones.",
+                      0.0f, 1.0f),
+                field("nan", &Params::nan, "Write NaN instead."),
+                field("fail", &Params::fail, "Throw with commands recorded."),
+                field("interrupt", &Params::interrupt, "Raise SIGINT."),
+                field("misuse", &Params::misuse, "Use Vulkan in a way that it forbids."),
+                field("megabytes", &Params::megabytes, "Memory to ask for.", 0u, 1u << 20)};
         }
     };
     static inline int runs = 0;
@@ -84,7 +88,8 @@ class Constant : public Pass {
         ++runs;
         cameraX.push_back(context.frame.camera.position.x);
         if (params_.interrupt) std::raise(SIGINT);
-        const float radiance = params_.value + (context.frameIndex % 2 ? -1 : 1) * params_.flicker;
+        const float radiance = params_.value + (context.frameIndex % 2 ? -1 : 1) * params_.flicker +
+                               (context.frame.seed % 2 ? -1 : 1) * params_.noise;
         const float value = params_.nan ? std::numeric_limits<float>::quiet_NaN() : radiance;
         context.stream.clear(context.get(final_).image, {{value, value, value, 1}});
         context.stream.clear(context.get(indirect_).image, {{value / 2, value / 2, value / 2, 1}});

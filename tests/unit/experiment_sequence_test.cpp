@@ -29,6 +29,25 @@ class PartsTest : public RunTest {
     }
 };
 
+TEST_F(PartsTest, ASecondSeedTellsBiasFromNoise) {
+    // Images of 1.5 ± 0.25 against a reference of 1: a bias of (0.75 · 0.25)^½, for two images are no mean
+    EXPECT_EQ(runWith({"constant.value=1.5", "constant.noise=0.25", "measure.second_seed=true"}).exitStatus(),
+              0);
+    EXPECT_NEAR(number("bias_nrmse"), std::sqrt(0.75 * 0.25), 1e-6);
+    EXPECT_NEAR(number("noise_nrmse"), 0.25 * std::sqrt(2.0), 1e-6);
+    EXPECT_NEAR(number("indirect_noise_nrmse"), number("noise_nrmse"), 1e-6);
+    EXPECT_EQ(manifest().at("seed_metrics").size(), 2u);
+
+    // The second image is not timed, and what is timed and scored does not change with it
+    const std::string error = cell("default", "nrmse"), rays = cell("default", "rays");
+    const int runs = Constant::runs;
+    EXPECT_EQ(runWith({"constant.value=1.5", "constant.noise=0.25"}).exitStatus(), 0);
+    EXPECT_EQ(runs - (Constant::runs - runs), 2);  // The second seed took a warm-up frame and frame 0.
+    EXPECT_EQ(cell("default", "nrmse"), error);
+    EXPECT_EQ(cell("default", "rays"), rays);
+    EXPECT_EQ(readTextFile(root_ / "out" / "results.csv").find("noise_nrmse"), std::string::npos);
+}
+
 TEST_F(PartsTest, AlternatingFramesFlickerByAKnownAmount) {
     // Frames of 1.25 and 0.75 in turn: four steps of ±0.5, whose mean is 0.
     EXPECT_EQ(runWith({"constant.flicker=0.25", "measure.frames=5", "measure.compare_every=1"}).exitStatus(),

@@ -171,6 +171,19 @@ class PartOfARun(ReportTest):
         self.assertIn("values.csv lacks a column", Page((self.directory / "report.html").read_text(
             encoding="utf-8")).text)
 
+    def test_a_second_seed_tells_which_errors_are_noise(self):
+        rows = [made_up.variant(name, 10, error) for name, error in (("smooth", 0.2), ("grainy", 0.4), ("rough", 0.5))]
+        for row, bias, noise in zip(rows, (0.19, 0.1, 0.3), (0.06, 0.39, 0.4)):
+            row.update(bias_nrmse=bias, noise_nrmse=noise)
+        shown = self.make(rows, made_up.manifest([]), indirect=False)
+        for words in ("bias\u00a0↓", "noise\u00a0↓", "0.390",
+                      "Noise is the larger part of the error of 2 and 3; of the others bias", "what noise measures"):
+            self.assertIn(words, shown.text)
+        for row in rows:
+            row.update(noise_nrmse=0.01)
+        self.assertIn("Bias is the larger part of every variant's error",
+                      self.make(rows, made_up.manifest([]), indirect=False).text)
+
     def test_sequences_have_a_table_and_charts_over_frames(self):
         rows = [made_up.variant(name, 10, error) for name, error in (("calm", 0.2), ("restless", 0.4))]
         frames = made_up.with_sequence(rows, 3)

@@ -16,6 +16,8 @@ METRICS = [{"name": name, "label": label, "unit": unit, "better": better, "meani
                ("nrmse", "nRMSE", "", "low"), ("relmse", "relMSE", "", "low"), ("flip", "HDR-FLIP", "", "low"),
                ("flip_ldr", "LDR-FLIP", "", "low"), ("ssim", "SSIM", "", "high"), ("psnr_db", "PSNR", "dB", "high"),
                ("mean_ratio", "mean ratio", "", "one"))]
+SEED_METRICS = [{"name": name, "label": label, "unit": "", "better": "low", "meaning": f"what {label} measures",
+                 "interval": True} for name, label in (("bias_nrmse", "bias"), ("noise_nrmse", "noise"))]
 TEMPORAL_METRICS = [{"name": name, "label": label, "unit": "", "better": "low", "meaning": f"what {label} measures",
                      "interval": True}
                     for name, label in (("temporal_nrmse", "temporal nRMSE"), ("temporal_bias", "temporal bias"),
@@ -76,7 +78,7 @@ def manifest(sweep_keys: list[str]) -> dict:
             "config": {"name": "synthetic", "scene": {"file": "cornell", "lights": [{"point": [0, 1, 0]}]},
                        "graph": [{"pass": "gbuffer"}, {"pass": "voxelize", "resolution": 64}]},
             "image": {"width": SIZE[0], "height": SIZE[1]}, "exposure_stops": 0.0,
-            "metrics": METRICS, "temporal_metrics": TEMPORAL_METRICS, "flip_exposures": {"start": -2.0, "stop": 3.0, "count": 5},
+            "metrics": METRICS, "seed_metrics": SEED_METRICS, "temporal_metrics": TEMPORAL_METRICS, "flip_exposures": {"start": -2.0, "stop": 3.0, "count": 5},
             "reference": {"pass": "path_trace", "spp": 64, "seconds": 12.5, "cached": False,
                           "hash": "0123abcd", "flip_noise": 0.01, "ssim_noise": 0.98,
                           "indirect_flip_noise": 0.02},
@@ -116,7 +118,7 @@ def write_results(directory: Path, rows: list[dict], run: dict | None, *, refere
     numbers = [*COSTS, *SCORES, *(f"indirect_{key}" for key in SCORES)]
     ends = ("_low", "_high")
     numbers += [key for row in rows[:1] for key in row
-                if "@" in key or key.startswith("temporal_") or (key.endswith(ends) and key not in numbers)]
+                if "@" in key or key.startswith(("temporal_", "bias_", "noise_")) or (key.endswith(ends) and key not in numbers)]
     sweep = [key for row in rows[:1] for key in row if key not in (*text, *numbers)]
     columns = [*text, *sweep, *numbers]
     directory.mkdir(parents=True, exist_ok=True)
