@@ -132,7 +132,6 @@ std::vector<Variant> expandSweep(const Experiment& experiment) {
     }
 
     std::vector<Variant> variants;
-    std::set<std::string> names;
     for (size_t index = 0; index < count; ++index) {
         const std::vector<size_t> chosen = choose(axes, index);
         Variant variant;
@@ -142,27 +141,36 @@ std::vector<Variant> expandSweep(const Experiment& experiment) {
             if (!swapsPass(axes[a])) {
                 if (somewhere[a] && !hasTarget(variant.config, axes[a].path)) {
                     isRepeat = isRepeat || chosen[a] > 0;
-                    variant.values.push_back("-");
+                    variant.values.push_back(kNoValue);
                     continue;
                 }
                 applyOverride(variant.config, axes[a].path, axes[a].values[chosen[a]], Merge::Replace);
             }
             variant.values.push_back(axes[a].texts[chosen[a]]);
-            variant.name +=
-                (variant.name.empty() ? "" : "_") + fileSafe(axes[a].label + "-" + axes[a].texts[chosen[a]]);
         }
         if (isRepeat) continue;
-        if (axes.empty()) variant.name = "default";
-        variant.name = shortened(variant.name);
-
-        // Different values may look alike once they are safe as file names
-        const std::string plain = variant.name;
-        for (int copy = 2; !names.insert(variant.name).second; ++copy)
-            variant.name = plain + "-" + std::to_string(copy);
         variant.setup = readSetup(variant.config);
         variants.push_back(std::move(variant));
     }
+    VariantNames names(experiment);
+    for (Variant& variant : variants) variant.name = names.next(variant.values);
     return variants;
+}
+
+VariantNames::VariantNames(const Experiment& experiment) {
+    for (const Axis& axis : readAxes(experiment.sweep)) labels_.push_back(axis.label);
+}
+
+std::string VariantNames::next(const std::vector<std::string>& values) {
+    std::string name;
+    for (size_t a = 0; a < labels_.size(); ++a)
+        if (values[a] != kNoValue) name += (name.empty() ? "" : "_") + fileSafe(labels_[a] + "-" + values[a]);
+    name = shortened(name.empty() ? "default" : name);
+
+    // Different values may look alike once they are safe as file names
+    const std::string plain = name;
+    for (int copy = 2; !taken_.insert(name).second; ++copy) name = plain + "-" + std::to_string(copy);
+    return name;
 }
 
 }  // namespace voxray

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,21 @@ std::vector<std::string> sweepKeys(const Experiment& experiment);
 
 /// The values of an axis, which is a list of values, or a map that gives each value a name.
 std::vector<Value> sweepValues(const Value& axis);
+
+/// In place of the value of an axis that a variant does not have.
+inline constexpr const char* kNoValue = "-";
+
+/// Names of variants by their values, unique and safe as file names.
+class VariantNames {
+ public:
+    explicit VariantNames(const Experiment& experiment);
+    /// @param values in the order of sweepKeys().
+    std::string next(const std::vector<std::string>& values);
+
+ private:
+    std::vector<std::string> labels_;
+    std::set<std::string> taken_;
+};
 
 /// Every combination of the sweep's values; the last axis runs fastest. One variant, "default", without a
 /// sweep. Where a pass stands in the graphs of some variants alone, as one of a chain, a parameter of it

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "config/overrides.h"
 #include "experiment/pixel_masks.h"
@@ -76,6 +77,22 @@ std::string bounceDifference(const WiredVariant& variant, const WiredExperiment&
         .what();
 }
 
+/// A swept parameter of a pass that a variant does without changes nothing there: such variants come once.
+void leaveOutEqual(WiredExperiment& wired) {
+    const std::vector<std::string> keys = sweepKeys(wired.experiment);
+    std::set<std::vector<std::string>> seen;
+    VariantNames names(wired.experiment);
+    std::erase_if(wired.variants, [&](WiredVariant& variant) {
+        for (size_t a = 0; a < keys.size(); ++a)
+            if (const size_t dot = keys[a].find('.');
+                dot != std::string::npos && std::ranges::count(variant.leftOut, keys[a].substr(0, dot)) > 0)
+                variant.values[a] = kNoValue;
+        if (!seen.insert(variant.values).second) return true;
+        variant.name = names.next(variant.values);
+        return false;
+    });
+}
+
 }  // namespace
 
 Graph referenceGraph(const Experiment& experiment, const Registry& registry) {
@@ -119,6 +136,7 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
                              "reference.spp: 2 or more; from its halves comes the reference's noise");
     }
     wired.experiment = std::move(experiment);
+    leaveOutEqual(wired);
     return wired;
 }
 

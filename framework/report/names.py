@@ -67,7 +67,7 @@ def _short(results: Results, row, keys: list[str]) -> str:
     parts = []
     for key in keys:
         value = row[key]
-        if value == "-":  # the variant has no such pass
+        if value == "-":  # the variant does without such a pass
             continue
         bare = not is_numeric(results.variants.loc[results.variants[key] != "-", key])
         parts.append(value if bare else f"{key.rpartition('.')[2]} {value}")

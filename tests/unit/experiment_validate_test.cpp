@@ -25,6 +25,20 @@ void expectError(const std::string& graph, std::initializer_list<const char*> pa
 
 }  // namespace
 
+TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
+    // The last pass that writes the image is the one that counts: the other one's parameter changes nothing
+    const auto wired = wireExperiment(
+        parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: unseen}\n"
+                        "  - {pass: constant, id: seen}\n"
+                        "sweep: {unseen.value: [1, 2, 3], seen.value: [4, 5]}\n",
+                        "x.yaml"),
+        fakes::registry());
+    ASSERT_EQ(wired.variants.size(), 2u);
+    EXPECT_EQ(wired.variants[0].name, "seen.value-4");
+    EXPECT_EQ(wired.variants[1].name, "seen.value-5");
+    EXPECT_EQ(wired.variants[1].values, (std::vector<std::string>{"-", "5"}));
+}
+
 TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
     expectError("graph:\n  - {pass: constnat}\n", {"x.yaml:4: ", "did you mean 'constant'?"});
     expectError("graph:\n  - {pass: constant, valeu: 3}\n", {"x.yaml:4: ", "did you mean 'value'?"});
