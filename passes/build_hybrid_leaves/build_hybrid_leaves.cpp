@@ -16,7 +16,7 @@ namespace {
 
 /// The buffer `hybridLeaves` of shaders/hybrid_leaves/hybrid_leaves.glsl.
 struct Header {
-    VkDeviceAddress words, primitives, gridBits, gridRanks, cells;
+    VkDeviceAddress words, primitives, gridBits, gridRanks, cells, corners, positions;
     gpu::HybridShape shape;
 };
 
@@ -218,7 +218,7 @@ void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& vox
     const LeavesPush push{voxels.voxelCount, params_.primitives};
     leaves.primitives = Buffer(context.device, "lists of triangles", wordBytes(leaves.primitiveCount));
     leaves.shape = {push.leaves, push.capacity, params_.grid, wordsPerGrid(params_.grid)};
-    writeHeader(stream, leaves);
+    writeHeader(context, leaves);
 
     // From the last place to the first, in order of arrival (Seok 2021, figure 8), then sorted: the same bits
     // each time. What is voxelized further (figure 9) is summed in whole numbers: its order does not matter.
@@ -243,7 +243,7 @@ void BuildHybridLeaves::fillGrids(PassContext& context, const SurfaceVoxels& vox
     leaves.gridBits = Buffer(context.device, "bits of grids", wordBytes(words));
     leaves.gridRanks = Buffer(context.device, "ranks of grids", wordBytes(words));
     stream.fill(leaves.gridBits, 0);
-    writeHeader(stream, leaves);
+    writeHeader(context, leaves);
 
     // Each pair by tiles of 8x8 columns of cells (grid_cells.glsl)
     const uint32_t tilesPerEdge = (params_.grid + 7) / 8;
@@ -262,7 +262,7 @@ void BuildHybridLeaves::fillGrids(PassContext& context, const SurfaceVoxels& vox
     leaves.cells =
         Buffer(context.device, "cells of grids", wordBytes(uint64_t(leaves.cellCount) * GRID_CELL_WORDS));
     stream.fill(leaves.cells, 0);
-    writeHeader(stream, leaves);
+    writeHeader(context, leaves);
 
     // What they hold
     if (params_.write == CellWrite::None) {
@@ -280,11 +280,17 @@ void BuildHybridLeaves::fillGrids(PassContext& context, const SurfaceVoxels& vox
     }
 }
 
-void BuildHybridLeaves::writeHeader(CommandStream& stream, HybridLeaves& leaves) const {
+void BuildHybridLeaves::writeHeader(PassContext& context, HybridLeaves& leaves) const {
     const auto address = [](const Buffer& buffer) { return buffer ? buffer.address() : VkDeviceAddress(0); };
-    const Header header{address(leaves.words),     address(leaves.primitives), address(leaves.gridBits),
-                        address(leaves.gridRanks), address(leaves.cells),      leaves.shape};
-    stream.upload(leaves.header, std::as_bytes(std::span(&header, 1)));
+    const Header header{address(leaves.words),
+                        address(leaves.primitives),
+                        address(leaves.gridBits),
+                        address(leaves.gridRanks),
+                        address(leaves.cells),
+                        context.scene.triangles.address(),
+                        context.scene.positions.address(),
+                        leaves.shape};
+    context.stream.upload(leaves.header, std::as_bytes(std::span(&header, 1)));
 }
 
 }  // namespace voxray

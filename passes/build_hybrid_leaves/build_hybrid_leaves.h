@@ -83,7 +83,7 @@ class BuildHybridLeaves final : public Pass {
     void fillLists(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves);
     /// Voxelizes the triangles of these pairs into cells.
     void fillGrids(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves);
-    void writeHeader(CommandStream& stream, HybridLeaves& leaves) const;
+    void writeHeader(PassContext& context, HybridLeaves& leaves) const;
 
     Params params_;
     Port<const SurfaceVoxels> voxels_;

@@ -10,6 +10,9 @@
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/hybrid_leaves/hybrid_types.h"
 
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleCorners { uvec3 data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer CornerPositions { vec3 data[]; };
+
 // The arrays stand behind addresses, since they outgrow what devices bind.
 layout(scalar) buffer HybridLeaves {
     LargeUints words;       // One a leaf.
@@ -17,6 +20,8 @@ layout(scalar) buffer HybridLeaves {
     LargeUints gridBits;    // Which cells of each grid are not empty: wordsPerGrid words a grid, x + m (y + m z) a bit.
     LargeUints gridRanks;   // Such cells before each word.
     LargeUints cells;       // GRID_CELL_WORDS each (shaders/hybrid_leaves/grid_cell.glsl).
+    TriangleCorners corners;    // The scene's triangles and
+    CornerPositions positions;  // vertices, by address: lavapipe checks each read of a binding, which costs a tenth of the time.
     HybridShape shape;
 } hybridLeaves;
 

@@ -2,6 +2,7 @@
 #ifndef VOXRAY_RAY_TRIANGLE_GLSL
 #define VOXRAY_RAY_TRIANGLE_GLSL
 
+#include "shaders/hybrid_leaves/hybrid_leaves.glsl"
 #include "shaders/scene/scene.glsl"
 #include "shaders/trace/ray_types.h"
 
@@ -9,8 +10,9 @@
 // first one counts. Edges are told by Plücker coordinates: the product of the ray's line and an edge's changes its sign, and
 // nothing else, with the edge's direction, so that rounding opens no gap between neighbours (Platis and Theoharis 2003).
 void meetTriangle(vec3 origin, vec3 direction, float tMin, uint triangle, inout Hit best) {
-    const uvec3 v = triangleVertices(triangle);
-    precise const vec3 a = vertexPosition(v.x) - origin, b = vertexPosition(v.y) - origin, c = vertexPosition(v.z) - origin;
+    const uvec3 v = hybridLeaves.corners.data[triangle];
+    precise const vec3 a = hybridLeaves.positions.data[v.x] - origin, b = hybridLeaves.positions.data[v.y] - origin,
+                       c = hybridLeaves.positions.data[v.z] - origin;
     precise const vec3 ca = c - a, ab = a - b, bc = b - c;
     precise const float u = dot(cross(ca, c + a), direction), v_ = dot(cross(ab, a + b), direction),
                         w = dot(cross(bc, b + c), direction);

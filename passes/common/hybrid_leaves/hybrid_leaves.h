@@ -18,7 +18,7 @@ struct HybridLeaves : Resource {
     uint32_t emptyCount = 0;      ///< Leaves that hold nothing.
     uint32_t primitiveCount = 0;  ///< Words of all lists.
     uint32_t cellCount = 0;       ///< Of all grids, those that are not empty.
-    Buffer header;                ///< Addresses of the arrays, and `shape`.
+    Buffer header;                ///< Addresses of the arrays and of the scene's triangles, and `shape`.
     Buffer words;                 ///< A word a leaf.
     Buffer primitives;            ///< Triangles' numbers, list by list; at least one word.
     Buffer gridBits, gridRanks;   ///< A bit for each cell, and the cells before each word.
