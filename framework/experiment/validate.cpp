@@ -35,6 +35,13 @@ void checkPassNames(const Experiment& experiment, const Registry& registry) {
                 for (const Value& value : sweepValues(values)) checkPassName(value, registry);
 }
 
+/// Values in the graph that a sweep replaces in every variant are read here alone.
+void checkOwnValues(const Experiment& experiment, const Registry& registry) {
+    for (const Value& entry : experiment.setup.graph.items)
+        if (const Value* name = entry.find("pass"))
+            registry.require(name->scalar, name->where).resolve(entry, passId(entry), Graph::reservedKeys());
+}
+
 /// Where light begins in a variant: its first pass with a parameter `bounces`, with its place in the config.
 struct Bounces {
     std::string id;
@@ -123,6 +130,7 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
         wired.variants.push_back(
             {std::move(variant), std::move(graph), std::move(resolved), std::move(leftOut)});
     }
+    checkOwnValues(experiment, registry);
     if (!experiment.reference.isNull()) {
         const Graph graph = referenceGraph(experiment, registry);
         for (const std::string& port : referencePorts())

@@ -55,6 +55,10 @@ TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
                 {"x.yaml:6: ", "did you mean 'value'?"});
     expectError("graph:\n  - {pass: constant}\nsweep:\n  constant: [constant, constnat]\n",
                 {"x.yaml:6: ", "did you mean 'constant'?"});
+    expectError("graph:\n  - {pass: constant, value: high}\nsweep:\n  constant.value: [1]\n",
+                {"x.yaml:4: ", "expected a number"});
+    expectError("graph:\n  - {pass: constant, id: c, value: 1000}\nsweep:\n  c: [{pass: constant}]\n",
+                {"x.yaml:4: ", "out of range"});
     expectError("graph:\n  - {pass: constant, id: c}\nsweep:\n  c: [[witness, {pass: constnat}]]\n",
                 {"x.yaml:6: ", "did you mean 'constant'?"});
     expectError(
