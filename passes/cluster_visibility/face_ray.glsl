@@ -48,12 +48,12 @@ void faceRay(uint ray, out vec3 origin, out vec3 direction, out vec3 normal) {
 }
 
 // Whether a voxel is part of the surface that a ray rises from, which it can't see from behind: its center lies in the layer of voxels
-// that the plane touches, and its surfaces look away from the ray.
+// that the plane touches, and its surfaces are flat, within 45 degrees of that plane and look away from the ray.
 bool isOwnSurface(uint ray, vec3 normal, vec3 direction, ivec3 voxel, VoxelMaterial m) {
     const vec3 between = vec3(voxel) - vec3(coordinates.data[rayFace(ray) / 6u]);
     if (abs(dot(between, normal)) > dot(abs(normal), vec3(1.0))) return false;
-    const vec3 looks = dot(m.normal, normal) < 0.0 ? -m.normal : m.normal;
-    return dot(m.normal, m.normal) > 0.75 && dot(looks, direction) > 0.0;
+    const float along = dot(m.normal, normal);
+    return isFlat(m) && along * along > 0.5 * dot(m.normal, m.normal) && along * dot(m.normal, direction) > 0.0;
 }
 
 // What a ray sees of a voxel: a cluster's face or, near by, the voxel's own. False where it comes from behind the voxel's surfaces.

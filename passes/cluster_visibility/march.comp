@@ -20,6 +20,7 @@ uint seenBy(uint ray) {
     faceRay(ray, origin, direction, normal);
     const float pick = rayPick(ray);
     float from = 0.0;
+    bool isInLayer = true;
     // No ray passes more voxels than the grid has along its axes.
     const uint voxels = push.grid.resolution.x + push.grid.resolution.y + push.grid.resolution.z;
     for (uint i = 0u; i < voxels; ++i) {
@@ -27,8 +28,12 @@ uint seenBy(uint ray) {
         if (!closest(push.grid, origin, direction, from, 1.0e30, hit)) break;
         const uint voxel = voxelNumber(push.grid, hit.voxel);
         const VoxelMaterial m = voxelMaterial(voxel);
+        // In a corner a ray begins among the voxels of the other surface, on its front side, for that is where corners are lit: as long
+        // as it passes from one of them to the next that surface lies behind it.
+        isInLayer = isInLayer && hit.t <= from + 2.0 * VOXEL_MARGIN * push.grid.voxelSize;
+        const bool isBehind = isInLayer && isFlat(m) && dot(m.normal, direction) > 0.0;
         uint target;
-        if (!isOwnSurface(ray, normal, direction, hit.voxel, m) &&
+        if (!isBehind && !isOwnSurface(ray, normal, direction, hit.voxel, m) &&
             seesVoxel(ray, voxel, seenFace(m, direction, pick), hit.t / push.grid.voxelSize, target)) return target;
         from = max(leaves(hit.voxel, origin, direction), from + VOXEL_MARGIN * push.grid.voxelSize);
     }

@@ -2,10 +2,12 @@
 #extension GL_GOOGLE_include_directive : require
 // Each cluster asks for the voxels in its reach whose normals are within the angle limit (Cosin and Patow 2022, algorithm 1, lines 4
 // to 12). A voxel goes to the least distance, then to the first seed: a total order, so threads may run in any. Equation 1 is 1 within
-// the limit, though line 7 minimizes: it is read as no distance within the limit, and then the first seed has the voxel.
+// the limit, though line 7 minimizes: it is read as no distance within the limit, and then whoever comes first in a random order has
+// the voxel.
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_shader_atomic_int64 : require
 #include "passes/cluster_voxels/neighbourhood.glsl"
+#include "shaders/scene/sampling.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Seeds { ClusterSeed data[]; } seeds;
@@ -21,7 +23,7 @@ void main() {
     for (BoxWalk w = walkBox(first, last); nextVoxel(w);) {
         const float cosine = dot(seed.normal, normals.data[w.number]);
         if (cosine < push.minCosine) continue;
-        const float away = push.first == 1u ? 0.0 : max(clusterDistance(seed.center, w.voxel, cosine), 0.0);
-        atomicMin(nearest.data[w.number], (uint64_t(floatBitsToUint(away)) << 32) | uint64_t(i));
+        const uint away = push.first == 1u ? hash(i) : floatBitsToUint(max(clusterDistance(seed.center, w.voxel, cosine), 0.0));
+        atomicMin(nearest.data[w.number], (uint64_t(away) << 32) | uint64_t(i));
     }
 }

@@ -86,9 +86,9 @@ ClusterGrowth::Result ClusterGrowth::grow(CommandStream& stream, const SurfaceVo
                     voxels.bindings({ifUsed({"coordinates", coordinates}), {"normals", result.normals}}),
                     NormalsPush{voxels.grid, count}, linearGroups(count));
 
-    // Seeds: reach is the width of a cell, so that neighbours' boxes overlap as in SLIC
+    // Seeds
     const glm::vec3 widths = glm::vec3(voxels.grid.resolution) / glm::vec3(along);
-    const float reach = std::max({widths.x, widths.y, widths.z});
+    const float reach = params_.reach * std::max({widths.x, widths.y, widths.z});
     const auto push = [&](uint32_t threads) {
         return Push{voxels.grid,
                     threads,

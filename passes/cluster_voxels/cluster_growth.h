@@ -40,6 +40,7 @@ struct ClusterParams {
     uint32_t initial = 0;
     uint32_t target = 4096;
     uint32_t iterations = 10;
+    float reach = 2;
     float maxAngle = 35;
     ClusterAssignment assign = ClusterAssignment::Nearest;
     UnassignedVoxels unassigned = UnassignedVoxels::Own;
@@ -58,12 +59,18 @@ struct ClusterParams {
             field("iterations", &ClusterParams::iterations,
                   "Times that voxels are assigned; in between, clusters move to where their voxels are.", 1u,
                   100u),
+            field("reach", &ClusterParams::reach,
+                  "How far from a cluster's center its voxels may lie along each axis, in widths of a seed's "
+                  "cell. 1: SLIC's, so that neighbours' boxes overlap. More: fewer voxels stay without a "
+                  "cluster, "
+                  "and `first` makes fewer, larger clusters.",
+                  0.5f, 8.0f),
             field("max_angle", &ClusterParams::maxAngle,
                   "Largest angle between a cluster's normal and its voxels', degrees.", 1.0f, 89.0f),
-            field("assign", &ClusterParams::assign,
-                  "nearest: a voxel goes to the cluster that is nearest by place and normal. first: to the "
-                  "first in the order of seeds, as in the paper, where the order is that of threads: fewer "
-                  "clusters, less round."),
+            field(
+                "assign", &ClusterParams::assign,
+                "nearest: a voxel goes to the cluster that is nearest by place and normal. first: to the "
+                "first in a random order of clusters, as in the paper, where the order is that of threads."),
             field(
                 "unassigned", &ClusterParams::unassigned,
                 "Voxels that no cluster asked for. own: they form clusters of their own. nearest: they join "

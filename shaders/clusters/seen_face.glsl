@@ -6,12 +6,14 @@
 
 #define NO_SEEN_FACE 6u
 
+// Whether the surfaces in a voxel look one way: their mean normal is long.
+bool isFlat(VoxelMaterial m) { return dot(m.normal, m.normal) > 0.75; }
+
 // One of the three faces that look against the ray, picked by `random` in [0, 1) in proportion to what their surfaces project. Of one
-// plane (where the mean normal is long) the faces are those before the side that the ray comes from. NO_SEEN_FACE where no surface
+// plane the faces are those before the side that the ray comes from. NO_SEEN_FACE where no surface
 // with open space before it looks that way: the ray comes from behind, as from a face's own neighbours, and goes on.
 uint seenFace(VoxelMaterial m, vec3 direction, float random) {
-    const bool isFlat = dot(m.normal, m.normal) > 0.75;
-    const vec3 against = isFlat ? (dot(m.normal, direction) > 0.0 ? -m.normal : m.normal) : -direction;
+    const vec3 against = isFlat(m) ? (dot(m.normal, direction) > 0.0 ? -m.normal : m.normal) : -direction;
     const bvec3 isNegative = lessThan(against, vec3(0.0));
     const vec3 area = mix(m.unoccludedPositive, m.unoccludedNegative, isNegative);
     const vec3 projected = abs(against) * area;
