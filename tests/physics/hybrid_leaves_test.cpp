@@ -348,6 +348,40 @@ TEST(HybridLeaves, CellsKeepPlaneNormalAndMeanColour) {
     std::printf("off the plane by at most %.2g cells\n", worst);
 }
 
+TEST(HybridLeaves, ALeafOfManyTrianglesKeepsTheirMean) {
+    // 40,000 triangles in one place, three quarters of them of another colour: sums in whole numbers stay in
+    // range.
+    SceneBuilder b("stack");
+    const glm::vec3 colours[] = {{0.2f, 0.4f, 0.9f}, {0.6f, 0.4f, 0.1f}};
+    for (int i = 0; i < 2; ++i) {
+        Mesh stack;
+        stack.material = b.lambert("colour", colours[i]);
+        stack.positions = {{-0.1f, 0, -0.1f}, {-0.1f, 0, 0.1f}, {0.1f, 0, 0.1f}, {0.1f, 0, -0.1f}};
+        stack.normals.assign(4, {0, 1, 0});
+        for (int k = 0; k < (i == 0 ? 5000 : 15000); ++k)
+            stack.triangles.insert(stack.triangles.end(), {{0, 1, 2}, {0, 2, 3}});
+        b.place(b.mesh(stack));
+    }
+    for (const float y : {-1.0f, 1.1f}) b.quad("far", {-1, y, -1}, {0, 0, 2}, {2, 0, 0}, 0);
+    b.camera({0, 0, 3}, {0, 0, 0}, 60);
+    const auto state = std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
+    Hybrid hybrid(state, 6, "primitives: 64, grid: 4");
+    EXPECT_GE(hybrid.leaves().gridCount, 1u);
+    const std::vector<Ray> rays{{{0.02f, 0.5f, 0.03f}, 0, {0, -1, 0}, kInfinity}};
+    const Hit hit = hybrid.closest(HybridWalk::Hierarchical, rays)[0];
+    ASSERT_TRUE(isCell(hit));
+    EXPECT_NEAR(hit.t, 0.5f, 1e-3f);
+    const std::vector<uint32_t> cells = hybrid.chain().read<uint32_t>(hybrid.leaves().cells);
+    const CellValue value = unpackCell(&cells[GRID_CELL_WORDS * (hit.triangle & ~HIT_IS_CELL)]);
+    EXPECT_NEAR(value.albedo.x, 0.5f, 2e-3f);
+    EXPECT_NEAR(value.albedo.z, 0.3f, 2e-3f);
+    EXPECT_GT(value.normal.y, 0.9999f);
+    // As a list they are all tested.
+    Hybrid listed(state, 6, "primitives: 1048576");
+    EXPECT_NEAR(listed.closest(HybridWalk::Hierarchical, rays)[0].t, 0.5f, 1e-6f);
+    EXPECT_GT(listed.tests, 20000u);
+}
+
 TEST(HybridLeaves, RaysDoNotMeetTheSurfaceThatTheyLeave) {
     const glm::vec3 u(2, 0.3f, 0.1f), v(-0.2f, 0.4f, 1.8f), normal = glm::normalize(glm::cross(v, u));
     Hybrid hybrid(mesh(u, v, false), 16, "primitives: 1, grid: 8");

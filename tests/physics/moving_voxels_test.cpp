@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "passes/common/hybrid_leaves/hybrid_leaves.h"
 #include "passes/common/voxels/voxel_count.h"
 #include "tests/gpu/radiance_samples.h"
 #include "tests/physics/voxels_read.h"
@@ -65,6 +66,21 @@ void followWalk(const std::string& graph, size_t stride, const Compare& compare)
         moved->goTo(double(second));
         compare(*moved, *chainAt(scene, double(second), graph));
     }
+}
+
+TEST(MovingVoxels, HybridLeavesAreThoseThatAreRebuilt) {
+    const std::string graph =
+        graphYaml({"voxelize, resolution: 24", "build_hybrid_leaves, primitives: 6, grid: 4"});
+    followWalk(graph, 2, [](Chain& moved, Chain& made) {
+        const auto& a = *moved.graph().resource<HybridLeaves>("hybrid_leaves");
+        const auto& b = *made.graph().resource<HybridLeaves>("hybrid_leaves");
+        EXPECT_GT(a.gridCount, 0u);
+        for (Buffer HybridLeaves::*buffer :
+             {&HybridLeaves::words, &HybridLeaves::primitives, &HybridLeaves::gridBits,
+              &HybridLeaves::gridRanks, &HybridLeaves::cells})
+            EXPECT_TRUE(sameBits(moved.read<uint32_t>(a.*buffer), made.read<uint32_t>(b.*buffer)))
+                << (a.*buffer).name();
+    });
 }
 
 TEST(MovingVoxels, AreThoseThatAreRebuilt) {
