@@ -6,6 +6,7 @@
 #include "passes/gather_mirror/lobe_ray.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kWidens = false;  // Else rays through hybrid leaves stay rays, however wide.
 
 uniform sampler2D position;
 uniform sampler2D normal;
@@ -13,7 +14,7 @@ uniform sampler2D geometricNormal;
 uniform sampler2D specular;
 uniform sampler2D fresnel;
 readonly buffer Slots { uint data[]; } slots;
-layout(scalar) writeonly buffer Paths { MirrorPath data[]; } paths;
+layout(scalar) buffer Paths { MirrorPath data[]; } paths;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 #ifdef HYBRID
 #include "shaders/hybrid_leaves/hybrid_types.h"
@@ -65,6 +66,6 @@ void main() {
     paths.data[i] = MirrorPath(throughput, slot, texelSpread * length(away), spread, isMirror(s) ? 1u : 0u);
     rays.data[i] = isLost ? kNoRay : Ray(p + side * surfaceOffset(p), 0.0, ray.direction, 1.0e30);
 #ifdef HYBRID
-    starts.data[i] = RayStart(side, 0.0, 0.0);
+    starts.data[i] = kWidens ? RayStart(side, paths.data[i].width, paths.data[i].spread) : RayStart(side, 0.0, 0.0);
 #endif
 }

@@ -34,7 +34,7 @@ struct ShadePush {
 
 /// As in shade.comp.
 struct Counts {
-    uint32_t next, surfels, triangles, cells, missed;
+    uint32_t next, surfels, triangles, cells, wide, missed;
 };
 
 /// Pixels whose rays are traced together.
@@ -48,12 +48,20 @@ uint32_t flagWords(uint64_t slots) {
 
 }  // namespace
 
+void GatherMirror::Params::check(const Value& map, const std::string& id) const {
+    if (walk == MirrorWalk::Exact && wideRays == WideRays::Cones)
+        throw UsageError(map.find("wide_rays")->where,
+                         "{}.wide_rays: with 'walk: exact' rays stay rays; leave it out", id);
+}
+
 void GatherMirror::declare(PassBuilder& builder) {
     gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
     irradiance_ = builder.read<VoxelIrradiance>("irradiance", "light that arrives at the voxels' surfaces");
     if (isHybrid())
         leaves_ = builder.read<HybridLeaves>("hybrid_leaves", "what each leaf of the octree holds");
+    if (widens())
+        radiance_ = builder.read<RadianceVoxels>("radiance", "light that leaves surfaces, at all scales");
     lobes_ = builder.readOptional<SpecularLobes>("lobes", "specular light by cones, for what is rougher");
     otherDirect_ = builder.readOptional<FrameImage>("direct", "radiance reflected of direct light");
     otherIndirect_ = builder.readOptional<FrameImage>(
@@ -68,6 +76,11 @@ void GatherMirror::plan(PassPlan& plan) {
             "gather_mirror: the cones of 'lobes' bring what surfaces emit, which rays and the direct pass "
             "bring "
             "too; set 'emission' of filter_voxels to false");
+    if (widens() && plan.get(radiance_).emission)
+        throw Error(
+            "gather_mirror: wide rays would bring what surfaces emit, which other passes bring, too; set "
+            "'emission' "
+            "of filter_voxels to false");
     if (plan.has(lobes_)) plan.get(lobes_).isJoined = true;
     const uint32_t samples = plan.get(gbuffer_).samples;
     const uint64_t slots =
@@ -113,8 +126,11 @@ void GatherMirror::prepare(PassSetup& setup) {
     };
     if (hybrid_) hybrid_->prepare(setup.device, setup.compiler);
     mark_ = program("passes/gather_mirror/mark.comp", {});
-    begin_ = program("passes/gather_mirror/begin.comp", {});
-    shade_ = program("passes/gather_mirror/shade.comp", {{0, shadowRays()}});
+    begin_ = program("passes/gather_mirror/begin.comp", {{0, widens()}});
+    shade_ = program("passes/gather_mirror/shade.comp", {{0, shadowRays()}, {1, widens()}});
+    if (widens())
+        wide_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/gather_mirror/wide.comp",
+                                                                        setup.get(radiance_).defines()));
     resolve_ = program("passes/gather_mirror/resolve.comp", {{0, setup.has(lobes_)}});
     if (shadowRays()) {
         reflect_ = program("passes/gather_mirror/reflect.comp", {});
@@ -150,7 +166,7 @@ void GatherMirror::record(PassContext& context) {
     const uint32_t samples = context.get(gbuffer_).samples, pixels = frame.width * frame.height;
     const uint32_t perBatch = batchPixels(frame, samples, params_.rays);
     gpu::MirrorBatch batch = firstBatch(frame, samples, context.frameIndex);
-    triangleHits_ = cellHits_ = misses_ = 0;
+    triangleHits_ = cellHits_ = wideRays_ = misses_ = 0;
     if (hybrid_) hybrid_->begin(context.stream, context.scene, context.get(voxels_), context.get(leaves_));
     for (uint32_t first = 0; first < pixels; first += perBatch) {
         batch.firstPixel = first;
@@ -162,6 +178,7 @@ void GatherMirror::record(PassContext& context) {
     context.report("mirror rays that missed", double(misses_));
     if (!hybrid_) return;
     context.report("mirror rays that hit cells of grids", double(cellHits_));
+    if (widens()) context.report("mirror rays that went on as cones", double(wideRays_));
     context.voxelCounts.push_back(&hybrid_->counts());
 }
 
@@ -216,6 +233,14 @@ void GatherMirror::trace(PassContext& context, uint32_t depth, uint32_t count) {
     }
     hybrid_->closestFrom(context.stream, rays, starts_[depth % 2], hits_, count);
     context.extraRays += count;
+    if (!widens()) return;
+    std::vector<Binding> bindings = context.get(radiance_).bindings();
+    bindings.insert(bindings.end(), {{"paths", paths_[depth % 2]},
+                                     {"rays", rays},
+                                     {"starts", starts_[depth % 2]},
+                                     {"hits", hits_},
+                                     {"light", light_}});
+    context.stream.dispatch(wide_, bindings, count, linearGroups(count));
 }
 
 uint32_t GatherMirror::end(PassContext& context, const gpu::MirrorBatch& batch, uint32_t depth,
@@ -247,6 +272,7 @@ uint32_t GatherMirror::end(PassContext& context, const gpu::MirrorBatch& batch, 
     const Counts counts = stream.readAs<Counts>(counts_, 1)[0];
     triangleHits_ += counts.triangles;
     cellHits_ += counts.cells;
+    wideRays_ += counts.wide;
     misses_ += counts.missed;
 
     // Direct light there.

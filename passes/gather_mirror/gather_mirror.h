@@ -6,6 +6,7 @@
 
 #include "passes/common/compute/compaction.h"
 #include "passes/common/hybrid_leaves/hybrid_tracer.h"
+#include "passes/common/radiance/radiance_voxels.h"
 #include "passes/common/surfels/surfel_light.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/view/specular_lobes.h"
@@ -32,6 +33,13 @@ struct EnumNames<MirrorWalk> {
                                       std::pair{MirrorWalk::VoxelByVoxel, "voxel_by_voxel"}};
 };
 
+/// What a ray through hybrid leaves becomes where it is wider than a voxel.
+enum class WideRays { Rays, Cones };
+template <>
+struct EnumNames<WideRays> {
+    static constexpr std::array names{std::pair{WideRays::Rays, "rays"}, std::pair{WideRays::Cones, "cones"}};
+};
+
 /// What mirror-like surfaces show: reflected rays from each texel of the g-buffer, lit where they end. Docs:
 /// docs/mirrors.md. Source: Seok 2021 (rays for mirrors, cones for all else).
 class GatherMirror final : public Pass {
@@ -53,6 +61,7 @@ class GatherMirror final : public Pass {
         uint32_t rays = 1;
         uint32_t bounces = 4;
         MirrorWalk walk = MirrorWalk::Exact;
+        WideRays wideRays = WideRays::Rays;
         MirrorDirect directAtHits = MirrorDirect::ShadowRays;
         uint32_t lightSamples = 1;
         static constexpr auto schema() {
@@ -77,6 +86,11 @@ class GatherMirror final : public Pass {
                       "the octree, which hold triangles or grids of fine voxels, past empty nodes of all "
                       "sizes or, "
                       "as in the paper, through each finest voxel on the way, from the root each time."),
+                field("wide_rays", &Params::wideRays,
+                      "Rays through hybrid leaves that are wider than a voxel where they come to a surface. "
+                      "rays: "
+                      "they stay rays. cones: a cone through larger voxels goes on, which hold direct light, "
+                      "too."),
                 field("direct_at_hits", &Params::directAtHits,
                       "Direct light where rays end. voxels: as coarse as voxels. shadow_rays: exact, by a "
                       "shadow ray to each light; voxels bring indirect light alone."),
@@ -84,6 +98,8 @@ class GatherMirror final : public Pass {
                       "Shadow rays to the emissive surfaces, and to the environment, from each ray's end.",
                       1u, 256u)};
         }
+        /// @throws UsageError for a parameter that another one leaves without effect.
+        void check(const Value& map, const std::string& id) const;
     };
 
     explicit GatherMirror(const Params& params) : params_(params) {}
@@ -94,6 +110,7 @@ class GatherMirror final : public Pass {
 
  private:
     bool isHybrid() const { return params_.walk != MirrorWalk::Exact; }
+    bool widens() const { return params_.wideRays == WideRays::Cones; }
     bool shadowRays() const { return params_.directAtHits == MirrorDirect::ShadowRays; }
     gpu::MirrorBatch firstBatch(const Frame& frame, uint32_t samples, uint32_t frameIndex) const;
     /// Light in voxels, by face; kept until it changes.
@@ -110,12 +127,13 @@ class GatherMirror final : public Pass {
     Port<const GBuffer> gbuffer_;
     Port<const SurfaceVoxels> voxels_;
     Port<const VoxelIrradiance> irradiance_;
-    Port<const HybridLeaves> leaves_;  ///< With a walk through them.
+    Port<const HybridLeaves> leaves_;      ///< With a walk through them.
+    Port<const RadianceVoxels> radiance_;  ///< Where rays become cones.
     Port<const SpecularLobes> lobes_;
     Port<const FrameImage> otherDirect_, otherIndirect_;
     Port<FrameImage> direct_, indirect_;
 
-    Program mark_, begin_, shade_, reflect_, resolve_;
+    Program mark_, begin_, wide_, shade_, reflect_, resolve_;
     Sampler sampler_;
     std::optional<Compaction> compaction_;
     FaceIrradiance faces_;
@@ -123,7 +141,7 @@ class GatherMirror final : public Pass {
     std::vector<LightSource> sources_;
     SurfelLight hitLight_;
     std::optional<HybridTracer> hybrid_;
-    uint64_t triangleHits_ = 0, cellHits_ = 0, misses_ = 0;  ///< Of a frame.
+    uint64_t triangleHits_ = 0, cellHits_ = 0, wideRays_ = 0, misses_ = 0;  ///< Of a frame.
     Image black_;
     Buffer grid_, grazing_, counts_;
     Buffer flags_, slots_, light_;        ///< Of a batch.

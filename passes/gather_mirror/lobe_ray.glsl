@@ -8,12 +8,14 @@
 struct LobeRay {
     vec3 direction;    // Unit length.
     vec3 weight;       // Radiance reflected over radiance that arrives along the ray; 0 where it is lost below the surface.
-    float solidAngle;  // That the ray stands for among `rays` of its kind; 0 of a mirror.
+    float solidAngle;  // Of the cone about it that stands for it among `rays` of its kind; 0 of a mirror.
 };
 
 // Towards `out_`, on a surface with shading normal `n` (not leaning away from it) and geometric normal `side`. Half vectors are
 // drawn from the visible ones, so that the weight is Fresnel's term times the masking of the ray alone. What a ray stands for is one
-// over its density (Křivánek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling").
+// over the density at the lobe's peak (Křivánek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling"): in its tails
+// cones would be so wide that the surface itself blocks them. The cone is half as wide, for its direction wanders through all of that,
+// and the full width would blur twice.
 LobeRay lobeRay(Specular s, vec3 n, vec3 side, vec3 out_, vec2 u, uint rays) {
     LobeRay ray = LobeRay(n, vec3(0.0), 0.0);
     const float cosOut = min(dot(n, out_), 1.0);
@@ -34,9 +36,8 @@ LobeRay lobeRay(Specular s, vec3 n, vec3 side, vec3 out_, vec2 u, uint rays) {
 
     const float rootOut = smithRoot(local.z, alpha), rootIn = smithRoot(in_.z, alpha);
     ray.weight = specularFresnel(s, schlickWeight(cosHalf)) * in_.z * (local.z + rootOut) / (in_.z * rootOut + local.z * rootIn);
-    const float a2 = alpha * alpha, spread = half_.z * half_.z * a2 + dot(half_.xy, half_.xy);
-    const float density = a2 / (PI * spread * spread) * 0.5 / (local.z + rootOut);
-    ray.solidAngle = 1.0 / (float(rays) * density);
+    const float peakDensity = 0.5 / (PI * alpha * alpha * (local.z + rootOut));
+    ray.solidAngle = 0.25 / (float(rays) * peakDensity);
     return ray;
 }
 

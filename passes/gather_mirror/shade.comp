@@ -10,6 +10,7 @@
 #include "shaders/voxels/face_irradiance.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kShadowRays = false;  // Voxels hold indirect light alone; direct light is measured.
+layout(constant_id = 1) const bool kWidens = false;      // As in begin.comp.
 
 layout(scalar) readonly buffer Grid { VoxelGrid data; } grid;
 layout(scalar) readonly buffer Paths { MirrorPath data[]; } paths;
@@ -22,8 +23,9 @@ layout(scalar) writeonly buffer NextStarts { RayStart data[]; } nextStarts;
 #endif
 layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;  // Where direct light is measured; `parent` is the slot.
 layout(scalar) buffer Light { MirrorLight data[]; } light;
-// Of next paths, of surfels, of rays that hit triangles, of those that hit cells of grids, and of those that missed.
-buffer Counts { uint next, surfels, triangles, cells, missed; } counts;
+// Of next paths, of surfels, of rays that hit triangles, of those that hit cells of grids, of those that went on as cones, and of
+// those that missed.
+buffer Counts { uint next, surfels, triangles, cells, wide, missed; } counts;
 layout(push_constant, scalar) uniform Push {
     MirrorBatch batch;
     uint count;
@@ -51,6 +53,12 @@ void main() {
         addEmitted(path, environmentRadiance(ray.direction));
         return;
     }
+#ifdef HYBRID
+    if (hit.triangle == HIT_IS_WIDE) {  // wide.comp
+        atomicAdd(counts.wide, 1u);
+        return;
+    }
+#endif
     const float width = abs(path.width + path.spread * hit.t);
     MirrorSurface at;
     float clearance = 0.0;  // m: shadow rays start so far off the surface.
@@ -90,6 +98,7 @@ void main() {
     nextPaths.data[next] = MirrorPath(throughput, path.slot, width, sqrt(path.spread * path.spread + on.solidAngle), 1u);
     nextRays.data[next] = Ray(at.position + at.faceNormal * surfaceOffset(at.position), 0.0, on.direction, 1.0e30);
 #ifdef HYBRID
-    nextStarts.data[next] = RayStart(at.faceNormal, 0.0, 0.0);
+    const float spread = sqrt(path.spread * path.spread + on.solidAngle);
+    nextStarts.data[next] = kWidens ? RayStart(at.faceNormal, width, spread) : RayStart(at.faceNormal, 0.0, 0.0);
 #endif
 }

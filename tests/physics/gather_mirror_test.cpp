@@ -279,6 +279,23 @@ TEST(GatherMirror, GridsShowWhatVoxelsOfTheirSizeCan) {
     EXPECT_LT(fine, 0.8 * coarse);
 }
 
+TEST(GatherMirror, WideRaysGoOnAsCones) {
+    // A glossy ray soon is wider than a voxel. Cones that stand for it keep its light.
+    const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}, 0.5f));
+    Chain reference(state, graphYaml({"path_trace, spp: 512, bounces: 1"}), 32, 32, 1);
+    Chain chain(state,
+                roomGraph("max_roughness: 1, rays: 4, bounces: 1, walk: hierarchical, wide_rays: cones",
+                          {"filter_voxels", "build_hybrid_leaves"}, "64"),
+                32, 32, 1);
+    const auto [difference, ratio] = errorAt(chain, "indirect", reference.image("indirect"), -0.999f);
+    const double wide = reported(chain.frameSamples.back(), "mirror rays that went on as cones"),
+                 triangles = reported(chain.frameSamples.back(), "mirror rays that hit triangles");
+    std::printf("%.4f, ratio %.4f, %.0f wide, %.0f on triangles\n", difference, ratio, wide, triangles);
+    EXPECT_NEAR(ratio, 1.0, 0.05);
+    EXPECT_LT(difference, 0.2);  // Noise of four rays.
+    EXPECT_GT(wide, triangles);
+}
+
 TEST(GatherMirror, RefusesConesThatBringLamps) {
     EXPECT_CONTAINS(errorOf([] {
                         Chain chain(
@@ -286,6 +303,8 @@ TEST(GatherMirror, RefusesConesThatBringLamps) {
                             roomGraph("bounces: 1", {"filter_voxels, emission: true", "gather_cones"}));
                     }),
                     "set 'emission' of filter_voxels to false");
+    EXPECT_CONTAINS(errorOf([] { Chain chain("mirror_room", "{}", roomGraph("wide_rays: cones")); }),
+                    "with 'walk: exact' rays stay rays");
 }
 
 }  // namespace
