@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
     addSceneCommand(app, status);
     addExportSceneCommand(app, status);
     addCompareCommand(app, status);
+    addParetoCommand(app, status);
     addPassesCommand(app, status);
     addDevicesCommand(app, status);
     addDoctorCommand(app, status);

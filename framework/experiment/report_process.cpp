@@ -27,23 +27,23 @@ std::string lastLine(std::string text) {
 
 }  // namespace
 
-void makeReport(const std::filesystem::path& sourceRoot, const std::filesystem::path& results) {
-    const std::string script = (sourceRoot / "framework/report/make_report.py").string();
-    const std::string folder = results.string();
-    const std::string advice =
-        "the results are kept; make it later with " + std::string(kPython) + " " + script;
+ScriptEnd runReportScript(const std::filesystem::path& sourceRoot, const std::string& script,
+                          const std::vector<std::string>& arguments) {
+    const std::string path = (sourceRoot / "framework/report" / script).string();
+    std::vector<const char*> words{kPython, path.c_str()};
+    for (const std::string& argument : arguments) words.push_back(argument.c_str());
+    words.push_back(nullptr);
 
     // Its output goes into a pipe
     int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0) throw Error("report: {}; {}", std::strerror(errno), advice);
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw Error("can't run {}: {}", kPython, std::strerror(errno));
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-    const char* arguments[] = {kPython, script.c_str(), folder.c_str(), nullptr};
     pid_t child = 0;
     const int failure =
-        ::posix_spawn(&child, kPython, &actions, nullptr, const_cast<char* const*>(arguments), environ);
+        ::posix_spawn(&child, kPython, &actions, nullptr, const_cast<char* const*>(words.data()), environ);
     posix_spawn_file_actions_destroy(&actions);
     ::close(ends[1]);
 
@@ -55,12 +55,24 @@ void makeReport(const std::filesystem::path& sourceRoot, const std::filesystem::
         isOpen = got > 0 || (got < 0 && errno == EINTR);
     }
     ::close(ends[0]);
-    if (failure != 0) throw Error("report: can't run {}: {}; {}", kPython, std::strerror(failure), advice);
+    if (failure != 0) throw Error("can't run {}: {}", kPython, std::strerror(failure));
 
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw Error("report: {}; {}", lastLine(said), advice);
+    return {lastLine(said), WIFEXITED(status) ? WEXITSTATUS(status) : 1};
+}
+
+void makeReport(const std::filesystem::path& sourceRoot, const std::filesystem::path& results) {
+    constexpr const char* kScript = "make_report.py";
+    const std::string advice = fmt::format("the results are kept; make it later with {} {}", kPython,
+                                           (sourceRoot / "framework/report" / kScript).string());
+    try {
+        const ScriptEnd end = runReportScript(sourceRoot, kScript, {results.string()});
+        if (end.status != 0) throw Error("{}", end.lastLine);
+    } catch (const Error& error) {
+        throw Error("report: {}; {}", error.what(), advice);
+    }
 }
 
 }  // namespace voxray

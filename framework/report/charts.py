@@ -62,8 +62,8 @@ def cost_error_chart(results: Results, metric: Metric, light: str, with_build: b
     with drawing():
         figure = Figure(figsize=(5.0, 3.7), dpi=72)  # matplotlib's SVG has 72 units an inch
         axes = figure.add_axes((0.14, 0.13, 0.84, 0.85))
-        _set_up_axis(axes.xaxis, [p.low for p in points] + [p.high for p in points])
-        _set_up_axis(axes.yaxis, [p.error for p in points] + [p.most for p in points] + [level[1] for level in levels])
+        set_up_axis(axes.xaxis, [p.low for p in points] + [p.high for p in points])
+        set_up_axis(axes.yaxis, [p.error for p in points] + [p.most for p in points] + [level[1] for level in levels])
         axes.set_xlabel(f"time of {time}, ms (median; left is faster)")
         axes.set_ylabel(f"{metric.label}, {light} light (lower is better)")
         _draw_levels(axes, levels)
@@ -90,7 +90,8 @@ def _points(results, column, with_build, labels, anchors) -> tuple[list[Point], 
     return points, not_drawn
 
 
-def _set_up_axis(axis, values: list[float]) -> None:
+def set_up_axis(axis, values: list[float]) -> None:
+    """A log axis over values above zero, with ticks and a grid."""
     # At least a factor of four, so that a cluster is not blown up into a spread, and room for the labels.
     low, high = math.log10(min(values)), math.log10(max(values))
     widen = max(0.0, math.log10(4.0) - (high - low)) / 2

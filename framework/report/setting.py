@@ -21,6 +21,12 @@ def setting_of(results: Results) -> list[tuple[str, str]]:
                               ("device", _device(results.manifest))) if fact[1]]
 
 
+def scene_of(results: Results, row) -> str:
+    """A short name of the scene that a variant shows: the sweep's, where it varies the scene, else the config's."""
+    swept = [str(row[key]) for key in results.sweep_keys if key.split(".")[0] == "scene" and str(row[key]) != "-"]
+    return ", ".join(swept) or _scene(section(section(results.manifest, "config"), "scene")) or "scene"
+
+
 def _is_swept(results: Results, fact: str) -> bool:
     keys = {"scene": ("scene",), "camera": ("scene", "scene.camera"), "lights": ("scene", "scene.lights")}[fact]
     return any(key in keys or key.startswith(f"{keys[-1]}.") for key in results.sweep_keys)

@@ -1,0 +1,101 @@
+"""The page of `voxray pareto`: charts of cost against error, a scene each, and what methods save."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import jinja2
+from matplotlib.figure import Figure
+
+from report import pareto, text
+from report.charts import set_up_axis
+from report.load import Metric, Results
+from report.pareto import COSTS, Measured, Scene
+from report.ranking import pareto_front
+from report.style import CATEGORY_COLORS, MARKERS, Style
+from report.svg import STAND_INS, drawing, to_svg
+
+_HERE = Path(__file__).resolve().parent
+CHARTED = ("frame", "build + frame", "memory")
+
+
+def render(runs: list[Results], metric: Metric, light: str) -> str:
+    """The whole page, self-contained."""
+    scenes = pareto.scenes_of(runs, metric, light)
+    methods = list(dict.fromkeys(method for scene in scenes for method in scene.methods()))
+    styles = {method: Style(CATEGORY_COLORS[i % len(CATEGORY_COLORS)], list(MARKERS)[i % len(MARKERS)])
+              for i, method in enumerate(methods)}
+    charts = [(scene.name, [chart for c, cost in enumerate(CHARTED)
+                            if (chart := _chart(scene, cost, metric, light, styles, f"scene{s}-{c}"))])
+              for s, scene in enumerate(scenes)]
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    return environment.get_template("pareto.html.j2").render(
+        style_css=(_HERE / "style.css").read_text(encoding="utf-8"), metric=metric, light=light, charts=charts,
+        legend=list(styles.items()), markers=MARKERS, tables=[(cost, _savings(scenes, cost)) for cost in pareto.TIMES],
+        equal_time=_equal_time(scenes, "frame"), scene_names=[scene.name for scene in scenes],
+        dominated={cost: pareto.dominated(scenes, cost) for cost in pareto.TIMES},
+        words={cost: COSTS[cost].split(",")[0].removeprefix("time of ") for cost in pareto.TIMES},
+        runs=[str(run.directory) for run in runs])
+
+
+def csv_lines(runs: list[Results], metric: Metric, light: str):
+    """Every variant of all runs: scene, method, machine, variant, costs, error and its interval."""
+    yield ["scene", "method", "machine", "variant", *COSTS, metric.key, f"{metric.key}_low", f"{metric.key}_high"]
+    for scene in pareto.scenes_of(runs, metric, light):
+        for m in scene.measured:
+            yield [scene.name, m.method, m.machine, m.label, *(f"{m.costs[cost]:.9g}" for cost in COSTS),
+                   *(f"{value:.9g}" for value in (m.error, m.low, m.high))]
+
+
+def _savings(scenes: list[Scene], cost: str) -> list[tuple[str, list[str], str, str]]:
+    """Rows: method, range of factors in each scene, median, how often it reached the error."""
+    rows = []
+    by_scene = [pareto.speed_ups(scene, cost) for scene in scenes]
+    for method, (median, _, reached, of) in pareto.median_speed_ups(scenes, cost).items():
+        cells = [_range([factor for _, factor in own.get(method, [])]) for own in by_scene]
+        rows.append((method, cells, text.figures(median, 2), f"{reached} of {of}"))
+    return rows
+
+
+def _equal_time(scenes: list[Scene], cost: str) -> list[tuple[str, list[str]]]:
+    by_scene = [pareto.errors_at_equal_time(scene, cost) for scene in scenes]
+    methods = dict.fromkeys(method for own in by_scene for method in own)
+    return [(method, [_range([factor for _, factor in own.get(method, [])]) for own in by_scene]) for method in methods]
+
+
+def _range(factors: list[float]) -> str:
+    known = [factor for factor in factors if not math.isnan(factor)]
+    if not known:
+        return "–"
+    low, high = text.figures(min(known), 2), text.figures(max(known), 2)
+    part = "" if len(known) == len(factors) else f" ({len(known)} of {len(factors)})"
+    return (low if low == high else f"{low}–{high}") + part
+
+
+def _chart(scene: Scene, cost: str, metric: Metric, light: str, styles: dict[str, Style], chart_id: str) -> str | None:
+    points: list[Measured] = [m for m in scene.measured if 0 < m.costs[cost] < math.inf and 0 < m.error < math.inf]
+    if not points:
+        return None
+    with drawing():
+        figure = Figure(figsize=(5.0, 3.7), dpi=72)
+        axes = figure.add_axes((0.14, 0.13, 0.84, 0.85))
+        set_up_axis(axes.xaxis, [m.costs[cost] for m in points])
+        set_up_axis(axes.yaxis, [m.error for m in points] + [m.high for m in points])
+        axes.set_xlabel(COSTS[cost])
+        axes.set_ylabel(f"{metric.label}, {light} light (lower is better)")
+        front = [points[i] for i in pareto_front([(m.costs[cost], m.high) for m in points])]
+        axes.step([m.costs[cost] for m in front], [m.high for m in front], where="post", color=STAND_INS["muted"],
+                  linewidth=1.2)
+        for method in scene.methods():
+            line = sorted((m.costs[cost], m.error) for m in points if m.method == method)
+            axes.plot(*zip(*line), color=STAND_INS[styles[method].color], linewidth=1.0, alpha=0.5) if line else None
+        for i, m in enumerate(points):
+            ink = STAND_INS[styles[m.method].color]
+            axes.plot([m.costs[cost]] * 2, [max(m.low, axes.get_ylim()[0]), m.high], color=ink, linewidth=1.0)
+            dot = axes.plot(m.costs[cost], m.error, styles[m.method].marker, color=ink, markersize=6,
+                            markeredgecolor=STAND_INS["card"], markeredgewidth=0.8, zorder=3)[0]
+            dot.set_gid(f"{chart_id}-point-{i}")
+        titles = [f"{m.label}, {m.method}: {m.costs[cost]:.3g}, {m.error:.3g}" for m in points]
+        return to_svg(figure, chart_id, f"{scene.name}: {metric.label} against {COSTS[cost]}", titles)

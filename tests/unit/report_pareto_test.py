@@ -1,0 +1,106 @@
+"""Tests of the comparison of methods over runs. Needs Debian's Python with pandas, matplotlib and Jinja2."""
+
+import csv
+import math
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "framework"), str(Path(__file__).resolve().parent)]
+
+import report_results as made_up  # noqa: E402
+from report import make_pareto, pareto  # noqa: E402
+from report.load import load  # noqa: E402
+
+RAYS = ("gbuffer", "voxelize", "inject_light_rays", "gather_rays", "filter_irradiance")
+PATHS = ("gbuffer", "path_trace", "filter_irradiance")
+LOOKUP = ("gbuffer", "voxelize", "inject_light_rays", "gather_irradiance")
+
+
+class Pareto(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+
+    def run_of(self, name, variants, **changes):
+        """A run in a folder; variants: name -> (passes, ms, error of the indirect light)."""
+        rows = [made_up.variant(key, ms, error, error) for key, (_, ms, error) in variants.items()]
+        for row in rows:
+            error = row["indirect_nrmse"]
+            row.update({f"indirect_{key}": value for key, value in made_up.spread("nrmse", 0.95 * error, 1.05 * error).items()})
+        run = made_up.manifest([])
+        run["variants"] = {key: [{"pass": kind} for kind in passes] for key, (passes, _, _) in variants.items()}
+        run["config"]["scene"] = {"builtin": name}
+        run["reference"]["hash"] = name
+        run.update(changes)
+        return made_up.write_results(self.root / f"{name}{len(list(self.root.iterdir()))}", rows, run, images=False)
+
+    def scenes(self, *folders):
+        runs = [load(folder) for folder in folders]
+        return pareto.scenes_of(runs, runs[0].metrics[0], "indirect")
+
+    def test_factors_at_equal_error_and_at_equal_time(self):
+        # Paths: error falls with the root of time. Rays: a quarter of the time for the same.
+        paths = {f"p{ms}": (PATHS, ms, 1 / math.sqrt(ms)) for ms in (100, 400, 1600)}
+        rays = {f"r{ms}": (RAYS, ms, 0.5 / math.sqrt(ms)) for ms in (25, 100, 400, 1600)}
+        scenes = self.scenes(self.run_of("room", paths | rays))
+        self.assertEqual([scene.name for scene in scenes], ["room"])
+        method = "inject_light_rays + gather_rays"
+        self.assertEqual(scenes[0].methods(), ["path_trace", method])  # Both filter: that tells nothing.
+        median, least, reached, of = pareto.median_speed_ups(scenes, "frame")[method]
+        self.assertAlmostEqual(median, 4, 3)
+        self.assertAlmostEqual(least, 4, 3)
+        self.assertEqual((reached, of), (3, 3))
+        for _, factor in pareto.errors_at_equal_time(scenes[0], "frame")[method]:
+            self.assertAlmostEqual(factor, 0.5, 6)
+        self.assertEqual(pareto.dominated(scenes, "frame"), ["path_trace"])
+
+    def test_errors_that_are_not_reached_count_nowhere(self):
+        scenes = self.scenes(self.run_of("room", {"p1": (PATHS, 100, 0.2), "p2": (PATHS, 200, 0.1),
+                                                  "l": (LOOKUP, 10, 0.15)}))
+        entries = pareto.speed_ups(scenes[0], "frame")["inject_light_rays + gather_irradiance"]
+        self.assertAlmostEqual(entries[0][1], 10)
+        self.assertTrue(math.isnan(entries[1][1]))
+        self.assertEqual(pareto.median_speed_ups(scenes, "frame")["inject_light_rays + gather_irradiance"][2:], (1, 2))
+
+    def test_runs_are_merged_by_reference_and_times_by_machine(self):
+        paths = self.run_of("room", {"p": (PATHS, 100, 0.1)})
+        rays = self.run_of("room", {"r": (RAYS, 10, 0.05)})
+        gpu = self.run_of("room", {"g": (RAYS, 1, 0.02)}, device="a GPU")
+        hall = self.run_of("hall", {"p": (PATHS, 100, 0.1), "r": (RAYS, 400, 0.2)})
+        scenes = self.scenes(paths, rays, gpu, hall)
+        self.assertEqual([(scene.name, len(scene.measured)) for scene in scenes], [("room", 3), ("hall", 2)])
+        # The other machine has no path tracing to be faster than
+        self.assertEqual(len(pareto.speed_ups(scenes[0], "frame")["inject_light_rays + gather_rays"]), 1)
+        self.assertEqual(pareto.dominated(scenes, "frame"), [])  # Each wins in one scene.
+        self.assertEqual(pareto.dominated(scenes[1:], "frame"), ["inject_light_rays + gather_rays"])
+
+    def test_intervals_that_overlap_beat_nothing(self):
+        scenes = self.scenes(self.run_of("room", {"p": (PATHS, 100, 0.1), "r": (RAYS, 90, 0.095)}))
+        self.assertEqual(pareto.dominated(scenes, "frame"), [])
+
+    def test_the_page_and_its_table(self):
+        folder = self.run_of("room", {"p": (PATHS, 100, 0.1), "r": (RAYS, 10, 0.05)})
+        out = self.root / "out.html"
+        self.assertEqual(make_pareto.main(["--out", str(out), str(folder)]), 0)
+        page = out.read_text(encoding="utf-8")
+        for words in ("Speed-up over filtered path tracing", "room", "1 of 1", "<svg"):
+            self.assertIn(words, page)
+        self.assertFalse([line[:80] for line in page.splitlines() if "http:" in line or "https:" in line])
+        with open(out.with_suffix(".csv"), newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["method"] for row in rows], ["path_trace", "inject_light_rays + gather_rays"])
+        self.assertEqual(float(rows[1]["frame"]), 10)
+
+    def test_what_cannot_be_read(self):
+        folder = self.run_of("room", {"p": (PATHS, 100, 0.1)})
+        for arguments in (["nowhere"], [str(folder), "--error", "ssim"]):
+            self.assertEqual(make_pareto.main(["--out", str(self.root / "x.html"), *arguments]), 2)
+        self.assertFalse((self.root / "x.html").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
