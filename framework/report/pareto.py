@@ -13,7 +13,7 @@ from report.setting import scene_of
 
 RIVAL = {"path_trace", "filter_irradiance"}  # passes of what a user would pick instead
 _NOT_OF_IT = ("inject_", "gather_", "sample_")  # what passes of other methods begin with
-_IN_MOST = {"gbuffer", "voxelize", "composite"}  # passes that tell nothing of a method
+_EVERYWHERE = {"gbuffer", "voxelize", "composite"}  # passes that tell nothing of a method
 COSTS = {"frame": "time of one frame, ms", "build + frame": "time of build + one frame, ms",
          "memory": "device memory, bytes", "rays": "rays traced", "voxel steps": "voxels that rays walked through"}
 TIMES = ("frame", "build + frame")  # these can't be compared between machines, counts can
@@ -73,7 +73,7 @@ def scenes_of(runs: list[Results], metric: Metric, light: str) -> list[Scene]:
     for run, row, passes in graphs:
         reference = run.reference_of(row["variant"]) or {}
         scene = scenes.setdefault(str(reference.get("hash")), Scene(scene_of(run, row)))
-        own = [name for name in dict.fromkeys(passes) if name not in shared | _IN_MOST]
+        own = [name for name in dict.fromkeys(passes) if name not in shared | _EVERYWHERE]
         scene.measured.append(Measured(
             " + ".join(own) or "all", _is_rival(passes), str(run.manifest.get("device", "")), row["variant"], _costs(run, row),
             row[column], *interval_of(row, column), bool(beaten_by(run, metric, column, row))))
