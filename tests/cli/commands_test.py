@@ -206,13 +206,14 @@ class Validate(CommandTest):
                    "merged": "[merge_voxels, trace_gather_rays, gather_merged_rays]",
                    "cache": "[{pass: update_radiance_cache, bounces: 2}, trace_gather_rays, gather_cached_rays]",
                    "vpls": "[{pass: sample_vpls, bounces: 3}, gather_vpls]",
+                   "mirrors": "[{pass: inject_light_rays, bounces: 2}, {pass: gather_irradiance, id: below}, gather_mirror]",
                    "paths": "[{pass: path_trace, bounces: 3, light: indirect}, filter_irradiance]"}
         sweep = "sweep:\n  gather_irradiance:\n" + "".join(f"    {k}: {v}\n" for k, v in methods.items())
         self.write("same.yaml", TINY.replace("spp: 8, bounces: 2", "spp: 8, bounces: 3").replace(
             "sweep:\n  voxelize.resolution: [8, 16]\n", sweep))
         self.assertEqual(self.expect(0, "validate", "same.yaml").stderr, "")
         warnings = self.expect(0, "validate", "same.yaml", "--set", "reference.bounces=4").stderr
-        for method in ("lookup", "more-cones", "cache", "vpls", "paths"):
+        for method in ("lookup", "more-cones", "cache", "vpls", "mirrors", "paths"):
             self.assertIn(f"(gather_irradiance-{method})", warnings)
         self.assertIn("same.yaml:8: indirect light has 3 bounces, the reference's 4: write 'bounces: 3' in 'inject', or "
                       "'bounces: 3' in the reference (gather_irradiance-rays and 2 more)", warnings)
