@@ -245,11 +245,10 @@ void BuildHybridLeaves::fillGrids(PassContext& context, const SurfaceVoxels& vox
     stream.fill(leaves.gridBits, 0);
     writeHeader(context, leaves);
 
-    // Each pair by tiles of 8x8 columns of cells (grid_cells.glsl)
-    const uint32_t tilesPerEdge = (params_.grid + 7) / 8;
+    // Each pair is a tile (grid_cells.glsl).
     gpu::TriangleWalkPush push{};
     push.grid = voxels.grid;
-    push.tiles = pairCount_ * tilesPerEdge * tilesPerEdge;
+    push.tiles = pairCount_;
     push.visitorScale = unitsPerFace(maxTriangles_);
     const glm::uvec3 groups = linearGroups(push.tiles);
     std::vector<Binding> bindings =

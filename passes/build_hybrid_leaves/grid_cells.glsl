@@ -1,6 +1,6 @@
 // The cells of a leaf's grid that a triangle overlaps: the walk over voxels once more, within one voxel, where coordinates are small. A
-// thread takes 8x8 columns of cells for one pair of a triangle and a leaf. Entry point of compute shaders that define visitFragment(),
-// to whom a fragment's voxel is the cell in the grid; the grid's number is cellGrid.
+// thread takes a pair of a triangle and a leaf: where triangles are many they are small. Entry point of compute shaders that define
+// visitFragment(), to whom a fragment's voxel is the cell in the grid; the grid's number is cellGrid.
 #ifndef VOXRAY_GRID_CELLS_GLSL
 #define VOXRAY_GRID_CELLS_GLSL
 
@@ -15,10 +15,8 @@ layout(scalar) readonly buffer PairsAt { LargeUints leafPairs; };
 uint cellGrid;
 
 void main() {
-    const uint m = hybridLeaves.shape.gridResolution, tilesPerEdge = (m + 7u) / 8u, tilesPerPair = tilesPerEdge * tilesPerEdge;
-    const uint i = linearIndex();
-    if (i >= walk.tiles) return;
-    const uint pair = i / tilesPerPair, tile = i % tilesPerPair;
+    const uint pair = linearIndex(), m = hybridLeaves.shape.gridResolution;
+    if (pair >= walk.tiles) return;
     const uint triangle = leafPairs.data[3u * pair];
     cellGrid = leafPairs.data[3u * pair + 2u];
 
@@ -30,7 +28,7 @@ void main() {
     const vec3 p0 = gridVertex(cells, v.x);
     const GridTriangle t =
         gridTriangle(cells, triangle, dominantAxis(cross(gridVertex(cells, v.y) - p0, gridVertex(cells, v.z) - p0)));
-    if (t.area > 0.0) visitTile(t, 8 * ivec2(tile % tilesPerEdge, tile / tilesPerEdge), ivec3(m));
+    if (t.area > 0.0) visitTile(t, ivec2(0), int(m), ivec3(m));
 }
 
 #endif

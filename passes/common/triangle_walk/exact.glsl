@@ -13,11 +13,11 @@ float measureFragment(GridTriangle t, ivec3 permutedVoxel, uint subSamples, out 
     return clippedArea(t, permutedVoxel, center);
 }
 
-// Visits the voxels that a triangle overlaps in the 8x8 columns from `first` on, of a grid of `resolution` voxels, permuted as the
-// triangle is.
-void visitTile(GridTriangle t, ivec2 first, ivec3 resolution) {
+// Visits the voxels that a triangle overlaps in the columns from `first` on, `side` along each axis, of a grid of `resolution` voxels,
+// permuted as the triangle is.
+void visitTile(GridTriangle t, ivec2 first, int side, ivec3 resolution) {
     const ivec4 range = columnRange(t, kMargin, resolution.xy);
-    const ivec2 from = max(range.xy, first), size = min(range.zw, first + 7) - from + 1;
+    const ivec2 from = max(range.xy, first), size = min(range.zw, first + side - 1) - from + 1;
     if (any(lessThan(size, ivec2(1)))) return;
 
     // Each turn finds the tile's next voxel, then visits it: threads whose voxels lie differently still visit together.
@@ -49,6 +49,6 @@ void main() {
     const uvec2 tile = tiles.data[i];
     const GridTriangle t = gridTriangle(walk.grid, tile.x, tile.y >> 20);
     if (t.area == 0.0) return;
-    visitTile(t, ivec2(tile.y & 1023u, (tile.y >> 10) & 1023u), ivec3(permutedVoxels(walk.grid.resolution, t.axis)));
+    visitTile(t, ivec2(tile.y & 1023u, (tile.y >> 10) & 1023u), 8, ivec3(permutedVoxels(walk.grid.resolution, t.axis)));
 }
 #endif
