@@ -177,6 +177,27 @@ TEST(GatherMirror, ConvergesToTheReference) {
     EXPECT_LT(fine, 0.6 * coarse);
 }
 
+TEST(GatherMirror, ShowsTheBuiltInMirrorsAsTheReferenceDoes) {
+    // A lamp's light on what a wall of mirror shows; spheres in the sun over a floor of mirror. What a mirror
+    // shows of a lamp is direct light, and has a closed form above.
+    struct View {
+        const char *scene, *parameters;
+        float depth;  ///< As errorAt() takes it: the wall, and all.
+    };
+    for (const View& view :
+         {View{"mirror_room", "{count: 3}", -1.999f}, View{"mirror_row", "{count: 3}", 1e9f}}) {
+        Chain reference(view.scene, view.parameters, graphYaml({"path_trace, spp: 256, bounces: 1"}));
+        Chain chain(
+            view.scene, view.parameters,
+            graphYaml({"gbuffer, samples_per_pixel_edge: 4", "voxelize, resolution: 16",
+                       "inject_light_rays, bounces: 0", "gather_mirror, bounces: 1, light_samples: 4"}));
+        const auto [difference, ratio] = errorAt(chain, "indirect", reference.image("indirect"), view.depth);
+        std::printf("%s: %.4f, ratio %.4f\n", view.scene, difference, ratio);
+        EXPECT_NEAR(ratio, 1.0, 0.02) << view.scene;
+        EXPECT_LT(difference, 0.03) << view.scene;
+    }
+}
+
 TEST(GatherMirror, VarnishTakesFromTheDiffuseLobe) {
     // A mirror over a red wall: what the mirror reflects is missing below it.
     Material varnish = metal({0.8f, 0.2f, 0.1f});
