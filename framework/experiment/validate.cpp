@@ -85,6 +85,7 @@ std::string bounceDifference(const WiredVariant& variant, const WiredExperiment&
 }
 
 /// A swept parameter of a pass that a variant does without changes nothing there: such variants come once.
+/// @throws UsageError with file and line for an axis that changes nothing in any variant.
 void leaveOutEqual(WiredExperiment& wired) {
     const std::vector<std::string> keys = sweepKeys(wired.experiment);
     std::set<std::vector<std::string>> seen;
@@ -98,6 +99,11 @@ void leaveOutEqual(WiredExperiment& wired) {
         variant.name = names.next(variant.values);
         return false;
     });
+    for (size_t a = 0; a < keys.size(); ++a)
+        if (std::ranges::all_of(wired.variants, [&](const auto& v) { return v.values[a] == kNoValue; }))
+            throw UsageError(wired.experiment.sweep.members[a].value.where,
+                             "sweep.{}: changes nothing, since no image depends on '{}' in any variant",
+                             keys[a], keys[a].substr(0, keys[a].find('.')));
 }
 
 }  // namespace
@@ -125,6 +131,7 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
         if (!graph.writes("final"))
             throw UsageError(variant.setup.graph.where,
                              "graph: no pass writes 'final', the image that is compared");
+        for (const char* part : {"direct", "indirect"}) graph.checkIsMadeOf("final", part);
         std::vector<std::string> leftOut = graph.keepOnly(comparedPorts());
         Value resolved = graph.resolved();
         wired.variants.push_back(

@@ -49,6 +49,27 @@ std::vector<Graph::PassInfo> Graph::passes() const {
     return infos;
 }
 
+void Graph::checkIsMadeOf(const std::string& whole, const std::string& part) const {
+    const GraphNode *last = nullptr, *maker = nullptr;
+    const Resource *written = nullptr, *read = nullptr;
+    for (const GraphNode& node : impl_->nodes)
+        for (size_t p = 0; p < node.ports.size(); ++p) {
+            if (!node.ports[p].output) continue;
+            if (node.ports[p].name == part) last = &node, written = node.resources[p];
+            if (node.ports[p].name == whole) maker = &node;
+        }
+    if (!last || !maker) return;
+    for (size_t p = 0; p < maker->ports.size(); ++p)
+        if (!maker->ports[p].output && maker->ports[p].name == part) read = maker->resources[p];
+    const Value* inputs = maker->resolved.find("inputs");
+    if (!read || read == written || (inputs && inputs->find(part))) return;
+    throw UsageError(last->where,
+                     "{0}: writes '{1}' after '{2}' has read it, so '{3}' lacks what it brings: put '{0}' "
+                     "before '{2}', or "
+                     "choose with inputs of '{2}'",
+                     last->id, part, maker->id, whole);
+}
+
 std::vector<std::string> Graph::keepOnly(const std::vector<std::string>& portNames) {
     // Backwards from the last writers: a node is needed if it writes nothing, or if a needed one reads what
     // it writes.

@@ -56,6 +56,11 @@ class Graph {
     /// dropped passes' ids.
     std::vector<std::string> keepOnly(const std::vector<std::string>& portNames);
 
+    /// Checks that what is written last under the name `part` is what the last writer of `whole` reads under
+    /// it, unless that one's `inputs` choose another. @throws UsageError with file and line: a pass changes
+    /// the part too late.
+    void checkIsMadeOf(const std::string& whole, const std::string& part) const;
+
     /// A resource that will be read from outside, by port name: the last pass that writes it.
     bool writes(const std::string& portName) const;
 

@@ -20,7 +20,7 @@ class InjectCameraRays final : public Pass {
         "seen in part count the part that is seen. Noisy by: rays_per_image. Source: Magalhães 2020, section "
         "3.3.2.";
     struct Params : WriteParams {
-        uint32_t raysPerImage = 262144;
+        uint32_t raysPerImage = 1048576;
         uint32_t bounces = 8;
         uint32_t lightSamples = 1;
         static constexpr auto schema() {

@@ -26,17 +26,21 @@ void expectError(const std::string& graph, std::initializer_list<const char*> pa
 }  // namespace
 
 TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
-    // The last pass that writes the image is the one that counts: the other one's parameter changes nothing
+    // Of two passes that write the image the last one counts
     const auto wired = wireExperiment(
-        parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: unseen}\n"
-                        "  - {pass: constant, id: seen}\n"
-                        "sweep: {unseen.value: [1, 2, 3], seen.value: [4, 5]}\n",
+        parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: a}\n"
+                        "  - {pass: constant, id: b}\nsweep: {b: [constant, layers], a.value: [4, 5]}\n",
                         "x.yaml"),
         fakes::registry());
-    ASSERT_EQ(wired.variants.size(), 2u);
-    EXPECT_EQ(wired.variants[0].name, "seen.value-4");
-    EXPECT_EQ(wired.variants[1].name, "seen.value-5");
-    EXPECT_EQ(wired.variants[1].values, (std::vector<std::string>{"-", "5"}));
+    std::vector<std::string> names;
+    for (const WiredVariant& variant : wired.variants) names.push_back(variant.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"b-constant", "b-layers_value-4", "b-layers_value-5"}));
+    EXPECT_EQ(wired.variants[0].values, (std::vector<std::string>{"constant", "-"}));
+
+    // One that changes nothing anywhere is a mistake
+    expectError(
+        "graph:\n  - {pass: constant, id: unseen}\n  - {pass: constant}\nsweep:\n  unseen.value: [1, 2]\n",
+        {"x.yaml:7: ", "sweep.unseen.value", "no image depends on 'unseen'"});
 }
 
 TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {

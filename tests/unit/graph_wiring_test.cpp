@@ -183,6 +183,21 @@ TEST(GraphWiring, TakesTheNearestEarlierWriter) {
     EXPECT_FALSE(g.writes("indirect"));
 }
 
+TEST(GraphWiring, WhatIsChangedAfterItWasReadIsRefused) {
+    const std::string late =
+        "- {pass: make_voxels}\n- {pass: light_voxels}\n- {pass: make_voxels, id: late}\n";
+    const std::string message = errorOf<UsageError>([&] { graph(late).checkIsMadeOf("light", "voxels"); });
+    EXPECT_CONTAINS(message, "g.yaml:3: late: writes 'voxels' after 'light_voxels' has read it");
+    EXPECT_CONTAINS(message, "put 'late' before 'light_voxels'");
+
+    // In order, chosen on purpose, or not made of it at all
+    graph("- {pass: make_voxels}\n- {pass: light_voxels}\n").checkIsMadeOf("light", "voxels");
+    graph(
+        "- {pass: make_voxels, id: a}\n- {pass: light_voxels, inputs: {voxels: a}}\n- {pass: make_voxels}\n")
+        .checkIsMadeOf("light", "voxels");
+    graph("- {pass: make_voxels}\n- {pass: sum_up}\n").checkIsMadeOf("light", "voxels");
+}
+
 TEST(GraphWiring, SortsWritersBeforeReaders) {
     const Graph g =
         graph("- {pass: light_voxels, inputs: {voxels: late}}\n- {pass: make_voxels, id: late}\n");
