@@ -94,8 +94,8 @@ std::string hintOf(const std::string& message) {
     static const std::vector<std::pair<std::string, std::string>> hints{
         {"end of map not found", "is this line, or the one before, indented unlike its neighbours?"},
         {"end of sequence not found", "is this line, or the one before, indented unlike its neighbours?"},
-        {"end of map flow not found", "a '{' before it has no '}'"},
-        {"end of sequence flow not found", "a '[' before it has no ']'"},
+        {"end of map flow not found", "after a '{' before it a comma or the '}' is missing"},
+        {"end of sequence flow not found", "after a '[' before it a comma or the ']' is missing"},
         {"illegal map value", "is a ':' missing in the line before?"}};
     for (const auto& [part, hint] : hints)
         if (message == part) return "; " + hint;

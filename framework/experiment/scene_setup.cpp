@@ -112,7 +112,15 @@ std::vector<fs::path> sceneFolders(const fs::path& scenesOption, const fs::path&
         folders.push_back(variable);
     if (!sourceRoot.empty()) folders.push_back((sourceRoot / ".." / "shared" / "scenes").lexically_normal());
     if (!configFile.empty()) folders.push_back(configFile.has_parent_path() ? configFile.parent_path() : ".");
-    return folders;
+    // Each once, in this order
+    std::vector<fs::path> once;
+    for (const fs::path& folder : folders) {
+        const auto isSame = [&](const fs::path& other) {
+            return fs::weakly_canonical(other) == fs::weakly_canonical(folder);
+        };
+        if (std::ranges::none_of(once, isSame)) once.push_back(folder);
+    }
+    return once;
 }
 
 fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& folders,

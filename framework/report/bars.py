@@ -49,7 +49,7 @@ def bar_groups(results: Results, colors: dict[str, str], names: Names, anchors: 
         split = {row["variant"]: _by_pass(results, row, phase, column, part) for _, row in rows.iterrows()}
         longest = max((sum(parts.values()) for parts in split.values()), default=0)
         bars = [Bar(names.numbers[name], names.short[name], anchors[name], write(total),
-                    [Segment(colors.get(own, "muted"), 100 * value / longest, f"{own}: {write(value)}")
+                    [Segment(colors.get(own, "var(--muted)"), 100 * value / longest, f"{own}: {write(value)}")
                      for own, value in split[name].items()])
                 for name, total in zip(rows["variant"], rows[column])]
         groups.append(BarGroup(heading, bars))
@@ -58,10 +58,11 @@ def bar_groups(results: Results, colors: dict[str, str], names: Names, anchors: 
 
 def _by_pass(results: Results, row: pd.Series, phase: str | None, column: str, part: str) -> dict[str, float]:
     rows = results.passes
+    # By kind: an id may be that of another pass in each variant
     mine = rows[(rows["variant"] == row["variant"]) & (rows[part] > 0)]
     if phase:
         mine = mine[mine["phase"] == phase]
-    values = mine.groupby("pass", sort=False)[part].sum().to_dict()
+    values = mine.groupby("kind", sort=False)[part].sum().to_dict()
     # Whatever no pass accounts for is shown as such; a sum of medians can also exceed the whole's median.
     rest = row[column] - sum(values.values())
     return {**values, "outside the passes": rest} if rest > 0 else values

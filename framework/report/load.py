@@ -52,7 +52,8 @@ class Results:
 
     variants: a row a variant, columns as in results.csv; costs and scores are floats (NaN where absent),
         everything else text as written. Ordered as the run wrote them.
-    passes: a row a variant, pass and phase, as in passes.csv; may be empty.
+    passes: a row a variant, pass and phase, as in passes.csv, and the `kind` of the pass that has this id in the variant's
+        graph; may be empty.
     frames: a row a variant and compared frame, as in frames.csv, scores in columns; may be empty.
     values: a row a variant, pass, name and frame, as in values.csv: what passes reported; frame is NaN in the
         build; may be empty.
@@ -183,7 +184,11 @@ def load(directory: str | Path) -> Results:
     frames = _read_frames(directory / "frames.csv", warnings)
     manifest = _read_manifest(directory / "manifest.json", warnings)
 
-    # The manifest names metrics and sweep keys.
+    # The manifest names kinds of passes, metrics and sweep keys.
+    kinds = {(variant, str(entry.get("id", entry.get("pass")))): str(entry.get("pass"))
+             for variant, graph in section(manifest, "variants").items() if isinstance(graph, list)
+             for entry in graph if isinstance(entry, dict)}
+    passes["kind"] = [kinds.get(key, key[1]) for key in zip(passes["variant"], passes["pass"])]
     metrics = _metrics_of(manifest, "metrics")
     if not metrics:
         warnings.append("The manifest doesn't list metrics with their directions: scores are left out.")

@@ -30,13 +30,17 @@ class Names:
         return f"{self.numbers[variant]} ({self.short[variant]})"
 
     def listed(self, variants: list[str], limit: int = 6) -> str:
-        """Several variants by their numbers; a single one by its name too."""
-        if len(variants) == 1:
-            return self.full(variants[0])
+        """Several variants by their numbers, up to three by their names too."""
+        if len(variants) <= 3:
+            return _joined([self.full(name) for name in variants])
         numbers = [self.numbers[name] for name in variants]
         if len(numbers) > limit:
             return f"{', '.join(numbers[:limit])} and {len(numbers) - limit} more"
-        return f"{', '.join(numbers[:-1])} and {numbers[-1]}"
+        return _joined(numbers)
+
+
+def _joined(words: list[str]) -> str:
+    return " and ".join(part for part in (", ".join(words[:-1]), words[-1]) if part) if words else ""
 
 
 def names_of(results: Results) -> Names:

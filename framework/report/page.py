@@ -192,7 +192,8 @@ def _variant(results: Results, row: pd.Series, lights, colors, names, anchors, w
 def _pass_rows(results: Results, name: str, colors) -> list[dict]:
     rows = results.passes[results.passes["variant"] == name]
     longest = rows["ms_median"].max() if len(rows) else math.nan
-    return [{"name": row["pass"], "phase": row["phase"], "color": colors[row["pass"]],
+    return [{"name": row["pass"] if row["pass"] == row["kind"] else f"{row['pass']} ({row['kind']})",
+             "phase": row["phase"], "color": colors[row["kind"]],
              "percent": 100 * row["ms_median"] / longest if row["ms_median"] > 0 else 0.0,
              "cells": [*(text.figures(row[key]) for key in ("ms_median", "ms_p05", "ms_p95")),
                        text.count(row["rays"]), text.count(row["voxel_steps"]),

@@ -77,9 +77,16 @@ def variant_styles(results: Results, families: list[Family]) -> tuple[dict[str, 
 
 
 def pass_colors(results: Results) -> dict[str, str]:
-    """The colour of each pass, in the order in which passes.csv first names them."""
-    names = results.passes["pass"].unique()
-    return {name: CATEGORY_COLORS[i % len(CATEGORY_COLORS)] for i, name in enumerate(names)}
+    """The background of each kind of pass, as CSS, in the order in which passes.csv first names them. The colours that
+    are there once more come in stripes."""
+    return {name: _background(i) for i, name in enumerate(results.passes["kind"].unique())}
+
+
+def _background(index: int) -> str:
+    color = f"var(--{CATEGORY_COLORS[index % len(CATEGORY_COLORS)]})"
+    gap, angle = divmod(index // len(CATEGORY_COLORS), 2)
+    return color if index < len(CATEGORY_COLORS) else \
+        f"repeating-linear-gradient({45 + 90 * (1 - angle)}deg, {color} 0 4px, var(--card) 4px {6 + 2 * gap}px)"
 
 
 def _values(column: pd.Series) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from report import equal_error, text
 from report.load import LIGHTS, Results
 from report.names import Family, Names
-from report.ranking import beaten_by, cost_marks, score_marks
+from report.ranking import beaten_by, score_marks
 
 
 def summary(results: Results, light: str, families: list[Family], names: Names) -> list[str]:
@@ -25,7 +25,7 @@ def summary(results: Results, light: str, families: list[Family], names: Names) 
         sentences += _lowest_error(results, light, metric, names)
         sentences += equal_error.sentences(results, light, metric, families, names)
         sentences += _mostly_noise(results, light, names)
-    sentences += _fastest(results, names)
+    sentences += _fastest(results, light, names)
     return sentences + _worse_than_nothing(results, light, names)
 
 
@@ -61,13 +61,20 @@ def _mostly_noise(results: Results, light: str, names: Names) -> list[str]:
             "parameter lowers it, says ./voxray passes PASS."]
 
 
-def _fastest(results: Results, names: Names) -> list[str]:
-    times = results.ok.set_index("variant")["frame_ms_median"].dropna()
-    if times.empty:
+def _fastest(results: Results, light: str, names: Names) -> list[str]:
+    """The fastest of those that are better than no image at all, where some are."""
+    rows = results.ok.set_index("variant", drop=False)
+    rows = rows[rows["frame_ms_median"].notna()]
+    if rows.empty:
         return []
-    ties = [name for name in cost_marks(results, "frame_ms_median") if name != times.idxmin()]
+    usable = [name for name, row in rows.iterrows()
+              if not any(beaten_by(results, metric, LIGHTS[light] + metric.key, row) for metric in results.metrics[:1])]
+    times = rows.loc[usable or list(rows.index), "frame_ms_median"]
+    but = ", of those better than a constant image" if 0 < len(usable) < len(rows) else ""
+    reach = max(times.min(), rows.loc[times.idxmin(), "frame_ms_p95"])
+    ties = [name for name, ms in times.items() if ms <= reach and name != times.idxmin()]
     tied = f"; within its spread {names.listed(ties)}" if ties else ""
-    return [f"Fastest frame: {names.full(times.idxmin())}, {text.figures(times.min())} ms{tied}."]
+    return [f"Fastest frame{but}: {names.full(times.idxmin())}, {text.figures(times.min())} ms{tied}."]
 
 
 def _worse_than_nothing(results: Results, light: str, names: Names) -> list[str]:

@@ -77,7 +77,7 @@ MISTAKES = {
     "a line is indented too far": ("seed: 7", "  seed: 7", 8, "indented unlike its neighbours"),
     "a lost dash": ("  - {pass: composite}", "  {pass: composite}", 17, "indented unlike its neighbours"),
     "a tab": ("  - {pass: composite}", "\t- {pass: composite}", 17, "YAML takes spaces"),
-    "a lost brace": ("height: 24}", "height: 24", 8, "a '{' before it has no '}'"),
+    "a lost brace": ("height: 24}", "height: 24", 8, "a comma or the '}' is missing"),
     "a lost colon": ("seed: 7", "seed 7", 9, "is a ':' missing in the line before?"),
 }
 

@@ -91,6 +91,7 @@ class Chain {
 
     const SceneState& state() const { return *state_; }
     const Graph& graph() const { return *graph_; }
+    /// What was written last under this name: three channels, without alpha.
     ImageF image(const std::string& port) { return downloadImage(device(), stream_, *graph_->image(port)); }
     template <typename T>
     std::vector<T> read(const Buffer& buffer) {

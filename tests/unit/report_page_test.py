@@ -36,7 +36,8 @@ class FullRun(unittest.TestCase):
         self.assertEqual(len(sources), 26)
         self.assertTrue(all(source.startswith("data:image/png;base64,") for source in sources))
         for words in ("6 of 7 variants finished. 1 variant failed", "needs 34.4 GiB", "a constant image",
-                      "Lowest nRMSE of the indirect light: 3 and 6 tie, from 0.300 to 0.310.", "0.29–0.31",
+                      "Lowest nRMSE of the indirect light: 3 (resolution 256, light_rays) and 6 (resolution 256, rsm) tie, from "
+                      "0.300 to 0.310.", "0.29–0.31",
                       "Fastest frame: 4 (resolution 64, rsm), 9.00 ms", "64 × 36 pixels", "point at [0, 1, 0]",
                       "path_trace, 64 samples a pixel"):
             self.assertIn(words, self.page.text)
@@ -45,7 +46,8 @@ class FullRun(unittest.TestCase):
         results = load(self.directory)
         named = names.names_of(results)
         self.assertEqual(named.full("light_rays-256"), "3 (resolution 256, light_rays)")
-        self.assertEqual(named.listed(["light_rays-64", "rsm-64"]), "1 and 4")
+        self.assertEqual(named.listed(["light_rays-64", "rsm-64"]),
+                         "1 (resolution 64, light_rays) and 4 (resolution 64, rsm)")
         self.assertEqual(named.listed(list(named.numbers)), "1, 2, 3, 4, 5, 6 and 1 more")
 
     def test_the_table_begins_with_time_error_and_energy(self):
@@ -177,12 +179,22 @@ class PartOfARun(ReportTest):
             row.update(bias_nrmse=bias, noise_nrmse=noise)
         shown = self.make(rows, made_up.manifest([]), indirect=False)
         for words in ("bias\u00a0↓", "noise\u00a0↓", "0.390",
-                      "Noise is the larger part of the error of 2 and 3; of the others bias", "what noise measures"):
+                      "Noise is the larger part of the error of 2 (grainy) and 3 (rough); of the others bias", "what noise measures"):
             self.assertIn(words, shown.text)
         for row in rows:
             row.update(noise_nrmse=0.01)
         self.assertIn("Bias is the larger part of every variant's error",
                       self.make(rows, made_up.manifest([]), indirect=False).text)
+
+    def test_passes_are_coloured_by_kind_whatever_their_ids(self):
+        run = made_up.manifest([])
+        run["variants"] = {"a": [{"pass": "gather_cones", "id": "gather"}], "b": [{"pass": "gather_rays", "id": "gather"}]}
+        shown = self.make([made_up.variant("a", 10, 0.2), made_up.variant("b", 10, 0.3)], run, indirect=False)
+        for words in ("gather (gather_cones)", "gather (gather_rays)"):
+            self.assertIn(words, shown.text)
+        legend = shown.text[shown.text.index("pass voxelize"):][:120]
+        self.assertIn("gather_cones", legend)
+        self.assertIn("gather_rays", legend)
 
     def test_sequences_have_a_table_and_charts_over_frames(self):
         rows = [made_up.variant(name, 10, error) for name, error in (("calm", 0.2), ("restless", 0.4))]

@@ -28,7 +28,7 @@ class Comparing(ReportTest):
         results = self.results(rows)
         self.assertEqual(ranking.score_marks(results, NRMSE, "nrmse"), {"a": "tie", "b": "tie"})
         self.assertEqual(self.summary(results)[0],
-                         "Lowest nRMSE of the total light: 1 and 2 tie, from 0.200 to 0.230. Most variants tie: more "
+                         "Lowest nRMSE of the total light: 1 (a) and 2 (b) tie, from 0.200 to 0.230. Most variants tie: more "
                          "samples in the reference tell them apart (raise reference.spp, now 64).")
         # Told apart, and without intervals: one is the best.
         del rows[1]
@@ -117,9 +117,9 @@ class Comparing(ReportTest):
         self.assertEqual([family.name for family in families], ["lookup", "paths", "filtered paths"])
         # 0.3 takes raw paths 10 / 0.3² = 111 ms and filtered ones 20 (0.5 / 0.3)⁴ = 154 ms.
         self.assertIn("At equal nRMSE of the total light: a frame of 1 (lookup) takes 10.0 ms, one of paths 111 ms: "
-                      "11 times as long, builds not counted.", self.summary(results))
+                      "11 times as long. Its build, once a scene or light, takes 20.0 ms more.", self.summary(results))
         # None reaches 0.2: the slowest of both families are not enough. All have less than 2.
-        for error, expected in ((0.2, "one of paths more than 160 ms: more than 16 times as long, builds not counted."), (2.0, None)):
+        for error, expected in ((0.2, "one of paths more than 160 ms: more than 16 times as long. Its build, once a scene or light, takes 20.0 ms more."), (2.0, None)):
             rows[0] |= {"nrmse": error}
             said = [s for s in self.summary(self.results(rows, sweep_keys=["method"], variants=graphs)) if "equal" in s]
             self.assertEqual([s.endswith(expected) for s in said], [True] if expected else [])
