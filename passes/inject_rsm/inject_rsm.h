@@ -19,7 +19,7 @@ class InjectRsm final : public Pass {
         "larger than voxels leave gaps). Noisy by: bounces alone. Leaves unlit: what lies nearer to a light "
         "than 0.0001 of the scene's extent. Source: Dachsbacher and Stamminger 2005.";
     struct Params : LightPathParams {
-        uint32_t rsmResolution = 1024;
+        uint32_t rsmResolution = 768;
         static constexpr auto schema() {
             return std::tuple_cat(std::tuple{field("rsm_resolution", &Params::rsmResolution,
                                                    "Texels along an edge of each view.", 1u, 4096u)},
