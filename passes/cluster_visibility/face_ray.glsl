@@ -7,7 +7,6 @@
 #include "shaders/scene/sampling.glsl"
 #include "shaders/voxel_march/surface_segment.glsl"
 #include "shaders/voxels/face.glsl"
-#include "shaders/voxels/mean_normal.glsl"
 #include "shaders/voxels/voxels.glsl"
 
 layout(scalar) readonly buffer Faces { uint data[]; } faces;
@@ -29,13 +28,27 @@ uint rayFace(uint ray) { return faces.data[push.firstFace + ray / push.raysPerFa
 // Numbers of a face's sequences: direction, place, pick.
 uint raySeed(uint ray, uint sequence) { return hashCombine(hashCombine(push.seed, sequence), rayFace(ray)); }
 
+// The mean normal of the surfaces before a face, where those of normal n and area a count a n² along the axis. Their mean along it is the
+// sum of a n³ over that of a n², by Cauchy and Schwarz no less than the sum of a n² over that of a n, which a voxel holds; both are the
+// same for one plane, and where all planes stand across axes, as a floor and a wall: then they are 1.
+vec3 surfaceNormal(VoxelMaterial m, vec3 axis, uint along) {
+    const vec3 areas = m.unoccludedPositive + m.unoccludedNegative;
+    const vec3 mean = dot(m.normal, axis) < 0.0 ? -m.normal : m.normal;
+    const float part = areas[along] / dot(areas, vec3(1.0)), first = dot(mean, axis);
+    if (part >= first) return axis;
+    const float cosine = part / first, sine = sqrt(1.0 - cosine * cosine);
+    const vec3 across = mean - first * axis;
+    const float size = length(across);
+    return normalize(cosine * axis + across * (size > sine ? sine / size : 1.0));
+}
+
 // A ray from the surfaces before a face, by the cosine about their normal: from a random point of the plane through the voxel's
 // center, moved off that plane. Across an axis half a voxel leaves the plane's voxels behind; a slanted one touches voxels that reach
 // further, of which isOwnSurface() knows.
 void faceRay(uint ray, out vec3 origin, out vec3 direction, out vec3 normal) {
     const uint face = rayFace(ray), index = ray % push.raysPerFace;
     const vec3 axis = faceNormal(face % 6u);
-    normal = push.alongAxis == 1u ? axis : meanNormal(voxelMaterial(face / 6u).normal, axis);
+    normal = push.alongAxis == 1u ? axis : surfaceNormal(voxelMaterial(face / 6u), axis, face / 2u % 3u);
     const vec2 place = sobol2(index, raySeed(ray, 1u)) - 0.5;
     vec3 tangent, bitangent;
     frame(axis, tangent, bitangent);

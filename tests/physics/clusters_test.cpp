@@ -172,11 +172,17 @@ TEST(GatherClusters, KeepTheEnergyOfAFurnace) {
 
 TEST(GatherClusters, KeepTheEnergyOfASphere) {
     // Its walls are sheets at all angles to the voxels, whose dark outer faces must not be seen from within.
-    Chain chain("furnace", "{shape: sphere, albedo: 0.7, emission: 1}",
-                graphYaml(clusterGraph(kDirect, "target: 200", "rays: 64", "1", "filter_passes: 0")));
-    const double ratio = mean(chain.image("indirect")) / (0.7 * (0.7 + 0.7 * 0.7));
-    std::printf("sphere: %.4f of the closed form\n", ratio);
-    EXPECT_NEAR(ratio, 1, 0.01);
+    // About the axis of a face a hemisphere reaches behind a slanted sheet and loses light.
+    const auto ratio = [](const std::string& hemisphere) {
+        Chain chain("furnace", "{shape: sphere, albedo: 0.7, emission: 1}",
+                    graphYaml(clusterGraph(kDirect, "target: 200", "rays: 64, hemisphere: " + hemisphere, "1",
+                                           "filter_passes: 0")));
+        return mean(chain.image("indirect")) / (0.7 * (0.7 + 0.7 * 0.7));
+    };
+    const double surface = ratio("surface"), face = ratio("face");
+    std::printf("sphere: %.4f of the closed form, about faces' axes %.4f\n", surface, face);
+    EXPECT_NEAR(surface, 1, 0.01);
+    EXPECT_LT(face, 0.97);
 }
 
 TEST(GatherClusters, SendNoMoreFromSliversThanFromTheirClusters) {
@@ -275,6 +281,27 @@ TEST(ClusterVisibility, CountsFormFactors) {
         // The rays begin a voxel of 1/32 m above the square and end one before the other.
         EXPECT_NEAR(sum / area, 0.19982, 0.02);
     }
+}
+
+TEST(ClusterVisibility, LookAlongTheNormalOfEachWallOfACorner) {
+    // Voxels hold one mean normal. Where walls across axes meet, those before each face look along its axis
+    // alone, whatever part of the area each has: the same light by both hemispheres, but for the sampling of
+    // areas. By the voxel's mean normal 0.45 % of the light differs.
+    const auto fluxOfFaces = [](const std::string& hemisphere) {
+        Chain chain("clutter", "{}",
+                    graphYaml(clusterGraph(kDirect, "target: 100", "rays: 64, hemisphere: " + hemisphere, "0",
+                                           "filter_passes: 0", "19")));
+        return readFlux(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->indirect);
+    };
+    const std::vector<float> surface = fluxOfFaces("surface"), face = fluxOfFaces("face");
+    ASSERT_EQ(surface.size(), face.size());
+    double difference = 0, sum = 0;
+    for (size_t i = 0; i < face.size(); ++i) {
+        difference += std::abs(surface[i] - face[i]);
+        sum += face[i];
+    }
+    std::printf("corners: %.5f of the light differs\n", difference / sum);
+    EXPECT_LT(difference, 0.003 * sum);
 }
 
 TEST(ClusterVisibility, RefusesWhatMakesNoSense) {
