@@ -32,11 +32,6 @@ struct Found {
     uint32_t pairs;         ///< Of a triangle and a leaf with a grid.
 };
 
-struct ResolvePush {
-    uint32_t cells;
-    float unitsPerFace;
-};
-
 constexpr uint64_t kMaxListWords = 1ull << 31;            // shaders/hybrid_leaves/hybrid_types.h
 constexpr uint64_t kMaxCells = (1ull << 32) / SUM_UINTS;  // cell_sums.h, by 32 bits.
 constexpr uint64_t kMaxBoundBytes = 128u << 20;           // What Vulkan guarantees of maxStorageBufferRange.
@@ -137,6 +132,7 @@ void BuildHybridLeaves::prepare(PassSetup& setup) {
     number_ = program("passes/build_hybrid_leaves/number_leaves.comp");
     sort_ = program("passes/build_hybrid_leaves/sort_lists.comp");
     resolve_ = program("passes/build_hybrid_leaves/resolve_cells.comp");
+    enclose_ = program("passes/build_hybrid_leaves/enclose_cells.comp");
     sum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
     sumBits_.emplace(setup.device, setup.compiler, PrefixSum::Of::SetBits);
     version_.reset();
@@ -263,20 +259,23 @@ void BuildHybridLeaves::fillGrids(PassContext& context, const SurfaceVoxels& vox
     stream.fill(leaves.cells, 0);
     writeHeader(context, leaves);
 
-    // What they hold
+    // What they hold, and how far from their planes.
     if (params_.write == CellWrite::None) {
         stream.dispatch(write_, bindings, push, groups);
+        stream.dispatch(enclose_, bindings, push, groups);
         stream.finish();
-    } else {
-        const LargeBuffer sums(context.device, "sums of cells",
-                               wordBytes(uint64_t(leaves.cellCount) * SUM_UINTS));
-        stream.fill(sums, 0);
-        bindings.push_back({"CellSumsAt", sums.at()});
-        stream.dispatch(write_, bindings, push, groups);
-        stream.dispatch(resolve_, {{"CellSumsAt", sums.at()}, {"hybridLeaves", leaves.header}},
-                        ResolvePush{leaves.cellCount, push.visitorScale}, linearGroups(leaves.cellCount));
-        stream.finish();
+        return;
     }
+    const LargeBuffer sums(context.device, "sums of cells",
+                           wordBytes(uint64_t(leaves.cellCount) * SUM_UINTS));
+    stream.fill(sums, 0);
+    std::vector<Binding> adding = bindings;
+    adding.push_back({"CellSumsAt", sums.at()});
+    stream.dispatch(write_, adding, push, groups);
+    stream.dispatch(resolve_, {{"CellSumsAt", sums.at()}, {"hybridLeaves", leaves.header}}, leaves.cellCount,
+                    linearGroups(leaves.cellCount));
+    stream.dispatch(enclose_, bindings, push, groups);
+    stream.finish();
 }
 
 void BuildHybridLeaves::writeHeader(PassContext& context, HybridLeaves& leaves) const {

@@ -89,7 +89,7 @@ class BuildHybridLeaves final : public Pass {
     Port<const SurfaceVoxels> voxels_;
     Port<HybridLeaves> leaves_;
     std::unique_ptr<TriangleWalk> walk_;
-    Program markLeaves_, count_, size_, number_, fill_, sort_, mark_, write_, resolve_;
+    Program markLeaves_, count_, size_, number_, fill_, sort_, mark_, write_, resolve_, enclose_;
     std::optional<PrefixSum> sum_, sumBits_;
     Buffer counts_;      ///< Triangles of each leaf, while it is built.
     LargeBuffer pairs_;  ///< Of triangles and grid leaves, while it is built: three words each.

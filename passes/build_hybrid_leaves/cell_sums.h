@@ -6,11 +6,9 @@
 #define SUM_AREA 0u
 #define SUM_NORMAL 1u
 #define SUM_POINT 4u  // Centroids, from the cell's center, in cells.
-#define SUM_PROJECTED \
-    7u  // Components of the geometric normal, without their signs: area as seen along each axis.
-#define SUM_ALBEDO 10u
-#define SUM_METALLIC 13u
-#define SUM_ROUGHNESS 14u
-#define SUM_UINTS 15u
+#define SUM_ALBEDO 7u
+#define SUM_METALLIC 10u
+#define SUM_ROUGHNESS 11u
+#define SUM_UINTS 12u
 
 #endif

@@ -13,6 +13,13 @@ struct CellSurface {
     FragmentMaterial material;
 };
 
+// A point in the walk's coordinates, whose axes are permuted, from the center of a triangle's cell, in cells.
+vec3 fromCellCenter(TriangleFragment cell, vec3 permuted) {
+    const uint axis = cell.permutedTriangle.axis;
+    const vec3 p = permuted - (vec3(cell.permutedVoxel) + 0.5);
+    return axis == 0u ? p.zxy : axis == 1u ? p.yzx : p;
+}
+
 // False where the alpha mask cuts all of it away. Area and centroid are as in clipFragment(); sub-samples, which cost most there, are
 // taken of masked triangles alone.
 bool cellSurface(TriangleFragment cell, out CellSurface s) {
@@ -30,8 +37,8 @@ bool cellSurface(TriangleFragment cell, out CellSurface s) {
     c.center = barycentricsAt(t, center);
     c.texCoordWidth = t.texCoordWidth;
     s.material = fragmentMaterial(cell, c);
-    const vec3 point = t.p0 + c.center.x * (t.p1 - t.p0) + c.center.y * (t.p2 - t.p0) - (vec3(cell.permutedVoxel) + 0.5);
-    s.point = clamp(t.axis == 0u ? point.zxy : t.axis == 1u ? point.yzx : point, -0.5, 0.5);
+    const vec3 point = t.p0 + c.center.x * (t.p1 - t.p0) + c.center.y * (t.p2 - t.p0);
+    s.point = clamp(fromCellCenter(cell, point), -0.5, 0.5);
     return true;
 }
 

@@ -9,7 +9,6 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer CellSumsAt { LargeUints cellSums; };
 layout(push_constant) uniform Push {
     uint cells;
-    float unitsPerFace;
 } push;
 
 float signedSum(uint at) { return float(int(cellSums.data[at])); }
@@ -22,8 +21,6 @@ void main() {
     const float area = max(signedSum(at + SUM_AREA), 1.0);
     const vec3 sum = signedSums(at + SUM_NORMAL);
     const vec3 normal = dot(sum, sum) > 0.0 ? normalize(sum) : vec3(0.0, 0.0, 1.0);
-    const vec3 projected = signedSums(at + SUM_PROJECTED) / push.unitsPerFace;
     storeGridCell(cell, GridCell(normal, dot(normal, signedSums(at + SUM_POINT) / area), signedSums(at + SUM_ALBEDO) / area,
-                                 max(projected.x, max(projected.y, projected.z)), signedSum(at + SUM_METALLIC) / area,
-                                 signedSum(at + SUM_ROUGHNESS) / area));
+                                 signedSum(at + SUM_METALLIC) / area, signedSum(at + SUM_ROUGHNESS) / area, 0.0));
 }

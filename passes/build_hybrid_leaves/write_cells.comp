@@ -7,7 +7,6 @@
 void visitFragment(TriangleFragment cell) {
     CellSurface s;
     if (!cellSurface(cell, s)) return;
-    const vec3 projected = abs(s.material.at.geometricNormal) * s.area;
     storeGridCell(s.number, GridCell(s.material.normal, dot(s.material.normal, s.point), s.material.albedo,
-                                     max(projected.x, max(projected.y, projected.z)), s.material.metallic, s.material.roughness));
+                                     s.material.metallic, s.material.roughness, 0.0));
 }

@@ -25,8 +25,9 @@ void meetList(vec3 origin, vec3 direction, float tMin, uint first, inout Hit bes
 }
 
 // The closest of the cells of a leaf's grid on the part [begin, end] of a ray (Amanatides and Woo 1987; Seok 2021, figure 15). A ray
-// meets the plane that a cell's surfaces keep: where it enters the cell, if the plane lies before, and at most a cell's diagonal behind
-// the cell, if it lies there and nothing is closer. So cells are passed over only where they hold the surface that the ray leaves.
+// meets a cell where it passes between the two planes that enclose the cell's surfaces, at the plane half way or as near to it as it
+// comes within the cell. So a flat surface is as thin as it is, no surface is missed, and rays past an edge go on. Cells are passed
+// over where they hold the surface that the ray leaves.
 void meetGrid(VoxelGrid g, vec3 origin, vec3 direction, float begin, float end, ivec3 voxel, uint grid, RayStart start,
               inout Hit best) {
     const int m = int(hybridLeaves.shape.gridResolution);
@@ -34,7 +35,6 @@ void meetGrid(VoxelGrid g, vec3 origin, vec3 direction, float begin, float end, 
     const vec3 from = (origin - (g.origin + vec3(voxel) * g.voxelSize)) / width, way = direction / width;
     const bvec3 isDown = lessThan(way, vec3(0.0)), isLevel = equal(way, vec3(0.0));
     const ivec3 next = mix(ivec3(1), ivec3(-1), isDown);
-    const float diagonal = 1.7320508 / length(way);
 
     // Heights above the plane of the surface that the ray leaves, up to which that plane's cells reach; walks are off by units of
     // a voxel
@@ -54,10 +54,11 @@ void meetGrid(VoxelGrid g, vec3 origin, vec3 direction, float begin, float end, 
             const GridCell c = gridCell(number);
             const float slope = dot(c.normal, way);
             const float onPlane = (c.distance_ - dot(c.normal, from - (vec3(cell) + 0.5))) / slope;
-            const float t = slope == 0.0 ? enters : clamp(onPlane, enters, max(leaves, enters) + diagonal);
+            const float t = slope == 0.0 ? enters : clamp(onPlane, enters, max(leaves, enters));
+            const float height = dot(c.normal, from + t * way - (vec3(cell) + 0.5)) - c.distance_;
             // A triangle of another leaf that the ray meets within the cell is closer to the truth.
             const bool isTriangle = best.triangle < HIT_IS_CELL && best.t <= leaves;
-            if (t < best.t && !isTriangle) best = Hit(t, HIT_IS_CELL | number, 0.0, 0.0);
+            if (t < best.t && abs(height) <= c.reach && !isTriangle) best = Hit(t, HIT_IS_CELL | number, 0.0, 0.0);
         }
         const int axis = parts.x <= parts.y && parts.x <= parts.z ? 0 : parts.y <= parts.z ? 1 : 2;
         cell[axis] += next[axis];
