@@ -76,6 +76,7 @@ void FindClusterVisibility::prepare(PassSetup& setup) {
     merge_ = program("merge");
     compact_ = program("compact");
     if (params_.visibility == FaceRays::Exact) {
+        place_ = program("exact_place");
         aim_ = program("exact_aim");
         see_ = program("exact_see");
     } else {
@@ -154,7 +155,10 @@ void FindClusterVisibility::look(PassContext& context, uint32_t first, uint32_t 
         stream.dispatch(marchRays_, with(march_.bindings(), {{"targets", targets_}, {"missed", missed_}}),
                         push, linearGroups(rays));
     } else {
-        stream.dispatch(aim_, with({}, {{"rays", rays_}}), push, linearGroups(rays));
+        stream.dispatch(place_, with({}, {{"rays", rays_}}), push, linearGroups(rays));
+        context.tracer.closestHit(stream, rays_, hits_, rays);
+        stream.dispatch(aim_, with(context.scene.bindings({}), {{"rays", rays_}, {"hits", hits_}}), push,
+                        linearGroups(rays));
         context.tracer.closestHit(stream, rays_, hits_, rays);
         stream.dispatch(see_,
                         with(context.scene.bindings({ifUsed({"voxelOccupancy", voxels.occupancy}),

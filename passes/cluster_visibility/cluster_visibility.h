@@ -52,8 +52,9 @@ class FindClusterVisibility final : public Pass {
                     "What is nearer than this many voxels is seen by its voxels, and what is farther by its "
                     "clusters. 0: all by clusters. 10000: all by voxels, for comparison.",
                     0.0f, 10000.0f),
-                field("visibility", &Params::visibility,
-                      "voxels: rays walk through voxels. exact: through the scene's surfaces."),
+                field(
+                    "visibility", &Params::visibility,
+                    "voxels: rays walk through voxels. exact: from the scene's surfaces through the scene."),
                 field(
                     "hemisphere", &Params::hemisphere,
                     "surface: rays leave by the cosine about the normal of the surfaces before a face. face: "
@@ -79,7 +80,7 @@ class FindClusterVisibility final : public Pass {
     VoxelMarch march_{VoxelWalk::Bricks};
     std::optional<Compaction> compaction_;
     std::optional<PrefixSum> prefixSum_;
-    Program faceBits_, marchRays_, aim_, see_, merge_, compact_;
+    Program faceBits_, marchRays_, place_, aim_, see_, merge_, compact_;
     Buffer faces_, targets_, counts_, missed_, rays_, hits_;
     std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of the voxels and their clusters.
 };
