@@ -27,6 +27,4 @@ void visitFragment(TriangleFragment cell) {
     addVector(at + SUM_NORMAL, s.material.normal * units);
     addVector(at + SUM_POINT, s.point * units);
     addVector(at + SUM_ALBEDO, s.material.albedo * units);
-    add(at + SUM_METALLIC, s.material.metallic * units);
-    add(at + SUM_ROUGHNESS, s.material.roughness * units);
 }

@@ -7,8 +7,6 @@
 #define SUM_NORMAL 1u
 #define SUM_POINT 4u  // Centroids, from the cell's center, in cells.
 #define SUM_ALBEDO 7u
-#define SUM_METALLIC 10u
-#define SUM_ROUGHNESS 11u
-#define SUM_UINTS 12u
+#define SUM_UINTS 10u
 
 #endif

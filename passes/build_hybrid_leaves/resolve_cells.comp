@@ -21,6 +21,5 @@ void main() {
     const float area = max(signedSum(at + SUM_AREA), 1.0);
     const vec3 sum = signedSums(at + SUM_NORMAL);
     const vec3 normal = dot(sum, sum) > 0.0 ? normalize(sum) : vec3(0.0, 0.0, 1.0);
-    storeGridCell(cell, GridCell(normal, dot(normal, signedSums(at + SUM_POINT) / area), signedSums(at + SUM_ALBEDO) / area,
-                                 signedSum(at + SUM_METALLIC) / area, signedSum(at + SUM_ROUGHNESS) / area, 0.0));
+    storeGridCell(cell, GridCell(normal, dot(normal, signedSums(at + SUM_POINT) / area), signedSums(at + SUM_ALBEDO) / area, 0.0));
 }

@@ -7,6 +7,5 @@
 void visitFragment(TriangleFragment cell) {
     CellSurface s;
     if (!cellSurface(cell, s)) return;
-    storeGridCell(s.number, GridCell(s.material.normal, dot(s.material.normal, s.point), s.material.albedo,
-                                     s.material.metallic, s.material.roughness, 0.0));
+    storeGridCell(s.number, GridCell(s.material.normal, dot(s.material.normal, s.point), s.material.albedo, 0.0));
 }

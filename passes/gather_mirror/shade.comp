@@ -95,10 +95,10 @@ void main() {
     const vec3 throughput = path.throughput * weight * on.weight;
     if (all(equal(throughput, vec3(0.0)))) return;
     const uint next = atomicAdd(counts.next, 1u);
-    nextPaths.data[next] = MirrorPath(throughput, path.slot, width, sqrt(path.spread * path.spread + on.solidAngle), 1u);
+    const float spread = sqrt(path.spread * path.spread + on.solidAngle);
+    nextPaths.data[next] = MirrorPath(throughput, path.slot, width, spread, 1u);
     nextRays.data[next] = Ray(at.position + at.faceNormal * surfaceOffset(at.position), 0.0, on.direction, 1.0e30);
 #ifdef HYBRID
-    const float spread = sqrt(path.spread * path.spread + on.solidAngle);
     nextStarts.data[next] = kWidens ? RayStart(at.faceNormal, width, spread) : RayStart(at.faceNormal, 0.0, 0.0);
 #endif
 }

@@ -3,15 +3,12 @@
 // Radiosity of clusters' faces: the mean of their voxels', by area (Cosin and Patow 2022, section 4.4: irradiance is pulled up to
 // clusters). A thread takes a cluster; its voxels come in their order, so sums are the same in each run.
 //
-// Areas and flux are sampled: the ratio of two small samples is noise, and one voxel's could outshine a scene. So a face with less
-// than a twentieth of a voxel's face (as in shaders/voxels/face_lookup.glsl) sends what its cluster does, and a cluster with less than
-// that no more than its flux over a twentieth.
+// The ratio of two small samples could outshine a scene. So a face with less than SMALL_FACE_AREA sends what its cluster does, and a
+// cluster with less than that no more than its flux over so much.
 #include "shaders/clusters/cluster_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
-
-#define SMALL_AREA 0.05
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FaceValues { vec3 data[]; };
 layout(scalar) readonly buffer Clusters { VoxelCluster data[]; } clusters;
@@ -34,11 +31,11 @@ void main() {
             sum += own * radiosity.data[6u * voxel + face];
             area += own;
         }
-        const vec3 mean = sum / max(area, SMALL_AREA);
+        const vec3 mean = sum / max(area, SMALL_FACE_AREA);
         sent.data[6u * i + face] = mean;
         for (uint k = 0u; k < count; ++k) {
             const uint voxel = members.data[first + k];
-            if (unoccluded(voxelMaterial(voxel), face) < SMALL_AREA) radiosity.data[6u * voxel + face] = mean;
+            if (unoccluded(voxelMaterial(voxel), face) < SMALL_FACE_AREA) radiosity.data[6u * voxel + face] = mean;
         }
     }
 }

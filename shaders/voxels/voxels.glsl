@@ -17,6 +17,9 @@ layout(scalar) readonly buffer VoxelMaterialsAt { VoxelMaterials voxelMaterials;
 
 VoxelMaterial voxelMaterial(uint voxel) { return unpackMaterial(voxelMaterials.data[voxel]); }
 
+// Areas and flux are sampled: below this part of a voxel's face their ratio is noise, and surfaces around it are taken, too.
+#define SMALL_FACE_AREA 0.05
+
 // Area of a voxel's surfaces that open space lies in front of, at a face +x -x +y -y +z -z, in units of a voxel's face.
 float unoccluded(VoxelMaterial m, uint face) {
     return (face & 1u) == 0u ? m.unoccludedPositive[face >> 1] : m.unoccludedNegative[face >> 1];
