@@ -39,6 +39,7 @@ class Scene:
     """What was compared with one reference."""
 
     name: str
+    run: str  # the first one that shows it
     measured: list[Measured] = field(default_factory=list)
 
     def methods(self) -> list[str]:
@@ -72,7 +73,7 @@ def scenes_of(runs: list[Results], metric: Metric, light: str) -> list[Scene]:
     scenes: dict[str, Scene] = {}
     for run, row, passes in graphs:
         reference = run.reference_of(row["variant"]) or {}
-        scene = scenes.setdefault(str(reference.get("hash")), Scene(scene_of(run, row)))
+        scene = scenes.setdefault(str(reference.get("hash")), Scene(scene_of(run, row), _run_name(run)))
         own = [name for name in dict.fromkeys(passes) if name not in shared | _EVERYWHERE]
         scene.measured.append(Measured(
             " + ".join(own) or "all", _is_rival(passes), str(run.manifest.get("device", "")), row["variant"], _costs(run, row),
@@ -82,7 +83,8 @@ def scenes_of(runs: list[Results], metric: Metric, light: str) -> list[Scene]:
 
 def speed_ups(scene: Scene, cost: str) -> dict[str, list[tuple[float, float]]]:
     """By method, for each variant of filtered path tracing on its front: its error, and its cost over what the method
-    costs for as little error; NaN where the method does not get there."""
+    costs for as little error; NaN where the method does not get there. Where its cheapest variant has less error already,
+    that one's cost counts: the factor is at least so much."""
     found: dict[str, list] = {}
     for method, machine in scene.on_each_machine():
         for spent, error in scene.rivals(machine, cost):
@@ -148,10 +150,17 @@ def _costs(run: Results, row) -> dict[str, float]:
 
 
 def _told_apart(scenes: list[Scene]) -> list[Scene]:
-    # The same scene may have several references: other cameras, lights, sizes.
-    taken: dict[str, int] = {}
+    # The same scene may have several references: other cameras, lights, sizes. Then the run's name goes with it.
+    names = [scene.name for scene in scenes]
     for scene in scenes:
-        taken[scene.name] = taken.get(scene.name, 0) + 1
-        if taken[scene.name] > 1:
-            scene.name += f" ({taken[scene.name]})"
+        if names.count(scene.name) > 1:
+            scene.name = f"{scene.name} ({scene.run})"
+    names = [scene.name for scene in scenes]
+    for i, scene in enumerate(scenes):
+        if names.count(scene.name) > 1:
+            scene.name += f" {names[:i + 1].count(names[i])}"
     return scenes
+
+
+def _run_name(run: Results) -> str:
+    return str(section(run.manifest, "config").get("name") or run.directory.name)

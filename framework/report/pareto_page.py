@@ -26,6 +26,7 @@ def render(runs: list[Results], metric: Metric, light: str) -> str:
     methods = list(dict.fromkeys(method for scene in scenes for method in scene.methods()))
     styles = {method: Style(CATEGORY_COLORS[i % len(CATEGORY_COLORS)], list(MARKERS)[i % len(MARKERS)])
               for i, method in enumerate(methods)}
+    rivalled = _with_rival(scenes)
     charts = [(scene.name, [chart for c, cost in enumerate(CHARTED)
                             if (chart := _chart(scene, cost, metric, light, styles, f"scene{s}-{c}"))])
               for s, scene in enumerate(scenes)]
@@ -33,8 +34,8 @@ def render(runs: list[Results], metric: Metric, light: str) -> str:
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     return environment.get_template("pareto.html.j2").render(
         style_css=(_HERE / "style.css").read_text(encoding="utf-8"), metric=metric, light=light, charts=charts,
-        legend=list(styles.items()), markers=MARKERS, tables=[(cost, _savings(scenes, cost)) for cost in pareto.TIMES],
-        equal_time=_equal_time(scenes, "frame"), scene_names=[scene.name for scene in scenes],
+        legend=list(styles.items()), markers=MARKERS, tables=[(cost, _savings(rivalled, cost)) for cost in pareto.TIMES],
+        equal_time=_equal_time(rivalled, "frame"), scene_names=[scene.name for scene in rivalled],
         dominated={cost: pareto.dominated(scenes, cost) for cost in pareto.TIMES},
         words={cost: COSTS[cost].split(",")[0].removeprefix("time of ") for cost in pareto.TIMES},
         runs=[str(run.directory) for run in runs])
@@ -47,6 +48,11 @@ def csv_lines(runs: list[Results], metric: Metric, light: str):
         for m in scene.measured:
             yield [scene.name, m.method, m.machine, m.label, *(f"{m.costs[cost]:.9g}" for cost in COSTS),
                    *(f"{value:.9g}" for value in (m.error, m.low, m.high))]
+
+
+def _with_rival(scenes: list[Scene]) -> list[Scene]:
+    """Those in which filtered path tracing was measured."""
+    return [scene for scene in scenes if any(m.is_rival for m in scene.measured)]
 
 
 def _savings(scenes: list[Scene], cost: str) -> list[tuple[str, list[str], str, str]]:

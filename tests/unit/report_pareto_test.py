@@ -78,6 +78,15 @@ class Pareto(unittest.TestCase):
         self.assertEqual(pareto.dominated(scenes, "frame"), [])  # Each wins in one scene.
         self.assertEqual(pareto.dominated(scenes[1:], "frame"), ["inject_light_rays + gather_rays"])
 
+    def test_references_of_one_scene_are_told_apart(self):
+        folders = [self.run_of("room", {"p": (PATHS, 100, 0.1)}) for _ in range(3)]
+        runs = [load(folder) for folder in folders]
+        for run, (hash_, name) in zip(runs, (("x", "near"), ("y", "far"), ("z", "far"))):
+            run.manifest["reference"]["hash"] = hash_
+            run.manifest["config"]["name"] = name
+        scenes = pareto.scenes_of(runs, runs[0].metrics[0], "indirect")
+        self.assertEqual([scene.name for scene in scenes], ["room (near)", "room (far) 1", "room (far) 2"])
+
     def test_intervals_that_overlap_beat_nothing(self):
         scenes = self.scenes(self.run_of("room", {"p": (PATHS, 100, 0.1), "r": (RAYS, 90, 0.095)}))
         self.assertEqual(pareto.dominated(scenes, "frame"), [])
