@@ -35,8 +35,30 @@ namespace voxray {
 template <typename E>
 struct EnumNames;
 
-/// One parameter. `min` and `max` are inclusive; `allowed` are the only values it may have, empty: any.
+/// Values of another parameter: one of `values`, or none of them.
 template <typename Owner, typename T>
+struct Condition {
+    T Owner::*member;
+    std::vector<T> values;
+    bool isOneOf;
+
+    constexpr bool holds(const T& value) const {
+        return (std::ranges::find(values, value) != values.end()) == isOneOf;
+    }
+};
+
+template <typename Owner, typename T>
+constexpr Condition<Owner, T> oneOf(T Owner::*member, std::type_identity_t<std::vector<T>> values) {
+    return {member, std::move(values), true};
+}
+template <typename Owner, typename T>
+constexpr Condition<Owner, T> noneOf(T Owner::*member, std::type_identity_t<std::vector<T>> values) {
+    return {member, std::move(values), false};
+}
+
+/// One parameter. `min` and `max` are inclusive; `allowed` are the only values it may have, empty: any. It
+/// has an effect where one of its conditions holds; without conditions, always.
+template <typename Owner, typename T, typename... Conditions>
 struct Field {
     const char* name;
     T Owner::*member;
@@ -45,6 +67,15 @@ struct Field {
     T max;
     bool ranged;
     std::vector<T> allowed = {};
+    std::tuple<Conditions...> conditions = {};
+
+    /// The same parameter, which has an effect with certain values of others alone:
+    /// field("samples", ...).onlyWith(oneOf(&Params::method, {Method::Sampled})). Written where none of these
+    /// conditions holds it is an error (idleParams()); the pass takes no notice of it there.
+    template <typename... Others>
+    constexpr Field<Owner, T, Others...> onlyWith(Others... others) && {
+        return {name, member, help, min, max, ranged, std::move(allowed), {std::move(others)...}};
+    }
 };
 
 template <typename Owner, typename T>
@@ -70,11 +101,18 @@ constexpr std::vector<uint32_t> powersOfTwo(uint32_t min, uint32_t max) {
     return powers;
 }
 
+/// A parameter that is written where it has no effect.
+struct IdleParameter {
+    std::string name;
+    TextLocation where;
+    std::string why;  ///< "no effect with method: exact; only with method: three_axis"
+};
+
 /// What help pages and JSON Schema say of one parameter.
 struct ParameterDoc {
     std::string name;
-    std::string type;  ///< "boolean", "integer", "number", "string", "choice", "rgb"
-    std::string help;
+    std::string type;                  ///< "boolean", "integer", "number", "string", "choice", "rgb"
+    std::string help;                  ///< With what it has an effect with alone.
     std::string defaults;              ///< Default as YAML text.
     std::string min, max;              ///< Empty where there is no range.
     std::vector<std::string> choices;  ///< The only values; empty: any of the type and range.
@@ -87,6 +125,14 @@ std::vector<std::string> choicesOf() {
     std::vector<std::string> names;
     for (const auto& [value, name] : EnumNames<E>::names) names.emplace_back(name);
     return names;
+}
+
+/// Reads an integer of any type, which may be narrower than its range.
+template <typename T>
+T integerIn(int64_t number, T min, T max, const Value& at, const std::string& what) {
+    if (std::cmp_less(number, min) || std::cmp_greater(number, max))
+        throw UsageError(at.where, "{}: {} is out of range [{}, {}]", what, number, min, max);
+    return T(number);
 }
 
 template <typename T>
@@ -104,11 +150,8 @@ void readInto(T& out, const Value& value, const std::string& what) {
         throw UsageError(value.where, "{}: unknown value '{}'{}", what, text,
                          didYouMean(text, choicesOf<T>()));
     } else if constexpr (std::is_integral_v<T>) {
-        const int64_t number = value.asInteger(what);
-        if (number < int64_t(std::numeric_limits<T>::min()) ||
-            uint64_t(number < 0 ? 0 : number) > uint64_t(std::numeric_limits<T>::max()))
-            throw UsageError(value.where, "{}: {} is out of range", what, number);
-        out = T(number);
+        using Limits = std::numeric_limits<T>;
+        out = integerIn<T>(value.asInteger(what), Limits::min(), Limits::max(), value, what);
     } else if constexpr (std::is_floating_point_v<T>) {
         out = T(value.asNumber(what));
     } else if constexpr (std::is_same_v<T, glm::vec3>) {
@@ -182,11 +225,76 @@ void checkAllowed(const T& value, const std::vector<T>& allowed, const Value& at
                          fmt::join(textsOf(allowed), ", "));
 }
 
+/// Reads one parameter and checks that it may have that value.
+template <typename P, typename F>
+void readField(P& params, const F& field, const Value& value, const std::string& what) {
+    auto& out = params.*(field.member);
+    using T = std::remove_cvref_t<decltype(out)>;
+    if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
+        if (field.ranged) {
+            out = integerIn<T>(value.asInteger(what), field.min, field.max, value, what);
+            return;
+        }
+    readInto(out, value, what);
+    if (field.ranged) checkRange(out, field.min, field.max, value, what);
+    checkAllowed(out, field.allowed, value, what);
+}
+
 }  // namespace schema_detail
 
 template <typename P, typename Visitor>
 void forEachField(Visitor&& visit) {
     std::apply([&](const auto&... fields) { (visit(fields), ...); }, P::schema());
+}
+
+/// The name of the parameter that a member holds.
+template <typename P, typename Member>
+std::string fieldName(Member member) {
+    std::string name;
+    forEachField<P>([&](const auto& f) {
+        if constexpr (std::is_same_v<decltype(f.member), Member>)
+            if (f.member == member) name = f.name;
+    });
+    return name;
+}
+
+/// "three_axis | dominant_axis" with the parameter's name, or "bound other than 0".
+template <typename P, typename Owner, typename T>
+std::string conditionText(const Condition<Owner, T>& condition) {
+    const std::string values = fmt::format("{}", fmt::join(schema_detail::textsOf(condition.values), " | "));
+    return fmt::format("{}{}{}", fieldName<P>(condition.member), condition.isOneOf ? ": " : " other than ",
+                       values);
+}
+
+/// What a parameter needs to have an effect, "" where it always has one.
+template <typename P, typename F>
+std::string conditionsText(const F& field) {
+    std::vector<std::string> texts;
+    std::apply([&](const auto&... c) { (texts.push_back(conditionText<P>(c)), ...); }, field.conditions);
+    return fmt::format("{}", fmt::join(texts, " or "));
+}
+
+/// The parameters that a map names although others leave them without effect.
+template <typename P>
+std::vector<IdleParameter> idleParams(const P& params, const Value& map) {
+    std::vector<IdleParameter> idle;
+    forEachField<P>([&](const auto& f) {
+        const Value* written = map.find(f.name);
+        if (!written || conditionsText<P>(f).empty()) return;
+        bool holds = false;
+        std::vector<std::string> present;
+        const auto look = [&](const auto& condition) {
+            const auto& value = params.*(condition.member);
+            holds = holds || condition.holds(value);
+            present.push_back(fieldName<P>(condition.member) + ": " + schema_detail::textOf(value));
+        };
+        std::apply([&](const auto&... c) { (look(c), ...); }, f.conditions);
+        if (!holds)
+            idle.push_back({f.name, written->where,
+                            fmt::format("no effect with {}; only with {}", fmt::join(present, ", "),
+                                        conditionsText<P>(f))});
+    });
+    return idle;
 }
 
 template <typename P>
@@ -196,6 +304,18 @@ std::vector<std::string> fieldNames() {
     return names;
 }
 
+/// ", as in {width: 640, height: 360}": the first parameters that have a default.
+template <typename P>
+std::string exampleOf() {
+    const P defaults;
+    std::vector<std::string> entries;
+    forEachField<P>([&](const auto& f) {
+        const std::string value = schema_detail::textOf(defaults.*(f.member));
+        if (!value.empty() && entries.size() < 2) entries.push_back(fmt::format("{}: {}", f.name, value));
+    });
+    return entries.empty() ? "" : fmt::format(", as in {{{}}}", fmt::join(entries, ", "));
+}
+
 /// Reads a map into a parameter struct. Every key must be a field or one of `alsoAllowed`.
 /// @param owner name put before each key in errors, e.g. "voxelize".
 /// @throws UsageError naming file, line, key and the nearest valid word.
@@ -203,7 +323,8 @@ template <typename P>
 P readParams(const Value& map, const std::string& owner, const std::vector<std::string>& alsoAllowed = {}) {
     P params;
     if (map.isNull()) return params;
-    if (!map.isMap()) throw UsageError(map.where, "{}: expected a map of parameters", owner);
+    if (!map.isMap())
+        throw UsageError(map.where, "{}: expected a map of parameters{}", owner, exampleOf<P>());
     std::vector<std::string> valid = fieldNames<P>();
     valid.insert(valid.end(), alsoAllowed.begin(), alsoAllowed.end());
     for (size_t i = 0; i < map.members.size(); ++i) {
@@ -214,13 +335,19 @@ P readParams(const Value& map, const std::string& owner, const std::vector<std::
             throw UsageError(value.where, "{}: unknown parameter '{}'{}", owner, key, didYouMean(key, valid));
         forEachField<P>([&, &key = key, &value = value](const auto& f) {
             if (key != f.name) return;
-            const std::string what = owner + "." + key;
-            schema_detail::readInto(params.*(f.member), value, what);
-            if (f.ranged) schema_detail::checkRange(params.*(f.member), f.min, f.max, value, what);
-            schema_detail::checkAllowed(params.*(f.member), f.allowed, value, what);
+            schema_detail::readField(params, f, value, owner + "." + key);
         });
     }
     return params;
+}
+
+/// Reads one parameter that stands alone, as a scene's environment does that is a radiance.
+template <typename P, typename T>
+void readParam(P& params, T P::*member, const Value& value, const std::string& what) {
+    forEachField<P>([&](const auto& f) {
+        if constexpr (std::is_same_v<decltype(f.member), T P::*>)
+            if (f.member == member) schema_detail::readField(params, f, value, what);
+    });
 }
 
 /// Every parameter with its value, defaults filled in: what the manifest records.
@@ -253,6 +380,8 @@ std::vector<ParameterDoc> describeParams() {
         doc.name = f.name;
         doc.type = schema_detail::typeName<T>();
         doc.help = f.help;
+        if (const std::string needs = conditionsText<P>(f); !needs.empty())
+            doc.help += " Only with " + needs + ".";
         doc.defaults = schema_detail::textOf(defaults.*(f.member));
         if (f.ranged) {
             doc.min = schema_detail::textOf(f.min);

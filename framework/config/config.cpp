@@ -74,10 +74,10 @@ MeasureSettings readMeasure(const Value& map) {
     scalars.erase("masks");
     MeasureSettings measure = readParams<MeasureSettings>(scalars, "measure");
     if (measure.compareEvery > 0 && comparedFrames(measure) < 3)
-        throw UsageError(
-            map.find("compare_every")->where,
-            "measure.compare_every: {} of {} frames compares {}; temporal error needs at least 3",
-            measure.compareEvery, measure.frames, comparedFrames(measure));
+        throw UsageError(map.find("compare_every")->where,
+                         "measure.compare_every: {} compares {} of {} frames; temporal error needs at least "
+                         "3: raise 'frames'",
+                         measure.compareEvery, comparedFrames(measure), measure.frames);
     if (const Value* masks = map.find("masks"); masks && !masks->isNull()) measure.masks = readMasks(*masks);
     const Value* list = map.find("metrics");
     if (!list) {

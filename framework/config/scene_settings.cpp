@@ -82,7 +82,6 @@ void readEnvironment(const Value& value, SceneSettings& settings) {
         environment.scale = glm::vec3(0.0f);
     } else {
         // A number or a triple is a radiance; any other text is a file
-        Value asMap = Value::map();
         bool isNumber = value.isList();
         if (value.isScalar()) {
             try {
@@ -91,8 +90,10 @@ void readEnvironment(const Value& value, SceneSettings& settings) {
             } catch (const UsageError&) {
             }
         }
-        asMap.set(isNumber ? "scale" : "map", value);
-        environment = readParams<EnvironmentSettings>(asMap, "scene.environment");
+        if (isNumber)
+            readParam(environment, &EnvironmentSettings::scale, value, "scene.environment");
+        else
+            readParam(environment, &EnvironmentSettings::map, value, "scene.environment");
     }
     settings.environment = environment;
 }
@@ -123,7 +124,10 @@ SceneSettings readSceneSettings(const Value& map) {
         } else if (key == "moving_spheres") {
             settings.movingSpheres = readParams<MovingSpheres>(value, "scene.moving_spheres");
         } else if (key == "lights" && !settings.source.builtinParameters.find(key)) {
-            if (!value.isList()) throw UsageError(value.where, "scene.lights: expected a list of lights");
+            if (!value.isList())
+                throw UsageError(
+                    value.where,
+                    "scene.lights: expected a list of lights, as in [{{point: [0, 1, 0], intensity: 5}}]");
             for (size_t i = 0; i < value.items.size(); ++i)
                 settings.lights.push_back(readLight(value.items[i], i));
         } else if (key == "add") {

@@ -19,6 +19,7 @@ struct Axis {
     std::string label;  ///< Short name, for the names of variants.
     std::vector<Value> values;
     std::vector<std::string> texts;  ///< Of the values, short.
+    TextLocation where;
 };
 
 void checkPath(const std::string& path, const TextLocation& where) {
@@ -59,7 +60,7 @@ std::vector<Axis> readAxes(const Value& sweep) {
         const size_t dot = path.rfind('.');
         const std::string label = dot == std::string::npos ? path : path.substr(dot + 1);
         ++labels[label];
-        axes.push_back({path, label, sweepValues(list), {}});
+        axes.push_back({path, label, sweepValues(list), {}, list.where});
         axes.back().texts = list.isMap() ? keysOf(list) : valueLabels(list.items);
         const std::set<std::string> unique(axes.back().texts.begin(), axes.back().texts.end());
         if (unique.size() != axes.back().texts.size())
@@ -84,13 +85,19 @@ bool swapsPass(const Axis& axis) {
     return axis.path.find('.') == std::string::npos;
 }
 
+/// A path that leads nowhere is told at the axis, anything else at the value.
+void setValue(Value& config, const Axis& axis, size_t chosen) {
+    Value value = axis.values[chosen];
+    if (!hasTarget(config, axis.path)) value.where = axis.where;
+    applyOverride(config, axis.path, value, Merge::Replace);
+}
+
 Value withPassesSwapped(const Experiment& experiment, const std::vector<Axis>& axes,
                         const std::vector<size_t>& chosen) {
     Value config = experiment.config;
     config.erase("sweep");
     for (size_t a = 0; a < axes.size(); ++a)
-        if (swapsPass(axes[a]))
-            applyOverride(config, axes[a].path, axes[a].values[chosen[a]], Merge::Replace);
+        if (swapsPass(axes[a])) setValue(config, axes[a], chosen[a]);
     return config;
 }
 
@@ -144,7 +151,7 @@ std::vector<Variant> expandSweep(const Experiment& experiment) {
                     variant.values.push_back(kNoValue);
                     continue;
                 }
-                applyOverride(variant.config, axes[a].path, axes[a].values[chosen[a]], Merge::Replace);
+                setValue(variant.config, axes[a], chosen[a]);
             }
             variant.values.push_back(axes[a].texts[chosen[a]]);
         }

@@ -15,13 +15,13 @@ namespace {
 constexpr uint32_t kSubPixels = 2;  ///< Along each side of a pixel.
 
 /// Which instances and materials a mask names.
-struct Condition {
+struct MaskCondition {
     std::vector<bool> instances, materials;
     float minMetallic, maxRoughness;
 };
 
-Condition conditionOf(const MaskSettings& mask, const Scene& scene) {
-    Condition condition{{}, {}, mask.minMetallic, mask.maxRoughness};
+MaskCondition conditionOf(const MaskSettings& mask, const Scene& scene) {
+    MaskCondition condition{{}, {}, mask.minMetallic, mask.maxRoughness};
     std::vector<std::string> materials, meshes;
     for (const Material& material : scene.materials) {
         condition.materials.push_back(mask.material.empty() || material.name == mask.material);
@@ -50,7 +50,7 @@ uint32_t instanceOf(const Geometry& geometry, uint32_t triangle) {
     return uint32_t(after - geometry.instances.begin()) - 1;
 }
 
-bool isMet(const Condition& condition, const SceneState& state, const Hit& hit) {
+bool isMet(const MaskCondition& condition, const SceneState& state, const Hit& hit) {
     if (hit.triangle == Hit::kMiss) return false;
     const Geometry& geometry = state.geometry;
     const uint32_t number = geometry.triangleMaterials[hit.triangle];
@@ -101,7 +101,7 @@ void checkMaskNames(const std::vector<MaskSettings>& masks, const Scene& scene) 
 std::vector<PixelSelection> selectPixels(const std::vector<MaskSettings>& masks, const SceneState& state,
                                          const Camera& camera, uint32_t width, uint32_t height) {
     if (masks.empty()) return {};
-    std::vector<Condition> conditions;
+    std::vector<MaskCondition> conditions;
     std::vector<PixelSelection> selections;
     for (const MaskSettings& mask : masks) {
         conditions.push_back(conditionOf(mask, *state.scene));

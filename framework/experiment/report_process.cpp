@@ -65,8 +65,9 @@ ScriptEnd runReportScript(const std::filesystem::path& sourceRoot, const std::st
 
 void makeReport(const std::filesystem::path& sourceRoot, const std::filesystem::path& results) {
     constexpr const char* kScript = "make_report.py";
-    const std::string advice = fmt::format("the results are kept; make it later with {} {}", kPython,
-                                           (sourceRoot / "framework/report" / kScript).string());
+    const std::string advice =
+        fmt::format("the results are kept; make it later with {} {} {}", kPython,
+                    (sourceRoot / "framework/report" / kScript).string(), results.string());
     try {
         const ScriptEnd end = runReportScript(sourceRoot, kScript, {results.string()});
         if (end.status != 0) throw Error("{}", end.lastLine);

@@ -231,6 +231,13 @@ const PreparedReference* Run::referenceOf(const WiredVariant& variant, Progress&
     const ReferenceImages& images = session_->reference(wired_, variant.setup, registry_,
                                                         [&](double fraction) { progress.update(fraction); });
 
+    const std::vector<float>& radiance = images.final.mean.data;
+    if (std::ranges::all_of(radiance, [](float value) { return value == 0; })) {
+        warnings_.push_back(fmt::format(
+            "the reference of '{}' is black: no light reaches what the camera sees", variant.name));
+        progress.warn(warnings_.back());
+    }
+
     // The first reference is "reference"; each other one gets its own folder
     auto& records = manifest_.references;
     const auto known = std::find_if(records.begin(), records.end(),
@@ -309,8 +316,12 @@ std::string Run::outcome(const VariantResult& r) const {
     std::string line =
         fmt::format("{}: build {:.1f} ms, frame {:.1f} ms", r.variant, r.buildMs, r.frameMs.median);
     for (const Metric& metric : metrics().first(2))
-        if (const auto value = r.scores.find(metric.name); value != r.scores.end())
+        if (const auto value = r.scores.find(metric.name); value != r.scores.end()) {
             line += fmt::format(", {} {:.4g}", metric.label, value->second);
+            if (const auto own = r.scores.find(std::string(kLightPrefixes[1]) + metric.name);
+                own != r.scores.end())
+                line += fmt::format(" (indirect light {:.4g})", own->second);
+        }
     return line;
 }
 

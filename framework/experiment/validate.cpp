@@ -10,6 +10,7 @@
 #include "experiment/pixel_masks.h"
 #include "experiment/reference.h"
 #include "experiment/session.h"
+#include "scene/view.h"
 
 namespace voxray {
 namespace {
@@ -84,17 +85,41 @@ std::string bounceDifference(const WiredVariant& variant, const WiredExperiment&
         .what();
 }
 
-/// A swept parameter of a pass that a variant does without changes nothing there: such variants come once.
+/// A camera that no surface lies before makes an empty image.
+void checkView(const Setup& setup, const PreparedScene& prepared) {
+    const SceneSettings& scene = setup.scene;
+    if (!isInView(prepared.state.geometry, prepared.camera, setup.image.width, setup.image.height))
+        throw UsageError(
+            scene.cameraWhere.file.empty() ? scene.where : scene.cameraWhere,
+            "scene.camera: no surface lies in its view; './voxray scene' tells where the scene is "
+            "and gives a camera that sees it");
+}
+
+/// Why an axis changes nothing in a variant: no image depends on its pass, or other parameters leave the
+/// swept one without effect. Empty where it has one.
+std::string whyWithoutEffect(const WiredVariant& variant, const std::string& axis) {
+    const size_t dot = axis.find('.');
+    const std::string id = axis.substr(0, dot);
+    if (dot != std::string::npos && std::ranges::count(variant.leftOut, id) > 0)
+        return fmt::format("no image depends on '{}'", id);
+    for (const IdlePath& idle : variant.idle)
+        if (idle.path == axis) return idle.parameter.why;
+    return {};
+}
+
+/// A swept parameter that has no effect in a variant: such variants come once.
 /// @throws UsageError with file and line for an axis that changes nothing in any variant.
 void leaveOutEqual(WiredExperiment& wired) {
     const std::vector<std::string> keys = sweepKeys(wired.experiment);
     std::set<std::vector<std::string>> seen;
     VariantNames names(wired.experiment);
+    std::vector<std::string> reasons(keys.size());
     std::erase_if(wired.variants, [&](WiredVariant& variant) {
         for (size_t a = 0; a < keys.size(); ++a)
-            if (const size_t dot = keys[a].find('.');
-                dot != std::string::npos && std::ranges::count(variant.leftOut, keys[a].substr(0, dot)) > 0)
+            if (const std::string why = whyWithoutEffect(variant, keys[a]); !why.empty()) {
                 variant.values[a] = kNoValue;
+                reasons[a] = why;
+            }
         if (!seen.insert(variant.values).second) return true;
         variant.name = names.next(variant.values);
         return false;
@@ -102,8 +127,7 @@ void leaveOutEqual(WiredExperiment& wired) {
     for (size_t a = 0; a < keys.size(); ++a)
         if (std::ranges::all_of(wired.variants, [&](const auto& v) { return v.values[a] == kNoValue; }))
             throw UsageError(wired.experiment.sweep.members[a].value.where,
-                             "sweep.{}: changes nothing, since no image depends on '{}' in any variant",
-                             keys[a], keys[a].substr(0, keys[a].find('.')));
+                             "sweep.{}: changes nothing in any variant: {}", keys[a], reasons[a]);
 }
 
 }  // namespace
@@ -134,8 +158,9 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
         for (const char* part : {"direct", "indirect"}) graph.checkIsMadeOf("final", part);
         std::vector<std::string> leftOut = graph.keepOnly(comparedPorts());
         Value resolved = graph.resolved();
+        std::vector<IdlePath> idle = idlePaths(variant, registry);
         wired.variants.push_back(
-            {std::move(variant), std::move(graph), std::move(resolved), std::move(leftOut)});
+            {std::move(variant), std::move(graph), std::move(resolved), std::move(leftOut), std::move(idle)});
     }
     checkOwnValues(experiment, registry);
     if (!experiment.reference.isNull()) {
@@ -152,6 +177,7 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
     }
     wired.experiment = std::move(experiment);
     leaveOutEqual(wired);
+    checkIdleParameters(wired);
     return wired;
 }
 
@@ -167,6 +193,7 @@ std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader,
             prepared = loader.prepare(variant.setup.scene);
             key = std::move(own);
             checkMaskNames(wired.experiment.measure.masks, *prepared.state.scene);
+            checkView(variant.setup, prepared);
         }
         const Frame frame = frameOf(variant.setup, prepared, variant.setup.general.seed);
         try {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "config/sweep.h"
+#include "experiment/idle_parameters.h"
 #include "experiment/scene_setup.h"
 #include "graph/graph.h"
 #include "graph/registry.h"
@@ -14,6 +15,7 @@ struct WiredVariant : Variant {
     Graph graph;     ///< Without passes that nothing of what is compared (`final`, `indirect`) depends on.
     Value resolved;  ///< The graph with every default filled in.
     std::vector<std::string> leftOut;  ///< Ids of the passes that the graph does without.
+    std::vector<IdlePath> idle;        ///< What is written in the graph without effect.
 };
 
 /// An experiment whose graphs are known to be right.

@@ -31,6 +31,10 @@ struct PassKind {
     /// The map with every default filled in, reserved keys left out.
     std::function<Value(const Value& map, const std::string& id, const std::vector<std::string>& reserved)>
         resolve;
+    /// Parameters that the map names although they have no effect there.
+    std::function<std::vector<IdleParameter>(const Value& map, const std::string& id,
+                                             const std::vector<std::string>& reserved)>
+        idle;
 };
 
 /// The ports that a pass has with each value of one parameter, in the order of its values.
@@ -47,8 +51,7 @@ std::vector<PortDoc> describePorts(const std::vector<PortInfo>& ofDefaults,
 /// All kinds of passes, filled by registerPasses (passes/register_passes.h).
 class Registry {
  public:
-    /// P: see Pass. Where P::Params has a `void check(const Value& map, const std::string& id) const`, it
-    /// is called once the parameters are read, to throw a UsageError for values that do not go together.
+    /// P: see Pass.
     template <typename P>
     void add() {
         PassKind kind;
@@ -57,12 +60,13 @@ class Registry {
         kind.parameters = describeParams<typename P::Params>();
         kind.ports = portsOf<P>();
         kind.create = [](const Value& map, const std::string& id, const std::vector<std::string>& reserved) {
-            const auto params = readParams<typename P::Params>(map, id, reserved);
-            if constexpr (requires { params.check(map, id); }) params.check(map, id);
-            return std::unique_ptr<Pass>(new P(params));
+            return std::unique_ptr<Pass>(new P(readParams<typename P::Params>(map, id, reserved)));
         };
         kind.resolve = [](const Value& map, const std::string& id, const std::vector<std::string>& reserved) {
             return writeParams(readParams<typename P::Params>(map, id, reserved));
+        };
+        kind.idle = [](const Value& map, const std::string& id, const std::vector<std::string>& reserved) {
+            return idleParams(readParams<typename P::Params>(map, id, reserved), map);
         };
         kinds_.push_back(std::move(kind));
     }

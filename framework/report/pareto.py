@@ -6,7 +6,7 @@ import math
 import statistics
 from dataclasses import dataclass, field
 
-from report.equal_error import time_to_reach
+from report.equal_error import Reached, time_to_reach
 from report.load import LIGHTS, Metric, Results, interval_of, section
 from report.ranking import beaten_by, pareto_front
 from report.setting import scene_of
@@ -14,9 +14,12 @@ from report.setting import scene_of
 RIVAL = {"path_trace", "filter_irradiance"}  # passes of what a user would pick instead
 _NOT_OF_IT = ("inject_", "gather_", "sample_")  # what passes of other methods begin with
 _EVERYWHERE = {"gbuffer", "voxelize", "composite"}  # passes that tell nothing of a method
-COSTS = {"frame": "time of one frame, ms", "build + frame": "time of build + one frame, ms",
-         "memory": "device memory, bytes", "rays": "rays traced", "voxel steps": "voxels that rays walked through"}
-TIMES = ("frame", "build + frame")  # these can't be compared between machines, counts can
+_LAYOUT = "layout"  # the parameter that makes two methods of the same passes
+# Build passes that light does not change; all others run again where it is new
+_OF_SURFACES = {"voxelize", "voxelize_clipmap", "place_surfels", "cluster_voxels", "cluster_visibility", "build_hybrid_leaves"}
+COSTS = {"frame": "time of one frame, ms", "frame + light": "time of one frame with its light injected, ms",
+         "build + frame": "time of build + one frame, ms", "memory": "device memory, bytes", "rays": "rays traced", "voxel steps": "voxels that rays walked through"}
+TIMES = ("frame", "frame + light", "build + frame")  # these can't be compared between machines, counts can
 
 
 @dataclass(frozen=True)
@@ -24,7 +27,7 @@ class Measured:
     """A variant: its costs by COSTS, its error and the ends of the error's interval."""
 
     method: str
-    is_rival: bool  # filtered path tracing
+    spp: int  # samples a pixel of filtered path tracing, 0 for all else
     machine: str
     label: str
     costs: dict[str, float]
@@ -32,6 +35,27 @@ class Measured:
     low: float
     high: float
     is_worse_than_nothing: bool  # than a black or a constant image
+    scores: dict[str, float]  # of every metric of the run
+
+    @property
+    def is_rival(self) -> bool:
+        return self.spp > 0
+
+
+@dataclass(frozen=True)
+class Factor:
+    """A method over filtered path tracing with some samples a pixel: by how much, and what the intervals of both errors
+    make of it. NaN where the method does not get there."""
+
+    rival: Measured
+    value: float
+    low: float
+    high: float
+
+    @property
+    def is_told(self) -> bool:
+        """Whether the intervals leave no doubt on which side of 1 it lies."""
+        return self.low > 1 or self.high < 1
 
 
 @dataclass
@@ -49,15 +73,14 @@ class Scene:
         """(method, machine), those of filtered path tracing left out."""
         return list(dict.fromkeys((m.method, m.machine) for m in self.measured if not m.is_rival))
 
-    def rivals(self, machine: str, cost: str) -> list[tuple[float, float]]:
-        """(cost, error) of the variants of filtered path tracing that no other of them beats."""
-        points = [(m.costs[cost], m.error) for m in self.measured
-                  if m.is_rival and m.machine == machine and m.costs[cost] > 0 and m.error > 0]
-        return [points[i] for i in pareto_front(points)]
+    def rivals(self, machine: str, cost: str) -> list[Measured]:
+        """The variants of filtered path tracing that no other of them beats, by rising cost."""
+        own = [m for m in self.measured if m.is_rival and m.machine == machine and m.costs[cost] > 0 and m.error > 0]
+        return [own[i] for i in pareto_front([(m.costs[cost], m.error) for m in own])]
 
-    def points(self, method: str, machine: str, cost: str) -> list[tuple[float, float]]:
-        """(cost, error) of a method's variants on one machine."""
-        return [(m.costs[cost], m.error) for m in self.measured
+    def of(self, method: str, machine: str, cost: str) -> list[Measured]:
+        """A method's variants on one machine."""
+        return [m for m in self.measured
                 if (m.method, m.machine) == (method, machine) and m.costs[cost] > 0 and m.error > 0]
 
 
@@ -69,28 +92,33 @@ def scenes_of(runs: list[Results], metric: Metric, light: str) -> list[Scene]:
     column = LIGHTS[light] + metric.key
     graphs = [(run, row, _passes(run, row["variant"])) for run in runs for _, row in run.ok.iterrows()
               if not math.isnan(row[column])]
-    shared = set.intersection(*(set(passes) for _, _, passes in graphs)) if graphs else set()
+    shared = set.intersection(*(set(names) for *_, names in graphs)) if graphs else set()
     scenes: dict[str, Scene] = {}
-    for run, row, passes in graphs:
+    for run, row, names in graphs:
         reference = run.reference_of(row["variant"]) or {}
         scene = scenes.setdefault(str(reference.get("hash")), Scene(scene_of(run, row), _run_name(run)))
-        own = [name for name in dict.fromkeys(passes) if name not in shared | _EVERYWHERE]
+        own = [name for name in names if name not in shared | _EVERYWHERE]
         scene.measured.append(Measured(
-            " + ".join(own) or "all", _is_rival(passes), str(run.manifest.get("device", "")), row["variant"], _costs(run, row),
-            row[column], *interval_of(row, column), bool(beaten_by(run, metric, column, row))))
+            " + ".join(own) or "all", _samples_of_rival(run, row["variant"]), str(run.manifest.get("device", "")), row["variant"], _costs(run, row),
+            row[column], *interval_of(row, column), bool(beaten_by(run, metric, column, row)),
+            {other.key: row[LIGHTS[light] + other.key] for other in run.metrics}))
     return _told_apart(list(scenes.values()))
 
 
-def speed_ups(scene: Scene, cost: str) -> dict[str, list[tuple[float, float]]]:
-    """By method, for each variant of filtered path tracing on its front: its error, and its cost over what the method
-    costs for as little error; NaN where the method does not get there. Where its cheapest variant has less error already,
-    that one's cost counts: the factor is at least so much."""
-    found: dict[str, list] = {}
+def speed_ups(scene: Scene, cost: str) -> dict[str, list[Factor]]:
+    """By method, for each variant of filtered path tracing on its front: its cost over what the method costs for as little
+    error. Where the method's cheapest variant has less error already, that one's cost counts: the factor is at least so
+    much."""
+    found: dict[str, list[Factor]] = {}
     for method, machine in scene.on_each_machine():
-        for spent, error in scene.rivals(machine, cost):
-            if reached := time_to_reach(error, scene.points(method, machine, cost)):
-                factor = math.nan if reached.bound == ">" else spent / reached.milliseconds
-                found.setdefault(method, []).append((error, factor))
+        variants = scene.of(method, machine, cost)
+        for rival in scene.rivals(machine, cost) if variants else []:
+            value, low, high = (_factor(rival.costs[cost], wanted, [(m.costs[cost], error(m)) for m in variants])
+                                for wanted, error in ((rival.error, lambda m: m.error), (rival.low, lambda m: m.high),
+                                                      (rival.high, lambda m: m.low)))
+            # An end that is not reached leaves it open whether the method gets there at all
+            found.setdefault(method, []).append(Factor(rival, value, 0.0 if math.isnan(low) else low,
+                                                       0.0 if math.isnan(high) else high))
     return found
 
 
@@ -100,7 +128,7 @@ def median_speed_ups(scenes: list[Scene], cost: str) -> dict[str, tuple[float, f
     factors: dict[str, list[float]] = {}
     for scene in scenes:
         for method, entries in speed_ups(scene, cost).items():
-            factors.setdefault(method, []).extend(factor for _, factor in entries)
+            factors.setdefault(method, []).extend(factor.value for factor in entries)
     table = {}
     for method, all_of in factors.items():
         reached = [factor for factor in all_of if not math.isnan(factor)]
@@ -109,14 +137,47 @@ def median_speed_ups(scenes: list[Scene], cost: str) -> dict[str, tuple[float, f
     return table
 
 
-def errors_at_equal_time(scene: Scene, cost: str) -> dict[str, list[tuple[float, float]]]:
-    """By method, for each variant of filtered path tracing on its front: its cost, and the least error that the method has
-    for as much over the rival's; NaN where it has none as cheap."""
-    found: dict[str, list[tuple[float, float]]] = {}
+def best_at(views: list[Scene], cost: str, samples: tuple[int, ...]) -> tuple[str, Factor] | None:
+    """The method that gains most over filtered path tracing with these samples a pixel, with the least of its factors: over
+    all of these samples and all views, which show one scene by several metrics. None where no method reaches all errors."""
+    least: dict[str, list[Factor]] = {}
+    for scene in views:
+        for method, factors in speed_ups(scene, cost).items():
+            least.setdefault(method, []).extend(f for f in factors if f.rival.spp in samples)
+    known = {method: min(factors, key=lambda f: f.value) for method, factors in least.items()
+             if len(factors) == len(samples) * len(views) and not any(math.isnan(f.value) for f in factors)}
+    return max(known.items(), key=lambda entry: entry[1].value, default=None)
+
+
+def best_point(scene: Scene, cost: str) -> tuple[Measured, Reached, list[Measured]] | None:
+    """Of the variants that cost no more than filtered path tracing for as little error the one of least error, what path
+    tracing costs for it, and the variants whose intervals reach its own."""
+    found = []
+    for m in scene.measured:
+        rivals = [(r.costs[cost], r.error) for r in scene.rivals(m.machine, cost)]
+        if "path_trace" in m.method or not (m.error > 0 and rivals):
+            continue
+        reached = time_to_reach(m.error, rivals)
+        if reached.bound == ">" or 0 < m.costs[cost] <= reached.milliseconds:
+            found.append((m, reached))
+    if not found:
+        return None
+    best, reached = min(found, key=lambda entry: entry[0].error)
+    return best, reached, [m for m, _ in found if m is not best and m.low <= best.high]
+
+
+def errors_at_equal_time(scene: Scene, cost: str) -> dict[str, list[Factor]]:
+    """By method, for each variant of filtered path tracing on its front: the least error that the method has for as little
+    cost over the rival's; NaN where it has none as cheap."""
+    found: dict[str, list[Factor]] = {}
     for method, machine in scene.on_each_machine():
-        for spent, error in scene.rivals(machine, cost):
-            least = min((e for c, e in scene.points(method, machine, cost) if c <= spent), default=math.nan)
-            found.setdefault(method, []).append((spent, least / error))
+        for rival in scene.rivals(machine, cost):
+            cheap = [m for m in scene.of(method, machine, cost) if m.costs[cost] <= rival.costs[cost]]
+            own = min(cheap, key=lambda m: m.error, default=None)
+            ends = (math.nan, 0.0, math.inf) if own is None else (
+                own.error / rival.error, own.low / rival.high if rival.high > 0 else 0.0,
+                own.high / rival.low if rival.low > 0 else math.inf)
+            found.setdefault(method, []).append(Factor(rival, *ends))
     return found
 
 
@@ -134,18 +195,43 @@ def _is_beaten(scene: Scene, own: Measured, cost: str) -> bool:
         and 0 < other.costs[cost] <= own.costs[cost] and other.high < own.low for other in scene.measured)
 
 
-def _is_rival(passes: list[str]) -> bool:
-    return RIVAL <= set(passes) and not any(name.startswith(_NOT_OF_IT) for name in passes)
+def _factor(spent: float, error: float, points: list[tuple[float, float]]) -> float:
+    usable = [point for point in points if point[1] > 0]
+    reached = time_to_reach(error, usable) if error > 0 and usable else None
+    return math.nan if reached is None or reached.bound == ">" else spent / reached.milliseconds
+
+
+def _graph(run: Results, variant: str) -> list[dict]:
+    graph = section(run.manifest, "variants").get(variant)
+    return [entry for entry in graph if isinstance(entry, dict)] if isinstance(graph, list) else []
+
+
+def _samples_of_rival(run: Results, variant: str) -> int:
+    graph = _graph(run, variant)
+    kinds = [str(entry.get("pass")) for entry in graph]
+    if not RIVAL <= set(kinds) or any(kind.startswith(_NOT_OF_IT) for kind in kinds):
+        return 0
+    return int(next(entry.get("spp", 1) for entry in graph if entry.get("pass") == "path_trace"))
 
 
 def _passes(run: Results, variant: str) -> list[str]:
-    graph = section(run.manifest, "variants").get(variant)
-    return [str(entry.get("pass")) for entry in graph if isinstance(entry, dict)] if isinstance(graph, list) else []
+    # Each once, those of several layouts with theirs.
+    return list(dict.fromkeys(f"{entry.get('pass')} ({entry[_LAYOUT]})" if _LAYOUT in entry else str(entry.get("pass"))
+                              for entry in _graph(run, variant)))
+
+
+def _light_ms(run: Results, variant: str) -> float:
+    """Time of the build passes that run again where light is new; 0 where they run in each frame already."""
+    own = run.passes[run.passes["variant"] == variant]
+    again = set(own.loc[own["phase"] == "frame", "pass"])
+    lit = (own["phase"] == "build") & ~own["kind"].isin(_OF_SURFACES) & ~own["pass"].isin(again)
+    return float(own.loc[lit, "ms_median"].sum())
 
 
 def _costs(run: Results, row) -> dict[str, float]:
     steps = run.passes.loc[run.passes["variant"] == row["variant"], "voxel_steps"].sum()
-    return {"frame": row["frame_ms_median"], "build + frame": row["frame_ms_median"] + row["build_ms"],
+    return {"frame": row["frame_ms_median"], "frame + light": row["frame_ms_median"] + _light_ms(run, row["variant"]),
+            "build + frame": row["frame_ms_median"] + row["build_ms"],
             "memory": row["memory_bytes"], "rays": row["rays"], "voxel steps": float(steps)}
 
 

@@ -11,18 +11,22 @@ from matplotlib.figure import Figure
 from report import pareto, text
 from report.charts import set_up_axis
 from report.load import Metric, Results
-from report.pareto import COSTS, Measured, Scene
+from report.pareto import COSTS, Factor, Measured, Scene
 from report.ranking import pareto_front
 from report.style import CATEGORY_COLORS, MARKERS, Style
 from report.svg import STAND_INS, drawing, to_svg
 
 _HERE = Path(__file__).resolve().parent
-CHARTED = ("frame", "build + frame", "memory")
+_SAMPLES = (4, 16)  # of filtered path tracing, at whose errors the best method is looked for
+_WORST_OF = ("nrmse", "relmse")  # the metric that shows least gain counts
+_QUALITY = ("ssim", "nrmse", "relmse", "mean_ratio")
+CHARTED = (*pareto.TIMES, "memory")
 
 
 def render(runs: list[Results], metric: Metric, light: str) -> str:
     """The whole page, self-contained."""
     scenes = pareto.scenes_of(runs, metric, light)
+    both = [pareto.scenes_of(runs, other, light) for other in runs[0].metrics if other.key in _WORST_OF]
     methods = list(dict.fromkeys(method for scene in scenes for method in scene.methods()))
     styles = {method: Style(CATEGORY_COLORS[i % len(CATEGORY_COLORS)], list(MARKERS)[i % len(MARKERS)])
               for i, method in enumerate(methods)}
@@ -35,7 +39,7 @@ def render(runs: list[Results], metric: Metric, light: str) -> str:
     return environment.get_template("pareto.html.j2").render(
         style_css=(_HERE / "style.css").read_text(encoding="utf-8"), metric=metric, light=light, charts=charts,
         legend=list(styles.items()), markers=MARKERS, tables=[(cost, _savings(rivalled, cost)) for cost in pareto.TIMES],
-        equal_time=_equal_time(rivalled, "frame"), scene_names=[scene.name for scene in rivalled],
+        equal_time=_equal_time(rivalled, "frame"), best_points=_best_points(rivalled), gains=_gains(both), worst_of=_WORST_OF, scene_names=[scene.name for scene in rivalled],
         dominated={cost: pareto.dominated(scenes, cost) for cost in pareto.TIMES},
         words={cost: COSTS[cost].split(",")[0].removeprefix("time of ") for cost in pareto.TIMES},
         runs=[str(run.directory) for run in runs])
@@ -60,24 +64,49 @@ def _savings(scenes: list[Scene], cost: str) -> list[tuple[str, list[str], str, 
     rows = []
     by_scene = [pareto.speed_ups(scene, cost) for scene in scenes]
     for method, (median, _, reached, of) in pareto.median_speed_ups(scenes, cost).items():
-        cells = [_range([factor for _, factor in own.get(method, [])]) for own in by_scene]
+        cells = [_range(own.get(method, [])) for own in by_scene]
         rows.append((method, cells, text.figures(median, 2), f"{reached} of {of}"))
+    return rows
+
+
+def _gains(views: list[list[Scene]]) -> list[tuple[str, list[tuple[str, str]]]]:
+    """For each scene the method that gains most by each time, and the factor."""
+    rows = []
+    for scene in zip(*views):
+        if not {m.spp for m in scene[0].measured} >= set(_SAMPLES):
+            continue
+        found = [pareto.best_at(list(scene), cost, _SAMPLES) for cost in pareto.TIMES]
+        rows.append((scene[0].name, [(_range([entry[1]]), entry[0]) if entry else ("–", "") for entry in found]))
+    return rows
+
+
+def _best_points(scenes: list[Scene]) -> list[tuple[str, ...]]:
+    """For each scene its most accurate variant that is no slower than filtered path tracing at its error."""
+    rows = []
+    for scene in scenes:
+        if (found := pareto.best_point(scene, "frame")) is None:
+            continue
+        best, reached, ties = found
+        rows.append((scene.name, best.label + (f" (≈ {len(ties)} more)" if ties else ""), text.figures(best.costs["frame"]),
+                     reached.bound + text.figures(reached.milliseconds),
+                     *(text.figures(best.scores.get(key, math.nan)) for key in _QUALITY)))
     return rows
 
 
 def _equal_time(scenes: list[Scene], cost: str) -> list[tuple[str, list[str]]]:
     by_scene = [pareto.errors_at_equal_time(scene, cost) for scene in scenes]
     methods = dict.fromkeys(method for own in by_scene for method in own)
-    return [(method, [_range([factor for _, factor in own.get(method, [])]) for own in by_scene]) for method in methods]
+    return [(method, [_range(own.get(method, [])) for own in by_scene]) for method in methods]
 
 
-def _range(factors: list[float]) -> str:
-    known = [factor for factor in factors if not math.isnan(factor)]
+def _range(factors: list[Factor]) -> str:
+    """Least to greatest; "≈" before it where intervals leave open whether one of them is above or below 1."""
+    known = [factor for factor in factors if not math.isnan(factor.value)]
     if not known:
         return "–"
-    low, high = text.figures(min(known), 2), text.figures(max(known), 2)
+    low, high = (text.figures(end(factor.value for factor in known), 2) for end in (min, max))
     part = "" if len(known) == len(factors) else f" ({len(known)} of {len(factors)})"
-    return (low if low == high else f"{low}–{high}") + part
+    return ("" if all(factor.is_told for factor in known) else "≈ ") + (low if low == high else f"{low}–{high}") + part
 
 
 def _chart(scene: Scene, cost: str, metric: Metric, light: str, styles: dict[str, Style], chart_id: str) -> str | None:

@@ -52,10 +52,12 @@ struct ClusterParams {
                 "Seeds in the grid's whole volume, about, as the paper counts its clusters before the first "
                 "iteration; most of them have no voxel. 0: as many as `target` asks for.",
                 0u, 1u << 24),
-            field("target", &ClusterParams::target,
-                  "Without `initial`: about so many clusters, of flat surfaces as wide as the root of voxels "
-                  "over clusters; thin and curved ones take more.",
-                  1u, 1u << 22),
+            field(
+                "target", &ClusterParams::target,
+                "About so many clusters, of flat surfaces as wide as the root of voxels over clusters; thin "
+                "and curved ones take more.",
+                1u, 1u << 22)
+                .onlyWith(oneOf(&ClusterParams::initial, {0u})),
             field("iterations", &ClusterParams::iterations,
                   "Times that voxels are assigned; in between, clusters move to where their voxels are.", 1u,
                   100u),

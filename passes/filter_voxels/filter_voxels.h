@@ -27,7 +27,9 @@ class FilterVoxels final : public Pass {
                            field("emission", &Params::emission,
                                  "Whether what surfaces emit is in. Off, cones bring indirect light alone: a "
                                  "direct_* pass adds the rest.")},
-                ClipmapParams::schema(), ConeBounceParams::schema());
+                std::tuple{std::get<0>(ClipmapParams::schema())
+                               .onlyWith(oneOf(&Params::layout, {RadianceLayout::Clipmap}))},
+                ConeBounceParams::schema());
         }
     };
 

@@ -31,7 +31,8 @@ class GatherClusters final : public Pass {
                     "filter_size", &Params::filterSize,
                     "Voxels along each edge of the filter's cube, with binomial weights (about a Gaussian). "
                     "Empty voxels and faces without surfaces don't count.",
-                    std::vector{3u, 5u})};
+                    std::vector{3u, 5u})
+                    .onlyWith(noneOf(&Params::filterPasses, {0u}))};
         }
     };
 

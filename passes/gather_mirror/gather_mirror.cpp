@@ -48,12 +48,6 @@ uint32_t flagWords(uint64_t slots) {
 
 }  // namespace
 
-void GatherMirror::Params::check(const Value& map, const std::string& id) const {
-    if (walk == MirrorWalk::Exact && wideRays == WideRays::Cones)
-        throw UsageError(map.find("wide_rays")->where,
-                         "{}.wide_rays: with 'walk: exact' rays stay rays; leave it out", id);
-}
-
 void GatherMirror::declare(PassBuilder& builder) {
     gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");

@@ -90,16 +90,16 @@ class GatherMirror final : public Pass {
                       "Rays through hybrid leaves that are wider than a voxel where they come to a surface. "
                       "rays: "
                       "they stay rays. cones: a cone through larger voxels goes on, which hold direct light, "
-                      "too."),
+                      "too.")
+                    .onlyWith(noneOf(&Params::walk, {MirrorWalk::Exact})),
                 field("direct_at_hits", &Params::directAtHits,
                       "Direct light where rays end. voxels: as coarse as voxels. shadow_rays: exact, by a "
                       "shadow ray to each light; voxels bring indirect light alone."),
                 field("light_samples", &Params::lightSamples,
                       "Shadow rays to the emissive surfaces, and to the environment, from each ray's end.",
-                      1u, 256u)};
+                      1u, 256u)
+                    .onlyWith(oneOf(&Params::directAtHits, {MirrorDirect::ShadowRays}))};
         }
-        /// @throws UsageError for a parameter that another one leaves without effect.
-        void check(const Value& map, const std::string& id) const;
     };
 
     explicit GatherMirror(const Params& params) : params_(params) {}
@@ -110,7 +110,7 @@ class GatherMirror final : public Pass {
 
  private:
     bool isHybrid() const { return params_.walk != MirrorWalk::Exact; }
-    bool widens() const { return params_.wideRays == WideRays::Cones; }
+    bool widens() const { return isHybrid() && params_.wideRays == WideRays::Cones; }
     bool shadowRays() const { return params_.directAtHits == MirrorDirect::ShadowRays; }
     gpu::MirrorBatch firstBatch(const Frame& frame, uint32_t samples, uint32_t frameIndex) const;
     /// Light in voxels, by face; kept until it changes.

@@ -43,7 +43,9 @@ class GatherRays final : public Pass {
                 field("light_samples", &Params::lightSamples,
                       "Shadow rays to the emissive surfaces, and to the environment, from each hit where "
                       "direct light is measured.",
-                      1u, 256u),
+                      1u, 256u)
+                    .onlyWith(oneOf(&Params::directAtHits, {DirectAtHits::ShadowRays}),
+                              noneOf(&Params::nearFieldVoxels, {0.0f})),
                 field("near_field_voxels", &Params::nearFieldVoxels,
                       "A ray shorter than this many voxels, or one that hits where no light was injected, "
                       "goes on as a path does instead of reading the voxel there, up to three times. 0: "

@@ -39,20 +39,6 @@ VoxelWalk walkOf(VplVisibility visibility) {
 
 }  // namespace
 
-void GatherVpls::Params::check(const Value& map, const std::string& id) const {
-    const auto refuse = [&](const char* parameter, const char* why) {
-        throw UsageError(map.find(parameter)->where, "{}.{}: {}; leave it out", id, parameter, why);
-    };
-    if (compensationRays > 0 && bound == 0)
-        refuse("compensation_rays", "'bound: 0' takes nothing away that rays could bring back");
-    if (restartEpsilon > 0 && visibility != VplVisibility::SvoRestart)
-        refuse("restart_epsilon", "a step of 'visibility: svo_restart' alone");
-    if (map.find("map_resolution") && !hasMaps(visibility))
-        refuse("map_resolution", "only 'visibility: shadow_map' and 'imperfect_shadow_map' have maps");
-    if (map.find("map_points") && visibility != VplVisibility::ImperfectShadowMap)
-        refuse("map_points", "only maps of 'visibility: imperfect_shadow_map' are made of points");
-}
-
 void GatherVpls::declare(PassBuilder& builder) {
     gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
     vpls_ = builder.read<Vpls>("vpls", "virtual point lights");

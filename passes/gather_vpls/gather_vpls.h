@@ -60,7 +60,8 @@ class GatherVpls final : public Pass {
                 field("compensation_rays", &Params::compensationRays,
                       "Rays of each texel that bring back what 'bound' takes away, which is then no bias but "
                       "noise near contacts; 0: it is left out.",
-                      0u, 256u),
+                      0u, 256u)
+                    .onlyWith(noneOf(&Params::bound, {0.0f})),
                 field(
                     "roulette", &Params::roulette,
                     "Virtual lights that, were nothing in the way, would bring a texel less than this times "
@@ -77,20 +78,18 @@ class GatherVpls final : public Pass {
                       "(Ritschel "
                       "et al. 2008). exact: triangles. none: nothing."),
                 field("restart_epsilon", &Params::restartEpsilon,
-                      "For svo_restart: voxels by which it steps past each node, as the paper does, which "
-                      "skips "
-                      "what is thinner; 0 steps exactly.",
-                      0.0f, 1.0f),
+                      "Voxels by which the walk steps past each node, as the paper does, which skips what is "
+                      "thinner; 0 steps exactly.",
+                      0.0f, 1.0f)
+                    .onlyWith(oneOf(&Params::visibility, {VplVisibility::SvoRestart})),
                 field("map_resolution", &Params::mapResolution,
-                      "For shadow_map and imperfect_shadow_map: texels along each side of a virtual light's "
-                      "map.",
-                      4u, 1024u),
+                      "Texels along each side of a virtual light's map.", 4u, 1024u)
+                    .onlyWith(oneOf(&Params::visibility,
+                                    {VplVisibility::ShadowMap, VplVisibility::ImperfectShadowMap})),
                 field("map_points", &Params::mapPoints,
-                      "For imperfect_shadow_map: points of the scene's surfaces that each map is made of.",
-                      64u, 1u << 20)};
+                      "Points of the scene's surfaces that each map is made of.", 64u, 1u << 20)
+                    .onlyWith(oneOf(&Params::visibility, {VplVisibility::ImperfectShadowMap}))};
         }
-        /// @throws UsageError for a parameter that another one leaves without effect.
-        void check(const Value& map, const std::string& id) const;
     };
 
     explicit GatherVpls(const Params& params) : params_(params) {}

@@ -1,5 +1,6 @@
 #include "passes/show_voxels/show_voxels.h"
 
+#include "base/error.h"
 #include "passes/common/compute/dispatch.h"
 #include "scene/camera_rays.h"
 
@@ -15,10 +16,22 @@ struct Push {
     uint32_t show;
 };
 
+struct LevelPush {
+    glm::vec3 origin;
+    glm::vec3 forward;
+    glm::vec3 right;  ///< From the image's center to its edge, at a distance of 1.
+    glm::vec3 up;
+    uint32_t level;
+    uint32_t showsOpacity;
+};
+
 }  // namespace
 
 void ShowVoxels::declare(PassBuilder& builder) {
-    voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
+    if (showsLevel())
+        radiance_ = builder.read<RadianceVoxels>("radiance", "light that leaves surfaces, at all scales");
+    else
+        voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
     if (showsLight())
         irradiance_ =
             builder.read<VoxelIrradiance>("irradiance", "light that arrives at the voxels' surfaces");
@@ -27,12 +40,25 @@ void ShowVoxels::declare(PassBuilder& builder) {
 
 void ShowVoxels::plan(PassPlan& plan) {
     plan.image(plan.get(final_).image, "voxels", frameImageDesc(plan.frame));
+    if (showsLevel()) {
+        const uint32_t levels = plan.get(radiance_).grid.levels;
+        if (params_.level >= levels)
+            throw Error("show_voxels.level: there is no level {}; the radiance voxels have 0 to {}",
+                        params_.level, levels - 1);
+        return;
+    }
     march_.plan(plan, plan.get(voxels_));
     if (showsLight())
         plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(plan.get(voxels_).voxelCount));
 }
 
 void ShowVoxels::prepare(PassSetup& setup) {
+    if (showsLevel()) {
+        program_ = makeComputeProgram(
+            setup.device,
+            setup.compiler.compile("passes/show_voxels/show_levels.comp", setup.get(radiance_).defines()));
+        return;
+    }
     march_.prepare(setup.device, setup.compiler);
     Defines defines = march_.defines();
     if (showsLight()) {
@@ -45,6 +71,7 @@ void ShowVoxels::prepare(PassSetup& setup) {
 }
 
 void ShowVoxels::record(PassContext& context) {
+    if (showsLevel()) return recordLevel(context);
     const SurfaceVoxels& voxels = context.get(voxels_);
     march_.begin(context.stream, voxels);
     std::vector<Binding> bindings = march_.bindings();
@@ -66,6 +93,17 @@ void ShowVoxels::record(PassContext& context) {
         Push{voxels.grid, camera.origin, camera.forward, camera.right, camera.up, uint32_t(params_.show)},
         pixelGroups(frame.width, frame.height));
     context.voxelCounts.push_back(&march_.counts());
+}
+
+void ShowVoxels::recordLevel(PassContext& context) {
+    const Frame& frame = context.frame;
+    const CameraRays camera = cameraRays(frame.camera, frame.width, frame.height);
+    std::vector<Binding> bindings = context.get(radiance_).bindings();
+    bindings.emplace_back("result", context.get(final_).image);
+    context.stream.dispatch(program_, bindings,
+                            LevelPush{camera.origin, camera.forward, camera.right, camera.up, params_.level,
+                                      params_.show == ShownValue::RadianceOpacity},
+                            pixelGroups(frame.width, frame.height));
 }
 
 }  // namespace voxray

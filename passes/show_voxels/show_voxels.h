@@ -4,19 +4,23 @@
 #include <optional>
 #include <utility>
 
+#include "passes/common/radiance/radiance_voxels.h"
 #include "passes/common/view/frame_image.h"
 #include "passes/common/voxel_march/voxel_march.h"
 #include "passes/common/voxels/face_irradiance.h"
 
 namespace voxray {
 
-enum class ShownValue { Albedo, Irradiance, Opacity, Normal };
+enum class ShownValue { Albedo, Irradiance, Opacity, Normal, Radiance, RadianceOpacity };
 
 template <>
 struct EnumNames<ShownValue> {
-    static constexpr std::array names{
-        std::pair{ShownValue::Albedo, "albedo"}, std::pair{ShownValue::Irradiance, "irradiance"},
-        std::pair{ShownValue::Opacity, "opacity"}, std::pair{ShownValue::Normal, "normal"}};
+    static constexpr std::array names{std::pair{ShownValue::Albedo, "albedo"},
+                                      std::pair{ShownValue::Irradiance, "irradiance"},
+                                      std::pair{ShownValue::Opacity, "opacity"},
+                                      std::pair{ShownValue::Normal, "normal"},
+                                      std::pair{ShownValue::Radiance, "radiance"},
+                                      std::pair{ShownValue::RadianceOpacity, "radiance_opacity"}};
 };
 
 /// The voxels themselves, as cubes, seen by the camera: for looking at what other passes read.
@@ -24,18 +28,25 @@ class ShowVoxels final : public Pass {
  public:
     static constexpr const char* kName = "show_voxels";
     static constexpr const char* kHelp =
-        "An image of the surface voxels as cubes, each in the color of what it holds: the first voxel on the "
-        "ray through each pixel's center, without antialiasing. For looking at, not for scores. Exact, no "
-        "noise of its own.";
+        "An image of voxels as cubes, each in the color of what it holds: the first voxel on the ray through "
+        "each pixel's center, without antialiasing. Surface voxels, or prefiltered ones of any level. For "
+        "looking at, not for scores. Exact, no noise of its own.";
     struct Params {
         ShownValue show = ShownValue::Albedo;
+        uint32_t level = 0;
         static constexpr auto schema() {
-            return std::tuple{field("show", &Params::show,
-                                    "albedo: diffuse reflectance. irradiance: what arrives at the face that "
-                                    "is seen, as the radiance "
-                                    "of a white surface there (over pi); magenta where the injection did not "
-                                    "look. opacity: 0 to 1. "
-                                    "normal: each component from -1 to 1 as 0 to 1.")};
+            return std::tuple{
+                field("show", &Params::show,
+                      "Of surface voxels. albedo: diffuse reflectance. irradiance: what arrives at the face "
+                      "that is seen, as the radiance of a white surface there (over pi); magenta where the "
+                      "injection did not look. opacity: 0 to 1. normal: each component from -1 to 1 as 0 to "
+                      "1. Of prefiltered voxels, which cones read. radiance: what their surfaces send "
+                      "through the face that is seen. radiance_opacity: the part of a beam that they hide "
+                      "there."),
+                field("level", &Params::level,
+                      "Level of the prefiltered voxels: each is twice as wide as those of the level before.",
+                      0u, 15u)
+                    .onlyWith(oneOf(&Params::show, {ShownValue::Radiance, ShownValue::RadianceOpacity}))};
         }
     };
 
@@ -48,10 +59,15 @@ class ShowVoxels final : public Pass {
 
  private:
     bool showsLight() const { return params_.show == ShownValue::Irradiance; }
+    bool showsLevel() const {
+        return params_.show == ShownValue::Radiance || params_.show == ShownValue::RadianceOpacity;
+    }
+    void recordLevel(PassContext& context);
 
     Params params_;
     Port<const SurfaceVoxels> voxels_;
     Port<const VoxelIrradiance> irradiance_;
+    Port<const RadianceVoxels> radiance_;
     Port<FrameImage> final_;
     VoxelMarch march_{VoxelWalk::Bricks};
     FaceIrradiance faces_;

@@ -69,26 +69,16 @@ void UpdateRadianceCache::plan(PassPlan& plan) {
     if (!plan.device.shaderInt64Atomics)
         throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", kName,
                     plan.device.name);
-    if (params_.historyFrames > 1 && params_.update == CacheUpdate::Once)
-        throw Error(
-            "{}: 'history_frames: {}' keeps light from frame to frame, and 'update: once' has no "
-            "frames; use 'update: each_frame'",
-            kName, params_.historyFrames);
-    if (params_.samplesToEnd > 0 && params_.historyFrames == 1)
-        throw Error(
-            "{}: 'samples_to_end: {}' reads the previous frame's cells, and 'history_frames: 1' keeps none; "
-            "raise 'history_frames' or leave 'samples_to_end' at 0",
-            kName, params_.samplesToEnd);
     sources_ = requireLightSources(*plan.frame.scene, kName);
     unitsPerIrradiance_ =
         std::ldexp(1.0f, 28) / std::max(meanIrradiance(sources_, plan.frame.scene->geometry), 1e-30f);
 
     RadianceCache& cache = plan.get(cache_);
-    if (params_.samplesToEnd == 0) cache.lightBounces = params_.bounces;  // Else light of all bounces.
+    if (!endsInCache()) cache.lightBounces = params_.bounces;  // Else light of all bounces.
     plan.buffer(cache.gridAt, "grid of the radiance cache", sizeof(gpu::RadianceCacheGrid));
     plan.buffer(cache.keys, "keys of the radiance cache", params_.capacity * RadianceCache::kKeyBytes);
     plan.buffer(cache.sums, "sums of the radiance cache", params_.capacity * RadianceCache::kSumBytes);
-    if (params_.historyFrames > 1) {
+    if (keepsHistory()) {
         plan.buffer(oldKeys_, "keys of the previous frame", params_.capacity * RadianceCache::kKeyBytes);
         plan.buffer(oldSums_, "sums of the previous frame", params_.capacity * RadianceCache::kSumBytes);
     }
@@ -112,9 +102,9 @@ void UpdateRadianceCache::prepare(PassSetup& setup) {
     };
     imageRays_.prepare(setup);
     light_.prepare(setup);
-    follow_ = program("follow.comp", {{0, params_.samplesToEnd}});
+    follow_ = program("follow.comp", {{0, endsInCache() ? params_.samplesToEnd : 0}});
     write_ = program("write.comp");
-    if (params_.historyFrames > 1) age_ = program("age.comp");
+    if (keepsHistory()) age_ = program("age.comp");
     hasHistory_ = false;
 }
 
@@ -138,8 +128,7 @@ void UpdateRadianceCache::begin(PassContext& context, RadianceCache& cache) {
     cache.grid =
         makeGrid(context.frame.scene->geometry, params_, context.frame.camera.position, unitsPerIrradiance_);
     stream.upload(cache.gridAt, std::vector{cache.grid});
-    const bool keepsHistory = params_.historyFrames > 1;
-    if (keepsHistory) {
+    if (keepsHistory()) {
         if (!hasHistory_) stream.fill(cache.keys, 0);
         std::swap(cache.keys, oldKeys_);
         std::swap(cache.sums, oldSums_);
@@ -147,20 +136,18 @@ void UpdateRadianceCache::begin(PassContext& context, RadianceCache& cache) {
     stream.fill(cache.keys, 0);
     stream.fill(cache.sums, 0);
     stream.fill(cellCounts_, 0);
-    if (keepsHistory) {
+    if (keepsHistory()) {
         std::vector<Binding> bindings = cache.bindings();
         bindings.insert(bindings.end(),
                         {{"oldKeys", oldKeys_}, {"oldSums", oldSums_}, {"cellCounts", cellCounts_}});
         stream.dispatch(age_, bindings, params_.historyFrames, linearGroups(params_.capacity));
     }
-    hasHistory_ = keepsHistory;
+    hasHistory_ = keepsHistory();
 }
 
 uint32_t UpdateRadianceCache::follow(PassContext& context, const RadianceCache& cache, uint32_t first,
                                      uint32_t count, uint32_t seed) {
     CommandStream& stream = context.stream;
-    const bool endsInCache = params_.samplesToEnd > 0;
-
     // Trace the paths, all of them a step at a time.
     stream.fill(vertexCount_, 0);
     imageRays_.record(context, rays_[0], first, count, seed);
@@ -168,21 +155,22 @@ uint32_t UpdateRadianceCache::follow(PassContext& context, const RadianceCache& 
     for (uint32_t step = 0; step < pathVertices(params_) && rays > 0; ++step) {
         const size_t from = step % 2, to = 1 - from;
         context.tracer.closestHit(stream, rays_[from], hits_, rays);
-        stream.dispatch(follow_,
-                        context.scene.bindings({{"rays", rays_[from]},
-                                                {"hits", hits_},
-                                                {"origins", origins_[from]},
-                                                {"nextRays", rays_[to]},
-                                                {"nextOrigins", origins_[to]},
-                                                {"surfels", surfels_},
-                                                {"vertices", vertices_},
-                                                {"vertexCount", vertexCount_},
-                                                {"radianceCacheGrid", cache.gridAt},
-                                                {"radianceCacheKeys", endsInCache ? oldKeys_ : cache.keys},
-                                                {"radianceCacheSums", endsInCache ? oldSums_ : cache.sums}}),
-                        FollowPush{rays, vertices, first, params_.raysPerImage, seed + 0x51u, step == 0,
-                                   step < kWrittenVertices},
-                        linearGroups(rays));
+        stream.dispatch(
+            follow_,
+            context.scene.bindings({{"rays", rays_[from]},
+                                    {"hits", hits_},
+                                    {"origins", origins_[from]},
+                                    {"nextRays", rays_[to]},
+                                    {"nextOrigins", origins_[to]},
+                                    {"surfels", surfels_},
+                                    {"vertices", vertices_},
+                                    {"vertexCount", vertexCount_},
+                                    {"radianceCacheGrid", cache.gridAt},
+                                    {"radianceCacheKeys", endsInCache() ? oldKeys_ : cache.keys},
+                                    {"radianceCacheSums", endsInCache() ? oldSums_ : cache.sums}}),
+            FollowPush{rays, vertices, first, params_.raysPerImage, seed + 0x51u, step == 0,
+                       step < kWrittenVertices},
+            linearGroups(rays));
         const uint32_t now = stream.readAs<uint32_t>(vertexCount_, 1)[0];
         rays = now - vertices;
         vertices = now;

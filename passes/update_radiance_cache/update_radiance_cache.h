@@ -65,15 +65,16 @@ class UpdateRadianceCache final : public Pass {
                       "Each frame keeps all but one part in this many of the samples so far, so that cells "
                       "hold "
                       "the samples of about this many frames; light that changes lags behind as long. 1: "
-                      "nothing is kept. More needs `update: each_frame`.",
-                      1u, 1024u),
+                      "nothing is kept.",
+                      1u, 1024u)
+                    .onlyWith(oneOf(&Params::update, {CacheUpdate::EachFrame})),
                 field(
                     "samples_to_end", &Params::samplesToEnd,
                     "A path ends at its second vertex or a later one where the cell there had this many "
                     "samples in the previous frame, and takes its light. Biased: light of all bounces, with "
-                    "the errors of cells and a lag of their own. 0: no path ends so. More needs "
-                    "history_frames.",
-                    0u, 65536u)};
+                    "the errors of cells and a lag of their own. 0: no path ends so.",
+                    0u, 65536u)
+                    .onlyWith(noneOf(&Params::historyFrames, {1u}))};
         }
     };
 
@@ -87,6 +88,10 @@ class UpdateRadianceCache final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    bool keepsHistory() const {
+        return params_.update == CacheUpdate::EachFrame && params_.historyFrames > 1;
+    }
+    bool endsInCache() const { return keepsHistory() && params_.samplesToEnd > 0; }
     /// Empties the table, or hands on what is kept of the previous frame.
     void begin(PassContext& context, RadianceCache& cache);
     /// Traces paths [first, first + count) of an update and leaves their light in the cache. @return

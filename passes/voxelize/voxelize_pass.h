@@ -38,8 +38,8 @@ class VoxelizePass final : public Pass {
                     field("resolution", &Params::resolution, "Voxels along the scene's longest side.", 1u,
                           1024u),
                     field("samples_per_voxel_edge", &Params::samplesPerVoxelEdge,
-                          "three_axis: sample points along a voxel's edge, in each of the three projections.",
-                          1u, 16u)},
+                          "Sample points along a voxel's edge, in each of the three projections.", 1u, 16u)
+                        .onlyWith(oneOf(&Params::method, {VoxelizeMethodName::ThreeAxis}))},
                 VoxelBuildParams::schema());
         }
     };

@@ -324,8 +324,6 @@ TEST(GatherMirror, RefusesConesThatBringLamps) {
                             roomGraph("bounces: 1", {"filter_voxels, emission: true", "gather_cones"}));
                     }),
                     "set 'emission' of filter_voxels to false");
-    EXPECT_CONTAINS(errorOf([] { Chain chain("mirror_room", "{}", roomGraph("wide_rays: cones")); }),
-                    "with 'walk: exact' rays stay rays");
 }
 
 }  // namespace

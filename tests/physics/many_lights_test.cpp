@@ -373,20 +373,6 @@ TEST(ManyLights, RouletteSavesRaysAndKeepsTheEnergy) {
     EXPECT_LT(double(steps[1]), 0.8 * double(steps[0]));
 }
 
-TEST(ManyLights, NamesParametersWithoutEffect) {
-    const auto refused = [](const std::string& gather) {
-        return errorOf([&] { Chain("white_room", "{}", manyLights("bounces: 1", gather)); });
-    };
-    EXPECT_CONTAINS(refused("visibility: svo, restart_epsilon: 0.1"),
-                    "graph:1: gather_vpls.restart_epsilon: a step of 'visibility: svo_restart' alone");
-    EXPECT_CONTAINS(refused("visibility: exact, map_resolution: 64"),
-                    "graph:1: gather_vpls.map_resolution: only 'visibility: shadow_map' and");
-    EXPECT_CONTAINS(refused("visibility: shadow_map, map_points: 64"),
-                    "graph:1: gather_vpls.map_points: only maps of 'visibility: imperfect_shadow_map'");
-    EXPECT_CONTAINS(refused("bound: 0, compensation_rays: 1"),
-                    "graph:1: gather_vpls.compensation_rays: 'bound: 0' takes nothing away");
-}
-
 TEST(ManyLights, WithoutLightAreAnError) {
     EXPECT_CONTAINS(errorOf([] { Chain("white_room", "{albedo: 0}", manyLights("bounces: 1", "block: 4")); }),
                     "none of 1024 rays from the lights hit a surface that reflects light");

@@ -182,8 +182,6 @@ TEST(RadianceCache, RefusesWhatItCannotDo) {
         return errorOf([&] { Chain("white_room", scene, cacheGraph(cache)); });
     };
     EXPECT_CONTAINS(message("{}", ", capacity: 1000"), "capacity");
-    EXPECT_CONTAINS(message("{}", ", update: once, history_frames: 2"), "each_frame");
-    EXPECT_CONTAINS(message("{}", ", samples_to_end: 4"), "raise 'history_frames'");
     EXPECT_CONTAINS(message("{intensity: 0}", ""), "update_radiance_cache: the scene has no lights");
     EXPECT_CONTAINS(message("{}", ", cell_size: 0"), "out of range");
 }

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/gpu/chain.h"
+#include "tests/support/errors.h"
 
 using namespace voxray;
 using namespace voxray::test;
@@ -62,4 +63,38 @@ TEST(ShowVoxels, DrawsTheIrradianceOfTheFaceThatIsSeen) {
     // 144 pixels see some 500 voxels' faces with about 30,000 rays: 0.6 % of noise
     RecordProperty("ratio", std::to_string(shown / right));
     EXPECT_NEAR(shown / right, 1, 0.03);
+}
+
+TEST(ShowVoxels, DrawsEachLevelOfPrefilteredVoxels) {
+    for (const char* layout : {"dense", "svo"}) {
+        const auto shown = [&](const std::string& parameters) {
+            Chain chain(
+                "cornell", kEmptyBox,
+                graphYaml({"voxelize, resolution: 32",
+                           "inject_light_rays, rays_per_light: 262144, bounces: 0",
+                           std::string("filter_voxels, layout: ") + layout, "show_voxels, " + parameters}),
+                kSize, kSize);
+            return chain.image("final");
+        };
+        // The wall fills its voxels, and one layer of larger voxels hides as much
+        double atLevel[2] = {};
+        for (const uint32_t level : {0u, 1u}) {
+            const std::string levelText = ", level: " + std::to_string(level);
+            EXPECT_NEAR(pixelOf(shown("show: radiance_opacity" + levelText), 16, 16).x, 1, 1e-3)
+                << layout << level;
+            const ImageF image = shown("show: radiance" + levelText);
+            for (uint32_t y = 10; y < 22; ++y)
+                for (uint32_t x = 10; x < 22; ++x) atLevel[level] += double(pixelOf(image, x, y).x) / 144;
+        }
+        // The same light at all scales: what larger voxels average changes by 3 % over their width
+        EXPECT_GT(atLevel[0], 0);
+        EXPECT_NEAR(atLevel[1] / atLevel[0], 1, 0.03) << layout;
+    }
+    EXPECT_CONTAINS(errorOf([] {
+                        Chain("cornell", kEmptyBox,
+                              graphYaml({"voxelize, resolution: 32", "inject_light_rays", "filter_voxels",
+                                         "show_voxels, show: radiance, level: 9"}),
+                              kSize, kSize);
+                    }),
+                    "the radiance voxels have 0 to 5");
 }

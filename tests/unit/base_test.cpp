@@ -29,14 +29,16 @@ struct Params {
     std::string label = "x";
     uint32_t edge = 4;
     static constexpr auto schema() {
-        return std::tuple{field("flag", &Params::flag, "A flag."),
-                          field("count", &Params::count, "How many.", 1u, 10u),
-                          field("offset", &Params::offset, "Where.", -5, 5),
-                          field("scale", &Params::scale, "How large.", 0.0f, 2.0f),
-                          field("color", &Params::color, "Which.", glm::vec3(0.0f), glm::vec3(9.0f)),
-                          field("fruit", &Params::fruit, "Which one."),
-                          field("label", &Params::label, "Name."),
-                          field("edge", &Params::edge, "How long.", powersOfTwo(1, 8))};
+        return std::tuple{
+            field("flag", &Params::flag, "A flag."),
+            field("count", &Params::count, "How many.", 1u, 10u),
+            field("offset", &Params::offset, "Where.", -5, 5),
+            field("scale", &Params::scale, "How large.", 0.0f, 2.0f),
+            field("color", &Params::color, "Which.", glm::vec3(0.0f), glm::vec3(9.0f)),
+            field("fruit", &Params::fruit, "Which one."),
+            field("label", &Params::label, "Name."),
+            field("edge", &Params::edge, "How long.", powersOfTwo(1, 8))
+                .onlyWith(oneOf(&Params::fruit, {Fruit::Apple}), noneOf(&Params::offset, {0, 1}))};
     }
 };
 
@@ -158,9 +160,9 @@ TEST(Schema, ErrorsNamePlaceKeyAndNearestWord) {
     EXPECT_EQ(paramsError(mapOf({{"cuont", "3"}})),
               "f.yaml:3: demo: unknown parameter 'cuont'; did you mean 'count'?");
     EXPECT_EQ(paramsError(mapOf({{"count", "11"}})), "f.yaml:3: demo.count: 11 is out of range [1, 10]");
-    EXPECT_EQ(paramsError(mapOf({{"count", "-1"}})), "f.yaml:3: demo.count: -1 is out of range");
+    EXPECT_EQ(paramsError(mapOf({{"count", "-1"}})), "f.yaml:3: demo.count: -1 is out of range [1, 10]");
     EXPECT_EQ(paramsError(mapOf({{"count", "4294967297"}})),
-              "f.yaml:3: demo.count: 4294967297 is out of range");
+              "f.yaml:3: demo.count: 4294967297 is out of range [1, 10]");
     EXPECT_EQ(paramsError(mapOf({{"fruit", "peer"}})),
               "f.yaml:3: demo.fruit: unknown value 'peer'; did you mean 'pear'?");
     EXPECT_EQ(paramsError(mapOf({{"flag", "maybe"}})),
@@ -169,6 +171,26 @@ TEST(Schema, ErrorsNamePlaceKeyAndNearestWord) {
     for (const char* edge : {"0", "3", "16"})
         EXPECT_EQ(paramsError(mapOf({{"edge", edge}})),
                   fmt::format("f.yaml:3: demo.edge: {} is not allowed; one of: 1, 2, 4, 8", edge));
+}
+
+TEST(Schema, KnowsParametersWithoutEffect) {
+    const auto idle = [](const Value& map) {
+        std::string text;
+        for (const IdleParameter& parameter : idleParams(readParams<Params>(map, "demo"), map))
+            text += fmt::format("{}: {}: {}", parameter.where.str(), parameter.name, parameter.why);
+        return text;
+    };
+    EXPECT_EQ(idle(mapOf({{"edge", "2"}, {"offset", "1"}})),
+              "f.yaml:3: edge: no effect with fruit: pear, offset: 1; only with fruit: apple or offset other "
+              "than 0 | 1");
+    for (const auto& map : {mapOf({{"fruit", "apple"}, {"edge", "2"}}),
+                            mapOf({{"offset", "2"}, {"edge", "2"}}), mapOf({{"fruit", "pear"}})})
+        EXPECT_EQ(idle(map), "");
+}
+
+TEST(Schema, GivesAnExample) {
+    EXPECT_EQ(errorOf<UsageError>([] { readParams<Params>(Value::fromScalar("64x48"), "demo"); }),
+              "demo: expected a map of parameters, as in {flag: false, count: 4}");
 }
 
 TEST(Schema, DescribesItself) {
@@ -183,6 +205,7 @@ TEST(Schema, DescribesItself) {
     EXPECT_EQ(docs[7].type, "integer");
     EXPECT_EQ(docs[7].choices, (std::vector<std::string>{"1", "2", "4", "8"}));
     EXPECT_TRUE(docs[7].min.empty());
+    EXPECT_EQ(docs[7].help, "How long. Only with fruit: apple or offset other than 0 | 1.");
 }
 
 TEST(Hasher, SeparatesTexts) {

@@ -228,7 +228,7 @@ TEST(Config, MasksAndComparedFramesAreChecked) {
     expectError(kValid, {"measure.masks.floor: expected conditions"}, with("measure.masks={floor: {}}"));
     expectError(kValid, {"did you mean 'material'?"}, with("measure.masks={floor: {materail: x}}"));
     expectError(kValid, {"max_roughness"}, with("measure.masks={floor: {max_roughness: 2}}"));
-    expectError(kValid, {"measure.compare_every: 1 of 2 frames compares 2; temporal error needs at least 3"},
+    expectError(kValid, {"measure.compare_every: 1 compares 2 of 2 frames; temporal error needs at least 3"},
                 with("measure.compare_every=1"));
     MeasureSettings measure;
     measure.frames = 10;

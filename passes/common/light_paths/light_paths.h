@@ -26,12 +26,13 @@ struct LightPathParams : WriteParams {
     static constexpr auto schema() {
         return std::tuple_cat(
             WriteParams::schema(),
-            std::tuple{field("secondary", &LightPathParams::secondary,
-                             "How rays continue after a hit: none gives direct light only; mirror is the "
-                             "thesis's, about the normal and times the albedo; diffuse is a Lambert "
-                             "surface's, with Russian roulette by albedo."),
-                       field("bounces", &LightPathParams::bounces,
-                             "Bounces after a ray's first hit, unless secondary is none.", 0u, 64u)});
+            std::tuple{
+                field("secondary", &LightPathParams::secondary,
+                      "How rays continue after a hit: none gives direct light only; mirror is the "
+                      "thesis's, about the normal and times the albedo; diffuse is a Lambert "
+                      "surface's, with Russian roulette by albedo."),
+                field("bounces", &LightPathParams::bounces, "Bounces after a ray's first hit.", 0u, 64u)
+                    .onlyWith(noneOf(&LightPathParams::secondary, {Secondary::None}))});
     }
     uint32_t lastBounce() const { return secondary == Secondary::None ? 0 : bounces; }
 };

@@ -20,7 +20,8 @@ struct ConeBounceParams {
                   "Bounces of light from voxel to voxel by cones, in addition to those of the injection.", 0u,
                   32u),
             field("bounce_cones", &ConeBounceParams::bounceCones,
-                  "Cones from each face of a voxel in a bounce.", coneSetSizes())};
+                  "Cones from each face of a voxel in a bounce.", coneSetSizes())
+                .onlyWith(noneOf(&ConeBounceParams::bounces, {0u}))};
     }
 };
 

@@ -17,7 +17,8 @@ struct SurfelParams : WriteParams {
         return std::tuple_cat(
             WriteParams::schema(),
             std::tuple{
-                field("paths_per_point", &SurfelParams::pathsPerPoint, "Paths from each point.", 1u, 1024u),
+                field("paths_per_point", &SurfelParams::pathsPerPoint, "Paths from each point.", 1u, 1024u)
+                    .onlyWith(noneOf(&SurfelParams::bounces, {0u})),
                 field("bounces", &SurfelParams::bounces,
                       "Bounces of light; Russian roulette by albedo ends paths early.", 0u, 32u)});
     }

@@ -34,7 +34,8 @@ struct WriteParams {
             field("white", &WriteParams::white,
                   "Irradiance, W/m², that white stands for in the 8 bits of moving_average; what is brighter "
                   "is clamped.",
-                  1e-6f, 1e9f)};
+                  1e-6f, 1e9f)
+                .onlyWith(oneOf(&WriteParams::write, {Write::MovingAverage}))};
     }
 };
 
