@@ -21,7 +21,8 @@ bool hasMaps(VplVisibility visibility) {
 }
 
 bool meetsVoxels(VplVisibility visibility) {
-    return !hasMaps(visibility) && visibility != VplVisibility::Exact && visibility != VplVisibility::None;
+    return !hasMaps(visibility) && visibility != VplVisibility::HybridLeaves &&
+           visibility != VplVisibility::Exact && visibility != VplVisibility::None;
 }
 
 VoxelWalk walkOf(VplVisibility visibility) {
@@ -46,6 +47,11 @@ void GatherVpls::declare(PassBuilder& builder) {
         voxels_ = builder.read<SurfaceVoxels>("voxels", "what shadow rays meet");
         voxelTracer_.emplace(walkOf(params_.visibility), params_.restartEpsilon);
     }
+    if (params_.visibility == VplVisibility::HybridLeaves) {
+        voxels_ = builder.read<SurfaceVoxels>("voxels", "whose octree shadow rays walk through");
+        leaves_ = builder.read<HybridLeaves>("hybrid_leaves", "what shadow rays meet");
+        hybridTracer_.emplace(HybridWalk::Hierarchical);
+    }
     noisy_ = builder.write<NoisyIrradiance>("noisy_irradiance", "irradiance from a subset of lights a texel");
     indirect_ = builder.write<FrameImage>("indirect", "radiance reflected of indirect light, unfiltered");
 }
@@ -62,7 +68,12 @@ void GatherVpls::plan(PassPlan& plan) {
     if (params_.visibility == VplVisibility::ImperfectShadowMap)
         maps_ = std::make_unique<PointMaps>(params_.mapResolution, params_.mapPoints);
     if (maps_) maps_->plan(plan);
-    light_.plan(plan, {params_.block, minDistanceSquared, params_.roulette, maps_.get(), isCompensated},
+    const bool isByChance = params_.roulette > 0;
+    const VplLight::Dim dim{isByChance ? params_.roulette : params_.earlyOut, isByChance};
+    const float endEpsilon = params_.visibility == VplVisibility::SvoRestart ? params_.endEpsilon : 0;
+    light_.plan(plan,
+                {params_.block, minDistanceSquared, dim, endEpsilon, maps_.get(), isCompensated,
+                 hybridTracer_.has_value()},
                 texels, uint64_t(vpls.paths) * vpls.bounces);
     if (isCompensated)
         compensation_.emplace().plan(plan, {params_.compensationRays, vpls.bounces, minDistanceSquared},
@@ -76,6 +87,7 @@ void GatherVpls::plan(PassPlan& plan) {
     if (FrameImage& indirect = plan.get(indirect_); indirect.isRead)
         plan.image(indirect.image, "indirect", frameImageDesc(plan.frame));
     if (voxelTracer_) voxelTracer_->plan(plan, plan.get(voxels_));
+    if (hybridTracer_) hybridTracer_->plan(plan, plan.get(voxels_));
 }
 
 void GatherVpls::prepare(PassSetup& setup) {
@@ -86,6 +98,7 @@ void GatherVpls::prepare(PassSetup& setup) {
     if (setup.get(indirect_).isRead) resolve_ = IrradianceResolve(setup);
     if (maps_) maps_->prepare(setup);
     if (voxelTracer_) voxelTracer_->prepare(setup.device, setup.compiler);
+    if (hybridTracer_) hybridTracer_->prepare(setup.device, setup.compiler);
 }
 
 void GatherVpls::record(PassContext& context) {
@@ -101,7 +114,13 @@ void GatherVpls::record(PassContext& context) {
         voxelTracer_->begin(stream, voxels);
         visibility = {&*voxelTracer_, voxels.grid};
     }
+    if (hybridTracer_) {
+        hybridTracer_->begin(stream, context.scene, context.get(voxels_), context.get(leaves_));
+        hybridTracer_->setStarts(&light_.starts());
+        visibility.tracer = &*hybridTracer_;
+    }
     const uint64_t voxelRaysBefore = voxelTracer_ ? voxelTracer_->raysTraced() : 0;
+    const uint64_t hybridRaysBefore = hybridTracer_ ? hybridTracer_->raysTraced() : 0;
 
     // All that virtual lights bring, and what they bring too little.
     const VplTarget target{noisy.irradiance, sums_};
@@ -119,6 +138,10 @@ void GatherVpls::record(PassContext& context) {
     if (voxelTracer_) {
         context.extraRays += voxelTracer_->raysTraced() - voxelRaysBefore;
         context.voxelCounts.push_back(&voxelTracer_->march().counts());
+    }
+    if (hybridTracer_) {
+        context.extraRays += hybridTracer_->raysTraced() - hybridRaysBefore;
+        context.voxelCounts.push_back(&hybridTracer_->counts());
     }
     if (const FrameImage& indirect = context.get(indirect_); indirect.isRead)
         resolve_.record(context, gbuffer, noisy.irradiance, indirect.image);

@@ -5,19 +5,31 @@
 
 #include "passes/common/filter/irradiance_resolve.h"
 #include "passes/common/filter/noisy_irradiance.h"
+#include "passes/common/hybrid_leaves/hybrid_tracer.h"
 #include "passes/common/voxel_march/voxel_tracer.h"
 #include "passes/gather_vpls/compensation.h"
 
 namespace voxray {
 
 /// What hides a virtual point light from a surface.
-enum class VplVisibility { Svo, SvoRestart, Bricks, Bits, ShadowMap, ImperfectShadowMap, Exact, None };
+enum class VplVisibility {
+    Svo,
+    SvoRestart,
+    Bricks,
+    Bits,
+    HybridLeaves,
+    ShadowMap,
+    ImperfectShadowMap,
+    Exact,
+    None
+};
 template <>
 struct EnumNames<VplVisibility> {
     static constexpr std::array names{std::pair{VplVisibility::Svo, "svo"},
                                       std::pair{VplVisibility::SvoRestart, "svo_restart"},
                                       std::pair{VplVisibility::Bricks, "bricks"},
                                       std::pair{VplVisibility::Bits, "bits"},
+                                      std::pair{VplVisibility::HybridLeaves, "hybrid_leaves"},
                                       std::pair{VplVisibility::ShadowMap, "shadow_map"},
                                       std::pair{VplVisibility::ImperfectShadowMap, "imperfect_shadow_map"},
                                       std::pair{VplVisibility::Exact, "exact"},
@@ -43,8 +55,10 @@ class GatherVpls final : public Pass {
         float bound = 1;
         uint32_t compensationRays = 0;
         float roulette = 0;
+        float earlyOut = 0;
         VplVisibility visibility = VplVisibility::Svo;
         float restartEpsilon = 0;
+        float endEpsilon = 0;
         uint32_t mapResolution = 128;
         uint32_t mapPoints = 8192;
         static constexpr auto schema() {
@@ -69,18 +83,26 @@ class GatherVpls final : public Pass {
                     "count "
                     "for more by as much. Saves rays for noise; 0: each gets one that faces the texel.",
                     0.0f, 100.0f),
+                field("early_out", &Params::earlyOut,
+                      "As 'roulette', but such virtual lights are left out altogether, as the paper does: "
+                      "the image is darker by what they would bring. 0: none is.",
+                      0.0f, 100.0f)
+                    .onlyWith(oneOf(&Params::roulette, {0.0f})),
                 field("visibility", &Params::visibility,
                       "What hides virtual lights. svo, bricks, bits: surface voxels, on three walks that "
-                      "find the same "
-                      "ones. svo_restart: these by the paper's walk. shadow_map: what a map of each virtual "
-                      "light's "
-                      "hemisphere sees, by a ray a texel. imperfect_shadow_map: the same, made of points "
-                      "(Ritschel "
-                      "et al. 2008). exact: triangles. none: nothing."),
+                      "find the same ones. svo_restart: these by the paper's walk. hybrid_leaves: triangles "
+                      "and grids that the octree's leaves hold (build_hybrid_leaves). shadow_map: what a map "
+                      "of each virtual light's hemisphere sees, by a ray a texel. imperfect_shadow_map: the "
+                      "same, made of points (Ritschel et al. 2008). exact: triangles. none: nothing."),
                 field("restart_epsilon", &Params::restartEpsilon,
                       "Voxels by which the walk steps past each node, as the paper does, which skips what is "
                       "thinner; 0 steps exactly.",
                       0.0f, 1.0f)
+                    .onlyWith(oneOf(&Params::visibility, {VplVisibility::SvoRestart})),
+                field("end_epsilon", &Params::endEpsilon,
+                      "Voxels by which both ends of a shadow ray are moved along it, as the paper does; 0 "
+                      "moves them out of their surfaces' voxels along normals.",
+                      0.0f, 64.0f)
                     .onlyWith(oneOf(&Params::visibility, {VplVisibility::SvoRestart})),
                 field("map_resolution", &Params::mapResolution,
                       "Texels along each side of a virtual light's map.", 4u, 1024u)
@@ -102,10 +124,12 @@ class GatherVpls final : public Pass {
     Params params_;
     Port<const GBuffer> gbuffer_;
     Port<const Vpls> vpls_;
-    Port<const SurfaceVoxels> voxels_;  ///< Where shadow rays meet voxels.
+    Port<const SurfaceVoxels> voxels_;  ///< Where shadow rays walk through voxels.
+    Port<const HybridLeaves> leaves_;   ///< Where they meet what these hold.
     Port<NoisyIrradiance> noisy_;
     Port<FrameImage> indirect_;
     std::optional<VoxelTracer> voxelTracer_;
+    std::optional<HybridTracer> hybridTracer_;
     std::unique_ptr<VplMaps> maps_;  ///< With shadow maps of either kind.
     VplLight light_;
     std::optional<VplCompensation> compensation_;  ///< Where something is taken away and comes back.

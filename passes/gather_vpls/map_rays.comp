@@ -5,10 +5,9 @@
 #include "passes/gather_vpls/hemisphere.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
-#include "shaders/vpls/vpl_types.h"
+#include "shaders/vpls/vpls.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer Vpls { Vpl data[]; } vpls;
 readonly buffer List { uint data[]; } list;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(push_constant, scalar) uniform Push {

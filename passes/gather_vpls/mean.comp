@@ -5,9 +5,9 @@
 #include "passes/gather_vpls/receiver.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/vpls/vpl_kernel.glsl"
+#include "shaders/vpls/vpls.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer Vpls { Vpl data[]; } vpls;
 readonly buffer List { uint data[]; } list;
 writeonly buffer Means { float data[]; } means;  // By receiver of the batch: luminance of irradiance, W/m².
 layout(push_constant, scalar) uniform Push {

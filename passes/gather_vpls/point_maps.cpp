@@ -77,7 +77,8 @@ void PointMaps::draw(PassContext& context, const Vpls& vpls, uint32_t first, uin
     // Each point stands for a disc of its part of all area
     const float radius = std::sqrt(area_ / (glm::pi<float>() * float(points_)));
     stream.dispatch(
-        splat_, {{"vpls", vpls.points}, {"list", vpls.list}, {"points", spreadPoints_}, {"maps", levels_[0]}},
+        splat_,
+        {{"VplsAt", vpls.points.at()}, {"list", vpls.list}, {"points", spreadPoints_}, {"maps", levels_[0]}},
         SplatPush{first, count, points_, kSets, resolution(), radius}, linearGroups(count * points_));
 
     // Holes: from fine to coarse, and back

@@ -7,10 +7,9 @@
 #include "passes/gather_vpls/map_point_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
-#include "shaders/vpls/vpl_types.h"
+#include "shaders/vpls/vpls.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer Vpls { Vpl data[]; } vpls;
 readonly buffer List { uint data[]; } list;
 layout(scalar) readonly buffer Points { MapPoint data[]; } points;
 buffer Maps { uint data[]; } maps;  // Inverse depth, 1/m, of what is nearest: bits of floats, which are ordered as these are.

@@ -5,6 +5,7 @@
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/view/frame_image.h"
+#include "shaders/hybrid_leaves/hybrid_types.h"
 
 namespace voxray {
 namespace {
@@ -20,8 +21,9 @@ struct AimPush {
     gpu::VplBatch batch;
     float minDistanceSquared;
     uint32_t seed;
-    float roulette;
+    float dim;
     gpu::VoxelGrid grid;
+    float endEpsilon;
 };
 
 struct ShadowsPush {
@@ -41,21 +43,24 @@ void VplLight::plan(PassPlan& plan, const Settings& settings, glm::uvec2 texels,
     const uint64_t perSubset = std::min(extent.x * extent.y, kBatchRays);
     const uint64_t rays = std::min(perSubset * (maxVpls / subsets() + 1), uint64_t(kBatchRays));
     plan.buffer(rays_, "shadow rays", rays * sizeof(Ray));
+    if (settings.starts) plan.buffer(starts_, "starts of shadow rays", rays * sizeof(gpu::RayStart));
     plan.buffer(carried_, "light of virtual point lights", rays * 4 * sizeof(float));
-    if (settings.roulette > 0)
+    if (settings.dim.below > 0)
         plan.buffer(means_, "mean light of virtual point lights", perSubset * sizeof(float));
     plan.buffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
 }
 
 void VplLight::prepare(PassSetup& setup) {
     const auto programs = [&](Defines defines) {
-        if (settings_.roulette > 0) defines.emplace("ROULETTE", "1");
+        if (settings_.dim.below > 0)
+            defines.emplace(settings_.dim.isByChance ? "ROULETTE" : "EARLY_OUT", "1");
+        if (settings_.starts) defines.emplace("STARTS", "1");
         const auto program = [&](const std::string& file) {
             return makeComputeProgram(setup.device,
                                       setup.compiler.compile("passes/gather_vpls/" + file, defines));
         };
         Programs all;
-        if (settings_.roulette > 0) all.mean = program("mean.comp");
+        if (settings_.dim.below > 0) all.mean = program("mean.comp");
         all.aim = program("aim.comp");
         if (settings_.maps) {
             Defines withMaps = defines;
@@ -101,10 +106,11 @@ void VplLight::add(PassContext& context, const Vpls& vpls, const Visibility& vis
     const VplMaps* maps = settings_.maps;
     if (!visibility.tracer && !maps) stream.fill(occluded_, 0);
     std::vector<Binding> lights = receivers, adding = target;
-    lights.insert(lights.end(), {{"vpls", vpls.points}, {"list", vpls.list}});
+    lights.insert(lights.end(), {{"VplsAt", vpls.points.at()}, {"list", vpls.list}});
     std::vector<Binding> averaging = lights, aiming = lights, shading = lights;
     aiming.insert(aiming.end(), {{"rays", rays_}, {"carried", carried_}});
-    if (settings_.roulette > 0)
+    if (settings_.starts) aiming.emplace_back("starts", starts_);
+    if (settings_.dim.below > 0)
         for (std::vector<Binding>* bindings : {&averaging, &aiming}) bindings->emplace_back("means", means_);
     if (maps) shading.insert(shading.end(), {{"rays", rays_}, maps->binding(), {"occluded", occluded_}});
     adding.insert(adding.end(), {{"carried", carried_}, {"occluded", occluded_}});
@@ -120,7 +126,7 @@ void VplLight::add(PassContext& context, const Vpls& vpls, const Visibility& vis
             batch.count = std::min(perSubset - batch.first, maxRays);
             uint32_t maxVpls = maxRays / batch.count;
             if (maps) maxVpls = std::min(maxVpls, maps->capacity());
-            if (settings_.roulette > 0 && begin < end) {
+            if (settings_.dim.below > 0 && begin < end) {
                 gpu::VplBatch all = batch;
                 all.firstVpl = begin;
                 all.vplCount = end - begin;
@@ -132,7 +138,7 @@ void VplLight::add(PassContext& context, const Vpls& vpls, const Visibility& vis
                 const uint32_t rays = batch.count * batch.vplCount;
                 stream.dispatch(programs.aim, aiming,
                                 AimPush{batch, settings_.minDistanceSquared, randomSeed(context.frame, 0xa1u),
-                                        settings_.roulette, visibility.grid},
+                                        settings_.dim.below, visibility.grid, settings_.endEpsilon},
                                 linearGroups(rays));
                 if (maps) {
                     maps->draw(context, vpls, batch.firstVpl, batch.vplCount);

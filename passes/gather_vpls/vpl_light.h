@@ -18,13 +18,20 @@ struct VplTarget {
 /// its subset.
 class VplLight {
  public:
+    /// Lights that would bring a texel little, were nothing in the way.
+    struct Dim {
+        float below;      ///< Times what a subset's lights bring on average; 0: none is dim.
+        bool isByChance;  ///< Whether they are looked at by chance and count for more; else never.
+    };
     struct Settings {
         uint32_t block;            ///< Subsets are its square.
         float minDistanceSquared;  ///< m²: the bound.
-        float roulette;       ///< Times what a subset's lights bring on average; those below are looked at by
-                              ///< chance. 0: at all.
+        Dim dim;
+        float endEpsilon;  ///< Voxels by which rays through voxels are moved along themselves at both ends;
+                           ///< 0: they begin and end off their surfaces (docs/voxel-march.md).
         const VplMaps* maps;  ///< What hides lights, in place of shadow rays; null: these do.
         bool surfels;         ///< Whether addToSurfels() is called.
+        bool starts;          ///< Whether starts() are written.
     };
     /// What the shadow rays of one run meet.
     struct Visibility {
@@ -35,6 +42,9 @@ class VplLight {
     /// @param texels of the G-buffer. @param maxVpls at most.
     void plan(PassPlan& plan, const Settings& settings, glm::uvec2 texels, uint64_t maxVpls);
     void prepare(PassSetup& setup);
+
+    /// Of the rays of a batch, a gpu::RayStart each (shaders/hybrid_leaves/hybrid_types.h).
+    const Buffer& starts() const { return starts_; }
 
     void addToTexels(PassContext& context, const Vpls& vpls, const Visibility& visibility,
                      const GBuffer& gbuffer, const VplTarget& target) const;
@@ -57,7 +67,7 @@ class VplLight {
     Settings settings_{};
     Programs texels_, surfels_;
     Sampler sampler_;
-    Buffer rays_, carried_, occluded_, means_;
+    Buffer rays_, starts_, carried_, occluded_, means_;
 };
 
 }  // namespace voxray

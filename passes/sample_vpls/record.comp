@@ -8,19 +8,19 @@
 #include "passes/sample_vpls/voxel_bounce.glsl"
 #endif
 #include "shaders/voxels/voxel_types.h"
-#include "shaders/vpls/vpl_types.h"
+#include "shaders/vpls/vpls.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) buffer Rays { Ray data[]; } rays;
 layout(scalar) buffer Paths { LightPath data[]; } paths;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 readonly buffer Order { uint data[]; } order;  // The place of each path among those of all sources.
-layout(scalar) writeonly buffer Vpls { Vpl data[]; } vpls;
 buffer Flags { uint words[]; } flags;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;  // That rays of further bounces meet voxels of; not read where they meet triangles.
-    uint paths;
-    uint firstPath;  // Of the source.
+    uint paths;      // Of the batch.
+    uint firstPath;  // Of the batch, among those of all sources.
+    uint firstRay;   // The same, of its source's.
     uint seed;
     uint bounce;
     uint bounces;
@@ -51,6 +51,12 @@ void main() {
     LitPoint p;
     if (!pointAtHit(ray, hit, p)) return;
     LightPath path = paths.data[i];
+    // Power falls on the triangle, light is reflected by the cosine to the shading normal and leaves by that to the triangle's: so light
+    // takes the way that paths from the camera take (Veach 1997, section 5.3)
+    const float arrives = -dot(p.normal, ray.direction), falls = -dot(p.faceNormal, ray.direction);
+    if (arrives <= 0.0 || falls <= 0.0) return;
+    path.power *= arrives / falls;
+    p.normal = p.faceNormal;
     const vec3 flux = path.power * p.albedo;
     if (any(greaterThan(flux, vec3(0.0)))) {
         const uint number = order.data[push.firstPath + i] * push.bounces + push.bounce;
@@ -58,7 +64,7 @@ void main() {
         atomicOr(flags.words[number / 32u], 1u << (number % 32u));
     }
     if (push.bounce + 1u == push.bounces) return;
-    if (!bounceLightRay(p, false, i, hashCombine(push.seed, 16u + 2u * push.bounce), ray, path)) return;
+    if (!bounceLightRay(p, false, push.firstRay + i, hashCombine(push.seed, 16u + 2u * push.bounce), ray, path)) return;
 #ifdef VOXEL_NEXT
     ray.origin = beginInVoxels(push.grid, p.position, p.faceNormal, ray.direction);
 #endif

@@ -17,7 +17,8 @@ layout(push_constant, scalar) uniform Push {
     uint firstView;
     uint rows;  // Of all views of the light.
     uint sum;   // Of all weights.
-    uint paths_;
+    uint firstPath, count;  // Of the batch.
+    uint paths_;            // Of the light.
     uint seed;
 } push;
 
@@ -29,10 +30,10 @@ uint unitsAt(float u, uint units) { return min(uint(u * float(units)), units - 1
 
 void main() {
     const uint i = linearIndex();
-    if (i >= push.paths_) return;
+    if (i >= push.count) return;
     rays.data[i] = kNoRay;
     if (push.sum == 0u) return;
-    const vec2 u = sobol2(i, push.seed);
+    const vec2 u = sobol2(push.firstPath + i, push.seed);
 
     // The last row that begins at or before the point, then the last texel in it
     const uint down = unitsAt(u.y, push.sum);

@@ -19,6 +19,7 @@ struct PickPush {
     uint32_t firstView;
     uint32_t rows;
     uint32_t sum;
+    uint32_t firstPath, count;
     uint32_t paths;
     uint32_t seed;
 };
@@ -61,8 +62,9 @@ void RsmSampling::emit(PassContext& context, const Rsm& rsm, size_t source, cons
         pick_,
         bindings(
             {{"before", weights_}, {"rays", target.rays}, {"hits", target.hits}, {"paths", target.paths}}),
-        PickPush{rsm.resolution, firstView, views * rsm.resolution, sum, target.count, target.seed},
-        linearGroups(target.count));
+        PickPush{rsm.resolution, firstView, views * rsm.resolution, sum, target.batch.first,
+                 target.batch.count, target.batch.rays, target.batch.seed},
+        linearGroups(target.batch.count));
 }
 
 }  // namespace voxray

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "passes/common/compute/prefix_sum.h"
+#include "passes/common/light_paths/light_emission.h"
 #include "passes/common/lights/rsm.h"
 
 namespace voxray {
@@ -16,15 +17,14 @@ class RsmSampling {
     void plan(PassPlan& plan, const Rsm& rsm);
     void prepare(PassSetup& setup);
 
-    /// Writes the first rays of a source, with the hits that the maps hold, and what each carries: the power
-    /// through its texel over the texel's probability and the number of paths. Where a source's maps are
-    /// black its rays are inactive.
+    /// Writes a batch of the first rays of a source, with the hits that the maps hold, and what each carries:
+    /// the power through its texel over the texel's probability and the number of paths. Where a source's
+    /// maps are black its rays are inactive.
     struct Target {
         const Buffer& rays;   ///< Ray each.
         const Buffer& hits;   ///< Hit each.
         const Buffer& paths;  ///< gpu::LightPath each.
-        uint32_t count;
-        uint32_t seed;
+        LightEmission::Batch batch;
     };
     void emit(PassContext& context, const Rsm& rsm, size_t source, const Target& target) const;
 

@@ -12,10 +12,13 @@
 namespace voxray {
 namespace {
 
+constexpr uint32_t kBatchPaths = 1u << 20;  // Bounds the memory of rays to 84 MiB.
+
 struct RecordPush {
     gpu::VoxelGrid grid;
     uint32_t paths;
     uint32_t firstPath;
+    uint32_t firstRay;
     uint32_t seed;
     uint32_t bounce;
     uint32_t bounces;
@@ -61,9 +64,9 @@ void SampleVpls::plan(PassPlan& plan) {
     vpls.areaPerPath = float(surfaceArea(plan.frame.scene->geometry) / vpls.paths);
     vpls.bounces = params_.bounces;
     vpls.lightBounces = params_.bounces;
-    const uint64_t points = uint64_t(vpls.paths) * vpls.bounces;
-    const uint64_t batch = *std::max_element(pathsOf_.begin(), pathsOf_.end());
-    plan.buffer(vpls.points, "virtual point lights", vpls.pointsBytes(kName));
+    const uint64_t points = vpls.places(kName);
+    const uint64_t batch = std::min(*std::max_element(pathsOf_.begin(), pathsOf_.end()), kBatchPaths);
+    plan.buffer(vpls.points, "virtual point lights", points * sizeof(gpu::Vpl));
     plan.buffer(vpls.list, "list of virtual point lights", points * sizeof(uint32_t));
     plan.buffer(order_, "order of light paths", vpls.paths * sizeof(uint32_t));
     plan.buffer(flags_, "flags of virtual point lights", (points + 31) / 32 * sizeof(uint32_t));
@@ -117,33 +120,37 @@ void SampleVpls::record(PassContext& context) {
     }
     const uint64_t voxelRaysBefore = voxelTracer_ ? voxelTracer_->raysTraced() : 0;
 
-    // The paths of each light, hit after hit
+    // The paths of each light in batches, hit after hit
     uint32_t firstPath = 0;
     for (uint32_t s = 0; s < sources.size(); ++s) {
         const auto number = uint32_t(s + (params_.resample ? context.frameIndex * sources.size() : 0));
-        const uint32_t seed = randomSeed(context.frame, number), paths = pathsOf_[s];
+        LightEmission::Batch batch{randomSeed(context.frame, number), pathsOf_[s], 0, 0};
         const bool areHitsKnown = params_.first == FirstVertices::Rsm;
-        if (areHitsKnown)
-            rsmSampling_.emit(context, context.get(rsm_), s, {rays_, hits_, paths_, paths, seed});
-        else
-            emission_.emit(context, sources[s], {seed, paths, 0, paths}, rays_, paths_);
-        for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {
-            if (bounce > 0)
-                furtherTracer->closestHit(stream, rays_, hits_, paths);
-            else if (!areHitsKnown)
-                context.tracer.closestHit(stream, rays_, hits_, paths);
-            std::vector<Binding> bindings = context.scene.bindings({{"rays", rays_},
-                                                                    {"hits", hits_},
-                                                                    {"paths", paths_},
-                                                                    {"order", order_},
-                                                                    {"vpls", vpls.points},
-                                                                    {"flags", flags_}});
-            bindings.insert(bindings.end(), ofVoxels.begin(), ofVoxels.end());
-            stream.dispatch(bounce > 0 && voxelTracer_ ? recordVoxels_ : record_, bindings,
-                            RecordPush{grid, paths, firstPath, seed, bounce, params_.bounces},
-                            linearGroups(paths));
+        for (; batch.first < batch.rays; batch.first += batch.count) {
+            batch.count = std::min(batch.rays - batch.first, kBatchPaths);
+            if (areHitsKnown)
+                rsmSampling_.emit(context, context.get(rsm_), s, {rays_, hits_, paths_, batch});
+            else
+                emission_.emit(context, sources[s], batch, rays_, paths_);
+            for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {
+                if (bounce > 0)
+                    furtherTracer->closestHit(stream, rays_, hits_, batch.count);
+                else if (!areHitsKnown)
+                    context.tracer.closestHit(stream, rays_, hits_, batch.count);
+                std::vector<Binding> bindings = context.scene.bindings({{"rays", rays_},
+                                                                        {"hits", hits_},
+                                                                        {"paths", paths_},
+                                                                        {"order", order_},
+                                                                        {"VplsAt", vpls.points.at()},
+                                                                        {"flags", flags_}});
+                bindings.insert(bindings.end(), ofVoxels.begin(), ofVoxels.end());
+                stream.dispatch(bounce > 0 && voxelTracer_ ? recordVoxels_ : record_, bindings,
+                                RecordPush{grid, batch.count, firstPath + batch.first, batch.first,
+                                           batch.seed, bounce, params_.bounces},
+                                linearGroups(batch.count));
+            }
         }
-        firstPath += paths;
+        firstPath += batch.rays;
     }
     if (voxelTracer_) {
         context.extraRays += voxelTracer_->raysTraced() - voxelRaysBefore;

@@ -5,12 +5,12 @@
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/vpls/vpl_kernel.glsl"
+#include "shaders/vpls/vpls.glsl"
 layout(local_size_x = 64) in;
 
 uniform sampler2D position;
 uniform sampler2D normal;
 uniform sampler2D geometricNormal;
-layout(scalar) readonly buffer Vpls { Vpl data[]; } vpls;
 readonly buffer List { uint data[]; } list;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 writeonly buffer Carried { float data[]; } carried;

@@ -4,10 +4,9 @@
 // What each virtual light of a batch brings to a texel on average, estimated by its texels, and its flux.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
-#include "shaders/vpls/vpl_types.h"
+#include "shaders/vpls/vpls.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer Vpls { Vpl data[]; } vpls;
 readonly buffer List { uint data[]; } list;
 readonly buffer Carried { float data[]; } carried;
 readonly buffer Occluded { uint data[]; } occluded;
@@ -26,5 +25,5 @@ void main() {
         if (occluded.data[ray] == 0u) sum += carried.data[ray];
     }
     const float flux = luminance(vpls.data[list.data[push.first + i]].flux);
-    importance.data[push.first + i] = vec2(flux * sum / float(push.points), flux);
+    importance.data[i] = vec2(flux * sum / float(push.points), flux);
 }

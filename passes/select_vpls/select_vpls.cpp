@@ -42,15 +42,16 @@ void SelectVpls::plan(PassPlan& plan) {
     vpls.lightBounces = candidates.lightBounces;
     vpls.paths = uint32_t(std::min<uint64_t>(params_.count, points));
     vpls.areaPerPath = float(surfaceArea(plan.frame.scene->geometry) * vpls.bounces / vpls.paths);
-    plan.buffer(vpls.points, "selected virtual point lights", vpls.pointsBytes(kName));
+    plan.buffer(vpls.points, "selected virtual point lights", vpls.places(kName) * sizeof(gpu::Vpl));
     plan.buffer(vpls.list, "list of selected virtual point lights", vpls.paths * sizeof(uint32_t));
     plan.buffer(places_, "places of selected virtual point lights", vpls.paths * sizeof(uint32_t));
     plan.buffer(weights_, "weights of selected virtual point lights", vpls.paths * sizeof(float));
-    const uint64_t rays = std::min(points, uint64_t(kBatchRays / params_.points)) * params_.points;
+    const uint64_t batch = std::min(points, uint64_t(kBatchRays / params_.points)),
+                   rays = batch * params_.points;
     plan.scratchBuffer(rays_, "shadow rays", rays * sizeof(Ray));
     plan.scratchBuffer(carried_, "kernels of shadow rays", rays * sizeof(float));
     plan.scratchBuffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
-    plan.scratchBuffer(importance_, "importance of virtual point lights", points * sizeof(glm::vec2));
+    plan.scratchBuffer(importance_, "importance of virtual point lights", batch * sizeof(glm::vec2));
 }
 
 void SelectVpls::prepare(PassSetup& setup) {
@@ -93,12 +94,12 @@ void SelectVpls::record(PassContext& context) {
     stream.upload(places_, kept.places);
     stream.upload(weights_, kept.weights);
     stream.dispatch(scale_,
-                    {{"candidates", candidates.points},
+                    {{"VplsAt", candidates.points.at()},
                      {"candidateList", candidates.list},
                      {"places", places_},
                      {"weights", weights_},
                      {"list", vpls.list},
-                     {"selected", vpls.points}},
+                     {"SelectedAt", vpls.points.at()}},
                     uint32_t(list.size()), linearGroups(list.size()));
     vpls.count = uint32_t(list.size());
     context.report("selected vpls", vpls.count);
@@ -111,6 +112,7 @@ std::vector<glm::vec2> SelectVpls::importance(PassContext& context) const {
     const uint32_t batch = uint32_t(occluded_.bytes() / sizeof(uint32_t)) / params_.points;
     const float minDistanceSquared =
         params_.bound * params_.bound * context.get(vpls_).areaPerPath / glm::pi<float>();
+    std::vector<glm::vec2> all;
     for (uint32_t first = 0; first < candidates.count; first += batch) {
         const uint32_t count = std::min(candidates.count - first, batch), rays = count * params_.points;
         stream.dispatch(
@@ -118,7 +120,7 @@ std::vector<glm::vec2> SelectVpls::importance(PassContext& context) const {
             {{"position", gbuffer.position, sampler_},
              {"normal", gbuffer.normal, sampler_},
              {"geometricNormal", gbuffer.geometricNormal, sampler_},
-             {"vpls", candidates.points},
+             {"VplsAt", candidates.points.at()},
              {"list", candidates.list},
              {"rays", rays_},
              {"carried", carried_}},
@@ -126,14 +128,16 @@ std::vector<glm::vec2> SelectVpls::importance(PassContext& context) const {
             linearGroups(rays));
         context.tracer.occluded(stream, rays_, occluded_, rays);
         stream.dispatch(importanceProgram_,
-                        {{"vpls", candidates.points},
+                        {{"VplsAt", candidates.points.at()},
                          {"list", candidates.list},
                          {"carried", carried_},
                          {"occluded", occluded_},
                          {"importance", importance_}},
                         ImportancePush{first, count, params_.points}, linearGroups(count));
+        const auto found = stream.readAs<glm::vec2>(importance_, count);
+        all.insert(all.end(), found.begin(), found.end());
     }
-    return stream.readAs<glm::vec2>(importance_, candidates.count);
+    return all;
 }
 
 }  // namespace voxray

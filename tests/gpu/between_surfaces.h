@@ -15,9 +15,15 @@ struct SurfacePair {
     glm::vec3 a, normalA, b, normalB;
 };
 
-/// Whether voxels hide the points of each pair from each other: 1 or 0.
-inline std::vector<uint32_t> hiddenByVoxels(const SurfaceVoxels& voxels,
-                                            const std::vector<SurfacePair>& pairs) {
+/// Whether voxels hide a pair's points from each other, and the part of the way that is looked at; both ends
+/// are the pair's first point where there is none.
+struct BetweenVoxels {
+    uint32_t isHidden;  ///< 1 or 0.
+    glm::vec3 from, to;
+};
+
+inline std::vector<BetweenVoxels> betweenVoxels(const SurfaceVoxels& voxels,
+                                                const std::vector<SurfacePair>& pairs) {
     CommandStream stream(device());
     const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
     VoxelMarch march(VoxelWalk::Bricks);
@@ -26,7 +32,7 @@ inline std::vector<uint32_t> hiddenByVoxels(const SurfaceVoxels& voxels,
     const Program program =
         makeComputeProgram(device(), compiler.compile("tests/gpu/between_surfaces.comp", march.defines()));
     const Buffer in(device(), "pairs", pairs.size() * sizeof(SurfacePair)),
-        out(device(), "answers", pairs.size() * sizeof(uint32_t));
+        out(device(), "answers", pairs.size() * sizeof(BetweenVoxels));
     stream.upload(in, pairs);
     std::vector<Binding> bindings = march.bindings();
     bindings.insert(bindings.end(), {{"pairs", in}, {"answers", out}});
@@ -35,7 +41,15 @@ inline std::vector<uint32_t> hiddenByVoxels(const SurfaceVoxels& voxels,
         uint32_t count;
     } push{voxels.grid, uint32_t(pairs.size())};
     stream.dispatch(program, bindings, push, linearGroups(pairs.size()));
-    return stream.readAs<uint32_t>(out, pairs.size());
+    return stream.readAs<BetweenVoxels>(out, pairs.size());
+}
+
+/// Whether voxels hide the points of each pair from each other: 1 or 0.
+inline std::vector<uint32_t> hiddenByVoxels(const SurfaceVoxels& voxels,
+                                            const std::vector<SurfacePair>& pairs) {
+    std::vector<uint32_t> hidden;
+    for (const BetweenVoxels& between : betweenVoxels(voxels, pairs)) hidden.push_back(between.isHidden);
+    return hidden;
 }
 
 /// Whether triangles do.

@@ -36,7 +36,7 @@ ROOMS = {
     "lights": {"compute", "view", "voxels"},
     "light_paths": {"compute", "voxels", "lights"},
     "clusters": {"compute", "voxels"},
-    "vpls": set(),
+    "vpls": {"compute"},
     "surfels": {"compute", "view", "voxels", "lights"},
     "final_gather": {"compute", "view", "filter", "lights", "surfels"},
     "radiance_cache": {"compute"},

@@ -272,6 +272,27 @@ TEST(ManyLights, BouncesAreThoseOfTheReference) {
     }
 }
 
+TEST(ManyLights, OfSurfacesWithShadingNormalsBringTheLightOfTheReference) {
+    // Light falls in on the sides of tilted normals and leaves by the triangles' own
+    SceneState state = evaluate(makeBuiltinScene("white_room", parseYaml("{}", "scene")), 0.0);
+    uint32_t i = 0;
+    for (VertexAttributes& a : state.geometry.attributes) {
+        const float angle = 2.4f * float(i++);
+        const glm::vec3 tilt(std::cos(angle), std::sin(angle), std::cos(2 * angle));
+        a.normal = glm::normalize(a.normal + 0.7f * (tilt - glm::dot(tilt, a.normal) * a.normal));
+    }
+    const auto energy = [&](const std::vector<std::string>& graph) {
+        return mean(
+            Chain(std::make_shared<SceneState>(state), graphYaml(graph), 24, 24, 1).image("indirect"));
+    };
+    const double reference = energy({"path_trace, spp: 256, bounces: 2"});
+    const double lights =
+        energy({"gbuffer, samples_per_pixel_edge: 2", "sample_vpls, vpls_per_bounce: 8192, bounces: 2",
+                "gather_vpls, visibility: exact, compensation_rays: 4"});
+    std::printf("tilted normals: %.4f of the reference\n", lights / reference);
+    EXPECT_NEAR(lights / reference, 1, 0.02);
+}
+
 std::string rsmLights(const std::string& rsm, const std::string& sample) {
     return graphYaml({"gbuffer", "voxelize", "render_rsm" + rsm, "sample_vpls, first: rsm, " + sample,
                       "gather_vpls, visibility: exact, bound: 0"});

@@ -53,8 +53,10 @@ void HybridTracer::closestFrom(CommandStream& stream, const Buffer& rays, const 
 
 void HybridTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
                          uint32_t count, Coherence) {
-    dispatch(stream, query == Query::Occluded ? occluded_ : closestHit_, rays.address(), 0, results.address(),
-             count);
+    if (starts_ && starts_->bytes() < count * sizeof(gpu::RayStart))
+        throw Error("hybrid tracer: a buffer of the starts of {} rays is too small", count);
+    dispatch(stream, query == Query::Occluded ? occluded_ : closestHit_, rays.address(),
+             starts_ ? starts_->address() : 0, results.address(), count);
 }
 
 void HybridTracer::dispatch(CommandStream& stream, const Program& program, VkDeviceAddress rays,

@@ -38,6 +38,9 @@ class HybridTracer final : public RayTracer {
     /// (shaders/hybrid_leaves/hybrid_types.h) for each ray.
     void closestFrom(CommandStream& stream, const Buffer& rays, const Buffer& starts, const Buffer& hits,
                      uint32_t count);
+    /// What the rays of occluded() and closestHit() leave, a RayStart each. @param starts must outlive them;
+    /// null: bare rays.
+    void setStarts(const Buffer* starts) { starts_ = starts; }
     /// Nothing: begin() takes over what has moved.
     void update(CommandStream&) override {}
     /// Of the octree.
@@ -58,6 +61,7 @@ class HybridTracer final : public RayTracer {
     const GpuScene* scene_ = nullptr;
     const HybridLeaves* leaves_ = nullptr;
     gpu::VoxelGrid grid_{};
+    const Buffer* starts_ = nullptr;
     Buffer testCounts_;
 };
 
