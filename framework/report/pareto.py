@@ -11,7 +11,8 @@ from report.load import LIGHTS, Metric, Results, interval_of, section
 from report.ranking import beaten_by, pareto_front
 from report.setting import scene_of
 
-RIVAL = {"path_trace", "filter_irradiance"}  # passes of what a user would pick instead
+_TRACED = "path_trace"
+RIVAL = {_TRACED, "filter_irradiance"}  # passes of what a user would pick instead
 _NOT_OF_IT = ("inject_", "gather_", "sample_")  # what passes of other methods begin with
 _EVERYWHERE = {"gbuffer", "voxelize", "composite"}  # passes that tell nothing of a method
 _LAYOUT = "layout"  # the parameter that makes two methods of the same passes
@@ -138,12 +139,14 @@ def median_speed_ups(scenes: list[Scene], cost: str) -> dict[str, tuple[float, f
 
 
 def best_at(views: list[Scene], cost: str, samples: tuple[int, ...]) -> tuple[str, Factor] | None:
-    """The method that gains most over filtered path tracing with these samples a pixel, with the least of its factors: over
-    all of these samples and all views, which show one scene by several metrics. None where no method reaches all errors."""
+    """The method, path tracing aside, that gains most over filtered path tracing with these samples a pixel, with the least
+    of its factors: over all of these samples and all views, which show one scene by several metrics. None where no method
+    reaches all errors."""
     least: dict[str, list[Factor]] = {}
     for scene in views:
         for method, factors in speed_ups(scene, cost).items():
-            least.setdefault(method, []).extend(f for f in factors if f.rival.spp in samples)
+            if _TRACED not in method:
+                least.setdefault(method, []).extend(f for f in factors if f.rival.spp in samples)
     known = {method: min(factors, key=lambda f: f.value) for method, factors in least.items()
              if len(factors) == len(samples) * len(views) and not any(math.isnan(f.value) for f in factors)}
     return max(known.items(), key=lambda entry: entry[1].value, default=None)
@@ -155,7 +158,7 @@ def best_point(scene: Scene, cost: str) -> tuple[Measured, Reached, list[Measure
     found = []
     for m in scene.measured:
         rivals = [(r.costs[cost], r.error) for r in scene.rivals(m.machine, cost)]
-        if "path_trace" in m.method or not (m.error > 0 and rivals):
+        if _TRACED in m.method or not (m.error > 0 and rivals):
             continue
         reached = time_to_reach(m.error, rivals)
         if reached.bound == ">" or 0 < m.costs[cost] <= reached.milliseconds:
@@ -211,7 +214,7 @@ def _samples_of_rival(run: Results, variant: str) -> int:
     kinds = [str(entry.get("pass")) for entry in graph]
     if not RIVAL <= set(kinds) or any(kind.startswith(_NOT_OF_IT) for kind in kinds):
         return 0
-    return int(next(entry.get("spp", 1) for entry in graph if entry.get("pass") == "path_trace"))
+    return int(next(entry.get("spp", 1) for entry in graph if entry.get("pass") == _TRACED))
 
 
 def _passes(run: Results, variant: str) -> list[str]:

@@ -41,7 +41,7 @@ def render(runs: list[Results], metric: Metric, light: str) -> str:
         legend=list(styles.items()), markers=MARKERS, tables=[(cost, _savings(rivalled, cost)) for cost in pareto.TIMES],
         equal_time=_equal_time(rivalled, "frame"), best_points=_best_points(rivalled), gains=_gains(both), worst_of=_WORST_OF, scene_names=[scene.name for scene in rivalled],
         dominated={cost: pareto.dominated(scenes, cost) for cost in pareto.TIMES},
-        words={cost: COSTS[cost].split(",")[0].removeprefix("time of ") for cost in pareto.TIMES},
+        words={cost: _words_of(cost) for cost in pareto.TIMES},
         runs=[str(run.directory) for run in runs])
 
 
@@ -69,15 +69,20 @@ def _savings(scenes: list[Scene], cost: str) -> list[tuple[str, list[str], str, 
     return rows
 
 
-def _gains(views: list[list[Scene]]) -> list[tuple[str, list[tuple[str, str]]]]:
-    """For each scene the method that gains most by each time, and the factor."""
+def _gains(views: list[list[Scene]]) -> list[tuple[str, str, str, str]]:
+    """Rows of each scene and time: the factor of the method that gains most, and the method."""
     rows = []
     for scene in zip(*views):
         if not {m.spp for m in scene[0].measured} >= set(_SAMPLES):
             continue
-        found = [pareto.best_at(list(scene), cost, _SAMPLES) for cost in pareto.TIMES]
-        rows.append((scene[0].name, [(_range([entry[1]]), entry[0]) if entry else ("–", "") for entry in found]))
+        for cost in pareto.TIMES:
+            found = pareto.best_at(list(scene), cost, _SAMPLES)
+            rows.append((scene[0].name, _words_of(cost), _range([found[1]]) if found else "–", found[0] if found else ""))
     return rows
+
+
+def _words_of(cost: str) -> str:
+    return COSTS[cost].split(",")[0].removeprefix("time of ")
 
 
 def _best_points(scenes: list[Scene]) -> list[tuple[str, ...]]:

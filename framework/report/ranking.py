@@ -14,7 +14,7 @@ COST_COLUMNS = ("build_ms", "frame_ms_median", "memory_bytes")
 def score_marks(results: Results, metric: Metric, column: str) -> dict[str, str]:
     """Marks of one score: variant -> "best" or "tie". No marks where fewer than two variants have one.
 
-    Scores with confidence intervals tie where the best one's interval and theirs overlap; the best is then one of
+    Scores with confidence intervals tie where no other's interval lies wholly below theirs; the best is then one of
     the ties. Others tie where both reach their reference's noise floor: a perfect image would score no better.
     Scores that are equal to the last digit are all the best.
     """
@@ -25,7 +25,7 @@ def score_marks(results: Results, metric: Metric, column: str) -> dict[str, str]
     best = ranks.idxmin()
     equal = {name for name, rank in ranks.items() if rank == ranks[best]}
     if metric.has_interval:
-        reach = interval_of(rows.loc[best], column)[1]
+        reach = min(interval_of(rows.loc[name], column)[1] for name in ranks.index)
         ties = {name for name in ranks.index if interval_of(rows.loc[name], column)[0] <= reach}
     else:
         floors = {name: metric.rank(results.noise(column, results.reference_of(name))) for name in ranks.index}
