@@ -5,6 +5,8 @@ foreach(part page pareto ranking reading)
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}/tests/unit)
   set_tests_properties(report.${part} PROPERTIES TIMEOUT 300)
 endforeach()
-add_test(NAME scripts.compare_builds
-  COMMAND /usr/bin/python3 -m unittest -q compare_builds_test
-  WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/unit)
+foreach(script compare_builds tune)
+  add_test(NAME scripts.${script}
+    COMMAND /usr/bin/python3 -m unittest -q ${script}_test
+    WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/unit)
+endforeach()
