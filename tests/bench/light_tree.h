@@ -21,10 +21,10 @@ class LightTree {
         build(0, points_.size(), random);
     }
 
-    /// @param scene tells what arrives from a point, and whether it is seen. @param most nodes of a cut.
+    /// @param scene tells what arrives from a point, and whether it is seen. @param maxNodes of a cut.
     /// @param part of the sum that a node may be off.
     template <typename Scene>
-    double irradiance(const Scene& scene, const LightPoint& texel, size_t most, double part) const {
+    double irradiance(const Scene& scene, const LightPoint& texel, size_t maxNodes, double part) const {
         struct Entry {
             double error, brings;
             size_t node;
@@ -42,7 +42,7 @@ class LightTree {
             cut.push({n.isLeaf ? 0 : bound(n, texel, scene.bound()), brings, node});
         };
         add(nodes_.size() - 1);
-        while (cut.size() < most && cut.top().error > part * sum) {
+        while (cut.size() < maxNodes && cut.top().error > part * sum) {
             const Entry worst = cut.top();
             cut.pop();
             sum -= worst.brings;
