@@ -23,10 +23,12 @@
 #include "passes/inject_clusters/inject_clusters.h"
 #include "passes/inject_gather_hits/inject_gather_hits.h"
 #include "passes/inject_light_rays/inject_light_rays.h"
+#include "passes/inject_radiosity/inject_radiosity.h"
 #include "passes/inject_rsm/inject_rsm.h"
 #include "passes/inject_shadow_map/inject_shadow_map.h"
 #include "passes/inject_voxel_rays/inject_voxel_rays.h"
 #include "passes/light_clipmap/light_clipmap.h"
+#include "passes/link_surfels/link_surfels.h"
 #include "passes/merge_voxels/merge_voxels.h"
 #include "passes/path_trace/path_trace_pass.h"
 #include "passes/place_surfels/place_surfels.h"
@@ -50,6 +52,8 @@ void registerPasses(Registry& registry) {
     registry.add<InjectLightRays>();
     registry.add<PlaceSurfels>();
     registry.add<InjectVoxelRays>();
+    registry.add<LinkSurfels>();
+    registry.add<InjectRadiosity>();
     registry.add<InjectGatherHits>();
     registry.add<InjectCameraRays>();
     registry.add<InjectRsm>();

@@ -1,14 +1,15 @@
 #!/usr/bin/python3
-"""Prints how much faster gather rays or virtual lights are than filtered path tracing at equal error, from results of
+"""Prints how much faster lookups, gather rays or virtual lights are than filtered path tracing at equal error, from results of
 configs/bench/rivals.yaml or configs/papers/sun2015/rivals.yaml.
 
 rivals_table.py DIR: for each scene and number of samples a pixel, the frame time of path tracing (G-buffer, paths, filter)
-and its errors of indirect light; then that time over the time in which gather rays into voxels, or into a radiance cache,
-reach as small an nRMSE / relMSE: with light and geometry that stand still (frames alone), with light that is new in each
-frame (what brings light counts, too), and with geometry that is new, too (all that is built counts). "voxels, rays alone" takes
-the G-buffer and the filter, which both sides share, off both sides: what the first column would come to if these cost
-nothing. For virtual lights what samples and selects them counts. Of a method's variants those count that no other one beats
-in time and error; between them the time is interpolated, logarithm over logarithm.
+and its errors of indirect light; then that time over the time in which voxels that are looked up, gather rays into voxels,
+or gather rays into a radiance cache reach as small an nRMSE / relMSE: with light and geometry that stand still (frames
+alone), with light that is new in each frame (what brings light counts, too), and with geometry that is new, too (all that
+is built counts). "voxels, rays alone" takes the G-buffer and the filter, which both sides share, off both sides: what the
+column before would come to if these cost nothing. For virtual lights what samples and selects them counts. Of a method's
+variants those count that no other one beats in time and error; between them the time is interpolated, logarithm over
+logarithm.
 `>` where the fastest of them already has less error, `-` where none has as little. Direct light is in neither.
 """
 import csv
@@ -19,11 +20,13 @@ import sys
 
 LEFT_OUT = {"direct", "composite"}
 SHARED = {"gbuffer", "filter_irradiance"}
-LIGHT = {"inject", "few_rays", "update_radiance_cache", "sample_vpls", "select_vpls"}
+LIGHT = {"inject", "few_rays", "inject_radiosity", "update_radiance_cache", "sample_vpls", "select_vpls"}
 ERRORS = ("indirect_nrmse", "indirect_relmse")
 
 # Of each column: its title, the gather that it is about, whether a build pass counts, and what does not count.
-COLUMNS = (("voxels", "gather_rays", lambda name: False, LEFT_OUT),
+COLUMNS = (("looked up", "gather_irradiance", lambda name: False, LEFT_OUT),
+           ("looked up, new light", "gather_irradiance", lambda name: name in LIGHT, LEFT_OUT),
+           ("voxels", "gather_rays", lambda name: False, LEFT_OUT),
            ("voxels, rays alone", "gather_rays", lambda name: False, LEFT_OUT | SHARED),
            ("cache", "gather_cached_rays", lambda name: False, LEFT_OUT),
            ("voxels, new light", "gather_rays", lambda name: name in LIGHT, LEFT_OUT),

@@ -26,13 +26,14 @@ void main() {
     const SurfacePoint p = surfacePoint(pointTriangles.data[i], trianglePoint(sobol2(push.firstPoint + i, push.seed)));
     const uint voxel = voxelNumber(push.grid, voxelAt(push.grid, p.position));
     const float offset = surfaceOffset(p.position);
+    const vec3 albedo = clamp(diffuseAlbedo(sceneMaterials.data[p.material], p, 0.0), 0.0, 1.0);
     for (uint side = 0u; side < 2u; ++side) {
         Surfel s;
         s.position = p.position;
         s.normal = side == 0u ? p.geometricNormal : -p.geometricNormal;
         s.voxel = voxel;
         s.id = 2u * (push.firstPoint + i) + side;
-        s.reflectance = vec3(0.0);
+        s.reflectance = albedo;
         s.parent = 0u;
         s.area = 1.0;
         candidates.data[2u * i + side] = s;

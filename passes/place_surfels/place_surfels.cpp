@@ -50,6 +50,8 @@ void PlaceSurfels::record(PassContext& context) {
     const SurfaceVoxels& voxels = context.get(voxels_);
     Surfels& surfels = context.get(surfels_);
     CommandStream& stream = context.stream;
+    const std::optional<std::vector<Box>>& changed = context.frame.changed;
+    if (changed && changed->empty() && !surfels.chunks.empty()) return;  // Light alone has changed.
     surfels.chunks.clear();
     // No more than planned: the number of voxels was estimated.
     const uint64_t points =

@@ -12,7 +12,7 @@ struct Surfel {
     uint voxel;        // Number of its voxel, or NO_VOXEL.
     vec3 normal;       // Unit length, on the lit side; geometric, at hits the shading normal.
     uint id;           // Picks its random numbers; unique among surfels that are handled together.
-    vec3 reflectance;  // Light that goes back to where the path began, over irradiance / pi and the chance to get here.
+    vec3 reflectance;  // Diffuse albedo; of a path's vertex times those before it, over the chance to get here.
     uint parent;       // Index of the gather ray, of the path, or of the vertex before.
     float area;        // Of surface that it stands for, 1 where surfels are spread evenly over all surfaces.
 };

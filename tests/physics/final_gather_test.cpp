@@ -38,8 +38,12 @@ Passes filtered(int levels, const std::string& gather = "gather_rays") {
 // `gather` ends the list of passes: kRaw, filtered() or the like.
 std::string gatherGraph(const std::string& inject, const std::string& trace, const Passes& gather = kRaw,
                         const std::string& voxelize = "resolution: 16", const std::string& samples = "1") {
-    Passes passes{"gbuffer, samples_per_pixel_edge: " + samples, "voxelize, " + voxelize,
-                  "place_surfels, points_per_voxel: 8", "trace_gather_rays, " + trace, inject};
+    Passes passes{"gbuffer, samples_per_pixel_edge: " + samples,
+                  "voxelize, " + voxelize,
+                  "place_surfels, points_per_voxel: 8",
+                  "link_surfels",
+                  "trace_gather_rays, " + trace,
+                  inject};
     passes.insert(passes.end(), gather.begin(), gather.end());
     return graphYaml(passes);
 }
@@ -349,11 +353,11 @@ TEST(FinalGather, GridOfOneVoxel) {
     // alone.
     Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 16, bounces: 4"}));
     for (const Injection& injection : kInjections) {
-        Chain chain(
-            "white_room", "{albedo: 0.5}",
-            graphYaml({"gbuffer", "voxelize, resolution: 1, visibility_rays: 0",
-                       "place_surfels, points_per_voxel: 256", "trace_gather_rays, rays_per_block: 16",
-                       injection.withBounces(3), "gather_rays, near_field_voxels: 0", "composite"}));
+        Chain chain("white_room", "{albedo: 0.5}",
+                    graphYaml({"gbuffer", "voxelize, resolution: 1, visibility_rays: 0",
+                               "place_surfels, points_per_voxel: 256", "link_surfels",
+                               "trace_gather_rays, rays_per_block: 16", injection.withBounces(3),
+                               "gather_rays, near_field_voxels: 0", "composite"}));
         const double ratio = mean(chain.image("indirect")) / mean(reference.image("indirect"));
         std::printf("%s: %.4f\n", injection.pass.c_str(), ratio);
         EXPECT_NEAR(ratio, injection.pass.starts_with("inject_camera_rays") ? 1.0 : 0.5, 0.04)

@@ -135,9 +135,12 @@ TEST(SampleTree, IsNoList) {
 
 // Passes up to the gather; `gather` ends the list.
 std::string gatherGraph(const std::string& inject, const std::vector<std::string>& gather) {
-    std::vector<std::string> passes{"gbuffer", "voxelize, resolution: 24",
+    std::vector<std::string> passes{"gbuffer",
+                                    "voxelize, resolution: 24",
                                     "place_surfels, points_per_voxel: 8",
-                                    "trace_gather_rays, rays_per_block: 8", inject};
+                                    "link_surfels",
+                                    "trace_gather_rays, rays_per_block: 8",
+                                    inject};
     passes.insert(passes.end(), gather.begin(), gather.end());
     return graphYaml(passes);
 }

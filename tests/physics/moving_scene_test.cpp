@@ -29,8 +29,9 @@ bool sameImage(const ImageF& a, const ImageF& b) {
 }
 
 std::string graphOf(const std::string& inject, const std::string& filter) {
-    return graphYaml({"gbuffer", "voxelize, resolution: 8", "place_surfels, points_per_voxel: 1", inject,
-                      "filter_voxels, " + filter, "gather_cones", "direct_shadow_rays", "composite"});
+    return graphYaml({"gbuffer", "voxelize, resolution: 8", "place_surfels, points_per_voxel: 1",
+                      "link_surfels, rays_per_surfel: 4", inject, "filter_voxels, " + filter, "gather_cones",
+                      "direct_shadow_rays", "composite"});
 }
 
 /// A chain that came to a time from another one is one that was made there, bit for bit.
@@ -57,7 +58,7 @@ TEST(MovingScene, EveryLayoutIsAsMadeThere) {
 TEST(MovingScene, EveryInjectionIsAsMadeThere) {
     for (const char* inject :
          {"inject_light_rays, rays_per_light: 1024", "inject_voxel_rays, paths_per_point: 2, bounces: 1",
-          "inject_rsm, rsm_resolution: 64"})
+          "inject_radiosity, bounces: 2", "inject_rsm, rsm_resolution: 64"})
         expectAsMadeThere(graphOf(inject, "layout: dense"));
 }
 

@@ -14,6 +14,7 @@ inline constexpr TestDefault kTestDefaults[] = {
     {"voxelize", "resolution", "32"},
     {"inject_light_rays", "rays_per_light", "65536"},
     {"inject_voxel_rays", "paths_per_point", "1"},
+    {"link_surfels", "rays_per_surfel", "16"},
     {"inject_shadow_map", "paths_per_point", "1"},
 };
 

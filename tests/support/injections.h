@@ -4,7 +4,8 @@
 
 namespace voxray::test {
 
-/// A strategy of injection, with parameters for small scenes, after place_surfels and trace_gather_rays.
+/// A strategy of injection, with parameters for small scenes, after place_surfels, link_surfels and
+/// trace_gather_rays.
 struct Injection {
     std::string pass;  ///< And its parameters but for `bounces`.
     bool
@@ -17,6 +18,7 @@ struct Injection {
 inline const Injection kInjections[] = {
     {"inject_light_rays, rays_per_light: 131072", true},
     {"inject_voxel_rays, paths_per_point: 2", true},
+    {"inject_radiosity", true},
     {"inject_gather_hits, paths_per_point: 2", true, true},
     {"inject_camera_rays, rays_per_image: 65536", true, true},
     {"inject_rsm, rsm_resolution: 128", false},

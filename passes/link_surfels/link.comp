@@ -1,0 +1,70 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Links each ray to the surfel that stands for the place where it hit.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/scene.glsl"
+#include "shaders/surfels/sorted_surfels.h"
+#include "shaders/trace/ray_types.h"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Rays { Ray data[]; } rays;
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SortedSurfels { SortedSurfel data[]; };
+layout(scalar) readonly buffer SortedAt { SortedSurfels sorted; };
+readonly buffer Begins { uint data[]; } begins;
+readonly buffer Ends { uint data[]; } ends;
+layout(scalar) writeonly buffer LinksAt { LargeUints links; };
+buffer Unlinked { uint value; } unlinked;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint firstNumber;  // Of the first ray's surfel.
+    uint rayCount;
+    uint raysPerSurfel;
+    uint surfelCount;
+} push;
+
+const uint NONE = 0xffffffffu;
+
+// The nearest surfel so far, in a space of positions and, in voxels, normals.
+struct Nearest {
+    float distance_;
+    uint number;
+};
+
+void visit(ivec3 voxel, vec3 position, vec3 normal, inout Nearest nearest) {
+    const uint number = voxelNumber(push.grid, voxel);
+    if (number == NO_VOXEL) return;
+    for (uint i = begins.data[number]; i < ends.data[number]; ++i) {
+        const SortedSurfel s = sorted.data[i];
+        if (dot(s.normal, normal) <= 0.0) continue;
+        const vec3 away = s.position - position, bent = (s.normal - normal) * push.grid.voxelSize;
+        const float d = dot(away, away) + dot(bent, bent);
+        if (d < nearest.distance_ || (d == nearest.distance_ && s.number < nearest.number)) nearest = Nearest(d, s.number);
+    }
+}
+
+// The surfel of the voxel that the place lies in; of the voxels around it where that has none on this side.
+uint nearestSurfel(vec3 position, vec3 normal) {
+    const ivec3 voxel = voxelAt(push.grid, position);
+    Nearest nearest = Nearest(1.0e30, NONE);
+    visit(voxel, position, normal, nearest);
+    if (nearest.number != NONE) return nearest.number;
+    for (int i = 0; i < 27; ++i)
+        if (i != 13) visit(voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, position, normal, nearest);
+    return nearest.number;
+}
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.rayCount) return;
+    uint number = NONE;
+    if (hits.data[i].triangle != NO_HIT) {
+        const SurfacePoint p = surfacePoint(hits.data[i].triangle, vec2(hits.data[i].u, hits.data[i].v));
+        const vec3 n = dot(p.geometricNormal, rays.data[i].direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
+        number = nearestSurfel(p.position, n);
+        if (number == NONE) atomicAdd(unlinked.value, 1u);
+    }
+    links.data[(i % push.raysPerSurfel) * push.surfelCount + push.firstNumber + i / push.raysPerSurfel] = number;
+}

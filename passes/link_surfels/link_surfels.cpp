@@ -1,0 +1,146 @@
+#include "passes/link_surfels/link_surfels.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/error.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/random_seed.h"
+#include "shaders/surfels/sorted_surfels.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kBatchRays = 1u << 20;
+
+struct SortPush {
+    uint32_t count;
+    uint32_t firstNumber;
+};
+
+struct EmitPush {
+    uint32_t firstSurfel;
+    uint32_t rayCount;
+    uint32_t raysPerSurfel;
+    uint32_t seed;
+};
+
+struct LinkPush {
+    gpu::VoxelGrid grid;
+    uint32_t firstNumber;
+    uint32_t rayCount;
+    uint32_t raysPerSurfel;
+    uint32_t surfelCount;
+};
+
+}  // namespace
+
+void LinkSurfels::declare(PassBuilder& builder) {
+    voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels, by which surfels are found");
+    surfels_ = builder.read<Surfels>("surfels", "points to link");
+    links_ = builder.write<SurfelLinks>("links", "which surfels each surfel sees");
+}
+
+void LinkSurfels::plan(PassPlan& plan) {
+    const uint64_t surfels = plan.get(surfels_).maxCount, voxels = plan.get(voxels_).voxelCount;
+    plan.get(links_).raysPerSurfel = params_.raysPerSurfel;
+    plan.reserve("surfel links (estimated)", surfels * params_.raysPerSurfel * sizeof(uint32_t));
+    plan.scratchBuffer(rays_, "link rays", uint64_t(kBatchRays) * sizeof(Ray));
+    plan.scratchBuffer(hits_, "link hits", uint64_t(kBatchRays) * sizeof(Hit));
+    plan.scratchBuffer(unlinked_, "number of hits without surfel", sizeof(uint32_t));
+    plan.reserveScratch("surfels by voxel (estimated)", surfels * sizeof(gpu::SortedSurfel) +
+                                                            2 * voxels * sizeof(uint32_t) +
+                                                            PrefixSum::scratchBytes(uint32_t(voxels)));
+}
+
+void LinkSurfels::prepare(PassSetup& setup) {
+    const auto program = [&](const char* file) {
+        return makeComputeProgram(setup.device, setup.compiler.compile(file));
+    };
+    count_ = program("passes/link_surfels/count.comp");
+    sort_ = program("passes/link_surfels/sort.comp");
+    emit_ = program("passes/link_surfels/emit.comp");
+    link_ = program("passes/link_surfels/link.comp");
+    prefixSum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
+}
+
+void LinkSurfels::record(PassContext& context) {
+    SurfelLinks& links = context.get(links_);
+    const std::optional<std::vector<Box>>& changed = context.frame.changed;
+    if (changed && changed->empty() && links.links) return;  // Light alone has changed.
+
+    const Surfels& surfels = context.get(surfels_);
+    uint64_t count = 0;
+    for (const Surfels::Chunk& chunk : surfels.chunks) count += chunk.count;
+    if (count * params_.raysPerSurfel >= std::numeric_limits<uint32_t>::max())
+        throw Error(
+            "{}: {} surfels with {} rays each are more links than can be numbered (2^32); lower "
+            "'rays_per_surfel', "
+            "or place_surfels's 'points_per_voxel'",
+            kName, count, params_.raysPerSurfel);
+    links.surfelCount = uint32_t(count);
+    links.links = {};
+    links.links =
+        LargeBuffer(context.device, "surfel links", count * params_.raysPerSurfel * sizeof(uint32_t));
+
+    sortByVoxel(context, surfels);
+    context.stream.fill(unlinked_, 0);
+    uint32_t first = 0;
+    for (const Surfels::Chunk& chunk : surfels.chunks) {
+        link(context, chunk, first, links);
+        first += chunk.count;
+    }
+    const uint32_t unlinked = context.stream.readAs<uint32_t>(unlinked_, 1)[0];
+    context.report("links", double(count) * params_.raysPerSurfel);
+    context.report("hits without surfel, % of rays",
+                   100.0 * unlinked / (double(count) * params_.raysPerSurfel));
+    firstOfVoxel_ = {}, endOfVoxel_ = {}, sorted_ = {};
+}
+
+void LinkSurfels::sortByVoxel(PassContext& context, const Surfels& surfels) {
+    const uint32_t voxels = context.get(voxels_).voxelCount;
+    CommandStream& stream = context.stream;
+    firstOfVoxel_ = Buffer(context.device, "first surfel of each voxel", voxels * sizeof(uint32_t));
+    endOfVoxel_ = Buffer(context.device, "last surfel of each voxel", voxels * sizeof(uint32_t));
+    stream.fill(firstOfVoxel_, 0);
+    for (const Surfels::Chunk& chunk : surfels.chunks)
+        stream.dispatch(count_, {{"surfels", chunk.surfels}, {"counts", firstOfVoxel_}}, chunk.count,
+                        linearGroups(chunk.count));
+    const uint32_t listed = prefixSum_->run(stream, firstOfVoxel_, firstOfVoxel_, voxels);
+    stream.copy(firstOfVoxel_, endOfVoxel_, voxels * sizeof(uint32_t));
+    sorted_ =
+        LargeBuffer(context.device, "surfels by voxel", std::max(listed, 1u) * sizeof(gpu::SortedSurfel));
+    uint32_t first = 0;
+    for (const Surfels::Chunk& chunk : surfels.chunks) {
+        stream.dispatch(sort_,
+                        {{"surfels", chunk.surfels}, {"SortedAt", sorted_.at()}, {"ends", endOfVoxel_}},
+                        SortPush{chunk.count, first}, linearGroups(chunk.count));
+        first += chunk.count;
+    }
+}
+
+void LinkSurfels::link(PassContext& context, const Surfels::Chunk& chunk, uint32_t first,
+                       SurfelLinks& links) const {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    const uint32_t perSurfel = params_.raysPerSurfel, batch = kBatchRays / perSurfel;
+    for (uint32_t begin = 0; begin < chunk.count; begin += batch) {
+        const uint32_t rays = std::min(batch, chunk.count - begin) * perSurfel;
+        context.stream.dispatch(emit_, {{"surfels", chunk.surfels}, {"rays", rays_}},
+                                EmitPush{begin, rays, perSurfel, randomSeed(context.frame)},
+                                linearGroups(rays));
+        context.tracer.closestHit(context.stream, rays_, hits_, rays);
+        context.stream.dispatch(link_,
+                                voxels.bindings(context.scene.bindings({{"rays", rays_},
+                                                                        {"hits", hits_},
+                                                                        {"SortedAt", sorted_.at()},
+                                                                        {"begins", firstOfVoxel_},
+                                                                        {"ends", endOfVoxel_},
+                                                                        {"LinksAt", links.links.at()},
+                                                                        {"unlinked", unlinked_}})),
+                                LinkPush{voxels.grid, first + begin, rays, perSurfel, links.surfelCount},
+                                linearGroups(rays));
+    }
+    context.stream.finish();
+}
+
+}  // namespace voxray

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+
+#include "passes/common/compute/prefix_sum.h"
+#include "passes/common/surfels/surfel_links.h"
+#include "passes/common/surfels/surfels.h"
+#include "passes/common/voxels/voxels.h"
+
+namespace voxray {
+
+/// Links surfels by rays, for inject_radiosity. Source: Goral et al. 1984 (radiosity); Lehtinen et al. 2008
+/// (light transport between points); docs/radiosity.md.
+class LinkSurfels final : public Pass {
+ public:
+    static constexpr const char* kName = "link_surfels";
+    static constexpr const char* kHelp =
+        "Finds by rays which surfels see each other, once for a geometry: light then travels along these "
+        "links "
+        "without rays (inject_radiosity). Biased by: surfels' distance (a hit takes the light of the nearest "
+        "surfel in its voxel). Noisy by: rays_per_surfel. Source: Goral et al. 1984; Lehtinen et al. 2008.";
+    struct Params {
+        uint32_t raysPerSurfel = 64;
+        static constexpr auto schema() {
+            return std::tuple{field("rays_per_surfel", &Params::raysPerSurfel,
+                                    "Rays from each surfel; 4 bytes each.", 1u, 4096u)};
+        }
+    };
+
+    explicit LinkSurfels(const Params& params) : params_(params) {}
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    /// Lists the surfels of each voxel: sorts their numbers by voxel.
+    void sortByVoxel(PassContext& context, const Surfels& surfels);
+    /// Traces the rays of a chunk, whose first surfel has number `first`, and links them.
+    void link(PassContext& context, const Surfels::Chunk& chunk, uint32_t first, SurfelLinks& links) const;
+
+    Params params_;
+    Port<const SurfaceVoxels> voxels_;
+    Port<const Surfels> surfels_;
+    Port<SurfelLinks> links_;
+    Program count_, sort_, emit_, link_;
+    std::optional<PrefixSum> prefixSum_;
+    Buffer rays_, hits_, unlinked_;     ///< Scratch, of a batch of rays.
+    Buffer firstOfVoxel_, endOfVoxel_;  ///< Scratch: places in `sorted_`, by voxel.
+    LargeBuffer sorted_;                ///< Scratch: gpu::SortedSurfel each.
+};
+
+}  // namespace voxray

@@ -1,0 +1,18 @@
+// Surfels sorted by voxel, shared by C++ (passes/link_surfels/) and GLSL.
+#ifndef VOXRAY_SHARED_SORTED_SURFELS_H
+#define VOXRAY_SHARED_SORTED_SURFELS_H
+
+#include "shaders/shared/types.h"
+
+VOXRAY_SHARED_BEGIN
+
+// What tells whether a surfel stands for a place near it.
+struct SortedSurfel {
+    vec3 position;  // m
+    uint number;    // Through all chunks of surfels.
+    vec3 normal;    // Unit length, on the lit side.
+};
+
+VOXRAY_SHARED_END
+
+#endif
