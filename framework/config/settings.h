@@ -127,6 +127,7 @@ std::vector<std::string> metricNames();
 struct SceneOptions {
     bool keepFileLights = true;
     MaterialMode materials = MaterialMode::AsIs;
+    uint32_t subdivide = 0;
     double time = 0;
     double timeStep = 0;
     static constexpr auto schema() {
@@ -138,6 +139,9 @@ struct SceneOptions {
             field("materials", &SceneOptions::materials,
                   "as_is, or lambert: drop specular and metal of what scenes bring, keep base colour and "
                   "emission."),
+            field("subdivide", &SceneOptions::subdivide,
+                  "Splits every triangle in four in place, so often: the same surfaces of more triangles.",
+                  0u, 4u),
             field("time", &SceneOptions::time, "Time of the compared frame in the animation, seconds.", 0.0,
                   1e6),
             field(

@@ -14,6 +14,7 @@
 #include "scene/compose.h"
 #include "scene/content_hash.h"
 #include "scene/load.h"
+#include "scene/subdivide.h"
 
 namespace voxray {
 namespace fs = std::filesystem;
@@ -178,6 +179,7 @@ std::string SceneLoader::key(const SceneSettings& settings) {
             .add(writeParams(change.settings).text())
             .add(fmt::format("{}", fmt::join(change.keys, " ")));
     hasher.addPlain(settings.options.keepFileLights).addPlain(settings.options.materials);
+    if (settings.options.subdivide > 0) hasher.add("subdivide").addPlain(settings.options.subdivide);
     hasher.addPlain(settings.options.time).add(settings.cameraName);
     // Where all goes from the compared frame on changes nothing in it but the bounds
     hasher.addPlain(settings.options.timeStep > 0);
@@ -230,7 +232,7 @@ std::shared_ptr<const Scene> SceneLoader::compose(const SceneSettings& settings)
     };
     std::shared_ptr<const Scene> scene = loadInMode(settings.source);
     if (settings.additions.empty() && settings.overrides.empty() && !settings.environment &&
-        !settings.movingSpheres)
+        !settings.movingSpheres && settings.options.subdivide == 0)
         return scene;
 
     auto composed = std::make_shared<Scene>(*scene);
@@ -243,6 +245,7 @@ std::shared_ptr<const Scene> SceneLoader::compose(const SceneSettings& settings)
     for (const MaterialOverride& entry : settings.overrides)
         for (Material& material : composed->materials)
             if (material.name == entry.material) changeMaterial(material, entry.change);
+    subdivide(*composed, settings.options.subdivide);
     if (settings.movingSpheres) addMovingSpheres(*composed, *settings.movingSpheres);
     if (settings.environment) {
         composed->environment.radiance = settings.environment->scale;

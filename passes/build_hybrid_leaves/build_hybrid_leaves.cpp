@@ -10,6 +10,7 @@
 #include "passes/build_hybrid_leaves/leaf_counts.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/triangle_walk/walk_types.h"
+#include "passes/common/voxel_builder/changed_voxels.h"
 
 namespace voxray {
 namespace {
@@ -29,12 +30,12 @@ struct LeavesPush {
 struct Found {
     uint32_t empty;         ///< Leaves.
     uint32_t maxTriangles;  ///< Of a leaf.
-    uint32_t pairs;         ///< Of a triangle and a leaf with a grid.
+    uint32_t pairs;         ///< Of a triangle and a leaf with a grid that is built.
 };
 
-constexpr uint64_t kMaxListWords = 1ull << 31;            // shaders/hybrid_leaves/hybrid_types.h
-constexpr uint64_t kMaxCells = (1ull << 32) / SUM_UINTS;  // cell_sums.h, by 32 bits.
-constexpr uint64_t kMaxBoundBytes = 128u << 20;           // What Vulkan guarantees of maxStorageBufferRange.
+constexpr uint64_t kMaxListWords = 1ull << 31;                   // shaders/hybrid_leaves/hybrid_types.h
+constexpr uint64_t kMaxCells = (1ull << 32) / BRIGHT_SUM_UINTS;  // cell_sums.h, by 32 bits.
+constexpr uint64_t kMaxBoundBytes = 128u << 20;  // What Vulkan guarantees of maxStorageBufferRange.
 
 uint64_t wordBytes(uint64_t count) {
     return std::max<uint64_t>(count, 1) * sizeof(uint32_t);
@@ -47,6 +48,23 @@ std::vector<uint32_t> maskedTriangles(const SceneState& state) {
         if (state.scene->materials[state.geometry.triangleMaterials[t]].alphaMode == AlphaMode::Mask)
             found.push_back(t);
     return found;
+}
+
+/// What cells take and what is summed of them: more where surfaces emit light or have specular lobes.
+struct CellSize {
+    uint32_t words, sums;
+    float largestEmission;
+};
+
+CellSize cellSize(const Scene& scene) {
+    float largest = 0;
+    bool isBright = false;
+    for (const Material& material : scene.materials) {
+        for (int c = 0; c < 3; ++c) largest = std::max(largest, material.emission[c]);
+        isBright |= material.metallic > 0 || material.specular > 0;
+    }
+    return isBright || largest > 0 ? CellSize{BRIGHT_CELL_WORDS, BRIGHT_SUM_UINTS, largest}
+                                   : CellSize{GRID_CELL_WORDS, SUM_UINTS, 0};
 }
 
 uint32_t wordsPerGrid(uint32_t m) {
@@ -104,13 +122,21 @@ void BuildHybridLeaves::plan(PassPlan& plan) {
     plan.reserve("hybrid leaves (estimated)", wordBytes(voxels.voxelCount));
     if (!maskedTriangles(*plan.frame.scene).empty())
         plan.reserve("voxels with masks", 2 * wordBytes(voxels.words()));
+    const CellSize size = cellSize(*plan.frame.scene->scene);
+    const uint64_t gridBytes = 2 * wordBytes(gridWords) + wordBytes(cells * size.words);
     plan.reserve("lists of triangles (at most)", wordBytes(listed));
-    plan.reserve("grids (at most)", 2 * wordBytes(gridWords) + wordBytes(cells * GRID_CELL_WORDS));
+    plan.reserve("grids (at most)", gridBytes);
     plan.reserveScratch("triangles of each leaf (estimated)", 4 * wordBytes(voxels.voxelCount));
     plan.reserveScratch("triangles in grids (at most)", 3 * wordBytes(counts.all() - listed));
     plan.reserveScratch("sums of cells (at most)",
-                        cells * SUM_UINTS * sizeof(uint32_t) + PrefixSum::scratchBytes(uint32_t(gridWords)));
+                        cells * size.sums * sizeof(uint32_t) + PrefixSum::scratchBytes(uint32_t(gridWords)));
     walk_->plan(plan, grid);
+    if (movingRuns(geometry).empty()) return;
+    plan.reserve("leaves of the last build (estimated)",
+                 2 * wordBytes(voxels.words()) + wordBytes(voxels.voxelCount));
+    plan.reserveScratch(
+        "update of a region (at most)",
+        2 * wordBytes(voxels.words()) + 3 * wordBytes(voxels.voxelCount) + wordBytes(listed) + gridBytes);
 }
 
 void BuildHybridLeaves::prepare(PassSetup& setup) {
@@ -135,39 +161,65 @@ void BuildHybridLeaves::prepare(PassSetup& setup) {
     enclose_ = program("passes/build_hybrid_leaves/enclose_cells.comp");
     sum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
     sumBits_.emplace(setup.device, setup.compiler, PrefixSum::Of::SetBits);
+    merge_ = RegionMerge(setup.device, setup.compiler);
+    kept_.reset();
+    if (!movingRuns(setup.frame.scene->geometry).empty()) kept_.emplace(setup.device, setup.compiler);
     version_.reset();
 }
 
 void BuildHybridLeaves::record(PassContext& context) {
     const SurfaceVoxels& surface = context.get(voxels_);
     if (version_ == surface.version) return;
+    const std::optional<std::vector<Box>>& changed = context.frame.changed;
+    const bool updates = kept_ && changed && version_ && *version_ + 1 == surface.version;
     version_ = surface.version;
     HybridLeaves& leaves = context.get(leaves_);
-    leaves.release();
-    const std::vector<uint32_t> masked = maskedTriangles(*context.frame.scene);
-    if (!masked.empty()) addMasked(context, masked, surface, leaves);
-    const SurfaceVoxels& voxels = leaves.voxels(surface);
-
-    const VoxelRegion all(voxels.grid);
-    walk_->select(context, voxels.grid, all, all.triangles(context.frame.scene->geometry));
-    number(context, voxels, leaves);
-    fillLists(context, voxels, leaves);
-    walk_->release();
+    if (updates) {
+        const VoxelRegion region(surface.grid, changedVoxels(surface.grid, *changed));
+        kept_->begin(leaves, merge_.bits(context.stream, region, surface));
+        const bool isDone = build(context, region, surface, leaves);
+        kept_->end();
+        if (!isDone) build(context, VoxelRegion(surface.grid), surface, leaves);
+    } else {
+        build(context, VoxelRegion(surface.grid), surface, leaves);
+    }
+    if (kept_) kept_->remember(context.stream, leaves.voxels(surface), std::move(counts_));
     counts_ = {};
-    if (leaves.gridCount > 0) fillGrids(context, voxels, leaves);
-    pairs_ = {};
     ++leaves.version;
-    context.report("leaves with a list", double(voxels.voxelCount - leaves.gridCount - leaves.emptyCount));
+    const uint32_t lists = leaves.shape.leaves - leaves.gridCount - leaves.emptyCount;
+    context.report("leaves with a list", lists);
     context.report("leaves with a grid", leaves.gridCount);
     context.report("triangles in lists", leaves.primitiveCount);
     context.report("cells in grids", leaves.cellCount);
     context.report("bytes of leaves", double(leaves.structureBytes()));
     context.report("bytes of lists", double(leaves.listBytes()));
     context.report("bytes of grids", double(leaves.gridBytes()));
+    context.report("leaves built again", builtLeaves_);
 }
 
-void BuildHybridLeaves::addMasked(PassContext& context, const std::vector<uint32_t>& triangles,
+bool BuildHybridLeaves::build(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& surface,
+                              HybridLeaves& leaves) {
+    leaves.release();
+    addMasked(context, region, surface, leaves);
+    const SurfaceVoxels& voxels = leaves.voxels(surface);
+    walk_->select(context, voxels.grid, region, region.triangles(context.frame.scene->geometry));
+    const float unit = cellUnit_;
+    number(context, voxels, leaves);
+    if (isUpdate() && unit != cellUnit_) {
+        walk_->release();
+        return false;
+    }
+    fillLists(context, voxels, leaves);
+    walk_->release();
+    if (leaves.gridCount > 0) fillGrids(context, leaves);
+    pairs_ = {}, counted_ = {};
+    return true;
+}
+
+void BuildHybridLeaves::addMasked(PassContext& context, const VoxelRegion& region,
                                   const SurfaceVoxels& voxels, HybridLeaves& leaves) {
+    const std::vector<uint32_t> triangles = maskedTriangles(*context.frame.scene);
+    if (triangles.empty()) return;
     CommandStream& stream = context.stream;
     SurfaceVoxels& all = leaves.masked;
     all.grid = voxels.grid;
@@ -175,8 +227,9 @@ void BuildHybridLeaves::addMasked(PassContext& context, const std::vector<uint32
     all.occupancy = Buffer(context.device, "occupancy with masks", voxels.occupancy.bytes());
     all.rank = Buffer(context.device, "ranks with masks", voxels.rank.bytes());
     stream.copy(voxels.occupancy, all.occupancy, voxels.occupancy.bytes());
-    walk_->select(context, all.grid, VoxelRegion(all.grid), triangles);
+    walk_->select(context, all.grid, region, triangles);
     walk_->run(context, markLeaves_, all.grid, std::vector<Binding>{{"occupancy", all.occupancy}}, 0);
+    if (isUpdate()) all.occupancy = merge_.merged(stream, kept_->region(), kept_->occupancy(), all.occupancy);
     all.voxelCount = sumBits_->run(stream, all.occupancy, all.rank, uint32_t(all.words()));
     walk_->release();
 }
@@ -186,9 +239,15 @@ void BuildHybridLeaves::number(PassContext& context, const SurfaceVoxels& voxels
     CommandStream& stream = context.stream;
     const LeavesPush push{voxels.voxelCount, params_.primitives};
     const glm::uvec3 groups = linearGroups(push.leaves);
-    counts_ = Buffer(context.device, "triangles of each leaf", wordBytes(push.leaves));
-    stream.fill(counts_, 0);
-    walk_->run(context, count_, voxels.grid, leafBindings(voxels, {{"counts", counts_}}), 0);
+    counted_ = Buffer(context.device, "triangles of leaves that are built", wordBytes(push.leaves));
+    counts_ = Buffer(context.device, "triangles of each leaf", counted_.bytes());
+    stream.fill(counted_, 0);
+    walk_->run(context, count_, voxels.grid, leafBindings(voxels, {{"counts", counted_}}), 0);
+    builtLeaves_ = push.leaves;
+    if (isUpdate())
+        builtLeaves_ = kept_->counts(stream, voxels, counted_, counts_);
+    else
+        stream.copy(counted_, counts_, counts_.bytes());
 
     // Where its list begins, or which number its grid has: exclusive sums, for which Seok 2021, figure 7,
     // takes the order of arrival
@@ -196,13 +255,15 @@ void BuildHybridLeaves::number(PassContext& context, const SurfaceVoxels& voxels
     const Buffer grids(context.device, "grids", wordBytes(push.leaves));
     const Buffer found(context.device, "what leaves are", sizeof(Found));
     stream.fill(found, 0);
-    stream.dispatch(size_, {{"counts", counts_}, {"sizes", sizes}, {"grids", grids}, {"found", found}}, push,
-                    groups);
+    stream.dispatch(
+        size_,
+        {{"counts", counts_}, {"counted", counted_}, {"sizes", sizes}, {"grids", grids}, {"found", found}},
+        push, groups);
     leaves.words = Buffer(context.device, "hybrid leaves", wordBytes(push.leaves));
     leaves.primitiveCount = sum_->run(stream, sizes, leaves.words, push.leaves);
     leaves.gridCount = sum_->run(stream, grids, grids, push.leaves);
     const Found numbers = stream.readAs<Found>(found, 1)[0];
-    maxTriangles_ = numbers.maxTriangles;
+    cellUnit_ = unitsPerFace(numbers.maxTriangles);
     pairCount_ = numbers.pairs;
     leaves.emptyCount = numbers.empty;
     stream.dispatch(number_, {{"counts", counts_}, {"grids", grids}, {"words", leaves.words}}, push, groups);
@@ -213,14 +274,22 @@ void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& vox
     CommandStream& stream = context.stream;
     const LeavesPush push{voxels.voxelCount, params_.primitives};
     leaves.primitives = Buffer(context.device, "lists of triangles", wordBytes(leaves.primitiveCount));
-    leaves.shape = {push.leaves, push.capacity, params_.grid, wordsPerGrid(params_.grid)};
+    const CellSize size = cellSize(*context.frame.scene->scene);
+    const bool hasOctants = context.frame.scene->geometry.triangles.size() < LIST_ENDS >> OCTANT_BITS;
+    leaves.shape = {push.leaves,
+                    push.capacity,
+                    hasOctants ? OCTANT_BITS : 0,
+                    params_.grid,
+                    wordsPerGrid(params_.grid),
+                    size.words,
+                    size.largestEmission};
     writeHeader(context, leaves);
 
     // From the last place to the first, in order of arrival (Seok 2021, figure 8), then sorted: the same bits
     // each time. What is voxelized further (figure 9) is summed in whole numbers: its order does not matter.
-    const Buffer left(context.device, "places left in lists", counts_.bytes());
+    const Buffer left(context.device, "places left in lists", counted_.bytes());
     const Buffer pairCount(context.device, "number of pairs", sizeof(uint32_t));
-    stream.copy(counts_, left, counts_.bytes());
+    stream.copy(counted_, left, counted_.bytes());
     stream.fill(pairCount, 0);
     pairs_ = LargeBuffer(context.device, "triangles in grids", 3 * wordBytes(pairCount_));
     const std::vector<Binding> bindings = leafBindings(voxels, {{"left", left},
@@ -228,12 +297,13 @@ void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& vox
                                                                 {"PairsAt", pairs_.at()},
                                                                 {"hybridLeaves", leaves.header}});
     walk_->run(context, fill_, voxels.grid, bindings, 0);
-    stream.dispatch(sort_, {{"counts", counts_}, {"hybridLeaves", leaves.header}}, push,
+    stream.dispatch(sort_, {{"counts", counted_}, {"hybridLeaves", leaves.header}}, push,
                     linearGroups(push.leaves));
+    if (isUpdate()) kept_->lists(stream, leaves, counts_);
     stream.finish();
 }
 
-void BuildHybridLeaves::fillGrids(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves) {
+void BuildHybridLeaves::fillGrids(PassContext& context, HybridLeaves& leaves) {
     CommandStream& stream = context.stream;
     const uint32_t words = leaves.gridCount * leaves.shape.wordsPerGrid;
     leaves.gridBits = Buffer(context.device, "bits of grids", wordBytes(words));
@@ -243,38 +313,42 @@ void BuildHybridLeaves::fillGrids(PassContext& context, const SurfaceVoxels& vox
 
     // Each pair is a tile (grid_cells.glsl).
     gpu::TriangleWalkPush push{};
-    push.grid = voxels.grid;
+    push.grid = context.get(voxels_).grid;
     push.tiles = pairCount_;
-    push.visitorScale = unitsPerFace(maxTriangles_);
+    push.visitorScale = cellUnit_;
     const glm::uvec3 groups = linearGroups(push.tiles);
-    std::vector<Binding> bindings =
+    const std::vector<Binding> bindings =
         context.scene.bindings({{"PairsAt", pairs_.at()}, {"hybridLeaves", leaves.header}});
+    const auto forPairs = [&](const Program& program, std::vector<Binding> all) {
+        if (push.tiles > 0) stream.dispatch(program, all, push, groups);
+    };
 
     // Mark their cells, then number them.
-    stream.dispatch(mark_, bindings, push, groups);
+    forPairs(mark_, bindings);
+    if (isUpdate()) kept_->bits(stream, leaves);
     leaves.cellCount = sumBits_->run(stream, leaves.gridBits, leaves.gridRanks, words);
     require(leaves.cellCount, kMaxCells, "cells of grids");
-    leaves.cells =
-        Buffer(context.device, "cells of grids", wordBytes(uint64_t(leaves.cellCount) * GRID_CELL_WORDS));
+    leaves.cells = Buffer(context.device, "cells of grids",
+                          wordBytes(uint64_t(leaves.cellCount) * leaves.shape.cellWords));
     stream.fill(leaves.cells, 0);
     writeHeader(context, leaves);
 
     // What they hold, and how far from their planes.
-    if (params_.write == CellWrite::None) {
-        stream.dispatch(write_, bindings, push, groups);
-        stream.dispatch(enclose_, bindings, push, groups);
-        stream.finish();
-        return;
+    LargeBuffer sums;
+    std::vector<Binding> writing = bindings;
+    if (params_.write == CellWrite::Average) {
+        sums =
+            LargeBuffer(context.device, "sums of cells",
+                        wordBytes(uint64_t(leaves.cellCount) * cellSize(*context.frame.scene->scene).sums));
+        stream.fill(sums, 0);
+        writing.push_back({"CellSumsAt", sums.at()});
     }
-    const LargeBuffer sums(context.device, "sums of cells",
-                           wordBytes(uint64_t(leaves.cellCount) * SUM_UINTS));
-    stream.fill(sums, 0);
-    std::vector<Binding> adding = bindings;
-    adding.push_back({"CellSumsAt", sums.at()});
-    stream.dispatch(write_, adding, push, groups);
-    stream.dispatch(resolve_, {{"CellSumsAt", sums.at()}, {"hybridLeaves", leaves.header}}, leaves.cellCount,
-                    linearGroups(leaves.cellCount));
-    stream.dispatch(enclose_, bindings, push, groups);
+    forPairs(write_, writing);
+    if (sums)
+        stream.dispatch(resolve_, {{"CellSumsAt", sums.at()}, {"hybridLeaves", leaves.header}},
+                        leaves.cellCount, linearGroups(leaves.cellCount));
+    forPairs(enclose_, bindings);
+    if (isUpdate()) kept_->cells(stream, leaves);
     stream.finish();
 }
 

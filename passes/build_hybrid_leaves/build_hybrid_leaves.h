@@ -5,10 +5,12 @@
 #include <tuple>
 
 #include "graph/registry.h"
+#include "passes/build_hybrid_leaves/kept_leaves.h"
 #include "passes/common/compute/large_buffer.h"
 #include "passes/common/compute/prefix_sum.h"
 #include "passes/common/hybrid_leaves/hybrid_leaves.h"
 #include "passes/common/triangle_walk/triangle_walk.h"
+#include "passes/common/voxel_builder/region_merge.h"
 #include "passes/common/voxels/voxels.h"
 
 namespace voxray {
@@ -74,15 +76,21 @@ class BuildHybridLeaves final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    /// Whether only a region is built, and all leaves beyond it are kept.
+    bool isUpdate() const { return kept_ && kept_->isActive(); }
+    /// Builds the leaves of a region, and takes over what is kept. False where cells need another unit: all
+    /// have to be built.
+    bool build(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& surface,
+               HybridLeaves& leaves);
     /// Adds the voxels in which alpha masks leave too little to make them surface voxels.
-    void addMasked(PassContext& context, const std::vector<uint32_t>& triangles, const SurfaceVoxels& voxels,
+    void addMasked(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& voxels,
                    HybridLeaves& leaves);
     /// Counts triangles, tells kinds, and gives lists and grids their places.
     void number(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves);
     /// Fills lists, and pairs of a triangle and a grid leaf.
     void fillLists(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves);
     /// Voxelizes the triangles of these pairs into cells.
-    void fillGrids(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves);
+    void fillGrids(PassContext& context, HybridLeaves& leaves);
     void writeHeader(PassContext& context, HybridLeaves& leaves) const;
 
     Params params_;
@@ -91,10 +99,14 @@ class BuildHybridLeaves final : public Pass {
     std::unique_ptr<TriangleWalk> walk_;
     Program markLeaves_, count_, size_, number_, fill_, sort_, mark_, write_, resolve_, enclose_;
     std::optional<PrefixSum> sum_, sumBits_;
-    Buffer counts_;      ///< Triangles of each leaf, while it is built.
+    std::optional<KeptLeaves> kept_;  ///< Where surfaces move.
+    RegionMerge merge_;
+    Buffer counts_;      ///< Triangles of each leaf.
+    Buffer counted_;     ///< The same of those that are built, 0 of kept ones.
     LargeBuffer pairs_;  ///< Of triangles and grid leaves, while it is built: three words each.
     uint32_t pairCount_ = 0;
-    uint32_t maxTriangles_ = 0;        ///< Of a leaf.
+    uint32_t builtLeaves_ = 0;
+    float cellUnit_ = 0;               ///< Units of area for a cell's face.
     std::optional<uint64_t> version_;  ///< Of the voxels that it is built over.
 };
 

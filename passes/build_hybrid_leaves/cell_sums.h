@@ -8,5 +8,12 @@
 #define SUM_POINT 4u  // Centroids, from the cell's center, in cells.
 #define SUM_ALBEDO 7u
 #define SUM_UINTS 10u
+// In scenes where surfaces emit light or have specular lobes (BRIGHT_CELL_WORDS):
+#define SUM_EMISSION 10u    // Relative to the scene's largest.
+#define SUM_BOTH_SIDES 13u  // Of its largest channel, what back sides emit, too.
+#define SUM_F0 14u
+#define SUM_F90 17u
+#define SUM_ROUGHNESS 18u
+#define BRIGHT_SUM_UINTS 19u
 
 #endif

@@ -11,6 +11,7 @@ struct CellSurface {
     float area;   // In units of a cell's face.
     vec3 point;   // Centroid from the cell's center, in cells.
     FragmentMaterial material;
+    float emissionLevel;  // Mip level of the emissive texture.
 };
 
 // A point in the walk's coordinates, whose axes are permuted, from the center of a triangle's cell, in cells.
@@ -37,6 +38,7 @@ bool cellSurface(TriangleFragment cell, out CellSurface s) {
     c.center = barycentricsAt(t, center);
     c.texCoordWidth = t.texCoordWidth;
     s.material = fragmentMaterial(cell, c);
+    s.emissionLevel = footprintLevel(sceneMaterials.data[s.material.at.material].emissiveTexture, c.texCoordWidth);
     const vec3 point = t.p0 + c.center.x * (t.p1 - t.p0) + c.center.y * (t.p2 - t.p0);
     s.point = clamp(fromCellCenter(cell, point), -0.5, 0.5);
     return true;

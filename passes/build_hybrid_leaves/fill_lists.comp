@@ -5,15 +5,16 @@
 #include "passes/build_hybrid_leaves/listed.glsl"
 #include "shaders/hybrid_leaves/hybrid_leaves.glsl"
 #include "shaders/octree/octree_cells.glsl"
+#include "passes/build_hybrid_leaves/octants.glsl"
 #include "shaders/voxels/voxels.glsl"
 
-buffer Left { uint places[]; } left;  // In each leaf's list.
+buffer Left { uint places[]; } left;  // In each leaf's list; 0 of leaves that are kept.
 buffer PairCount { uint count; } pairCount;
 layout(scalar) readonly buffer PairsAt { LargeUints leafPairs; };  // Triangle, voxel by packCell(), and grid of each.
 
 void visitFragment(TriangleFragment f) {
     const uint leaf = voxelNumber(walk.grid, f.voxel);
-    if (leaf == NO_VOXEL || !isListed(f)) return;
+    if (leaf == NO_VOXEL || !isListed(f) || left.places[leaf] == 0u) return;
     const uint word = hybridLeaves.words.data[leaf];
     if (isGridLeaf(word)) {
         const uint at = 3u * atomicAdd(pairCount.count, 1u);
@@ -21,6 +22,7 @@ void visitFragment(TriangleFragment f) {
         leafPairs.data[at + 1u] = packCell(f.voxel);
         leafPairs.data[at + 2u] = word & ~LEAF_IS_GRID;
     } else {
-        hybridLeaves.primitives.data[word + atomicAdd(left.places[leaf], ~0u) - 1u] = f.triangle;
+        hybridLeaves.primitives.data[word + atomicAdd(left.places[leaf], ~0u) - 1u] =
+            hybridLeaves.shape.octantBits == 0u ? f.triangle : f.triangle << OCTANT_BITS | octantsOf(f);
     }
 }

@@ -4,12 +4,13 @@
 #include "passes/build_hybrid_leaves/leaves_push.glsl"
 
 readonly buffer Counts { uint triangles[]; } counts;
+readonly buffer Counted { uint triangles[]; } counted;  // Of leaves that are built, 0 of those that are kept.
 writeonly buffer Sizes { uint words[]; } sizes;
 writeonly buffer Grids { uint isGrid[]; } grids;
 buffer Found {
     uint empty;
     uint maxTriangles;  // Of a leaf.
-    uint pairs;         // Of a triangle and a leaf with a grid.
+    uint pairs;         // Of a triangle and a leaf with a grid that is built.
 } found;
 
 void main() {
@@ -19,6 +20,6 @@ void main() {
     sizes.words[leaf] = count <= push.capacity ? count : 0u;
     grids.isGrid[leaf] = count > push.capacity ? 1u : 0u;
     if (count == 0u) atomicAdd(found.empty, 1u);
-    if (count > push.capacity) atomicAdd(found.pairs, count);
+    if (count > push.capacity) atomicAdd(found.pairs, counted.triangles[leaf]);
     atomicMax(found.maxTriangles, count);
 }

@@ -5,7 +5,7 @@
 #include "passes/build_hybrid_leaves/leaves_push.glsl"
 #include "shaders/hybrid_leaves/hybrid_leaves.glsl"
 
-readonly buffer Counts { uint triangles[]; } counts;
+readonly buffer Counts { uint triangles[]; } counts;  // 0 of leaves that are kept.
 
 // Moves the item at `root` down the heap of `count` items until no item below it is larger.
 void siftDown(uint first, uint root, uint count) {
@@ -27,7 +27,7 @@ void main() {
     const uint leaf = linearIndex();
     if (leaf >= push.leaves) return;
     const uint first = hybridLeaves.words.data[leaf], count = counts.triangles[leaf];
-    if (isEmptyLeaf(first) || isGridLeaf(first)) return;
+    if (count == 0u || isGridLeaf(first)) return;
     for (uint root = count / 2u; root > 0u; --root) siftDown(first, root - 1u, count);
     for (uint left = count - 1u; left > 0u; --left) {
         const uint largest = hybridLeaves.primitives.data[first];

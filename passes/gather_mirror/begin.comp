@@ -3,7 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 // The first ray of each listed slot, from its g-buffer texel.
 #include "passes/gather_mirror/batch.glsl"
-#include "passes/gather_mirror/lobe_ray.glsl"
+#include "shaders/scene/lobe_ray.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kWidens = false;  // Else rays through hybrid leaves stay rays, however wide.

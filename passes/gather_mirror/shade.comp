@@ -4,7 +4,7 @@
 // The ends of rays: what they bring of emitted and of reflected light, and the rays that mirrors among them send on.
 #include "passes/gather_mirror/batch.glsl"
 #include "passes/gather_mirror/diffuse_fraction.glsl"
-#include "passes/gather_mirror/lobe_ray.glsl"
+#include "shaders/scene/lobe_ray.glsl"
 #include "passes/gather_mirror/surface.glsl"
 #include "shaders/surfels/surfel_types.h"
 #include "shaders/voxels/face_irradiance.glsl"

@@ -45,15 +45,16 @@ bool surfaceAtHit(Hit hit, vec3 direction, float area, out MirrorSurface at) {
 
 bool isCell(Hit hit) { return (hit.triangle & HIT_IS_CELL) != 0u && hit.triangle != NO_HIT; }
 
-// A cell of a grid: a Lambert surface. Lamps and mirrors are none that cells hold.
+// A cell of a grid. What its diffuse lobe loses to the specular one above it is that of a dielectric; metals have none.
 void surfaceOfCell(Hit hit, Ray ray, out MirrorSurface at) {
     const GridCell cell = gridCell(hit.triangle & ~HIT_IS_CELL);
     const bool isFront = dot(cell.normal, ray.direction) <= 0.0;
     at.position = ray.origin + hit.t * ray.direction;
     at.normal = at.faceNormal = isFront ? cell.normal : -cell.normal;
     at.albedo = cell.albedo;
-    at.emission = vec3(0.0);
-    at.specular = Specular(vec3(0.0), 0.0, 1.0, 0.0, 0.0);
+    const BrightCell bright = brightCell(hit.triangle & ~HIT_IS_CELL);
+    at.emission = isFront || bright.bothSides ? bright.emission : vec3(0.0);
+    at.specular = Specular(bright.f0, bright.f90, bright.roughness, max(bright.f0.r, max(bright.f0.g, bright.f0.b)), bright.f90);
 }
 #endif
 

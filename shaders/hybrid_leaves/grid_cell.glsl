@@ -4,6 +4,7 @@
 
 #include "shaders/hybrid_leaves/hybrid_leaves.glsl"
 #include "shaders/scene/octahedral.glsl"
+#include "shaders/scene/shared_exponent.glsl"
 
 // Averages are weighted by area.
 struct GridCell {
@@ -22,14 +23,14 @@ void storeGridCell(uint number, GridCell c) {
     const uvec3 albedo = uvec3(round(clamp(c.albedo, 0.0, 1.0) * vec3(2047.0, 2047.0, 1023.0)));
     const uint distance_ = uint(round(clamp(c.distance_ / CELL_DIAGONALS + 0.5, 0.0, 1.0) * float(DISTANCE_UNITS)));
     const uint reach = uint(round(clamp(c.reach / CELL_DIAGONALS, 0.0, 1.0) * 255.0));
-    const uint at = number * GRID_CELL_WORDS;
+    const uint at = number * hybridLeaves.shape.cellWords;
     hybridLeaves.cells.data[at] = toOctahedral(c.normal);
     hybridLeaves.cells.data[at + 1u] = albedo.x | albedo.y << 11 | albedo.z << 22;
     hybridLeaves.cells.data[at + 2u] = distance_ | reach << 24;
 }
 
 GridCell gridCell(uint number) {
-    const uint at = number * GRID_CELL_WORDS, albedo = hybridLeaves.cells.data[at + 1u];
+    const uint at = number * hybridLeaves.shape.cellWords, albedo = hybridLeaves.cells.data[at + 1u];
     const uint rest = hybridLeaves.cells.data[at + 2u];
     GridCell c;
     c.normal = fromOctahedral(hybridLeaves.cells.data[at]);
@@ -42,8 +43,36 @@ GridCell gridCell(uint number) {
 // Lets a cell reach as far as `reach` from its plane: rounded up, and a unit more, since the normal and walks are
 // rounded, too.
 void widenGridCell(uint number, float reach) {
-    const uint at = number * GRID_CELL_WORDS + 2u, units = uint(clamp(ceil(reach / CELL_DIAGONALS * 255.0) + 1.0, 0.0, 255.0));
+    const uint at = number * hybridLeaves.shape.cellWords + 2u, units = uint(clamp(ceil(reach / CELL_DIAGONALS * 255.0) + 1.0, 0.0, 255.0));
     atomicMax(hybridLeaves.cells.data[at], units << 24 | (hybridLeaves.cells.data[at] & DISTANCE_UNITS));
+}
+
+// What else a cell holds in scenes where surfaces emit light or have specular lobes: averages weighted by area.
+struct BrightCell {
+    vec3 emission;    // W/(m² sr)
+    bool bothSides;   // Back sides emit it, too.
+    vec3 f0;          // As in Specular (shaders/scene/specular.glsl).
+    float f90;
+    float roughness;
+};
+
+// Words: emission with a common exponent; F0 in 11, 11 and 10 bits; roughness in 16, F90 in 15 and the sides in 1.
+void storeBrightCell(uint number, BrightCell c) {
+    const uint at = number * hybridLeaves.shape.cellWords + GRID_CELL_WORDS;
+    const uvec3 f0 = uvec3(round(clamp(c.f0, 0.0, 1.0) * vec3(2047.0, 2047.0, 1023.0)));
+    const uvec2 rest = uvec2(round(clamp(vec2(c.roughness, c.f90), 0.0, 1.0) * vec2(65535.0, 32767.0)));
+    hybridLeaves.cells.data[at] = toSharedExponent(c.emission);
+    hybridLeaves.cells.data[at + 1u] = f0.x | f0.y << 11 | f0.z << 22;
+    hybridLeaves.cells.data[at + 2u] = rest.x | rest.y << 16 | (c.bothSides ? 1u << 31 : 0u);
+}
+
+BrightCell brightCell(uint number) {
+    if (hybridLeaves.shape.cellWords == GRID_CELL_WORDS) return BrightCell(vec3(0.0), false, vec3(0.0), 0.0, 1.0);
+    const uint at = number * hybridLeaves.shape.cellWords + GRID_CELL_WORDS;
+    const uint f0 = hybridLeaves.cells.data[at + 1u], rest = hybridLeaves.cells.data[at + 2u];
+    return BrightCell(fromSharedExponent(hybridLeaves.cells.data[at]), (rest & 1u << 31) != 0u,
+                     vec3(f0 & 2047u, f0 >> 11 & 2047u, f0 >> 22) / vec3(2047.0, 2047.0, 1023.0),
+                     float(rest >> 16 & 32767u) / 32767.0, float(rest & 65535u) / 65535.0);
 }
 
 #endif

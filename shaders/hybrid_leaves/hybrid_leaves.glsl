@@ -19,7 +19,7 @@ layout(scalar) buffer HybridLeaves {
     LargeUints primitives;  // Lists, one after the other, each in ascending order.
     LargeUints gridBits;    // Which cells of each grid are not empty: wordsPerGrid words a grid, x + m (y + m z) a bit.
     LargeUints gridRanks;   // Such cells before each word.
-    LargeUints cells;       // GRID_CELL_WORDS each (shaders/hybrid_leaves/grid_cell.glsl).
+    LargeUints cells;       // shape.cellWords each (shaders/hybrid_leaves/grid_cell.glsl).
     TriangleCorners corners;    // The scene's triangles and
     CornerPositions positions;  // vertices, by address: lavapipe checks each read of a binding, which costs a tenth of the time.
     HybridShape shape;

@@ -8,15 +8,21 @@
 // A leaf's word: nothing; or the place where its list of triangles begins; or, with this bit, its grid's number.
 #define LEAF_EMPTY 0xffffffffu
 #define LEAF_IS_GRID 0x80000000u
-// A word of a list is a triangle's number, the last one with this bit. Scenes have fewer than 2^31 triangles.
+// A word of a list: which octants of the leaf a triangle overlaps, a bit each, then the triangle's number (HybridShape::octantBits); the
+// last one with this bit. Scenes have fewer than 2^31 triangles.
 #define LIST_ENDS 0x80000000u
+#define OCTANT_BITS 8u
+// Octants reach so far beyond their planes, in voxels: what rounding may do to rays and triangles.
+#define OCTANT_MARGIN 0.015625
 
 // Hit::triangle of a ray through hybrid leaves: a triangle's number; or, with this bit, the number of a grid's cell; or NO_HIT; or
 // this, where the ray has become wider than a voxel, at Hit::t.
 #define HIT_IS_CELL 0x80000000u
 #define HIT_IS_WIDE 0xfffffffeu
 
+// Words of a grid's cell: its plane and its albedo; then, where the scene has such surfaces, what they emit and their specular lobe.
 #define GRID_CELL_WORDS 3u
+#define BRIGHT_CELL_WORDS 6u
 
 VOXRAY_SHARED_BEGIN
 
@@ -24,8 +30,11 @@ VOXRAY_SHARED_BEGIN
 struct HybridShape {
     uint leaves;          // As many as surface voxels, and in their order.
     uint capacity;        // Triangles of a list, at most.
+    uint octantBits;      // Lowest bits of a list's words: OCTANT_BITS, or 0 where triangles are too many for such.
     uint gridResolution;  // Cells along an edge of a leaf's grid; 0 where no leaf has one.
     uint wordsPerGrid;    // Bits of a grid's cells, in words.
+    uint cellWords;       // GRID_CELL_WORDS or BRIGHT_CELL_WORDS.
+    float largestEmission;  // W/(m² sr): the largest channel that any surface emits.
 };
 
 // What a ray leaves behind: the surface, and how wide it is. All 0 for a bare ray.

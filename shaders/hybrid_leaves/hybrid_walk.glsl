@@ -12,11 +12,35 @@
 // Rays and triangles of lists that this thread has tested.
 uint hybridTests = 0u;
 
-// Tests all triangles of a list, also where they reach out of their leaf: the closest of all counts.
-void meetList(vec3 origin, vec3 direction, float tMin, uint first, inout Hit best) {
+// The octants of a leaf that the part [begin, end] of a ray passes.
+uint octantsOnRay(VoxelGrid g, vec3 origin, vec3 direction, float begin, float end, ivec3 voxel) {
+    const float margin = OCTANT_MARGIN * g.voxelSize;
+    const vec3 center = g.origin + (vec3(voxel) + 0.5) * g.voxelSize - origin;
+    const vec3 low = (center + margin) / direction, high = (center - margin) / direction;  // Where halves below end, and those above begin.
+    const bvec3 isDown = lessThan(direction, vec3(0.0)), isLevel = equal(direction, vec3(0.0));
+    const vec3 all0 = vec3(-1.0e30), all1 = vec3(1.0e30);
+    vec3 lowFrom = mix(all0, low, isDown), lowTo = mix(low, all1, isDown);
+    vec3 highFrom = mix(high, all0, isDown), highTo = mix(all1, high, isDown);
+    // Along an axis on which the ray stays level it is in the one half or the other, or in both margins.
+    lowFrom = mix(lowFrom, mix(all1, all0, greaterThanEqual(center, vec3(-margin))), isLevel);
+    lowTo = mix(lowTo, all1, isLevel);
+    highFrom = mix(highFrom, mix(all1, all0, lessThanEqual(center, vec3(margin))), isLevel);
+    highTo = mix(highTo, all1, isLevel);
+    uint octants = 0u;
+    for (uint octant = 0u; octant < 8u; ++octant) {
+        const bvec3 isHigh = bvec3((octant & 1u) != 0u, (octant & 2u) != 0u, (octant & 4u) != 0u);
+        const vec3 from = mix(lowFrom, highFrom, isHigh), to = mix(lowTo, highTo, isHigh);
+        if (max(begin, max(from.x, max(from.y, from.z))) <= min(end, min(to.x, min(to.y, to.z)))) octants |= 1u << octant;
+    }
+    return octants;
+}
+
+// Tests the triangles of a list that overlap `octants`, also where they reach out of their leaf: the closest of all counts.
+void meetList(vec3 origin, vec3 direction, float tMin, uint octants, uint first, inout Hit best) {
+    const uint bits = hybridLeaves.shape.octantBits;
     for (uint i = 0u; i < hybridLeaves.shape.capacity; ++i) {
-        const uint word = hybridLeaves.primitives.data[first + i], triangle = word & ~LIST_ENDS;
-        if (triangle != best.triangle) {
+        const uint word = hybridLeaves.primitives.data[first + i], triangle = (word & ~LIST_ENDS) >> bits;
+        if (triangle != best.triangle && (bits == 0u || (word & octants) != 0u)) {
             ++hybridTests;
             meetTriangle(origin, direction, tMin, triangle, best);
         }
@@ -96,7 +120,7 @@ Hit hybridClosest(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float tM
         if (isGridLeaf(leaf))
             meetGrid(g, origin, direction, enters, leaves, voxel, leaf & ~LEAF_IS_GRID, start, best);
         else if (!isEmptyLeaf(leaf))
-            meetList(origin, direction, tMin, leaf, best);
+            meetList(origin, direction, tMin, octantsOnRay(g, origin, direction, enters - rounding, leaves + rounding, voxel), leaf, best);
         // A hit within the leaf is the closest: whatever is closer has a part in this leaf or in those before. One behind it may be
         // hidden yet.
         if (best.triangle != NO_HIT && best.t <= leaves - rounding) break;

@@ -35,6 +35,9 @@ LitPoint litPoint(SurfacePoint s, vec3 direction) {
     return LitPoint(s.position, litNormal(m, s, faceNormal), faceNormal, litAlbedo(m, s));
 }
 
+// Whether a ray is one of a punctual light, whose cross-section is known (LightPath).
+bool isBeam(LightPath path) { return path.solidAngle > 0.0 || path.area > 0.0; }
+
 // Takes a ray on from where it hit, as a mirror that takes its albedo off would, or distributed by cosine. False where it ends there:
 // by Russian roulette by albedo, which keeps the power of surviving rays level, or below the surface. `index`: the ray's number among
 // those of one seed. `seed`: another one for each bounce.

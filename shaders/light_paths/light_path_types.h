@@ -5,6 +5,12 @@
 
 #include "shaders/shared/types.h"
 
+// How a ray of light goes on from a surface (Secondary of passes/common/light_paths/light_paths.h).
+#define SECONDARY_NONE 0u
+#define SECONDARY_MIRROR 1u
+#define SECONDARY_DIFFUSE 2u
+#define SECONDARY_MATERIAL 3u
+
 VOXRAY_SHARED_BEGIN
 
 // The ray stands for a beam whose cross-section after d metres is area + solidAngle * d². Light from surfaces, from the

@@ -84,6 +84,25 @@ TEST(GatherMirror, FacingMirrorsAreAGeometricSeries) {
     }
 }
 
+TEST(GatherMirror, CellsEmitAndReflectAsTheirSurfacesDo) {
+    // The same series between cells: leaves along a quad's diagonal hold both of its triangles.
+    const double e = 2, r = 0.7;
+    Material mirror = metal(glm::vec3(float(r)));
+    mirror.emission = glm::vec3(float(e));
+    for (const int n : {1, 5}) {
+        Chain chain(facing(mirror, mirror),
+                    mirrorGraph("walk: hierarchical, bounces: " + std::to_string(n), "bounces: 0",
+                                "build_hybrid_leaves, primitives: 1, grid: 8"),
+                    8, 8, 1);
+        const double series = e * r * r * (1 - std::pow(r, n - 1)) / (1 - r);
+        EXPECT_NEAR(centerOf(chain.image("direct")), e * r, 2e-3 * e) << n;
+        EXPECT_NEAR(centerOf(chain.image("indirect")), series, 4e-3 * e) << n;
+        const PassSample& mirrorPass = *(chain.frameSamples.end() - 2);  // Before composite.
+        EXPECT_GT(reported(mirrorPass, "mirror rays that hit cells of grids"), 0);
+        EXPECT_EQ(reported(mirrorPass, "mirror rays that missed"), 0);
+    }
+}
+
 /// A closed box that emits 1, all of one material.
 State furnace(const std::function<void(Material&)>& change) {
     auto copy = std::make_shared<Scene>(
@@ -175,6 +194,33 @@ TEST(GatherMirror, ConvergesToTheReference) {
     const double coarse = error("voxels", "8"), fine = error("voxels", "32");
     EXPECT_LT(fine, 0.03);
     EXPECT_LT(fine, 0.6 * coarse);
+}
+
+TEST(GatherMirror, LightThatMirrorsThrowIsInTheVoxels) {
+    // What a mirror sends on to the walls, but for what comes to it straight from the point light: the
+    // reference finds no such path.
+    const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}));
+    Chain reference(state, graphYaml({"path_trace, spp: 512, bounces: 3"}), 32, 32, 1);
+    const auto wallsOf = [](Chain& chain, const ImageF& image) {
+        const auto positions =
+            chain.readImage<glm::vec4>(chain.graph().resource<GBuffer>("gbuffer")->position);
+        double sum = 0;
+        for (size_t i = 0; i < positions.size(); ++i)
+            if (positions[i].z > -0.99f) sum += image.data[3 * i];
+        return sum;
+    };
+    const auto ratio = [&](const std::string& secondary) {
+        Chain chain(state,
+                    graphYaml({"gbuffer", "voxelize, resolution: 32",
+                               "inject_light_rays, rays_per_light: 262144, bounces: 3, " + secondary,
+                               "gather_irradiance"}),
+                    32, 32, 1);
+        return wallsOf(chain, chain.image("indirect")) / wallsOf(chain, reference.image("indirect"));
+    };
+    const double with = ratio("secondary: material, caustics: false"), without = ratio("secondary: diffuse");
+    std::printf("mean ratio %.4f, without mirrors %.4f\n", with, without);
+    EXPECT_NEAR(with, 1.0, 0.04);
+    EXPECT_LT(without, 0.9);
 }
 
 TEST(GatherMirror, ShowsTheBuiltInMirrorsAsTheReferenceDoes) {

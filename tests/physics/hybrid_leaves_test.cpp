@@ -14,7 +14,7 @@ namespace {
 std::vector<uint32_t> listOf(uint32_t word, const std::vector<uint32_t>& primitives) {
     std::vector<uint32_t> list;
     if (word >= LEAF_IS_GRID) return list;
-    do list.push_back(primitives[word] & ~LIST_ENDS);
+    do list.push_back((primitives[word] & ~LIST_ENDS) >> OCTANT_BITS);
     while (!(primitives[word++] & LIST_ENDS));
     return list;
 }

@@ -81,6 +81,25 @@ TEST(LightPaths, MirrorBouncesSumToTheGeometricSeries) {
     EXPECT_NEAR(sum(lit.indirect) / (4 * kPi * 2 * (0.5 + 0.25 + 0.125)), 1.0, 1e-3);
 }
 
+TEST(LightPaths, MaterialsKeepTheEnergyOfTheirLobes) {
+    // Lambert surfaces reflect their albedo's part. Perfect mirrors that lose nothing send on all of it, but
+    // for what comes straight from a point light where there are to be no caustics.
+    Lit lambert("white_room", "{albedo: 0.5, intensity: 2}", "resolution: 24",
+                "inject_light_rays, secondary: material, bounces: 2");
+    EXPECT_NEAR(sum(lambert.indirect) / (4 * kPi * 2 * (0.5 + 0.25)), 1.0, 5e-3);
+    auto scene =
+        std::make_shared<Scene>(*makeBuiltinScene("white_room", parseYaml("{intensity: 2}", "scene")));
+    for (Material& material : scene->materials) {
+        material.baseColor = glm::vec4(1);
+        material.metallic = 1, material.roughness = 0;
+    }
+    const auto state = std::make_shared<SceneState>(evaluate(scene, 0.0));
+    const std::string inject = "inject_light_rays, rays_per_light: 65536, secondary: material, bounces: 3";
+    Lit mirrors(state, "resolution: 24", inject);
+    EXPECT_NEAR(sum(mirrors.indirect) / (4 * kPi * 2 * 3), 1.0, 1e-3);
+    EXPECT_EQ(sum(Lit(state, "resolution: 24", inject + ", caustics: false").indirect), 0.0);
+}
+
 TEST(LightPaths, WithoutSecondaryRaysThereIsDirectLightOnly) {
     Lit lit("white_room", "{intensity: 2}", "resolution: 16",
             "inject_light_rays, rays_per_light: 16384, secondary: none, bounces: 3");

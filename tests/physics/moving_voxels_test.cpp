@@ -75,6 +75,9 @@ TEST(MovingVoxels, HybridLeavesAreThoseThatAreRebuilt) {
         const auto& a = *moved.graph().resource<HybridLeaves>("hybrid_leaves");
         const auto& b = *made.graph().resource<HybridLeaves>("hybrid_leaves");
         EXPECT_GT(a.gridCount, 0u);
+        // Those near the spheres alone are built again.
+        EXPECT_GT(reported(moved.updateSamples[1], "leaves built again"), 0);
+        EXPECT_LT(reported(moved.updateSamples[1], "leaves built again"), a.shape.leaves / 2);
         for (Buffer HybridLeaves::*buffer :
              {&HybridLeaves::words, &HybridLeaves::primitives, &HybridLeaves::gridBits,
               &HybridLeaves::gridRanks, &HybridLeaves::cells})

@@ -5,6 +5,7 @@
 #include "scene/content_hash.h"
 #include "scene/material_change.h"
 #include "scene/shapes.h"
+#include "scene/subdivide.h"
 #include "scene_gltf_builder.h"
 
 namespace voxray::test {
@@ -176,6 +177,30 @@ TEST(MaterialChange, ReplacesWhatIsGivenAndTheTexturesThatWouldMultiplyIt) {
         two.materials = {changed(other, {key})};
         EXPECT_NE(hashScene(one), hashScene(two)) << key;
     }
+}
+
+TEST(Subdivide, KeepsSurfacesOfMoreTriangles) {
+    const Scene before = *clock();
+    Scene after = before;
+    subdivide(after, 2);
+    for (size_t i = 0; i < before.meshes.size(); ++i) {
+        const Mesh &a = before.meshes[i], &b = after.meshes[i];
+        EXPECT_EQ(b.triangles.size(), 16 * a.triangles.size());
+        EXPECT_EQ(b.normals.size(), b.positions.size());
+        const auto area = [](const Mesh& mesh) {
+            double sum = 0;
+            for (const glm::uvec3 t : mesh.triangles)
+                sum += 0.5 * glm::length(glm::cross(mesh.positions[t.y] - mesh.positions[t.x],
+                                                    mesh.positions[t.z] - mesh.positions[t.x]));
+            return sum;
+        };
+        EXPECT_NEAR(area(b), area(a), 1e-5 * area(a));
+    }
+    // Midpoints are those of both triangles at an edge: far fewer than three for each triangle.
+    const Mesh &a = before.meshes[1], &b = after.meshes[1];
+    EXPECT_LT(b.positions.size(), 16 * a.positions.size() + 1);
+    for (const glm::vec3& n : b.normals) EXPECT_NEAR(glm::length(n), 1, 1e-5);
+    EXPECT_CONTAINS(errorOf([&] { subdivide(after, 14); }), "subdivide less");
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct HybridLeaves : Resource {
     Buffer words;                 ///< A word a leaf.
     Buffer primitives;            ///< Triangles' numbers, list by list; at least one word.
     Buffer gridBits, gridRanks;   ///< A bit for each cell, and the cells before each word.
-    Buffer cells;                 ///< GRID_CELL_WORDS each. Like the bits, none where no leaf has a grid.
+    Buffer cells;                 ///< shape.cellWords each. Like the bits, none where no leaf has a grid.
 
     /// Surface voxels and those in which alpha masks leave too little to make them one; without materials.
     /// Not there in scenes without masks.

@@ -38,7 +38,7 @@ Defines followDefines(Write write) {
 void checkBeams(const std::string& pass, const LightPathParams& params,
                 const std::vector<LightSource>& sources) {
     const char* write = params.write == Write::Max ? "max" : "moving_average";
-    if (params.secondary == Secondary::Diffuse && params.bounces > 0)
+    if (params.secondary >= Secondary::Diffuse && params.bounces > 0)
         throw Error(
             "{}: 'write: {}' merges irradiances, and a diffusely reflected ray has none, only power; use "
             "'secondary: mirror' or 'none', or 'write: average'",
@@ -87,7 +87,7 @@ void LightPaths::prepare(PassSetup& setup) {
     follow_ = makeComputeProgram(
         setup.device,
         compile("passes/common/light_paths/light_paths_follow.comp", followDefines(params_.write)),
-        {{0, params_.secondary == Secondary::Mirror}});
+        {{0, uint32_t(params_.secondary)}, {1, params_.caustics}});
     unoccludedArea_ = makeComputeProgram(setup.device, compile("passes/common/voxels/unoccluded_area.comp"));
     for (int i = 0; i < 2; ++i) {
         if (sumsFlux_)

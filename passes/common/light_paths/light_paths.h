@@ -11,18 +11,19 @@
 namespace voxray {
 
 /// How a ray of light goes on from a surface.
-enum class Secondary { None, Mirror, Diffuse };
+enum class Secondary { None, Mirror, Diffuse, Material };
 template <>
 struct EnumNames<Secondary> {
-    static constexpr std::array names{std::pair{Secondary::None, "none"},
-                                      std::pair{Secondary::Mirror, "mirror"},
-                                      std::pair{Secondary::Diffuse, "diffuse"}};
+    static constexpr std::array names{
+        std::pair{Secondary::None, "none"}, std::pair{Secondary::Mirror, "mirror"},
+        std::pair{Secondary::Diffuse, "diffuse"}, std::pair{Secondary::Material, "material"}};
 };
 
 /// The parameters that all passes share whose rays start at the lights.
 struct LightPathParams : WriteParams {
     Secondary secondary = Secondary::Diffuse;
     uint32_t bounces = 8;
+    bool caustics = true;
     static constexpr auto schema() {
         return std::tuple_cat(
             WriteParams::schema(),
@@ -30,9 +31,14 @@ struct LightPathParams : WriteParams {
                 field("secondary", &LightPathParams::secondary,
                       "How rays continue after a hit: none gives direct light only; mirror is the "
                       "thesis's, about the normal and times the albedo; diffuse is a Lambert "
-                      "surface's, with Russian roulette by albedo."),
+                      "surface's, with Russian roulette by albedo; material goes by the surface's "
+                      "own lobes, so that mirrors and glossy surfaces throw light at others."),
                 field("bounces", &LightPathParams::bounces, "Bounces after a ray's first hit.", 0u, 64u)
-                    .onlyWith(noneOf(&LightPathParams::secondary, {Secondary::None}))});
+                    .onlyWith(noneOf(&LightPathParams::secondary, {Secondary::None})),
+                field("caustics", &LightPathParams::caustics,
+                      "Whether perfect mirrors throw what comes straight from a point, spot or directional "
+                      "light at other surfaces. The reference does not: no path from the eye finds it.")
+                    .onlyWith(oneOf(&LightPathParams::secondary, {Secondary::Material}))});
     }
     uint32_t lastBounce() const { return secondary == Secondary::None ? 0 : bounces; }
 };

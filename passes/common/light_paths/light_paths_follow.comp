@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Leaves what each ray carries in the voxel that it hit, then turns it into its next bounce.
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/light_paths/light_bounce.glsl"
+#include "shaders/light_paths/material_bounce.glsl"
 #include "shaders/voxels/voxels.glsl"
 #ifdef FLUX
 #include "shaders/voxels/flux_accumulator.glsl"
@@ -11,7 +11,8 @@
 #endif
 layout(local_size_x = 64) in;
 
-layout(constant_id = 0) const bool mirror = false;
+layout(constant_id = 0) const uint kSecondary = SECONDARY_DIFFUSE;
+layout(constant_id = 1) const bool kCaustics = true;  // Mirrors send on what comes straight from a punctual light.
 
 layout(scalar) buffer Rays { Ray data[]; } rays;
 layout(scalar) buffer Paths { LightPath data[]; } paths;
@@ -57,7 +58,11 @@ void main() {
     }
     if (push.bounce == push.lastBounce) return;
 
-    if (!bounceLightRay(lit, mirror, push.firstRay + i, hashCombine(push.seed, 16u + 2u * push.bounce), ray, path)) return;
+    const uint seed = hashCombine(push.seed, 16u + 2u * push.bounce);
+    const bool goesOn = kSecondary == SECONDARY_MATERIAL
+                            ? bounceByMaterial(s, lit, kCaustics || push.bounce > 0u || !isBeam(path), push.firstRay + i, seed, ray, path)
+                            : bounceLightRay(lit, kSecondary == SECONDARY_MIRROR, push.firstRay + i, seed, ray, path);
+    if (!goesOn) return;
     paths.data[i] = path;
     rays.data[i] = ray;
 }

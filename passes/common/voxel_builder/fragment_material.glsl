@@ -6,6 +6,7 @@
 
 struct FragmentMaterial {
     SurfacePoint at;
+    vec3 base;    // Base colour.
     vec3 albedo;  // Diffuse.
     vec3 normal;  // Of shading, front side.
     float metallic;
@@ -29,8 +30,8 @@ FragmentMaterial fragmentMaterial(TriangleFragment f, ClippedFragment c) {
         lookup(m.metallicRoughnessTexture, result.at.texCoords, footprintLevel(m.metallicRoughnessTexture, c.texCoordWidth)).bg;
     result.metallic = metallicRoughness.x;
     result.roughness = metallicRoughness.y;
-    result.albedo =
-        baseColor(m, result.at, footprintLevel(m.baseColorTexture, c.texCoordWidth)).rgb * (1.0 - metallicRoughness.x);
+    result.base = baseColor(m, result.at, footprintLevel(m.baseColorTexture, c.texCoordWidth)).rgb;
+    result.albedo = result.base * (1.0 - metallicRoughness.x);
     result.normal = shadingNormal(m, result.at, footprintLevel(m.normalTexture, c.texCoordWidth));
     return result;
 }

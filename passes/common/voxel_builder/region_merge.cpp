@@ -20,10 +20,10 @@ RegionMerge::RegionMerge(Device& device, const ShaderCompiler& compiler)
       materials_(makeComputeProgram(device,
                                     compiler.compile("passes/common/voxel_builder/region_materials.comp"))) {}
 
-void RegionMerge::occupancy(CommandStream& stream, const VoxelRegion& region, const SurfaceVoxels& previous,
-                            SurfaceVoxels& rebuilt) {
+Buffer RegionMerge::bits(CommandStream& stream, const VoxelRegion& region,
+                         const SurfaceVoxels& voxels) const {
     Device& device = stream.device();
-    const Buffer bits(device, "voxel region", previous.occupancy.bytes());
+    Buffer bits(device, "voxel region", voxels.occupancy.bytes());
     stream.fill(bits, 0);
     const std::vector<VoxelBox> list = region.slots();
     Buffer boxes;
@@ -35,19 +35,27 @@ void RegionMerge::occupancy(CommandStream& stream, const VoxelRegion& region, co
             words = std::max(words, (uint64_t(box.size.x) / 32 + 2) * box.size.y * box.size.z);
         const glm::uvec3 groups = linearGroups(words);
         stream.dispatch(bits_, {{"boxes", boxes}, {"region", bits}},
-                        BitsPush{heldVoxels(previous.grid).size.y, previous.grid.wordsPerRow},
+                        BitsPush{heldVoxels(voxels.grid).size.y, voxels.grid.wordsPerRow},
                         {groups.x, groups.y, uint32_t(list.size())});
     }
+    stream.finish();
+    return bits;
+}
 
-    merged_ = Buffer(device, "voxel occupancy", previous.occupancy.bytes());
-    const uint32_t words = uint32_t(previous.words());
+Buffer RegionMerge::merged(CommandStream& stream, const Buffer& bits, const Buffer& previous,
+                           const Buffer& rebuilt) const {
+    Buffer merged(stream.device(), "voxel occupancy", previous.bytes());
+    const uint32_t words = uint32_t(previous.bytes() / sizeof(uint32_t));
     stream.dispatch(merge_,
-                    {{"region", bits},
-                     {"rebuilt", rebuilt.occupancy},
-                     {"previous", previous.occupancy},
-                     {"merged", merged_}},
+                    {{"region", bits}, {"rebuilt", rebuilt}, {"previous", previous}, {"merged", merged}},
                     words, linearGroups(words));
     stream.finish();
+    return merged;
+}
+
+void RegionMerge::occupancy(CommandStream& stream, const VoxelRegion& region, const SurfaceVoxels& previous,
+                            SurfaceVoxels& rebuilt) {
+    merged_ = merged(stream, bits(stream, region, previous), previous.occupancy, rebuilt.occupancy);
 }
 
 void RegionMerge::materials(CommandStream& stream, const PrefixSum& prefixSum, const SurfaceVoxels& rebuilt,

@@ -13,6 +13,12 @@ class RegionMerge {
     RegionMerge() = default;
     RegionMerge(Device& device, const ShaderCompiler& compiler);
 
+    /// A bit for each voxel of a region, in words as those of `voxels`' occupancy. Waits for the device.
+    Buffer bits(CommandStream& stream, const VoxelRegion& region, const SurfaceVoxels& voxels) const;
+    /// An occupancy out of two: `rebuilt` within the region of these bits, and `previous` elsewhere. Drops
+    /// from `rebuilt` what lies beyond the region.
+    Buffer merged(CommandStream& stream, const Buffer& bits, const Buffer& previous,
+                  const Buffer& rebuilt) const;
     /// Merges occupancies: drops from `rebuilt` what lies beyond the region. `previous` stays as it is.
     void occupancy(CommandStream& stream, const VoxelRegion& region, const SurfaceVoxels& previous,
                    SurfaceVoxels& rebuilt);
