@@ -300,17 +300,23 @@ void voxelCascades(benchmark::State& state, const std::string& scene) {
     });
 }
 
-#define IN_SCENE(function, scene)              \
-    BENCHMARK_CAPTURE(function, scene, #scene) \
-        ->MeasureProcessCPUTime()              \
-        ->Iterations(1)                        \
-        ->Unit(benchmark::kMillisecond)
-#define VISIBILITY_ERRORS(scene)                                                                       \
-    IN_SCENE(voxelErrorsByPlace, scene)->ArgName("resolution")->Arg(256);                              \
-    IN_SCENE(voxelsWithExactEnds, scene)->ArgName("voxels")->Arg(2)->Arg(4)->Arg(8)->Arg(16)->Arg(32); \
-    IN_SCENE(voxelCascades, scene);                                                                    \
-    IN_SCENE(voxelsThatBlockInPart, scene)->ArgName("adds")->Arg(0)->Arg(1);                           \
-    IN_SCENE(hybridLeafVisibility, scene)->ArgName("primitives")->Arg(8)->Arg(64)->Arg(1 << 20)
+#define ONCE MeasureProcessCPUTime()->Iterations(1)->Unit(benchmark::kMillisecond)
+#define VISIBILITY_ERRORS(scene)                                                                    \
+    BENCHMARK_CAPTURE(voxelErrorsByPlace, scene, #scene)->ONCE->ArgName("resolution")->Arg(256);    \
+    BENCHMARK_CAPTURE(voxelsWithExactEnds, scene, #scene)                                           \
+        ->ONCE->ArgName("voxels")                                                                   \
+        ->Arg(2)                                                                                    \
+        ->Arg(4)                                                                                    \
+        ->Arg(8)                                                                                    \
+        ->Arg(16)                                                                                   \
+        ->Arg(32);                                                                                  \
+    BENCHMARK_CAPTURE(voxelCascades, scene, #scene)->ONCE;                                          \
+    BENCHMARK_CAPTURE(voxelsThatBlockInPart, scene, #scene)->ONCE->ArgName("adds")->Arg(0)->Arg(1); \
+    BENCHMARK_CAPTURE(hybridLeafVisibility, scene, #scene)                                          \
+        ->ONCE->ArgName("primitives")                                                               \
+        ->Arg(8)                                                                                    \
+        ->Arg(64)                                                                                   \
+        ->Arg(1 << 20)
 VISIBILITY_ERRORS(sponza);
 VISIBILITY_ERRORS(sibenik);
 VISIBILITY_ERRORS(conference);

@@ -141,7 +141,7 @@ class Passes(CommandTest):
         out = " ".join(self.expect(0, "passes", "sample_vpls").stdout.split())
         self.assertIn("what lights see (with first: rsm)", out)
         out = " ".join(self.expect(0, "passes", "gather_vpls").stdout.split())
-        self.assertIn("what shadow rays meet (with visibility: svo | svo_restart | bricks | bits)", out)
+        self.assertIn("what shadow rays meet (with visibility: hybrid_leaves)", out)
 
     def test_allowed_values(self):
         out = self.expect(0, "passes", "gather_cones").stdout
@@ -230,7 +230,7 @@ class Validate(CommandTest):
         self.bad("spp: 8", "spp: 1", "reference.spp: 2 or more")
         self.bad("inject_light_rays, id: inject, rays_per_light: 4096", "inject_rsm, id: inject", "inject_rsm",
                  "no single viewpoint")
-        self.bad("bounces: 2}\n  - {pass: direct", "bounces: 2, secondary: none, write: max}\n  - {pass: direct",
+        self.bad("bounces: 2}\n  - {pass: direct", "secondary: none, write: max}\n  - {pass: direct",
                  "merges irradiances")
 
     def test_profile_and_set(self):

@@ -8,7 +8,7 @@ namespace voxray::test {
 namespace {
 
 std::string graphOf(const Injection& injection) {
-    return graphYaml({"gbuffer", "voxelize", "place_surfels, points_per_voxel: 8",
+    return graphYaml({"gbuffer", "voxelize", "place_surfels, points_per_voxel: 8", "link_surfels",
                       "trace_gather_rays, rays_per_block: 32", injection.withBounces(3), "gather_rays"});
 }
 

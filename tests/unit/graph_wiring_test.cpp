@@ -65,21 +65,13 @@ struct WrongType : LightVoxels {
     void declare(PassBuilder& builder) override { builder.read<Light>("voxels", "not voxels at all"); }
 };
 
-// Changes light; over voxels where it is asked to. Strength without a smoothing is refused.
+// Changes light; over voxels where it is asked to.
 struct ChangeLight : Idle {
     static constexpr const char* kName = "change_light";
     static constexpr const char* kHelp = "Reads light, writes light.";
     struct Params {
         Smooth smooth = Smooth::None;
-        uint32_t strength = 1;
-        static constexpr auto schema() {
-            return std::tuple{field("smooth", &Params::smooth, "How."),
-                              field("strength", &Params::strength, "How much.", 1u, 9u)};
-        }
-        void check(const Value& map, const std::string& id) const {
-            if (const Value* given = map.find("strength"); given && smooth == Smooth::None)
-                throw UsageError(given->where, "{}.strength: nothing is smoothed", id);
-        }
+        static constexpr auto schema() { return std::tuple{field("smooth", &Params::smooth, "How.")}; }
     };
     explicit ChangeLight(const Params& p) : params(p) {}
     void declare(PassBuilder& builder) override {
@@ -298,13 +290,6 @@ TEST(GraphWiring, TellsWritersThatDoNotReadWhatTheyWrite) {
     const std::string missing = wiringError("\n- {pass: change_light}\n");
     EXPECT_CONTAINS(missing, "these can: light_voxels, sum_up");
     EXPECT_EQ(missing.find("change_light,"), std::string::npos);
-}
-
-TEST(GraphWiring, RefusesValuesThatDoNotGoTogether) {
-    const std::string lights = "- {pass: sum_up}\n";
-    EXPECT_CONTAINS(wiringError(lights + "- pass: change_light\n  strength: 2\n"),
-                    "g.yaml:3: change_light.strength: nothing is smoothed");
-    EXPECT_EQ(graph(lights + "- {pass: change_light, smooth: near, strength: 2}").passes().size(), 2u);
 }
 
 TEST(GraphWiring, DescribesPortsThatOnlySomeValuesAskFor) {
