@@ -23,9 +23,9 @@ SHARED = {"gbuffer", "filter_irradiance"}
 LIGHT = {"inject", "few_rays", "inject_radiosity", "update_radiance_cache", "sample_vpls", "select_vpls"}
 ERRORS = ("indirect_nrmse", "indirect_relmse")
 
-# Of each column: its title, the gather that it is about, whether a build pass counts, and what does not count.
-COLUMNS = (("looked up", "gather_irradiance", lambda name: False, LEFT_OUT),
-           ("looked up, new light", "gather_irradiance", lambda name: name in LIGHT, LEFT_OUT),
+# Of each column: its title, the pass that its methods have, whether a build pass counts, and what does not count.
+COLUMNS = (("looked up", "inject_radiosity", lambda name: False, LEFT_OUT),
+           ("looked up, new light", "inject_radiosity", lambda name: name in LIGHT, LEFT_OUT),
            ("voxels", "gather_rays", lambda name: False, LEFT_OUT),
            ("voxels, rays alone", "gather_rays", lambda name: False, LEFT_OUT | SHARED),
            ("cache", "gather_cached_rays", lambda name: False, LEFT_OUT),
