@@ -25,7 +25,7 @@ void compareMethods(const ParetoArguments& arguments) {
     std::vector<std::string> words{"--out",   arguments.out,   "--error", arguments.error,
                                    "--light", arguments.light, "--"};
     words.insert(words.end(), arguments.results.begin(), arguments.results.end());
-    const ScriptEnd end = runReportScript(sourceRoot(), "make_pareto.py", words);
+    const ScriptEnd end = runReportScript(sourceRoot(), "make_pareto.py", words, OnInterrupt::End);
     if (end.status == 2) throw UsageError("{}", end.lastLine);
     if (end.status != 0) throw Error("{}", end.lastLine);
     fmt::print("{}\n{}\n", arguments.out,

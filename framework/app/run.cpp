@@ -47,8 +47,11 @@ int run(const RunArguments& arguments) {
 
     // Nothing runs while any of the configs is wrong.
     std::vector<WiredExperiment> experiments;
-    for (const std::filesystem::path& config : arguments.configs)
+    for (const std::filesystem::path& config : arguments.configs) {
         experiments.push_back(wireExperiment(loadExperiment(config, arguments.config), registry));
+        for (const std::string& profile : profileNames(config))
+            wireExperiment(loadExperiment(config, {profile, {}}), registry);
+    }
     const auto nameOf = [&](size_t i) { return experiments[i].experiment.setup.general.name; };
     for (size_t i = 0; i < experiments.size(); ++i)
         for (size_t j = 0; j < i; ++j)

@@ -6,9 +6,10 @@
 namespace voxray {
 namespace {
 
-// A signal handler can reach nothing but a lock-free static.
+// A signal handler can reach nothing but lock-free statics.
 std::atomic<bool> requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<pid_t> child{0};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free);
 
 void install(void (*handler)(int), int flags) {
     struct sigaction action = {};
@@ -19,8 +20,11 @@ void install(void (*handler)(int), int flags) {
     sigaction(SIGTERM, &action, nullptr);
 }
 
-void onSignal(int) {
-    requested.store(true);
+void onSignal(int number) {
+    if (!requested.exchange(true)) return;
+    if (const pid_t process = child.load(); process > 0) ::kill(process, SIGINT);
+    install(SIG_DFL, 0);
+    ::raise(number);
 }
 
 }  // namespace
@@ -31,12 +35,20 @@ bool interruptRequested() {
 
 InterruptScope::InterruptScope() {
     requested.store(false);
-    install(onSignal, SA_RESTART | int(SA_RESETHAND));
+    install(onSignal, SA_RESTART);
 }
 
 InterruptScope::~InterruptScope() {
     install(SIG_DFL, 0);
     requested.store(false);
+}
+
+InterruptedChild::InterruptedChild(pid_t process) {
+    child.store(process);
+}
+
+InterruptedChild::~InterruptedChild() {
+    child.store(0);
 }
 
 }  // namespace voxray

@@ -68,13 +68,20 @@ struct Field {
     bool ranged;
     std::vector<T> allowed = {};
     std::tuple<Conditions...> conditions = {};
+    bool isVector = false;
+
+    /// The same parameter, a place or a direction: one number does not stand for all three.
+    constexpr Field asVector() && {
+        isVector = true;
+        return std::move(*this);
+    }
 
     /// The same parameter, which has an effect with certain values of others alone:
     /// field("samples", ...).onlyWith(oneOf(&Params::method, {Method::Sampled})). Written where none of these
     /// conditions holds it is an error (idleParams()); the pass takes no notice of it there.
     template <typename... Others>
     constexpr Field<Owner, T, Others...> onlyWith(Others... others) && {
-        return {name, member, help, min, max, ranged, std::move(allowed), {std::move(others)...}};
+        return {name, member, help, min, max, ranged, std::move(allowed), {std::move(others)...}, isVector};
     }
 };
 
@@ -111,10 +118,10 @@ struct IdleParameter {
 /// What help pages and JSON Schema say of one parameter.
 struct ParameterDoc {
     std::string name;
-    std::string type;                  ///< "boolean", "integer", "number", "string", "choice", "rgb"
-    std::string help;                  ///< With what it has an effect with alone.
-    std::string defaults;              ///< Default as YAML text.
-    std::string min, max;              ///< Empty where there is no range.
+    std::string type;      ///< "boolean", "integer", "number", "string", "choice", "rgb", "vector"
+    std::string help;      ///< With what it has an effect with alone.
+    std::string defaults;  ///< Default as YAML text.
+    std::string min, max;  ///< Empty where there is no range.
     std::vector<std::string> choices;  ///< The only values; empty: any of the type and range.
 };
 
@@ -235,6 +242,9 @@ void readField(P& params, const F& field, const Value& value, const std::string&
             out = integerIn<T>(value.asInteger(what), field.min, field.max, value, what);
             return;
         }
+    if (field.isVector && value.isScalar())
+        throw UsageError(value.where, "{}: expected three numbers, as in [0, 1, 0], not '{}'", what,
+                         value.scalar);
     readInto(out, value, what);
     if (field.ranged) checkRange(out, field.min, field.max, value, what);
     checkAllowed(out, field.allowed, value, what);
@@ -317,7 +327,7 @@ std::string exampleOf() {
 }
 
 /// Reads a map into a parameter struct. Every key must be a field or one of `alsoAllowed`.
-/// @param owner name put before each key in errors, e.g. "voxelize".
+/// @param owner name put before each key in errors, e.g. "voxelize"; empty: the config itself.
 /// @throws UsageError naming file, line, key and the nearest valid word.
 template <typename P>
 P readParams(const Value& map, const std::string& owner, const std::vector<std::string>& alsoAllowed = {}) {
@@ -331,11 +341,14 @@ P readParams(const Value& map, const std::string& owner, const std::vector<std::
         const auto& [key, value] = map.members[i];
         bool known = false;
         for (const std::string& name : valid) known = known || name == key;
+        if (!known && key.find_first_not_of("0123456789") == std::string::npos)
+            throw UsageError(value.where, "{}: '{}' is no parameter: write numbers without commas", owner,
+                             key);
         if (!known)
             throw UsageError(value.where, "{}: unknown parameter '{}'{}", owner, key, didYouMean(key, valid));
         forEachField<P>([&, &key = key, &value = value](const auto& f) {
             if (key != f.name) return;
-            schema_detail::readField(params, f, value, owner + "." + key);
+            schema_detail::readField(params, f, value, owner.empty() ? key : owner + "." + key);
         });
     }
     return params;
@@ -378,7 +391,7 @@ std::vector<ParameterDoc> describeParams() {
         using T = std::remove_cvref_t<decltype(defaults.*(f.member))>;
         ParameterDoc doc;
         doc.name = f.name;
-        doc.type = schema_detail::typeName<T>();
+        doc.type = f.isVector ? "vector" : schema_detail::typeName<T>();
         doc.help = f.help;
         if (const std::string needs = conditionsText<P>(f); !needs.empty())
             doc.help += " Only with " + needs + ".";

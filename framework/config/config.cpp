@@ -187,7 +187,7 @@ Setup readSetup(const Value& config) {
     Value general = Value::map();
     for (const std::string& key : fieldNames<GeneralSettings>())
         if (const Value* value = config.find(key)) general.set(key, *value);
-    setup.general = readParams<GeneralSettings>(general, "config");
+    setup.general = readParams<GeneralSettings>(general, "");
     checkName(config, setup.general.name);
     setup.scene = readSceneSettings(require("scene"));
     if (const Value* image = config.find("image")) setup.image = readParams<ImageSettings>(*image, "image");

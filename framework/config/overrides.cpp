@@ -90,6 +90,20 @@ void overridePass(Value& graph, size_t index, const std::string& rest, const std
     }
 }
 
+/// "; did you mean ...": a pass that has another id here, an underscore in place of a dot, or the nearest of
+/// the candidates.
+std::string nearestPath(const Value& config, const std::string& word,
+                        const std::vector<std::string>& candidates) {
+    const Value* graph = config.find("graph");
+    for (const Value& entry : graph && graph->isList() ? graph->items : std::vector<Value>())
+        if (const Value* pass = entry.find("pass"); pass && pass->isScalar() && pass->scalar == word)
+            return fmt::format("; did you mean '{}', the id of that pass?", passId(entry));
+    for (const std::string& candidate : candidates)
+        if (word.size() > candidate.size() + 1 && word.starts_with(candidate + "_"))
+            return fmt::format("; did you mean '{}.{}'?", candidate, word.substr(candidate.size() + 1));
+    return didYouMean(word, candidates);
+}
+
 void overrideSweep(Value& config, const std::string& rest, const Value& value) {
     if (rest.empty()) {
         if (value.isNull())
@@ -152,7 +166,7 @@ void applyOverride(Value& config, const std::string& path, const Value& value, M
     // A key of the config
     if (std::find(configKeys().begin(), configKeys().end(), first) == configKeys().end())
         throw UsageError(value.where, "'{}': neither a key of the config nor a pass of its graph{}", first,
-                         didYouMean(first, candidates));
+                         nearestPath(config, first, candidates));
     setAlong(config, path, path, value, merge);
 }
 
@@ -169,7 +183,12 @@ void applyProfile(Value& config, const std::string& name) {
     }
     if (!profile->isMap()) throw UsageError(profile->where, "profiles.{}: expected a map of overrides", name);
     const Value overrides = *profile;
-    for (const auto& [path, value] : overrides.members) applyOverride(config, path, value);
+    for (const auto& [path, value] : overrides.members) {
+        for (const char* required : {"name", "scene", "graph"})
+            if (path == required && value.isNull())
+                throw UsageError(value.where, "profiles.{}: no config does without '{}'", name, path);
+        applyOverride(config, path, value);
+    }
 }
 
 void applyAssignment(Value& config, const std::string& assignment) {

@@ -19,6 +19,9 @@ ConfigLight readLight(const Value& entry, size_t index) {
     if (!entry.isMap())
         throw UsageError(entry.where, "{}: expected a map such as {{point: [0, 1, 0], intensity: [5, 5, 5]}}",
                          what);
+    const std::vector<std::string> kinds{"directional", "point", "spot"};
+    if (std::ranges::count_if(kinds, [&](const std::string& kind) { return entry.find(kind); }) > 1)
+        throw UsageError(entry.where, "{}: a light has one of the keys directional, point and spot", what);
     ConfigLight read;
     Light& light = read.light;
     light.name = fmt::format("config light {}", index);
@@ -45,10 +48,9 @@ ConfigLight readLight(const Value& entry, size_t index) {
         light.innerConeAngle = glm::radians(p.innerDegrees);
         light.outerConeAngle = glm::radians(p.outerDegrees);
     } else {
-        const std::vector<std::string> types{"directional", "point", "spot"};
         const std::string first = entry.members.empty() ? std::string() : entry.members[0].key;
         throw UsageError(entry.where, "{}: not a type of light: '{}'{}", what, first,
-                         didYouMean(first, types));
+                         didYouMean(first, kinds));
     }
     return read;
 }

@@ -162,14 +162,17 @@ struct CameraSettings {
     static constexpr auto schema() {
         constexpr glm::vec3 low(-kMaxCoordinate), high(kMaxCoordinate);
         return std::tuple{
-            field("position", &CameraSettings::position, "Where the camera stands, metres.", low, high),
-            field("target", &CameraSettings::target, "The point that it looks at, metres.", low, high),
-            field("up", &CameraSettings::up, "The direction that is up in the image.", low, high),
+            field("position", &CameraSettings::position, "Where the camera stands, metres.", low, high)
+                .asVector(),
+            field("target", &CameraSettings::target, "The point that it looks at, metres.", low, high)
+                .asVector(),
+            field("up", &CameraSettings::up, "The direction that is up in the image.", low, high).asVector(),
             field("fov_deg", &CameraSettings::fovDegrees, "Vertical field of view in degrees.", 1.0f, 179.0f),
             field("move", &CameraSettings::move,
                   "How far the camera moves from one frame to the next, metres: warm-up frames lead up to "
                   "`position`, where the first measured frame is taken; the others go on from there.",
-                  low, high)};
+                  low, high)
+                .asVector()};
     }
 };
 
@@ -181,13 +184,15 @@ struct DirectionalLightSettings {
     static constexpr auto schema() {
         return std::tuple{field("directional", &DirectionalLightSettings::direction,
                                 "The way the light travels, any length but 0.", glm::vec3(-kMaxCoordinate),
-                                glm::vec3(kMaxCoordinate)),
+                                glm::vec3(kMaxCoordinate))
+                              .asVector(),
                           field("irradiance", &DirectionalLightSettings::irradiance,
                                 "On a surface that faces it, W/m².", glm::vec3(0.0f), glm::vec3(kMaxLight)),
                           field("move", &DirectionalLightSettings::move,
                                 "Added to the direction from one frame to the next; in the compared frame it "
                                 "shines along `directional`.",
-                                glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))};
+                                glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
+                              .asVector()};
     }
 };
 struct PointLightSettings {
@@ -197,12 +202,14 @@ struct PointLightSettings {
     static constexpr auto schema() {
         return std::tuple{
             field("point", &PointLightSettings::position, "Where the light is, metres.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate)),
+                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
+                .asVector(),
             field("intensity", &PointLightSettings::intensity, "W/sr.", glm::vec3(0.0f),
                   glm::vec3(kMaxLight)),
             field("move", &PointLightSettings::move,
                   "How far it moves from one frame to the next, metres: at its place in the compared frame.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))};
+                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
+                .asVector()};
     }
 };
 struct SpotLightSettings {
@@ -215,9 +222,11 @@ struct SpotLightSettings {
     static constexpr auto schema() {
         return std::tuple{
             field("spot", &SpotLightSettings::position, "Where the light is, metres.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate)),
+                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
+                .asVector(),
             field("direction", &SpotLightSettings::direction, "The way its axis points, any length but 0.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate)),
+                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
+                .asVector(),
             field("intensity", &SpotLightSettings::intensity, "On the axis, W/sr.", glm::vec3(0.0f),
                   glm::vec3(kMaxLight)),
             field("inner_deg", &SpotLightSettings::innerDegrees,
@@ -226,7 +235,8 @@ struct SpotLightSettings {
                   "Angle from the axis, in degrees, beyond which it doesn't shine.", 0.0f, 90.0f),
             field("move", &SpotLightSettings::move,
                   "How far it moves from one frame to the next, metres: at its place in the compared frame.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))};
+                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
+                .asVector()};
     }
 };
 

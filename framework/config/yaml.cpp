@@ -99,6 +99,8 @@ std::string hintOf(const std::string& message) {
         {"illegal map value", "is a ':' missing in the line before?"}};
     for (const auto& [part, hint] : hints)
         if (message == part) return "; " + hint;
+    if (message.starts_with("unknown escape character"))
+        return "; write paths with '/', or between single quotes";
     return {};
 }
 

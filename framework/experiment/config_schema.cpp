@@ -48,20 +48,24 @@ Value numbers(const std::string& triple) {
     return list;
 }
 
+Value vectorSchema() {
+    return object({{"type", text("array")},
+                   {"items", object({{"type", text("number")}})},
+                   {"minItems", literal("3")},
+                   {"maxItems", literal("3")}});
+}
+
 Value rgbSchema() {
-    const Value number = object({{"type", text("number")}});
-    return anyOf({number, object({{"type", text("array")},
-                                  {"items", number},
-                                  {"minItems", literal("3")},
-                                  {"maxItems", literal("3")}})});
+    return anyOf({object({{"type", text("number")}}), vectorSchema()});
 }
 
 Value parameterSchema(const ParameterDoc& doc) {
     const bool isNumber = doc.type == "integer" || doc.type == "number";
-    Value schema = doc.type == "rgb" ? rgbSchema() : Value::map();
+    const bool isTriple = doc.type == "rgb" || doc.type == "vector";
+    Value schema = doc.type == "rgb" ? rgbSchema() : doc.type == "vector" ? vectorSchema() : Value::map();
     if (doc.type == "choice")
         schema.set("enum", listOf(doc.choices));
-    else if (doc.type != "rgb")
+    else if (!isTriple)
         schema.set("type", text(doc.type));
     schema.set("description", text(doc.help));
     if (isNumber && !doc.choices.empty()) schema.set("enum", listOf(doc.choices, literal));
@@ -69,7 +73,7 @@ Value parameterSchema(const ParameterDoc& doc) {
         schema.set("minimum", literal(doc.min));
         schema.set("maximum", literal(doc.max));
     }
-    if (doc.type == "rgb")
+    if (isTriple)
         schema.set("default", numbers(doc.defaults));
     else if (isNumber || doc.type == "boolean")
         schema.set("default", literal(doc.defaults));

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 
 extern char** environ;
 
@@ -28,7 +29,7 @@ std::string lastLine(std::string text) {
 }  // namespace
 
 ScriptEnd runReportScript(const std::filesystem::path& sourceRoot, const std::string& script,
-                          const std::vector<std::string>& arguments) {
+                          const std::vector<std::string>& arguments, OnInterrupt onInterrupt) {
     const std::string path = (sourceRoot / "framework/report" / script).string();
     std::vector<const char*> words{kPython, path.c_str()};
     for (const std::string& argument : arguments) words.push_back(argument.c_str());
@@ -41,11 +42,16 @@ ScriptEnd runReportScript(const std::filesystem::path& sourceRoot, const std::st
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    if (onInterrupt == OnInterrupt::Finish) posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     pid_t child = 0;
-    const int failure =
-        ::posix_spawn(&child, kPython, &actions, nullptr, const_cast<char* const*>(words.data()), environ);
+    const int failure = ::posix_spawn(&child, kPython, &actions, &attributes,
+                                      const_cast<char* const*>(words.data()), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     ::close(ends[1]);
+    const InterruptedChild interruptedChild(onInterrupt == OnInterrupt::Finish ? child : 0);
 
     std::string said;
     char buffer[4096];
@@ -69,7 +75,7 @@ void makeReport(const std::filesystem::path& sourceRoot, const std::filesystem::
         fmt::format("the results are kept; make it later with {} {} {}", kPython,
                     (sourceRoot / "framework/report" / kScript).string(), results.string());
     try {
-        const ScriptEnd end = runReportScript(sourceRoot, kScript, {results.string()});
+        const ScriptEnd end = runReportScript(sourceRoot, kScript, {results.string()}, OnInterrupt::Finish);
         if (end.status != 0) throw Error("{}", end.lastLine);
     } catch (const Error& error) {
         throw Error("report: {}; {}", error.what(), advice);

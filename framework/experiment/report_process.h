@@ -15,9 +15,12 @@ struct ScriptEnd {
     std::string lastLine;
     int status = 0;
 };
+/// What Ctrl-C does to a script: ends it, or leaves it to the caller's InterruptScope, which ends it at the
+/// second.
+enum class OnInterrupt { End, Finish };
 /// Runs a script of framework/report in a process of its own and waits for it. @throws Error where it can't
 /// be run.
 ScriptEnd runReportScript(const std::filesystem::path& sourceRoot, const std::string& script,
-                          const std::vector<std::string>& arguments);
+                          const std::vector<std::string>& arguments, OnInterrupt onInterrupt);
 
 }  // namespace voxray

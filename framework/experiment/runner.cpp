@@ -27,7 +27,7 @@ void applyTracerOption(WiredExperiment& wired, const std::string& name) {
     Value value = Value::map();
     value.set("tracer", Value::fromScalar(name));
     value.find("tracer")->where = {"--tracer", 0};
-    const TracerKind kind = readParams<GeneralSettings>(value, "tracer").tracer;
+    const TracerKind kind = readParams<GeneralSettings>(value, "").tracer;
     experiment.setup.general.tracer = kind;
     for (WiredVariant& variant : wired.variants) variant.setup.general.tracer = kind;
 }
@@ -46,7 +46,6 @@ class Run {
  private:
     void openSession();
     void printPlan();
-    void openFolder();
     void takeOverFinished();
     void runVariant(size_t index, Progress& progress);
     const PreparedReference* referenceOf(const WiredVariant& variant, Progress& progress);
@@ -79,7 +78,10 @@ RunSummary Run::execute() {
         printPlan();
         return summary_;
     }
-    openFolder();
+    summary_.out = options_.out.empty() ? std::filesystem::path("results") / experiment_.setup.general.name
+                                        : options_.out;
+    if ((summary_.interrupted = interruptRequested())) return summary_;  // An earlier run's results stay.
+    folder_.emplace(summary_.out, experiment_.setup.general.name, options_.resume);
     if (options_.resume) takeOverFinished();
     writeTables();
 
@@ -99,11 +101,15 @@ RunSummary Run::execute() {
     if (!summary_.interrupted) manifest_.finished = utcNow();
     writeTables();
     if (!options_.report || results_.empty()) return summary_;
+    if (summary_.interrupted && !options_.quiet)
+        fmt::print(stderr,
+                   "voxray: stopped; making the report of what is finished (Ctrl-C again ends that, too)\n");
     try {
         makeReport(options_.sourceRoot, folder_->path());
     } catch (const Error& error) {
         summary_.reportError = error.what();
     }
+    summary_.interrupted = interruptRequested();
     return summary_;
 }
 
@@ -121,16 +127,15 @@ void Run::openSession() {
     }
     warnings_ = checkPlans(wired_, session_->loader(), session_->device().info(), registry_);
     manifest_.experiment = &experiment_;
-    std::map<std::string, size_t> variantsWithout;  // By the pass that is left out.
     for (const WiredVariant& variant : variants_) {
         manifest_.graphs.emplace_back(variant.name, variant.resolved);
         manifest_.referenceHashes[variant.name] = session_->referenceHashOf(wired_, variant.setup);
-        for (const std::string& id : variant.leftOut) ++variantsWithout[id];
     }
-    for (const auto& [id, count] : variantsWithout)
-        notes_.push_back(fmt::format(
-            "'{}' is left out of {} of {} variants: no image that is compared depends on it there", id, count,
-            variants_.size()));
+    for (const auto& [id, count] : variantsWithout(wired_))
+        if (count < variants_.size())
+            notes_.push_back(fmt::format(
+                "'{}' is left out of {} of {} variants: no image that is compared depends on it there", id,
+                count, variants_.size()));
     if (!wired_.reference.isNull()) manifest_.referencePass = wired_.reference.items[0];
     manifest_.device = session_->device().info();
     manifest_.requestedDevice = options_.deviceName;
@@ -173,12 +178,6 @@ void Run::printPlan() {
             ++summary_.failed;
         }
     }
-}
-
-void Run::openFolder() {
-    summary_.out = options_.out.empty() ? std::filesystem::path("results") / experiment_.setup.general.name
-                                        : options_.out;
-    folder_.emplace(summary_.out, experiment_.setup.general.name, options_.resume);
 }
 
 VariantInputs Run::inputsOf(const WiredVariant& variant) {

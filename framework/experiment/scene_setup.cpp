@@ -45,6 +45,16 @@ void checkRadiance(const ImageF& map, const fs::path& path) {
             throw Error("{}: an environment map holds finite radiance of at least 0", path.string());
 }
 
+/// What reads a file that the config names: what is wrong with it is told at the config's line.
+template <typename Read>
+auto readAt(const TextLocation& where, const Read& read) {
+    try {
+        return read();
+    } catch (const Error& error) {
+        throw UsageError(where, "{}", error.what());
+    }
+}
+
 std::optional<fs::path> lookUp(const fs::path& name, const std::vector<fs::path>& folders) {
     std::error_code code;
     if (name.is_absolute()) return fs::exists(name, code) ? std::optional(name) : std::nullopt;
@@ -147,7 +157,7 @@ std::shared_ptr<const Scene> SceneLoader::load(const SceneSource& source) {
     }
     const fs::path path = findSceneFile(source.file, folders_, source.where);
     auto& scene = scenes_[path.string()];
-    if (!scene) scene = loadGltf(path);
+    if (!scene) scene = readAt(source.where, [&] { return loadGltf(path); });
     return scene;
 }
 
@@ -156,9 +166,11 @@ std::shared_ptr<const ImageF> SceneLoader::loadMap(const SceneSettings& settings
     const fs::path path = findSceneFile(settings.environment->map, folders_, settings.environmentWhere);
     auto& map = maps_[path.string()];
     if (!map) {
-        ImageF image = readImage(path);
-        checkRadiance(image, path);
-        map = std::make_shared<const ImageF>(std::move(image));
+        map = readAt(settings.environmentWhere, [&] {
+            ImageF image = readImage(path);
+            checkRadiance(image, path);
+            return std::make_shared<const ImageF>(std::move(image));
+        });
     }
     return map;
 }

@@ -26,14 +26,29 @@ void checkPassName(const Value& pass, const Registry& registry) {
     if (name && name->isScalar()) registry.require(name->scalar, name->where);
 }
 
+/// `inject: {rays_per_light: [4096]}` names values of the whole pass; what was meant is one of its
+/// parameters.
+void checkNestedAxis(const Value& entry, const std::string& id, const Value& axis, const Registry& registry) {
+    const auto isPass = [&](const Value& v) { return !v.isScalar() || registry.find(v.scalar); };
+    const Value* pass = entry.find("pass");
+    const PassKind* kind = pass && pass->isScalar() ? registry.find(pass->scalar) : nullptr;
+    for (const auto& [key, values] : axis.members)
+        for (const ParameterDoc& doc : kind ? kind->parameters : std::vector<ParameterDoc>())
+            if (doc.name == key && values.isList() && !std::ranges::all_of(values.items, isPass))
+                throw UsageError(values.where, "sweep.{0}: '{1}' is a parameter: write {0}.{1}: {2}", id, key,
+                                 values.text());
+}
+
 // Names of passes, before the sweep's paths are looked up among their ids: a pass that is misspelt in the
 // graph would else be told as a misspelt path.
 void checkPassNames(const Experiment& experiment, const Registry& registry) {
     for (const Value& entry : experiment.setup.graph.items) checkPassName(entry, registry);
     for (const auto& [path, values] : experiment.sweep.members)
         for (const Value& entry : experiment.setup.graph.items)
-            if (passId(entry) == path)
+            if (passId(entry) == path) {
+                checkNestedAxis(entry, path, values, registry);
                 for (const Value& value : sweepValues(values)) checkPassName(value, registry);
+            }
 }
 
 /// Values in the graph that a sweep replaces in every variant are read here alone.
@@ -174,11 +189,21 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
         if (const Value* spp = experiment.reference.find("spp"); spp && spp->asInteger("reference.spp") < 2)
             throw UsageError(spp->where,
                              "reference.spp: 2 or more; from its halves comes the reference's noise");
+        if (const Value* light = experiment.reference.find("light"); light && light->scalar != "all")
+            throw UsageError(light->where,
+                             "reference.light: 'all', or left out: direct and indirect light are compared");
     }
     wired.experiment = std::move(experiment);
     leaveOutEqual(wired);
     checkIdleParameters(wired);
     return wired;
+}
+
+std::map<std::string, size_t> variantsWithout(const WiredExperiment& wired) {
+    std::map<std::string, size_t> counts;
+    for (const WiredVariant& variant : wired.variants)
+        for (const std::string& id : variant.leftOut) ++counts[id];
+    return counts;
 }
 
 std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
@@ -209,6 +234,9 @@ std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader,
         }
     }
     std::vector<std::string> warnings;
+    for (const auto& [id, count] : variantsWithout(wired))
+        if (count == wired.variants.size())
+            warnings.push_back(fmt::format("'{}' is never run: no image that is compared depends on it", id));
     for (const auto& [text, names] : differences)
         warnings.push_back(names.size() == 1
                                ? fmt::format("{} ({})", text, names[0])

@@ -52,6 +52,7 @@ std::vector<Graph::PassInfo> Graph::passes() const {
 void Graph::checkIsMadeOf(const std::string& whole, const std::string& part) const {
     const GraphNode *last = nullptr, *maker = nullptr;
     const Resource *written = nullptr, *read = nullptr;
+    bool reads = false;
     for (const GraphNode& node : impl_->nodes)
         for (size_t p = 0; p < node.ports.size(); ++p) {
             if (!node.ports[p].output) continue;
@@ -60,14 +61,17 @@ void Graph::checkIsMadeOf(const std::string& whole, const std::string& part) con
         }
     if (!last || !maker) return;
     for (size_t p = 0; p < maker->ports.size(); ++p)
-        if (!maker->ports[p].output && maker->ports[p].name == part) read = maker->resources[p];
+        if (!maker->ports[p].output && maker->ports[p].name == part) {
+            reads = true;
+            read = maker->resources[p];
+        }
     const Value* inputs = maker->resolved.find("inputs");
-    if (!read || read == written || (inputs && inputs->find(part))) return;
-    throw UsageError(last->where,
-                     "{0}: writes '{1}' after '{2}' has read it, so '{3}' lacks what it brings: put '{0}' "
-                     "before '{2}', or "
-                     "choose with inputs of '{2}'",
-                     last->id, part, maker->id, whole);
+    if (!reads || read == written || (inputs && inputs->find(part))) return;
+    throw UsageError(
+        last->where,
+        "{0}: writes '{1}', but that is not what '{2}' reads, so '{3}' lacks what it brings: put '{0}' "
+        "right before '{2}', or choose with inputs of '{2}'",
+        last->id, part, maker->id, whole);
 }
 
 std::vector<std::string> Graph::keepOnly(const std::vector<std::string>& portNames) {

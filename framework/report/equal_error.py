@@ -58,12 +58,14 @@ def sentences(results: Results, light: str, metric: Metric, families: list[Famil
     if best is None:
         return []
     name, ms, rival, reached = best
-    more = "more than " if reached.bound else ""
+    more, who, short = "", f"one of {rival.name}", ""
+    if reached.bound:
+        more, who, short = "more than ", "path tracing", " (all its variants have a higher error)"
     build = rows.loc[name, "build_ms"]
     apart = f". Its build, once a scene or light, takes {text.figures(build)} ms more" if build > 0 else ""
     return [f"At equal {metric.label} of the {light} light: a frame of {names.full(name)} takes {text.figures(ms)} ms, "
-            f"one of {rival.name} {more}{text.figures(reached.milliseconds)} ms: {more}"
-            f"{text.figures(best_factor, 2)} times as long{_range(rows.loc[name], column, ms, curves)}{apart}."]
+            f"{who} {more}{text.figures(reached.milliseconds)} ms: {more}"
+            f"{text.figures(best_factor, 2)} times as long{short}{_range(rows.loc[name], column, ms, curves)}{apart}."]
 
 
 def _fastest(error: float, curves) -> tuple[Family | None, Reached | None]:

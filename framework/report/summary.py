@@ -37,14 +37,16 @@ def _lowest_error(results: Results, light: str, metric, names: Names) -> list[st
     best = scores.map(metric.rank).idxmin()
     marks = score_marks(results, metric, column)
     ties = [name for name in scores.index if marks.get(name) == "tie"]
+    explained = f" {metric.label}: {metric.meaning.split(';')[0]}." if metric.meaning else ""
     if not ties:
-        return [f"Lowest {metric.label} of the {light} light: {names.full(best)}, {text.figures(scores[best])}."]
+        return [f"Lowest {metric.label} of the {light} light: {names.full(best)}, {text.figures(scores[best])}.{explained}"]
     found = [f"Lowest {metric.label} of the {light} light: {names.listed(ties)} tie, from "
              f"{text.figures(scores[ties].min())} to {text.figures(scores[ties].max())}."]
     if 2 * len(ties) > len(scores):
         spp = (results.only_reference or {}).get("spp")
         found[0] += (" Most variants tie: more samples in the reference tell them apart (raise reference.spp"
                      f"{f', now {spp}' if spp else ''}).")
+    found[0] += explained
     return found
 
 
@@ -56,9 +58,9 @@ def _mostly_noise(results: Results, light: str, names: Names) -> list[str]:
     noisy = [name for name in bias.index if noise[name] > bias[name]]
     if not noisy:
         return ["Bias is the larger part of every variant's error: more rays don't lower it."] if bias.notna().any() else []
-    rest = "; of the others bias, which more rays don't lower" if len(noisy) < int(bias.notna().sum()) else ""
-    return [f"Noise is the larger part of the error of {names.listed(noisy)}{rest}. What makes a pass noisy, and which "
-            "parameter lowers it, says ./voxray passes PASS."]
+    rest = "; of the others it is bias, which more rays don't lower" if len(noisy) < int(bias.notna().sum()) else ""
+    return [f"Noise is the larger part of the error of {names.listed(noisy)}{rest}. ./voxray passes PASS says which "
+            "parameter makes a pass less noisy."]
 
 
 def _fastest(results: Results, light: str, names: Names) -> list[str]:

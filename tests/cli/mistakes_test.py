@@ -86,6 +86,54 @@ MISTAKES = {
     "a tab": ("  - {pass: composite}", "\t- {pass: composite}", 17, "YAML takes spaces"),
     "a lost brace": ("height: 24}", "height: 24", 8, "a comma or the '}' is missing"),
     "a lost colon": ("seed: 7", "seed 7", 9, "is a ':' missing in the line before?"),
+    # Units and types
+    "a unit next to a number": ("width: 32", "width: 32px", 7, "expected a whole number, not '32px'"),
+    "radians for degrees": ("fov_deg: 50", "fov_deg: 0.87", 4, "0.87 is out of range [1, 179]"),
+    "commas in a number": ("rays_per_light: 4096", "rays_per_light: 4,096", 12, "write numbers without commas"),
+    "one number for a place": ("position: [0, 1, 3]", "position: 3", 4, "scene.camera.position: expected three numbers"),
+    "a place by the names of its axes": ("point: [0, 1.8, 0]", "point: {x: 0, y: 1.8, z: 0}", 6, "expected three numbers"),
+    "one number for a way": ("  lights:", "  add: [{builtin: mirror_row, transform: {translate: 1}}]\n  lights:", 5,
+                             "translate: expected three numbers"),
+    "a colour in bytes": ("  lights:", "  override: {grey: {base_color: [255, 128, 0]}}\n  lights:", 5,
+                          "255 is out of range [0, 1]"),
+    "a number for a switch": ("frames: 2", "frames: 2, second_seed: 1", 21, "expected true or false, not '1'"),
+    "a light of two kinds": ("point: [0, 1.8, 0]", "point: [0, 1.8, 0], directional: [0, -1, 0]", 6, "has one of the keys"),
+    "a cone inside out": ("{point: [0, 1.8, 0]", "{spot: [0, 1.8, 0], inner_deg: 60", 6, "inner_deg must be less"),
+    "a seed below 0": ("seed: 7", "seed: -1", 8, "mine.yaml:8: seed: -1 is out of range"),
+    # Paths of files
+    "a scene file that holds no scene": ("builtin: cornell", "file: mine.yaml", 3, "its JSON is broken"),
+    "a folder for a scene file": ("builtin: cornell", "file: .", 3, "is a folder"),
+    "an environment that is no image": ("  lights:", "  environment: mine.yaml\n  lights:", 5, "not an image"),
+    "a file and a built-in scene": ("builtin: cornell", "builtin: cornell\n  file: mine.yaml", 2, "take one out"),
+    "a path of Windows in quotes": ("builtin: cornell", 'file: "C:\\scenes\\room.glb"', 3, "write paths with '/'"),
+    # References
+    "a reference by its pass alone": ("{pass: path_trace, spp: 8, bounces: 3}", "path_trace", 18, "as in {pass: path_trace"),
+    "a reference of indirect light": ("bounces: 3}", "bounces: 3, light: indirect}", 18, "reference.light: 'all'"),
+    "samples by another renderer's word": ("spp: 8", "samples: 8", 18, "one of: spp"),
+    # Sweeps
+    "a sweep written as nested maps": ("inject.rays_per_light: [4096, 8192]", "inject: {rays_per_light: [4096, 8192]}", 20,
+                                       "write inject.rays_per_light: [4096, 8192]"),
+    "a nested sweep of words": ("inject.rays_per_light: [4096, 8192]", "voxelize:\n    method: [exact, three_axis]", 21,
+                                "write voxelize.method: [exact, three_axis]"),
+    "a sweep by the pass, which has an id": ("inject.rays_per", "inject_light_rays.rays_per", 20, "did you mean 'inject', the id"),
+    "an underscore for the dot": ("inject.rays_per", "inject_rays_per", 20, "did you mean 'inject.rays_per_light'?"),
+    "a sweep of how it is measured": ("inject.rays_per_light: [4096, 8192]", "measure.frames: [1, 2]", 20, "the same for all variants"),
+    "a value twice in a sweep": ("[4096, 8192]", "[4096, 4096]", 20, "a value appears twice"),
+    "a swap that leaves an input without writer": ("inject.rays_per_light: [4096, 8192]", "gather: [gather_rays, gather_irradiance]",
+                                                   15, "'gather' writes no 'noisy_irradiance'"),
+    # Profiles, whichever is asked for
+    "a profile of an unknown parameter": ("{image: {width: 16}}", "{voxelize.resolutoin: 8}", 23, "did you mean 'resolution'?"),
+    "a profile out of range": ("{image: {width: 16}}", "{reference.spp: 1}", 23, "2 or more"),
+    "a profile of a sweep that isn't there": ("{image: {width: 16}}", "{sweep.voxelise.resolution: [8]}", 23, "did you mean 'voxelize'?"),
+    "a profile that takes the scene out": ("{image: {width: 16}}", "{scene: null}", 23, "no config does without 'scene'"),
+    # Order
+    "direct light after the sum": ("  - {pass: direct_shadow_rays, id: direct}\n  - {pass: composite}",
+                                   "  - {pass: composite}\n  - {pass: direct_shadow_rays, id: direct}", 17,
+                                   "put 'direct' right before 'composite'"),
+    "a filter before what it filters": (
+        "  - {pass: gather_rays, id: gather}\n  - {pass: filter_irradiance, id: indirect, inputs: {noisy_irradiance: gather}}",
+        "  - {pass: filter_irradiance, id: indirect, inputs: {noisy_irradiance: gather}}\n  - {pass: gather_rays, id: gather}",
+        14, "put 'indirect' right before 'composite'"),
 }
 
 
@@ -99,6 +147,10 @@ class Mistakes(CommandTest):
                 self.assertIn(f"mine.yaml:{line}: ", error)
                 self.assertIn(words, error)
                 self.assertFalse(os.path.exists(self.path("out")), "a bad config leaves no results folder")
+
+    def test_a_pass_that_never_runs_is_warned_of(self):
+        self.write("mine.yaml", CONFIG.replace("  - {pass: composite}", "  - {pass: composite}\n  - {pass: composite, id: again}"))
+        self.assertIn("warning: 'composite' is never run", self.expect(0, "validate", "mine.yaml").stderr)
 
     def test_the_config_without_a_mistake(self):
         self.write("mine.yaml", CONFIG)

@@ -194,6 +194,34 @@ class Resume(Run):
         self.assertTrue(os.path.exists(self.path("out", "report.html")), "a report of what was finished")
         self.finish(finished)
 
+    def interrupt_report(self, signals):
+        """Signals to the whole process group, as a terminal's Ctrl-C, while the report of a whole run is made."""
+        self.write("tiny.yaml", TINY)
+        manifest = self.path("out", "manifest.json")
+        process = self.start_until(lambda: os.path.exists(manifest) and self.json("out", "manifest.json")["finished"],
+                                   "run", "tiny.yaml", "--out", "out", start_new_session=True)
+        for _ in range(signals):
+            time.sleep(0.05)
+            os.killpg(process.pid, signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual([row["status"] for row in self.rows("out", "results.csv")], ["ok"] * 2)
+        return process.returncode
+
+    def test_ctrl_c_while_the_report_is_made(self):
+        self.assertEqual(self.interrupt_report(1), 130)
+        self.assertTrue(os.path.exists(self.path("out", "report.html")), "the report is finished first")
+        self.check_whole()
+
+    def test_ctrl_c_twice_while_the_report_is_made(self):
+        self.assertEqual(self.interrupt_report(2), -signal.SIGINT)
+        time.sleep(2)  # The script would be done by now.
+        self.assertFalse(os.path.exists(self.path("out", "report.html")))
+        before = self.times()
+        self.expect(0, "run", "tiny.yaml", "--out", "out", "--resume")
+        self.assertTrue(os.path.exists(self.path("out", "report.html")))
+        self.assertEqual(self.times(), before)
+        self.check_whole()
+
     def test_kill(self):
         finished = self.interrupt(signal.SIGKILL, -signal.SIGKILL)
         # A killed process can't take its temporary file along; the next run does

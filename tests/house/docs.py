@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Checks the documentation against the tree.
 
-Links to files lead somewhere; every package has its reason in docs/dependencies.md; a block of code under
+Links lead to files and headings that are there; every package has its reason in docs/dependencies.md; a block of code under
 "<!-- file: PATH -->" is that file, word for word; text ends at column 120 (tables and code may be wider). docs.py [ROOT]; exit status 1 where one is not so.
 """
 import os
@@ -34,17 +34,31 @@ def long_lines(text):
             yield number
 
 
+def anchors(text):
+    """What a link may name after its '#': the headings as GitHub spells them, the second of a name with '-1'."""
+    prose = re.sub(r"^\s*```.*?^\s*```", "", text, flags=re.S | re.M)
+    names = []
+    for heading in re.findall(r"^#+ (.*)$", prose, re.M):
+        shown = re.sub(r"\]\([^)]*\)", "", heading).strip().lower()
+        name = re.sub(r"[^\w\- ]", "", shown).replace(" ", "-")
+        names.append(f"{name}-{names.count(name)}" if name in names else name)
+    return names
+
+
 def check(root):
     problems = []
     for page in pages(root):
         text = read(root, page)
         problems += [f"{page}:{number}: a line longer than {COLUMNS} columns" for number in long_lines(text)]
         for target in LINK.findall(text):
-            path = target.split("#")[0]
-            if re.match(r"\w+:", target) or not path:
+            if re.match(r"\w+:", target):
                 continue
-            if not os.path.exists(os.path.join(root, os.path.dirname(page), path)):
+            path, _, anchor = target.partition("#")
+            file = os.path.normpath(os.path.join(os.path.dirname(page), path)) if path else page
+            if not os.path.exists(os.path.join(root, file)):
                 problems.append(f"{page}: link to {target}, which is not there")
+            elif anchor and file.endswith(".md") and anchor not in anchors(read(root, file)):
+                problems.append(f"{page}: link to {target}, but {file} has no such heading")
         for path, quoted in QUOTED.findall(text):
             if not os.path.isfile(os.path.join(root, path)) or read(root, path) != quoted:
                 problems.append(f"{page}: the block of {path} is not what the file says")

@@ -171,7 +171,7 @@ class Docs(Tree):
     def setUp(self):
         super().setUp()
         self.write("scripts/packages.txt", "# when | probe | Debian\nrun | command g++ 11 | g++ | g++ | gcc-c++ | gcc\n")
-        self.write("docs/dependencies.md", "| `g++` | compiles |\n")
+        self.write("docs/dependencies.md", "# Top\n| `g++` | compiles |\n")
         self.write("README.md", "[why](docs/dependencies.md#top) ![x](docs/dependencies.md)\n")
 
     def test_clean_tree(self):
@@ -180,6 +180,15 @@ class Docs(Tree):
     def test_dead_link(self):
         self.write("docs/page.md", "See [this](nowhere.md).\n")
         self.assertEqual(len(docs.check(self.root)), 1)
+
+    def test_link_to_a_heading(self):
+        self.write("docs/page.md", "# One\n```\n# no heading\n```\n## `run` and [--resume](x), twice\n## One\n")
+        for anchor, problems in (("one", 0), ("one-1", 0), ("run-and---resume-twice", 0), ("two", 1), ("no-heading", 1)):
+            with self.subTest(anchor):
+                self.write("docs/other.md", f"[a](page.md#{anchor})\n")
+                self.assertEqual(len([p for p in docs.check(self.root) if p.startswith("docs/other.md")]), problems)
+        self.write("docs/other.md", "# Here\n[a](#here) [b](#there)\n")
+        self.assertEqual(len([p for p in docs.check(self.root) if "#there" in p]), 1)
 
     def test_pages_of_folders_are_read(self):
         self.write("docs/papers/page.md", "See [this](nowhere.md).\n")
@@ -193,7 +202,7 @@ class Docs(Tree):
         self.assertEqual(docs.check(self.root), ["docs/page.md:2: a line longer than 120 columns"])
 
     def test_package_without_a_reason(self):
-        self.write("docs/dependencies.md", "| `gcc` | compiles |\n")
+        self.write("docs/dependencies.md", "# Top\n| `gcc` | compiles |\n")
         self.assertEqual(len(docs.check(self.root)), 1)
 
     def test_quoted_file_that_changed(self):

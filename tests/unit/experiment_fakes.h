@@ -48,6 +48,7 @@ class Constant : public Pass {
         bool nan = false;
         bool fail = false;
         bool interrupt = false;
+        bool interruptPlan = false;
         bool misuse = false;
         uint32_t megabytes = 0;
         static constexpr auto schema() {
@@ -60,6 +61,7 @@ class Constant : public Pass {
                 field("nan", &Params::nan, "Write NaN instead."),
                 field("fail", &Params::fail, "Throw with commands recorded."),
                 field("interrupt", &Params::interrupt, "Raise SIGINT."),
+                field("interrupt_plan", &Params::interruptPlan, "Raise SIGINT before anything is rendered."),
                 field("misuse", &Params::misuse, "Use Vulkan in a way that it forbids."),
                 field("megabytes", &Params::megabytes, "Memory to ask for.", 0u, 1u << 20)};
         }
@@ -76,6 +78,7 @@ class Constant : public Pass {
         b.readOptional<LayerImages>("layers", "To look at.");
     }
     void plan(PassPlan& plan) override {
+        if (params_.interruptPlan) std::raise(SIGINT);
         planImage(plan, final_, "constant final");
         planImage(plan, indirect_, "constant indirect");
         ImageDesc desc;

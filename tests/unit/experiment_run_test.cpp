@@ -308,6 +308,15 @@ TEST_F(RunTest, InterruptKeepsWhatWasFinished) {
         EXPECT_EQ(entry.path().filename().string().rfind(".tmp", 0), std::string::npos) << entry.path();
 }
 
+TEST_F(RunTest, InterruptBeforeAnythingIsRenderedKeepsTheOldRun) {
+    run("sweep: {constant.value: [1]}\n");
+    const RunSummary summary = run("sweep: {constant.interrupt_plan: [true]}\n");
+    EXPECT_EQ(summary.exitStatus(), 130);
+    EXPECT_EQ(summary.ok, 0u);
+    EXPECT_EQ(cell("value-1", "status"), "ok");
+    EXPECT_TRUE(fs::exists(root_ / "out" / "images" / "value-1" / "final.exr"));
+}
+
 TEST_F(RunTest, ForeignAndUnwritableFoldersAreRefused) {
     fs::create_directories(root_ / "out");
     std::ofstream(root_ / "out" / "precious.txt") << "mine";

@@ -179,8 +179,8 @@ TEST(GraphWiring, WhatIsChangedAfterItWasReadIsRefused) {
     const std::string late =
         "- {pass: make_voxels}\n- {pass: light_voxels}\n- {pass: make_voxels, id: late}\n";
     const std::string message = errorOf<UsageError>([&] { graph(late).checkIsMadeOf("light", "voxels"); });
-    EXPECT_CONTAINS(message, "g.yaml:3: late: writes 'voxels' after 'light_voxels' has read it");
-    EXPECT_CONTAINS(message, "put 'late' before 'light_voxels'");
+    EXPECT_CONTAINS(message, "g.yaml:3: late: writes 'voxels', but that is not what 'light_voxels' reads");
+    EXPECT_CONTAINS(message, "put 'late' right before 'light_voxels'");
 
     // In order, chosen on purpose, or not made of it at all
     graph("- {pass: make_voxels}\n- {pass: light_voxels}\n").checkIsMadeOf("light", "voxels");

@@ -179,7 +179,7 @@ class PartOfARun(ReportTest):
             row.update(bias_nrmse=bias, noise_nrmse=noise)
         shown = self.make(rows, made_up.manifest([]), indirect=False)
         for words in ("bias\u00a0↓", "noise\u00a0↓", "0.390",
-                      "Noise is the larger part of the error of 2 (grainy) and 3 (rough); of the others bias", "what noise measures"):
+                      "Noise is the larger part of the error of 2 (grainy) and 3 (rough); of the others it is bias", "what noise measures"):
             self.assertIn(words, shown.text)
         for row in rows:
             row.update(noise_nrmse=0.01)

@@ -29,7 +29,7 @@ class Comparing(ReportTest):
         self.assertEqual(ranking.score_marks(results, NRMSE, "nrmse"), {"a": "tie", "b": "tie"})
         self.assertEqual(self.summary(results)[0],
                          "Lowest nRMSE of the total light: 1 (a) and 2 (b) tie, from 0.200 to 0.230. Most variants tie: more "
-                         "samples in the reference tell them apart (raise reference.spp, now 64).")
+                         "samples in the reference tell them apart (raise reference.spp, now 64). nRMSE: what nRMSE measures.")
         # Told apart, and without intervals: one is the best.
         del rows[1]
         self.assertEqual(ranking.score_marks(self.results(rows), NRMSE, "nrmse"), {"a": "best"})
@@ -119,7 +119,7 @@ class Comparing(ReportTest):
         self.assertIn("At equal nRMSE of the total light: a frame of 1 (lookup) takes 10.0 ms, one of paths 111 ms: "
                       "11 times as long. Its build, once a scene or light, takes 20.0 ms more.", self.summary(results))
         # None reaches 0.2: the slowest of both families are not enough. All have less than 2.
-        for error, expected in ((0.2, "one of paths more than 160 ms: more than 16 times as long. Its build, once a scene or light, takes 20.0 ms more."), (2.0, None)):
+        for error, expected in ((0.2, "path tracing more than 160 ms: more than 16 times as long (all its variants have a higher error). Its build, once a scene or light, takes 20.0 ms more."), (2.0, None)):
             rows[0] |= {"nrmse": error}
             said = [s for s in self.summary(self.results(rows, sweep_keys=["method"], variants=graphs)) if "equal" in s]
             self.assertEqual([s.endswith(expected) for s in said], [True] if expected else [])
