@@ -45,6 +45,7 @@ class Run {
 
  private:
     void openSession();
+    void renderMissing();
     void printPlan();
     void takeOverFinished();
     void runVariant(size_t index, Progress& progress);
@@ -83,17 +84,11 @@ RunSummary Run::execute() {
     if ((summary_.interrupted = interruptRequested())) return summary_;  // An earlier run's results stay.
     folder_.emplace(summary_.out, experiment_.setup.general.name, options_.resume);
     if (options_.resume) takeOverFinished();
-    writeTables();
-
-    // Render what is missing
-    {
-        Progress progress(variants_.size() - results_.size(), options_.quiet);
-        for (const std::string& warning : session_->warnings()) progress.warn(warning);
-        for (const std::string& warning : warnings_) progress.warn(warning);
-        for (const std::string& note : notes_) progress.note(note);
-        for (size_t i = 0; i < variants_.size() && !summary_.interrupted; ++i)
-            if (!results_.count(i)) runVariant(i, progress);
-        printValidationMessages(progress);
+    try {
+        renderMissing();
+    } catch (const Error& error) {  // What can't be written.
+        throw Error("{}; finished variants are kept in {}, --resume goes on", error.what(),
+                    summary_.out.string());
     }
     for (const auto& [index, result] : results_) ++(result.ok ? summary_.ok : summary_.failed);
 
@@ -111,6 +106,17 @@ RunSummary Run::execute() {
     }
     summary_.interrupted = interruptRequested();
     return summary_;
+}
+
+void Run::renderMissing() {
+    writeTables();
+    Progress progress(variants_.size() - results_.size(), options_.quiet);
+    for (const std::string& warning : session_->warnings()) progress.warn(warning);
+    for (const std::string& warning : warnings_) progress.warn(warning);
+    for (const std::string& note : notes_) progress.note(note);
+    for (size_t i = 0; i < variants_.size() && !summary_.interrupted; ++i)
+        if (!results_.count(i)) runVariant(i, progress);
+    printValidationMessages(progress);
 }
 
 void Run::openSession() {

@@ -256,6 +256,7 @@ class Disk(Run):
 
         done = self.expect(1, "run", "tiny.yaml", "--out", "out", "--resume", preexec_fn=limit, restore_signals=False)
         self.assertIn("voxray: error: ", done.stderr)
+        self.assertIn("--resume goes on", done.stderr)
         self.assertEqual({name: self.bytes("out", name) for name in before}, before)
         self.check_whole()
 
