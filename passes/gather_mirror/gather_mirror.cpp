@@ -62,6 +62,7 @@ void GatherMirror::declare(PassBuilder& builder) {
         "indirect", "radiance that diffuse albedos reflect of indirect light");
     direct_ = builder.write<FrameImage>("direct", "the same, and what mirrors show of lamps and environment");
     indirect_ = builder.write<FrameImage>("indirect", "the same, and what else mirrors show");
+    ends_ = builder.write<MirrorEnds>("mirror_ends", "what a pixel's mirror rays ended on, to look at");
 }
 
 void GatherMirror::plan(PassPlan& plan) {
@@ -86,6 +87,7 @@ void GatherMirror::plan(PassPlan& plan) {
     plan.image(black_, "black", ImageDesc{});
     plan.image(plan.get(direct_).image, "direct", frameImageDesc(plan.frame));
     plan.image(plan.get(indirect_).image, "indirect", frameImageDesc(plan.frame));
+    plan.image(plan.get(ends_).parts, "ends of mirror rays", frameImageDesc(plan.frame));
     // What voxels hold is reflected once more where rays end; an empty number counts as none.
     std::optional<uint32_t> bounces = oneMore(plan.get(irradiance_).lightBounces);
     if (plan.has(otherIndirect_)) bounces = std::max(bounces, plan.get(otherIndirect_).lightBounces);
@@ -296,7 +298,8 @@ void GatherMirror::resolve(PassContext& context, const gpu::MirrorBatch& batch) 
                              {"grazing", grazing_},
                              {"light", light_},
                              {"joinedDirect", context.get(direct_).image},
-                             {"joinedIndirect", context.get(indirect_).image}},
+                             {"joinedIndirect", context.get(indirect_).image},
+                             {"ends", context.get(ends_).parts}},
                             BatchPush{batch}, linearGroups(batch.pixels));
 }
 

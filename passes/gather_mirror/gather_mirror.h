@@ -40,6 +40,15 @@ struct EnumNames<WideRays> {
     static constexpr std::array names{std::pair{WideRays::Rays, "rays"}, std::pair{WideRays::Cones, "cones"}};
 };
 
+/// What a pixel's first mirror rays ended on.
+struct MirrorEnds : Resource {
+    Image parts;  ///< RGBA32F: on triangles, on cells of grids, as cones, nowhere; 0 where none went out.
+
+    std::vector<Aov> aovs() const override {
+        return {{&parts, {"ends.triangles", "ends.cells", "ends.cones", "ends.nowhere"}}};
+    }
+};
+
 /// What mirror-like surfaces show: reflected rays from each texel of the g-buffer, lit where they end. Docs:
 /// docs/mirrors.md. Source: Seok 2021 (rays for mirrors, cones for all else).
 class GatherMirror final : public Pass {
@@ -50,9 +59,8 @@ class GatherMirror final : public Pass {
         "light of other passes; lamps and environment that a mirror shows, and mirrors in mirrors. "
         "Biased by: voxel size (indirect light where rays end; direct light too with `direct_at_hits: "
         "voxels`); specular light of what mirrors show is left out where it is rougher than the hand-over; "
-        "light that mirrors throw at other surfaces is in no voxel; grids of hybrid leaves hold neither "
-        "lamps nor "
-        "mirrors. "
+        "light that mirrors throw at other surfaces is in voxels only where their injection follows it; "
+        "cells of hybrid leaves' grids reach a little farther than their surfaces. "
         "Noisy by: `rays` where surfaces are no perfect mirrors; light_samples. "
         "Source: Seok 2021, chapter 4.";
     struct Params {
@@ -132,6 +140,7 @@ class GatherMirror final : public Pass {
     Port<const SpecularLobes> lobes_;
     Port<const FrameImage> otherDirect_, otherIndirect_;
     Port<FrameImage> direct_, indirect_;
+    Port<MirrorEnds> ends_;
 
     Program mark_, begin_, wide_, shade_, reflect_, resolve_;
     Sampler sampler_;

@@ -8,6 +8,12 @@
 // viewer, evenly spaced from 0 to 1.
 #define GRAZING_COSINES 64
 
+// What a ray from the camera's mirror ended on.
+#define ENDS_ON_TRIANGLE 1u
+#define ENDS_ON_CELL 2u
+#define ENDS_AS_CONE 3u
+#define ENDS_NOWHERE 4u
+
 VOXRAY_SHARED_BEGIN
 
 // A batch of pixels. Its slots for rays: those of its pixels one after another, of a pixel those of its
@@ -39,6 +45,7 @@ struct MirrorPath {
 struct MirrorLight {
     vec3 direct;    // Emission and environment by one reflection.
     vec3 indirect;  // All else.
+    uint end;       // Of the first ray: ENDS_ON_TRIANGLE and so on; 0 where none went out.
 };
 
 VOXRAY_SHARED_END

@@ -18,6 +18,7 @@ uniform sampler2D indirect;  // Likewise, by the diffuse albedo alone.
 layout(scalar) readonly buffer Light { MirrorLight data[]; } light;
 layout(rgba32f) writeonly uniform image2D joinedDirect;
 layout(rgba32f) writeonly uniform image2D joinedIndirect;
+layout(rgba32f) writeonly uniform image2D ends;
 layout(push_constant, scalar) uniform Push { MirrorBatch batch; } push;
 
 vec3 pixelOf(sampler2D image, ivec2 pixel) { return texelFetch(image, min(pixel, textureSize(image, 0) - 1), 0).rgb; }
@@ -27,6 +28,7 @@ void main() {
     const uint pixelInBatch = linearIndex();
     if (pixelInBatch >= b.pixels) return;
     vec3 direct_ = vec3(0.0), indirect_ = vec3(0.0), albedo_ = vec3(0.0), below = vec3(0.0);
+    vec4 ends_ = vec4(0.0);
     for (uint i = 0u; i < texelsPerPixel(b); ++i) {
         const uint number = pixelInBatch * texelsPerPixel(b) + i;
         const ivec2 texel = texelOf(b, number);
@@ -38,6 +40,8 @@ void main() {
         for (uint j = 0u; j < b.rays; ++j) {
             direct_ += light.data[number * b.rays + j].direct;
             indirect_ += light.data[number * b.rays + j].indirect;
+            const uint end = light.data[number * b.rays + j].end;
+            if (end != 0u) ++ends_[end - 1u];
         }
         const float byRays = hasSpecular(s) ? rayWeight(b, s.roughness) : 0.0;
         if (kHasLobes) indirect_ += (1.0 - byRays) * texelFetch(lobes, texel, 0).rgb;
@@ -52,6 +56,7 @@ void main() {
     const ivec2 pixel = ivec2(pixelNumber % b.width, pixelNumber / b.width);
     const float texels = float(texelsPerPixel(b));
     const vec3 left = mix(below / max(albedo_, vec3(1e-20)), vec3(1.0), equal(albedo_, vec3(0.0)));
+    imageStore(ends, pixel, ends_ / max(dot(ends_, vec4(1.0)), 1.0));
     imageStore(joinedDirect, pixel, vec4(pixelOf(direct, pixel) + direct_ / texels, 1.0));
     imageStore(joinedIndirect, pixel, vec4(left * pixelOf(indirect, pixel) + indirect_ / texels, 1.0));
 }

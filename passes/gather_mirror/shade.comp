@@ -41,6 +41,11 @@ void addEmitted(MirrorPath path, vec3 radiance) {
     else light.data[path.slot].indirect += path.throughput * radiance;
 }
 
+// What a ray from the camera's mirror ended on.
+void noteEnd(MirrorPath path, uint end) {
+    if (push.depth == 0u) light.data[path.slot].end = end;
+}
+
 void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
@@ -50,12 +55,14 @@ void main() {
     if (ray.tMax < ray.tMin) return;
     if (hit.triangle == NO_HIT) {
         atomicAdd(counts.missed, 1u);
+        noteEnd(path, ENDS_NOWHERE);
         addEmitted(path, environmentRadiance(ray.direction));
         return;
     }
 #ifdef HYBRID
     if (hit.triangle == HIT_IS_WIDE) {  // wide.comp
         atomicAdd(counts.wide, 1u);
+        noteEnd(path, ENDS_AS_CONE);
         return;
     }
 #endif
@@ -65,12 +72,14 @@ void main() {
 #ifdef HYBRID
     if (isCell(hit)) {
         atomicAdd(counts.cells, 1u);
+        noteEnd(path, ENDS_ON_CELL);
         surfaceOfCell(hit, ray, at);
         clearance = push.cellSize;
     } else
 #endif
     {
         atomicAdd(counts.triangles, 1u);
+        noteEnd(path, ENDS_ON_TRIANGLE);
         if (!surfaceAtHit(hit, ray.direction, width * width, at)) return;
     }
     addEmitted(path, at.emission);

@@ -12,27 +12,16 @@
 // Rays and triangles of lists that this thread has tested.
 uint hybridTests = 0u;
 
-// The octants of a leaf that the part [begin, end] of a ray passes.
+// Octants of a leaf that the part [begin, end] of a ray may pass: of each axis the halves that it touches. No octant that it passes is
+// missing, and where it crosses one half plane or none there is none too many.
 uint octantsOnRay(VoxelGrid g, vec3 origin, vec3 direction, float begin, float end, ivec3 voxel) {
     const float margin = OCTANT_MARGIN * g.voxelSize;
-    const vec3 center = g.origin + (vec3(voxel) + 0.5) * g.voxelSize - origin;
-    const vec3 low = (center + margin) / direction, high = (center - margin) / direction;  // Where halves below end, and those above begin.
-    const bvec3 isDown = lessThan(direction, vec3(0.0)), isLevel = equal(direction, vec3(0.0));
-    const vec3 all0 = vec3(-1.0e30), all1 = vec3(1.0e30);
-    vec3 lowFrom = mix(all0, low, isDown), lowTo = mix(low, all1, isDown);
-    vec3 highFrom = mix(high, all0, isDown), highTo = mix(all1, high, isDown);
-    // Along an axis on which the ray stays level it is in the one half or the other, or in both margins.
-    lowFrom = mix(lowFrom, mix(all1, all0, greaterThanEqual(center, vec3(-margin))), isLevel);
-    lowTo = mix(lowTo, all1, isLevel);
-    highFrom = mix(highFrom, mix(all1, all0, lessThanEqual(center, vec3(margin))), isLevel);
-    highTo = mix(highTo, all1, isLevel);
-    uint octants = 0u;
-    for (uint octant = 0u; octant < 8u; ++octant) {
-        const bvec3 isHigh = bvec3((octant & 1u) != 0u, (octant & 2u) != 0u, (octant & 4u) != 0u);
-        const vec3 from = mix(lowFrom, highFrom, isHigh), to = mix(lowTo, highTo, isHigh);
-        if (max(begin, max(from.x, max(from.y, from.z))) <= min(end, min(to.x, min(to.y, to.z)))) octants |= 1u << octant;
-    }
-    return octants;
+    const vec3 from = origin - (g.origin + (vec3(voxel) + 0.5) * g.voxelSize);
+    const vec3 a = from + begin * direction, b = from + end * direction;
+    const bvec3 isLow = lessThanEqual(min(a, b), vec3(margin)), isHigh = greaterThanEqual(max(a, b), vec3(-margin));
+    const uvec3 low = mix(uvec3(0u), uvec3(0x55u, 0x33u, 0x0fu), isLow), high = mix(uvec3(0u), uvec3(0xaau, 0xccu, 0xf0u), isHigh);
+    const uvec3 halves = low | high;
+    return halves.x & halves.y & halves.z;
 }
 
 // Tests the triangles of a list that overlap `octants`, also where they reach out of their leaf: the closest of all counts.

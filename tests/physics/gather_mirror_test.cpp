@@ -5,48 +5,11 @@
 #include <cmath>
 #include <functional>
 
-#include "passes/common/view/gbuffer.h"
-#include "scene/shapes.h"
-#include "tests/gpu/chain.h"
+#include "tests/physics/mirror_scene.h"
 #include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
-
-using State = std::shared_ptr<const SceneState>;
-
-/// Ends a scene.
-State evaluated(SceneBuilder& b) {
-    return std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
-}
-
-Material metal(const glm::vec3& color, float roughness = 0.0f) {
-    Material material;
-    material.baseColor = glm::vec4(color, 1.0f);
-    material.roughness = roughness;
-    return material;
-}
-
-/// Voxels, their light, and mirrors that read them. Direct light and composite follow where asked for.
-std::string mirrorGraph(const std::string& mirror, const std::string& inject = "bounces: 0",
-                        const std::string& before = "") {
-    return graphYaml({"gbuffer, samples_per_pixel_edge: 1", "voxelize, resolution: 16",
-                      "inject_light_rays, rays_per_light: 4096, " + inject, before,
-                      "gather_mirror, " + mirror, "composite"});
-}
-
-double centerOf(const ImageF& image, size_t channel = 0) {
-    return image.data[3 * (size_t(image.height / 2) * image.width + image.width / 2) + channel];
-}
-
-/// A mirror at z = 0 that faces the camera, and `behind` it at z = 4 a quad that faces back.
-State facing(const Material& front, const Material& behind) {
-    SceneBuilder b("facing");
-    b.quad("front", {-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, b.material(front));
-    b.quad("behind", {-4, -4, 4}, {0, 8, 0}, {8, 0, 0}, b.material(behind));
-    b.camera({0, 0, 2}, {0, 0, 0}, 0.5f);
-    return evaluated(b);
-}
 
 TEST(GatherMirror, ShowsALampAsDirectLight) {
     Material lamp = metal(glm::vec3(0.0f), 1.0f);
@@ -84,25 +47,6 @@ TEST(GatherMirror, FacingMirrorsAreAGeometricSeries) {
     }
 }
 
-TEST(GatherMirror, CellsEmitAndReflectAsTheirSurfacesDo) {
-    // The same series between cells: leaves along a quad's diagonal hold both of its triangles.
-    const double e = 2, r = 0.7;
-    Material mirror = metal(glm::vec3(float(r)));
-    mirror.emission = glm::vec3(float(e));
-    for (const int n : {1, 5}) {
-        Chain chain(facing(mirror, mirror),
-                    mirrorGraph("walk: hierarchical, bounces: " + std::to_string(n), "bounces: 0",
-                                "build_hybrid_leaves, primitives: 1, grid: 8"),
-                    8, 8, 1);
-        const double series = e * r * r * (1 - std::pow(r, n - 1)) / (1 - r);
-        EXPECT_NEAR(centerOf(chain.image("direct")), e * r, 2e-3 * e) << n;
-        EXPECT_NEAR(centerOf(chain.image("indirect")), series, 4e-3 * e) << n;
-        const PassSample& mirrorPass = *(chain.frameSamples.end() - 2);  // Before composite.
-        EXPECT_GT(reported(mirrorPass, "mirror rays that hit cells of grids"), 0);
-        EXPECT_EQ(reported(mirrorPass, "mirror rays that missed"), 0);
-    }
-}
-
 /// A closed box that emits 1, all of one material.
 State furnace(const std::function<void(Material&)>& change) {
     auto copy = std::make_shared<Scene>(
@@ -131,51 +75,6 @@ TEST(GatherMirror, KeepsTheEnergyOfAFurnaceOfGlossyMetal) {
         EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.005)
             << roughness;
     }
-}
-
-/// A room whose wall at -Z is of `material`, a box before it, and a point light. With one bounce the wall
-/// shows what light does to the others directly.
-State wallRoom(const Material& material, float intensity = 1.0f) {
-    SceneBuilder b("wall");
-    const uint32_t white = b.lambert("white", glm::vec3(0.7f)), red = b.lambert("red", {0.7f, 0.2f, 0.1f});
-    const uint32_t wall = b.material(material);
-    b.room({-1, 0, -1}, {1, 2, 1}, {red, white, white, white, wall, white});
-    b.box("box", {0.3f, 0, 0}, {0.5f, 0.7f, 0.5f}, 0.3f, red);
-    b.pointLight({-0.3f, 1.6f, 0.3f}, glm::vec3(intensity));
-    b.camera({-0.2f, 1, 0.9f}, {0, 0.9f, -1}, 70);
-    return evaluated(b);
-}
-
-/// Over the pixels whose surface lies at z < `depth`: mean difference from the reference over its mean, and
-/// the ratio of the means.
-std::pair<double, double> errorAt(Chain& chain, const std::string& port, const ImageF& expected,
-                                  float depth) {
-    const GBuffer& gbuffer = *chain.graph().resource<GBuffer>("gbuffer");
-    const auto positions = chain.readImage<glm::vec4>(gbuffer.position);
-    const ImageF image = chain.image(port);
-    const uint32_t s = gbuffer.samples, width = uint32_t(image.width);
-    double difference = 0, own = 0, theirs = 0;
-    for (uint32_t i = 0; i < width * uint32_t(image.height); ++i) {
-        bool isThere = true;
-        for (uint32_t k = 0; k < s * s; ++k)
-            isThere &= positions[size_t(i / width * s + k / s) * width * s + i % width * s + k % s].z < depth;
-        for (size_t channel = 3 * size_t(i); isThere && channel < 3 * size_t(i) + 3; ++channel) {
-            difference += std::abs(double(image.data[channel]) - expected.data[channel]);
-            own += image.data[channel];
-            theirs += expected.data[channel];
-        }
-    }
-    return {difference / theirs, own / theirs};
-}
-
-/// Light in the whole chain for wallRoom.
-std::string roomGraph(const std::string& mirror, const std::vector<std::string>& before = {},
-                      const std::string& voxels = "32") {
-    std::vector<std::string> passes{"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: " + voxels,
-                                    "inject_light_rays, rays_per_light: 524288, bounces: 0"};
-    passes.insert(passes.end(), before.begin(), before.end());
-    passes.push_back("gather_mirror, " + mirror);
-    return graphYaml(passes);
 }
 
 TEST(GatherMirror, ConvergesToTheReference) {
@@ -301,66 +200,6 @@ TEST(GatherMirror, IsLinearInLightAndDeterministic) {
     const ImageF one = image(1), seven = image(7);
     EXPECT_NEAR(mean(seven) / mean(one), 7.0, 7e-3);
     EXPECT_EQ(image(1).data, one.data);
-}
-
-TEST(GatherMirror, WalksThroughListsFindWhatTheRayTracerFinds) {
-    // Triangles in all leaves: the same points, lit the same way, but for ties and the rounding of distances.
-    const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}));
-    const auto run = [&](const std::string& walk) {
-        return std::make_unique<Chain>(
-            state, roomGraph("bounces: 2, walk: " + walk, {"build_hybrid_leaves, primitives: 4096"}), 24, 24,
-            1);
-    };
-    const auto exact = run("exact");
-    const ImageF expected = exact->image("indirect");
-    for (const std::string walk : {"hierarchical", "voxel_by_voxel"}) {
-        const auto hybrid = run(walk);
-        const ImageF image = hybrid->image("indirect");
-        double difference = 0;
-        for (size_t i = 0; i < image.data.size(); ++i)
-            difference += std::abs(double(image.data[i]) - expected.data[i]);
-        EXPECT_LT(difference / double(image.data.size()), 1e-4 * mean(expected)) << walk;
-        for (const std::string value : {"mirror rays that hit triangles", "mirror rays that missed"})
-            EXPECT_EQ(reported(hybrid->frameSamples.back(), value),
-                      reported(exact->frameSamples.back(), value));
-    }
-}
-
-TEST(GatherMirror, GridsShowWhatVoxelsOfTheirSizeCan) {
-    // Where a leaf holds more than one triangle, cells of 1/2 and of 1/16 of a voxel stand for them.
-    const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}));
-    Chain reference(state, graphYaml({"path_trace, spp: 256, bounces: 1"}), 32, 32, 1);
-    const ImageF expected = reference.image("indirect");
-    const auto error = [&](const std::string& cells) {
-        Chain chain(state,
-                    roomGraph("walk: hierarchical, bounces: 1",
-                              {"build_hybrid_leaves, primitives: 1, grid: " + cells}, "16"),
-                    32, 32, 1);
-        const auto [difference, ratio] = errorAt(chain, "indirect", expected, -0.999f);
-        std::printf("grids of %s: %.4f, ratio %.4f\n", cells.c_str(), difference, ratio);
-        EXPECT_NEAR(ratio, 1.0, 0.05) << cells;
-        return difference;
-    };
-    const double coarse = error("2"), fine = error("16");
-    EXPECT_LT(fine, 0.1);
-    EXPECT_LT(fine, 0.8 * coarse);
-}
-
-TEST(GatherMirror, WideRaysGoOnAsCones) {
-    // A glossy ray soon is wider than a voxel. Cones that stand for it keep its light.
-    const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}, 0.5f));
-    Chain reference(state, graphYaml({"path_trace, spp: 512, bounces: 1"}), 32, 32, 1);
-    Chain chain(state,
-                roomGraph("max_roughness: 1, rays: 4, bounces: 1, walk: hierarchical, wide_rays: cones",
-                          {"filter_voxels", "build_hybrid_leaves"}, "64"),
-                32, 32, 1);
-    const auto [difference, ratio] = errorAt(chain, "indirect", reference.image("indirect"), -0.999f);
-    const double wide = reported(chain.frameSamples.back(), "mirror rays that went on as cones"),
-                 triangles = reported(chain.frameSamples.back(), "mirror rays that hit triangles");
-    std::printf("%.4f, ratio %.4f, %.0f wide, %.0f on triangles\n", difference, ratio, wide, triangles);
-    EXPECT_NEAR(ratio, 1.0, 0.05);
-    EXPECT_LT(difference, 0.2);  // Noise of four rays.
-    EXPECT_GT(wide, triangles);
 }
 
 TEST(GatherMirror, RefusesConesThatBringLamps) {

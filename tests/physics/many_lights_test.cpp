@@ -1,31 +1,11 @@
 // Virtual point lights: their flux and what surfaces get of it, against closed forms and each other.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
-#include "passes/common/view/gbuffer.h"
-#include "passes/common/vpls/vpls.h"
-#include "tests/gpu/chain.h"
+#include "tests/physics/many_lights.h"
 #include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-const Vpls& vpls(const Chain& chain) {
-    return *chain.graph().resource<Vpls>("vpls");
-}
-
-std::string manyLights(const std::string& sample, const std::string& gather) {
-    return graphYaml(
-        {"gbuffer", "voxelize, resolution: 32", "sample_vpls, " + sample, "gather_vpls, " + gather});
-}
-
-std::vector<float> indirect(const std::string& scene, const std::string& parameters, const std::string& graph,
-                            uint32_t side = 32) {
-    return Chain(scene, parameters, graph, side, side).image("indirect").data;
-}
 
 TEST(ManyLights, ReflectAllLightOfAClosedRoom) {
     // A point light of 2 W/sr: 8 pi W arrive, and half of it is reflected at each of three hits
@@ -92,8 +72,8 @@ TEST(ManyLights, KeepTheEnergyOfAFurnace) {
 
 TEST(ManyLights, AllWalksThroughVoxelsGiveTheSameImage) {
     const auto image = [](const std::string& visibility) {
-        return indirect("cornell", "{lights: point}",
-                        manyLights("vpls_per_bounce: 256", "visibility: " + visibility));
+        return indirectLight("cornell", "{lights: point}",
+                             manyLights("vpls_per_bounce: 256", "visibility: " + visibility));
     };
     const std::vector<float> bits = image("bits");
     EXPECT_EQ(bits, image("bricks"));
@@ -102,85 +82,10 @@ TEST(ManyLights, AllWalksThroughVoxelsGiveTheSameImage) {
     EXPECT_NE(bits, image("exact"));
 }
 
-/// Mean difference of two images, over the mean of the exact one.
-double meanDifference(const std::vector<float>& image, const std::vector<float>& exact) {
-    double difference = 0, all = 0;
-    for (size_t i = 0; i < exact.size(); ++i) {
-        difference += std::abs(image[i] - exact[i]);
-        all += exact[i];
-    }
-    return difference / all;
-}
-
-TEST(ManyLights, ShadowMapsComeNearToExactShadows) {
-    // What stays lies along edges of the room,
-    // which pixels' centers fall on here: texels next to an edge see the other wall
-    const auto image = [](const std::string& visibility) {
-        return indirect("cornell", "{lights: point}",
-                        manyLights("vpls_per_bounce: 256", "block: 1, visibility: " + visibility));
-    };
-    const std::vector<float> exact = image("exact");
-    double before = 0.05;
-    for (const int resolution : {16, 64, 256}) {
-        const std::vector<float> map = image(fmt::format("shadow_map, map_resolution: {}", resolution));
-        const double difference = meanDifference(map, exact);
-        std::printf("maps of %d texels a side: %.4f\n", resolution, difference);
-        EXPECT_LT(difference, 0.8 * before);
-        before = difference;
-    }
-    EXPECT_LT(before, 0.007);
-}
-
-TEST(ManyLights, ImperfectShadowMapsComeNearToExactShadowsWithMorePoints) {
-    // As above; points that are far apart leave holes
-    const auto image = [](const std::string& visibility) {
-        return indirect("cornell", "{lights: point}",
-                        manyLights("vpls_per_bounce: 256", "block: 1, visibility: " + visibility));
-    };
-    const std::vector<float> exact = image("exact");
-    double before = 0.2;
-    for (const int points : {512, 4096, 32768}) {
-        const std::vector<float> map =
-            image(fmt::format("imperfect_shadow_map, map_resolution: 64, map_points: {}", points));
-        const double difference = meanDifference(map, exact);
-        std::printf("maps of %d points: %.4f\n", points, difference);
-        EXPECT_LT(difference, 0.8 * before);
-        before = difference;
-    }
-    EXPECT_LT(before, 0.02);
-    const std::string same = "imperfect_shadow_map, map_resolution: 64, map_points: 4096";
-    EXPECT_EQ(image(same), image(same));
-}
-
-TEST(ManyLights, ShadowMapsOfAnEmptyRoomHideNothingButAtEdges) {
-    // Walls are at a distance of 1 m from the center, texels at most 13 cm wide. A few virtual lights are
-    // next to edges themselves
-    const auto chain = [](const std::string& visibility) {
-        return Chain("white_room", "{}",
-                     manyLights("vpls_per_bounce: 256", "block: 1, visibility: " + visibility));
-    };
-    const std::vector<float> open = chain("none").image("indirect").data;
-    for (const std::string kind : {"shadow_map", "imperfect_shadow_map"}) {
-        SCOPED_TRACE(kind);
-        Chain map = chain(kind + ", map_resolution: 64");
-        const std::vector<float> shaded = map.image("indirect").data;
-        const auto positions = map.readImage<glm::vec4>(map.graph().resource<GBuffer>("gbuffer")->position);
-        size_t inside = 0;
-        for (size_t i = 0; i < positions.size(); ++i) {
-            glm::vec3 off = 1.0f - glm::abs(glm::vec3(positions[i]));
-            if (off.x > off.y) std::swap(off.x, off.y);
-            if (std::min(std::max(off.x, off.y), off.z) < 0.2f) continue;
-            ++inside;
-            ASSERT_NEAR(shaded[3 * i], open[3 * i], 0.01 * open[3 * i]) << i;
-        }
-        EXPECT_GT(inside, 400u);
-    }
-}
-
 TEST(ManyLights, AreLinearInLightAndDeterministic) {
     const auto image = [](const std::string& intensity) {
-        return indirect("white_room", "{intensity: " + intensity + "}",
-                        manyLights("vpls_per_bounce: 256", "visibility: exact, compensation_rays: 2"));
+        return indirectLight("white_room", "{intensity: " + intensity + "}",
+                             manyLights("vpls_per_bounce: 256", "visibility: exact, compensation_rays: 2"));
     };
     const std::vector<float> one = image("1"), four = image("4");
     EXPECT_EQ(one, image("1"));
@@ -293,73 +198,6 @@ TEST(ManyLights, OfSurfacesWithShadingNormalsBringTheLightOfTheReference) {
     EXPECT_NEAR(lights / reference, 1, 0.02);
 }
 
-std::string rsmLights(const std::string& rsm, const std::string& sample) {
-    return graphYaml({"gbuffer", "voxelize", "render_rsm" + rsm, "sample_vpls, first: rsm, " + sample,
-                      "gather_vpls, visibility: exact, bound: 0"});
-}
-
-TEST(ManyLights, OfReflectiveShadowMapsCarryEqualPartsOfAllFlux) {
-    // Half of 8 pi W is reflected. Parts are equal but for the rounding of weights to whole numbers
-    Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
-                rsmLights(", rsm_resolution: 256", "vpls_per_bounce: 4096, bounces: 1"), 4, 4);
-    const auto points = chain.read<gpu::Vpl>(vpls(chain).points);
-    ASSERT_EQ(vpls(chain).count, 4096u);
-    for (const gpu::Vpl& vpl : points) ASSERT_NEAR(vpl.flux.y * 4096 / (4 * kPi), 1, 2e-3);
-}
-
-TEST(ManyLights, OfReflectiveShadowMapsBringTheLightOfLightRays) {
-    for (const auto& [scene, parameters] :
-         {std::pair{"cornell", "{lights: point}"}, std::pair{"cornell", "{lights: spot}"},
-          std::pair{"cornell", "{lights: sun}"}}) {
-        const std::vector<float> rays = indirect(
-            scene, parameters, manyLights("vpls_per_bounce: 16384", "visibility: exact, bound: 0, block: 1"));
-        Chain map(
-            scene, parameters,
-            graphYaml({"gbuffer", "voxelize", "render_rsm", "sample_vpls, first: rsm, vpls_per_bounce: 16384",
-                       "gather_vpls, visibility: exact, bound: 0, block: 1"}));
-        double sumOfRays = 0, sumOfMap = 0;
-        const std::vector<float> image = map.image("indirect").data;
-        for (size_t i = 0; i < rays.size(); ++i) sumOfRays += rays[i], sumOfMap += image[i];
-        EXPECT_NEAR(sumOfMap / sumOfRays, 1, 0.02) << parameters;
-    }
-}
-
-TEST(ManyLights, OfReflectiveShadowMapsAllFallOnTheOnlyTexelThatSeesAnything) {
-    // A square of 20 cm, 1 m below a spot: of nine texels the center sees it, with (2/3)² sr. More paths than
-    // texels
-    SceneState state = evaluate(makeBuiltinScene("plane", parseYaml("{light: spot}", "scene")), 0.0);
-    Light& spot = state.lights.at(0);
-    spot.outerConeAngle = float(kPi / 4), spot.innerConeAngle = spot.outerConeAngle - 0.01f;
-    for (glm::vec3& position : state.geometry.positions) position *= 0.02f;
-    state.geometry.boundsMin *= 0.02f, state.geometry.boundsMax *= 0.02f;
-    Chain chain(std::make_shared<SceneState>(state),
-                rsmLights(", rsm_resolution: 3", "vpls_per_bounce: 64, bounces: 1"), 4, 4, 1);
-    ASSERT_EQ(vpls(chain).count, 64u);
-    double flux = 0;
-    for (const gpu::Vpl& vpl : chain.read<gpu::Vpl>(vpls(chain).points)) {
-        flux += vpl.flux.y;
-        EXPECT_LT(glm::length(vpl.position), 1e-4f);
-    }
-    EXPECT_NEAR(flux / (0.5 * 4.0 / 9), 1, 1e-4);
-}
-
-TEST(ManyLights, OfReflectiveShadowMapsMoveWithTheLight) {
-    // A light that moves by a millimetre moves its virtual lights by little more
-    const auto positions = [](float x) {
-        SceneState state = evaluate(makeBuiltinScene("white_room", parseYaml("{}", "scene")), 0.0);
-        state.lights.at(0).position.x = x;
-        Chain chain(std::make_shared<SceneState>(state), rsmLights("", "vpls_per_bounce: 1024, bounces: 1"),
-                    4, 4, 1);
-        return chain.read<gpu::Vpl>(vpls(chain).points);
-    };
-    const std::vector<gpu::Vpl> before = positions(0.1f), after = positions(0.101f);
-    size_t far = 0;
-    for (size_t i = 0; i < before.size(); ++i)
-        far += glm::distance(before[i].position, after[i].position) > 0.03f;
-    std::printf("%zu of %zu virtual lights moved by more than 3 cm\n", far, before.size());
-    EXPECT_LT(double(far), 0.02 * double(before.size()));
-}
-
 TEST(ManyLights, AreOtherOnesInEachFrameWhereAsked) {
     const auto differs = [](const std::string& resample) {
         Chain chain("white_room", "{}",
@@ -371,13 +209,6 @@ TEST(ManyLights, AreOtherOnesInEachFrameWhereAsked) {
     };
     EXPECT_FALSE(differs("false"));
     EXPECT_TRUE(differs("true"));
-}
-
-TEST(ManyLights, OfReflectiveShadowMapsNameWhatHasNoViewpointAndWhatIsBlack) {
-    EXPECT_CONTAINS(errorOf([] { Chain("cornell", "{lights: area}", rsmLights("", "bounces: 1")); }),
-                    "'first: light_rays' of sample_vpls");
-    EXPECT_CONTAINS(errorOf([] { Chain("white_room", "{albedo: 0}", rsmLights("", "bounces: 1")); }),
-                    "none of 1024 rays from the lights hit a surface that reflects light");
 }
 
 TEST(ManyLights, RouletteSavesRaysAndKeepsTheEnergy) {

@@ -105,6 +105,14 @@ bool overlapsVoxel(GridTriangle t, ivec3 voxel, float margin) {
            overlapsSquare(t.p0.zx, t.p1.zx, t.p2.zx, t.winding.y, corner.zx, margin);
 }
 
+// Whether any one voxel meets the triangle: all of the above.
+bool meetsVoxel(GridTriangle t, ivec3 voxel, float margin) {
+    const ivec4 columns = columnRange(t, margin, voxel.xy + 1);
+    const ivec2 depths = depthRange(t, voxel.xy, margin, voxel.z + 1);
+    return all(greaterThanEqual(voxel.xy, columns.xy)) && all(lessThanEqual(voxel.xy, columns.zw)) && voxel.z >= depths.x &&
+           voxel.z <= depths.y && overlapsColumn(t, voxel.xy, margin) && overlapsVoxel(t, voxel, margin);
+}
+
 // Barycentric coordinates of the triangle's point over xy, moved into the triangle where xy is outside.
 vec2 barycentricsAt(GridTriangle t, vec2 xy) {
     const vec2 e1 = t.p1.xy - t.p0.xy, e2 = t.p2.xy - t.p0.xy, d = xy - t.p0.xy;
