@@ -1,5 +1,5 @@
 # The report needs Debian's Python with numpy, pandas, matplotlib and Jinja2, which is not always the first on PATH.
-foreach(part page pareto ranking reading)
+foreach(part explain page pareto ranking reading)
   add_test(NAME report.${part}
     COMMAND /usr/bin/python3 -m unittest -v report_${part}_test
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}/tests/unit)

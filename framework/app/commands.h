@@ -13,6 +13,7 @@ void addSceneCommand(CLI::App& app, int& status);
 void addExportSceneCommand(CLI::App& app, int& status);
 void addCompareCommand(CLI::App& app, int& status);
 void addParetoCommand(CLI::App& app, int& status);
+void addExplainCommand(CLI::App& app, int& status);
 void addPassesCommand(CLI::App& app, int& status);
 void addDevicesCommand(CLI::App& app, int& status);
 void addDoctorCommand(CLI::App& app, int& status);

@@ -3,8 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "config/config.h"
+#include "experiment/runner.h"
 
 namespace voxray {
 
@@ -25,6 +27,23 @@ inline void addConfigOptions(CLI::App& command, ConfigArguments& arguments) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_option("--scenes", arguments.scenes, "Folder in which scene files are looked for first.")
         ->type_name("DIR");
+}
+
+/// What every command that renders variants takes besides.
+inline void addRunOptions(CLI::App& command, RunOptions& options, const std::string& outHelp) {
+    command.add_option("--out", options.out, outHelp)->type_name("DIR");
+    command
+        .add_option("--device", options.deviceName,
+                    "Part of a Vulkan device's name; default: the best that qualifies.")
+        ->type_name("NAME");
+    command
+        .add_option("--tracer", options.tracer,
+                    "Ray tracer in place of the config's: auto, ray_query, ray_pipeline or embree.")
+        ->type_name("NAME");
+    command.add_flag("--resume", options.resume, "Keep what an earlier run of the same experiment finished.");
+    command.add_flag("--dry-run", options.dryRun,
+                     "Print variants, passes and predicted memory; render nothing.");
+    command.add_flag("--quiet", options.quiet, "Print nothing but errors.");
 }
 
 }  // namespace voxray

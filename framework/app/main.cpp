@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
     addExportSceneCommand(app, status);
     addCompareCommand(app, status);
     addParetoCommand(app, status);
+    addExplainCommand(app, status);
     addPassesCommand(app, status);
     addDevicesCommand(app, status);
     addDoctorCommand(app, status);

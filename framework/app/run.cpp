@@ -81,24 +81,10 @@ void addRunCommand(CLI::App& app, int& status) {
     auto arguments = std::make_shared<RunArguments>();
     RunOptions& options = arguments->options;
     command->add_option("CONFIG", arguments->configs, "Config files.")->required();
-    command
-        ->add_option(
-            "--out", options.out,
-            "Results folder; default results/<experiment>. With many configs, each gets a folder in it.")
-        ->type_name("DIR");
     addConfigOptions(*command, *arguments);
-    command
-        ->add_option("--device", options.deviceName,
-                     "Part of a Vulkan device's name; default: the best that qualifies.")
-        ->type_name("NAME");
-    command
-        ->add_option("--tracer", options.tracer,
-                     "Ray tracer in place of the config's: auto, ray_query, ray_pipeline or embree.")
-        ->type_name("NAME");
-    command->add_flag("--resume", options.resume,
-                      "Keep what an earlier run of the same experiment finished.");
-    command->add_flag("--dry-run", options.dryRun,
-                      "Print variants, passes and predicted memory; render nothing.");
+    addRunOptions(
+        *command, options,
+        "Results folder; default results/<experiment>. With many configs, each gets a folder in it.");
     command->add_flag(
         "--aovs", options.aovs,
         "Write what passes offer to look at in frame 0 (position, normals, albedo, depth, ids) into "
@@ -106,7 +92,6 @@ void addRunCommand(CLI::App& app, int& status) {
     command->add_flag("--validate", options.validation,
                       "Turn Vulkan's validation layer on: its messages are printed and fail the run (exit "
                       "status 1). Times are then not the method's.");
-    command->add_flag("--quiet", options.quiet, "Print nothing but errors.");
     command->callback([arguments, &status] { status = run(*arguments); });
 }
 

@@ -125,29 +125,6 @@ void checkTopLevel(const Value& config) {
         throw UsageError(profiles->where, "profiles: expected a map of named overrides");
 }
 
-Experiment readExperiment(Value config) {
-    config.erase("profiles");
-    checkTopLevel(config);
-    Experiment experiment;
-    experiment.setup = readSetup(config);
-    if (const Value* measure = config.find("measure"))
-        experiment.measure = readMeasure(*measure);
-    else
-        experiment.measure.metrics = metricNames();
-    if (const Value* sweep = config.find("sweep"); sweep && !sweep->isNull()) {
-        checkSweep(*sweep);
-        experiment.sweep = *sweep;
-    }
-    if (const Value* reference = config.find("reference"); reference && !reference->isNull()) {
-        if (!reference->isMap() || passId(*reference).empty())
-            throw UsageError(reference->where,
-                             "reference: expected a map with 'pass', as in {{pass: path_trace, spp: 64}}");
-        experiment.reference = *reference;
-    }
-    experiment.config = std::move(config);
-    return experiment;
-}
-
 Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
     checkTopLevel(root);
 
@@ -194,6 +171,29 @@ Setup readSetup(const Value& config) {
     setup.graph = require("graph");
     checkGraph(setup.graph);
     return setup;
+}
+
+Experiment readExperiment(Value config) {
+    config.erase("profiles");
+    checkTopLevel(config);
+    Experiment experiment;
+    experiment.setup = readSetup(config);
+    if (const Value* measure = config.find("measure"))
+        experiment.measure = readMeasure(*measure);
+    else
+        experiment.measure.metrics = metricNames();
+    if (const Value* sweep = config.find("sweep"); sweep && !sweep->isNull()) {
+        checkSweep(*sweep);
+        experiment.sweep = *sweep;
+    }
+    if (const Value* reference = config.find("reference"); reference && !reference->isNull()) {
+        if (!reference->isMap() || passId(*reference).empty())
+            throw UsageError(reference->where,
+                             "reference: expected a map with 'pass', as in {{pass: path_trace, spp: 64}}");
+        experiment.reference = *reference;
+    }
+    experiment.config = std::move(config);
+    return experiment;
 }
 
 Experiment parseExperiment(const std::string& yaml, const std::string& fileName,

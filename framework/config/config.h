@@ -39,6 +39,8 @@ Experiment loadExperiment(const std::filesystem::path& path, const ConfigOptions
 /// The same from text; `fileName` is for messages.
 Experiment parseExperiment(const std::string& yaml, const std::string& fileName,
                            const ConfigOptions& options = {});
+/// The same from a whole config with all overrides in place.
+Experiment readExperiment(Value config);
 
 /// Names of a config's profiles, in the file's order.
 std::vector<std::string> profileNames(const std::filesystem::path& path);

@@ -29,7 +29,7 @@ def embed(path: Path) -> Picture:
     """The PNG as it is. @throws ReportError where it is no PNG."""
     data = path.read_bytes()
     image = _open(path, data)
-    return Picture(_uri(data), *image.size)
+    return Picture(data_uri(data), *image.size)
 
 
 def embed_error(path: Path) -> Picture:
@@ -40,7 +40,7 @@ def embed_error(path: Path) -> Picture:
     palette.putpalette(_magma().tobytes())
     out = io.BytesIO()
     palette.save(out, "PNG", optimize=True)
-    return Picture(_uri(out.getvalue()), *grey.size)
+    return Picture(data_uri(out.getvalue()), *grey.size)
 
 
 def error_gradient(steps: int = 9) -> str:
@@ -62,5 +62,6 @@ def _open(path: Path, data: bytes) -> Image.Image:
         raise ReportError(f"{path}: is not a whole PNG file") from error
 
 
-def _uri(data: bytes) -> str:
+def data_uri(data: bytes) -> str:
+    """A PNG file to embed."""
     return "data:image/png;base64," + base64.b64encode(data).decode("ascii")

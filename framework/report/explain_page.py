@@ -1,0 +1,159 @@
+"""The page of `voxray explain`: sentences, a waterfall of the error's parts, and an image of each."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass
+from pathlib import Path
+
+import jinja2
+import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+from PIL import Image
+
+from report import images as pictures
+from report import text
+from report.explain import Explained, Images, percent, sentence
+from report.images import Picture
+from report.load import IMAGES, Results
+from report.style import CATEGORY_COLORS
+from report.svg import STAND_INS, drawing, to_svg
+
+_HERE = Path(__file__).resolve().parent
+_SIGNED_COLORS = "RdBu_r"  # blue: the stage takes light away, red: it adds light
+_SMALL = 0.1  # of the whole error: a rest that needs no word
+
+
+@dataclass(frozen=True)
+class Shown:
+    """An image with its caption."""
+
+    picture: Picture
+    title: str
+    note: str
+
+
+def render(results: Results, images: Images, explained: list[Explained]) -> str:
+    """The whole page, self-contained."""
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    scale = _scale(images)
+    config = results.manifest.get("config", {})
+    return environment.get_template("explain.html.j2").render(
+        style_css=(_HERE / "style.css").read_text(encoding="utf-8"), name=str(config.get("name", "")).removeprefix("explain_"),
+        sentences=[line for one in explained for line in _sentences(one)],
+        charts=[_waterfall(one, f"waterfall-{i}") for i, one in enumerate(explained)],
+        tables=[(one.label, _rows(one)) for one in explained], stages=[part.stage for part in explained[0].parts],
+        previews=_previews(results, images), parts=_part_images(images, explained[0], scale), scale=text.figures(scale, 2),
+        sets=[(_name_of(chosen), *(text.figures(one.errors[chosen]) for one in explained)) for chosen in images.of],
+        labels=[one.label for one in explained], directory=str(results.directory), gradient=_gradient())
+
+
+def csv_lines(explained: list[Explained]):
+    yield ["error", "stage", "changes", "part", "share", "share_low", "share_high", "orders_mean", "orders_min",
+           "orders_max"]
+    for one in explained:
+        yield [one.label, "whole", "", f"{one.whole:.9g}", 1, "", "", "", "", ""]
+        for part in one.parts:
+            yield [one.label, part.stage.name, "; ".join(part.stage.changes), f"{part.share * one.whole:.9g}",
+                   *(f"{value:.6g}" for value in (part.share, part.low, part.high, part.mean, part.least, part.most))]
+        yield [one.label, "rest", "", f"{one.rest * one.whole:.9g}", f"{one.rest:.6g}", f"{one.rest_low:.6g}",
+               f"{one.rest_high:.6g}", "", "", ""]
+        yield [one.label, "all swapped", "", f"{one.left * one.whole:.9g}", f"{one.left:.6g}", "", "", "", "", ""]
+
+
+def _name_of(chosen: frozenset[str]) -> str:
+    return " + ".join(sorted(chosen)) or "as it is"
+
+
+def _sentences(one: Explained) -> list[str]:
+    lines = [sentence(one)]
+    others = [f"{part.stage.name} {percent(part.share)}" for part in one.ranked()[1:]]
+    if others:
+        lines[0] += f" Then {', '.join(others)}; the rest is {percent(one.rest)}."
+    if abs(one.rest) > _SMALL:
+        spread = max(one.parts, key=lambda part: part.most - part.least)
+        lines.append(f"The parts of {one.label} do not add up: {percent(one.rest)} is left. "
+                     + (f"With all stages swapped {percent(one.left)} of the error remain, which no counterpart takes out. "
+                        if abs(one.left) > _SMALL else "")
+                     + f"What a stage brings depends on the others: {spread.stage.name} between {percent(spread.least)} and "
+                       f"{percent(spread.most)}, by the order in which stages are swapped.")
+    lines += [f"Of {one.label}, the error grows by {percent(-part.share)} where {part.stage.name} is swapped: it hides what "
+              "other stages do wrong." for part in one.parts if part.high < -_SMALL / 2]
+    return lines
+
+
+def _rows(one: Explained) -> list[tuple[str, ...]]:
+    rows = [(part.stage.name, percent(part.share), f"{percent(part.low)} to {percent(part.high)}", percent(part.mean),
+             f"{percent(part.least)} to {percent(part.most)}") for part in one.parts]
+    total = sum(part.mean for part in one.parts)
+    return rows + [("rest", percent(one.rest), f"{percent(one.rest_low)} to {percent(one.rest_high)}", percent(1 - total), "")]
+
+
+def _waterfall(one: Explained, chart_id: str) -> str:
+    """Bars from the whole error down, a stage each; a dot and a line stand for its part over all orders."""
+    names = ["whole", *(part.stage.name for part in one.parts), "rest"]
+    with drawing():
+        figure = Figure(figsize=(5.4, 3.4), dpi=72)
+        axes = figure.add_axes((0.11, 0.2, 0.87, 0.72))
+        level, titles = 1.0, []
+        for i, (name, share) in enumerate(zip(names, [1.0, *(part.share for part in one.parts), one.rest])):
+            top, bottom = (1.0, 0.0) if i == 0 else (level, level - share)
+            color = STAND_INS["muted" if i == 0 or name == "rest" else CATEGORY_COLORS[(i - 1) % len(CATEGORY_COLORS)]]
+            bar = axes.bar(i, 100 * (top - bottom), bottom=100 * bottom, width=0.62, color=color)[0]
+            bar.set_gid(f"{chart_id}-point-{i}")
+            titles.append(f"{name}: {percent(share)} of {one.label}")
+            axes.text(i, 100 * max(top, bottom) + 2, percent(share), ha="center", va="bottom", color=STAND_INS["fg"])
+            if i > 0:
+                axes.plot([i - 1.31 + 0.62, i + 0.31], [100 * level] * 2, color=STAND_INS["muted"], linewidth=0.8)
+                level = bottom
+        for i, part in enumerate(one.parts, 1):
+            start = 1.0 - sum(before.share for before in one.parts[:i - 1])
+            ends = [100 * (start - value) for value in (part.least, part.mean, part.most)]
+            axes.plot([i + 0.2] * 2, [ends[0], ends[2]], color=STAND_INS["fg"], linewidth=1.2)
+            axes.plot(i + 0.2, ends[1], "o", color=STAND_INS["fg"], markersize=4)
+        axes.axhline(0, color=STAND_INS["muted"], linewidth=0.8)
+        axes.set_xticks(range(len(names)), names, rotation=20, ha="right")
+        axes.set_ylabel(f"% of {one.label}")
+        axes.margins(y=0.12)
+        axes.spines[["top", "right"]].set_visible(False)
+        return to_svg(figure, chart_id, f"Parts of {one.label}", titles)
+
+
+def _scale(images: Images) -> float:
+    """Difference that gets the full colour: the 98th percentile of the whole error's."""
+    error = np.abs((images.of[frozenset()] - images.reference).mean(axis=-1))
+    return float(np.percentile(error, 98)) or 1.0
+
+
+def _signed(difference: np.ndarray, scale: float) -> Picture:
+    shade = np.clip(difference.mean(axis=-1) / scale, -1, 1) * 0.5 + 0.5
+    colored = (matplotlib.colormaps[_SIGNED_COLORS](shade)[..., :3] * 255).round().astype(np.uint8)
+    out = io.BytesIO()
+    Image.fromarray(colored).save(out, "PNG", optimize=True)
+    return Picture(pictures.data_uri(out.getvalue()), colored.shape[1], colored.shape[0])
+
+
+def _part_images(images: Images, one: Explained, scale: float) -> list[Shown]:
+    error = images.of[frozenset()] - images.reference
+    shown = [Shown(_signed(error, scale), "whole error", "image − reference")]
+    rest = error
+    for part in one.parts:
+        added = images.part(part.stage)
+        rest = rest - added
+        shown.append(Shown(_signed(added, scale), part.stage.name, f"{percent(part.share)} of {one.label}"))
+    return shown + [Shown(_signed(rest, scale), "rest", f"{percent(one.rest)} of {one.label}")]
+
+
+def _previews(results: Results, images: Images) -> list[Shown]:
+    every = frozenset(set().union(*images.of))
+    name = results.reference_folder(images.names[frozenset()]) or "reference"
+    listed = (("reference", name), ("as it is", images.names[frozenset()]), ("all stages swapped", images.names[every]))
+    return [Shown(pictures.embed(path), title, "indirect light") for title, folder in listed
+            if (path := results.image(folder, IMAGES["indirect"][0]))]
+
+
+def _gradient(steps: int = 9) -> str:
+    colors = (matplotlib.colormaps[_SIGNED_COLORS](np.linspace(0, 1, steps))[:, :3] * 255).round().astype(int)
+    return ", ".join(f"#{r:02x}{g:02x}{b:02x}" for r, g, b in colors)

@@ -1,0 +1,144 @@
+"""Tests of the parts of an error, on images whose parts are known."""
+
+import contextlib
+import csv
+import io
+import itertools
+import json
+import math
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "framework"), str(Path(__file__).resolve().parent)]
+
+import report_results as made_up  # noqa: E402
+from exr_writer import exr  # noqa: E402
+from report import explain, make_explain  # noqa: E402
+from report.load import load  # noqa: E402
+from report_support import Page  # noqa: E402
+
+SIZE = (64, 48)
+
+
+def stage(name, *needs):
+    return {"name": name, "cure": f"more of {name}", "needs": list(needs), "changes": [f"{name}.n 1 → 9"]}
+
+
+class Explain(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.directory = Path(folder.name) / "run"
+        random = np.random.default_rng(5)
+        self.noise = [random.standard_normal((SIZE[1], SIZE[0], 3)) for _ in range(4)]
+
+    def write(self, errors, stages, light=2.0):
+        """A run in which each stage that is not swapped adds its error, images of mean `light`, to an even reference with noise."""
+        names = [entry["name"] for entry in stages]
+        needs = {entry["name"]: set(entry["needs"]) for entry in stages}
+        sets = [chosen for n in range(len(names) + 1) for chosen in itertools.combinations(names, n)
+                if all(needs[name] <= set(chosen) for name in chosen)]
+        labels = {" + ".join(chosen) or "as it is": list(chosen) for chosen in sets}
+        rows = [made_up.variant(f"v{i}", 1, 0.1, 0.1, explained=label) for i, label in enumerate(labels)]
+        run = made_up.manifest(["explained"])
+        made_up.write_results(self.directory, rows, run)
+        truth = np.full((SIZE[1], SIZE[0], 3), light)
+        for row, chosen in zip(rows, sets):
+            self.save(row["variant"], "indirect", truth + sum((errors[name] for name in names if name not in chosen), 0 * truth))
+        for half, noise in zip("ab", self.noise[2:]):
+            self.save("reference", f"indirect_{half}", truth + 0.2 * light * noise)
+        (self.directory / "explain.json").write_text(json.dumps({"stages": stages, "variants": labels}), encoding="utf-8")
+
+    def save(self, folder, name, image):
+        (self.directory / "images" / folder / f"{name}.exr").write_bytes(exr(image.astype(np.float32), zipped=True))
+
+    def explained(self, label="nRMSE²"):
+        stages, images = explain.read(load(self.directory))
+        return explain.explain(stages, images, label)
+
+    def make(self):
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(io.StringIO()) as printed:
+            status = make_explain.main([str(self.directory)])
+        return status, printed.getvalue() + errors.getvalue()
+
+    def test_independent_errors_add_up(self):
+        self.write({"gather": 0.8 * self.noise[0], "injection": 0.4 * self.noise[1]}, [stage("gather"), stage("injection")])
+        found = self.explained()
+        self.assertAlmostEqual(found.whole, (0.16 + 0.04), delta=0.02)  # In units of the mean, 2.
+        gather, injection = found.parts
+        self.assertAlmostEqual(gather.share, 0.8, delta=0.05)
+        self.assertAlmostEqual(injection.share, 0.2, delta=0.05)
+        self.assertTrue(gather.low < 0.8 < gather.high)
+        self.assertAlmostEqual(found.rest, 0, delta=0.05)
+        self.assertAlmostEqual(found.left, 0, delta=0.05)
+        # relMSE of an even image is the squared nRMSE over 1.01
+        self.assertAlmostEqual(self.explained("relMSE").whole, found.whole / 1.01, delta=0.02)
+        self.assertEqual(explain.sentence(found).split(":")[1], " more of gather (gather.n 1 → 9).")
+
+    def test_biases_that_act_together_are_the_rest(self):
+        # (0.3 + 0.1)²: swapped alone 0.15 and 0.07 of 0.16, in either order 0.15 + 0.01 or 0.07 + 0.09
+        self.write({"a": np.array(0.6), "b": np.array(0.2)}, [stage("a"), stage("b")])
+        found = self.explained()
+        a, b = found.parts
+        for value, right in ((a.share, 0.15 / 0.16), (b.share, 0.07 / 0.16), (found.rest, -0.06 / 0.16), (a.least, 0.09 / 0.16),
+                             (a.most, 0.15 / 0.16), (a.mean, 0.12 / 0.16), (b.least, 0.01 / 0.16)):
+            self.assertAlmostEqual(value, right, delta=0.03)
+        self.assertAlmostEqual(a.mean + b.mean + found.left, 1, 6)
+        self.assertEqual(self.make()[0], 0)
+        page = Page((self.directory / "explain.html").read_text(encoding="utf-8"))
+        self.assertIn("do not add up: −3", page.text)
+
+    def test_stages_are_swapped_along_with_those_that_they_need(self):
+        # An error that cancels the other's can be seen without it alone
+        self.write({"a": 0.8 * self.noise[0], "b": -0.8 * self.noise[0] + 0.4 * self.noise[1]}, [stage("a"), stage("b", "a")])
+        found = self.explained()
+        self.assertLess(found.parts[0].share, 0)
+        self.assertAlmostEqual(found.parts[0].share + found.parts[1].share, 1, delta=0.05)
+
+    def test_page_and_table(self):
+        self.write({"gather": 0.8 * self.noise[0], "injection": 0.4 * self.noise[1]}, [stage("gather"), stage("injection")])
+        status, said = self.make()
+        self.assertEqual(status, 0, said)
+        self.assertRegex(said, r"^\d\d % of relMSE is the gather: more of gather")
+        page = Page((self.directory / "explain.html").read_text(encoding="utf-8"))
+        self.assertEqual(page.count("svg", "chart"), 2)
+        self.assertEqual(page.count("img", "sharp"), 1 + 2 + 1 + 3)  # Whole, parts, rest; previews.
+        self.assertFalse([source for source in page.attributes("src") if not source.startswith("data:")])
+        self.assertFalse(page.attributes("href"))
+        with open(self.directory / "explain.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["stage"] for row in rows[:5]], ["whole", "gather", "injection", "rest", "all swapped"])
+        parts = [float(row["part"]) for row in rows[1:4]]
+        self.assertTrue(math.isclose(sum(parts), float(rows[0]["part"]), rel_tol=1e-6))
+
+    def test_what_is_no_whole_run_is_refused(self):
+        self.write({"a": 0.8 * self.noise[0]}, [stage("a")])
+        plan = self.directory / "explain.json"
+        listed = json.loads(plan.read_text(encoding="utf-8"))
+        plan.unlink()
+        self.assertIn("no run of voxray explain", self.make()[1])
+        listed["variants"]["b"] = ["b"]
+        plan.write_text(json.dumps(listed), encoding="utf-8")
+        status, said = self.make()
+        self.assertEqual(status, 2)
+        self.assertIn("no finished variant 'b'; run it again with --resume", said)
+        del listed["variants"]["b"]
+        plan.write_text(json.dumps(listed), encoding="utf-8")
+        (self.directory / "images" / "v0" / "indirect.exr").unlink()
+        self.assertIn("must write 'indirect'", self.make()[1])
+
+    def test_noise_of_the_reference_is_no_error(self):
+        self.write({"a": np.array(0.0)}, [stage("a")])
+        for half, sign in zip("ab", (1, -1)):  # Halves whose product is negative everywhere.
+            self.save("reference", f"indirect_{half}", 2 + sign * 0.5 * np.ones((SIZE[1], SIZE[0], 3)))
+        self.assertIn("raise reference.spp", self.make()[1])
+
+
+if __name__ == "__main__":
+    unittest.main()
