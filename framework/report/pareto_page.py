@@ -39,7 +39,8 @@ def render(runs: list[Results], metric: Metric, light: str) -> str:
     return environment.get_template("pareto.html.j2").render(
         style_css=(_HERE / "style.css").read_text(encoding="utf-8"), metric=metric, light=light, charts=charts,
         legend=list(styles.items()), markers=MARKERS, tables=[(cost, _savings(rivalled, cost)) for cost in pareto.TIMES],
-        equal_time=_equal_time(rivalled, "frame"), best_points=_best_points(rivalled), gains=_gains(both), worst_of=_WORST_OF, scene_names=[scene.name for scene in rivalled],
+        equal_time=_equal_time(rivalled, "frame"), best_points=_best_points(rivalled), gains=_gains(both),
+        worst_of=_WORST_OF, scene_names=[scene.name for scene in rivalled],
         dominated={cost: pareto.dominated(scenes, cost) for cost in pareto.TIMES},
         words={cost: _words_of(cost) for cost in pareto.TIMES},
         runs=[str(run.directory) for run in runs])

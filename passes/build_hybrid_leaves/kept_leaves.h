@@ -10,8 +10,8 @@ namespace voxray {
 /// surfaces have changed. Their numbers and places are new; what they hold is copied, list by list and grid
 /// by grid.
 ///
-///     remember()                           after each build
-///     begin(), counts(), lists(), grids()  in the order in which an update fills the new arrays
+///     remember()                                   after each build
+///     begin(), counts(), lists(), bits(), cells()  in the order in which an update fills the new arrays
 ///     end()
 class KeptLeaves {
  public:

@@ -1,4 +1,5 @@
-// What a cell of a leaf's grid holds of the surfaces in it, packed in three words.
+// What a cell of a leaf's grid holds of the surfaces in it, packed in three words, and in three more where
+// surfaces emit light or have specular lobes.
 #ifndef VOXRAY_GRID_CELL_GLSL
 #define VOXRAY_GRID_CELL_GLSL
 
@@ -56,12 +57,13 @@ struct BrightCell {
     float roughness;
 };
 
-// Words: emission with a common exponent; F0 in 11, 11 and 10 bits; roughness in 16, F90 in 15 and the sides in 1.
+// Words: emission over the largest of the scene, with a common exponent; F0 in 11, 11 and 10 bits; roughness in 16, F90 in 15 and the sides in 1.
 void storeBrightCell(uint number, BrightCell c) {
     const uint at = number * hybridLeaves.shape.cellWords + GRID_CELL_WORDS;
     const uvec3 f0 = uvec3(round(clamp(c.f0, 0.0, 1.0) * vec3(2047.0, 2047.0, 1023.0)));
     const uvec2 rest = uvec2(round(clamp(vec2(c.roughness, c.f90), 0.0, 1.0) * vec2(65535.0, 32767.0)));
-    hybridLeaves.cells.data[at] = toSharedExponent(c.emission);
+    const float scale = LARGEST_SHARED_EXPONENT / max(hybridLeaves.shape.largestEmission, 1e-20);
+    hybridLeaves.cells.data[at] = toSharedExponent(c.emission * scale);
     hybridLeaves.cells.data[at + 1u] = f0.x | f0.y << 11 | f0.z << 22;
     hybridLeaves.cells.data[at + 2u] = rest.x | rest.y << 16 | (c.bothSides ? 1u << 31 : 0u);
 }
@@ -70,7 +72,8 @@ BrightCell brightCell(uint number) {
     if (hybridLeaves.shape.cellWords == GRID_CELL_WORDS) return BrightCell(vec3(0.0), false, vec3(0.0), 0.0, 1.0);
     const uint at = number * hybridLeaves.shape.cellWords + GRID_CELL_WORDS;
     const uint f0 = hybridLeaves.cells.data[at + 1u], rest = hybridLeaves.cells.data[at + 2u];
-    return BrightCell(fromSharedExponent(hybridLeaves.cells.data[at]), (rest & 1u << 31) != 0u,
+    const float scale = hybridLeaves.shape.largestEmission / LARGEST_SHARED_EXPONENT;
+    return BrightCell(fromSharedExponent(hybridLeaves.cells.data[at]) * scale, (rest & 1u << 31) != 0u,
                      vec3(f0 & 2047u, f0 >> 11 & 2047u, f0 >> 22) / vec3(2047.0, 2047.0, 1023.0),
                      float(rest >> 16 & 32767u) / 32767.0, float(rest & 65535u) / 65535.0);
 }

@@ -3,8 +3,10 @@
 #ifndef VOXRAY_SHARED_EXPONENT_GLSL
 #define VOXRAY_SHARED_EXPONENT_GLSL
 
+const float LARGEST_SHARED_EXPONENT = 65408.0;
+
 uint toSharedExponent(vec3 v) {
-    const vec3 clamped = clamp(v, 0.0, 65408.0);
+    const vec3 clamped = clamp(v, 0.0, LARGEST_SHARED_EXPONENT);
     const float largest_ = max(clamped.x, max(clamped.y, clamped.z));
     int exponent = largest_ > 0.0 ? max(int(floor(log2(largest_))), -16) + 16 : 0;
     if (round(largest_ * exp2(float(24 - exponent))) >= 512.0) ++exponent;

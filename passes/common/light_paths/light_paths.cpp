@@ -38,7 +38,8 @@ Defines followDefines(Write write) {
 void checkBeams(const std::string& pass, const LightPathParams& params,
                 const std::vector<LightSource>& sources) {
     const char* write = params.write == Write::Max ? "max" : "moving_average";
-    if (params.secondary >= Secondary::Diffuse && params.bounces > 0)
+    const bool isDiffuse = params.secondary == Secondary::Diffuse || params.secondary == Secondary::Material;
+    if (isDiffuse && params.bounces > 0)
         throw Error(
             "{}: 'write: {}' merges irradiances, and a diffusely reflected ray has none, only power; use "
             "'secondary: mirror' or 'none', or 'write: average'",
