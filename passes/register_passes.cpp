@@ -17,6 +17,7 @@
 #include "passes/gather_merged_rays/gather_merged_rays.h"
 #include "passes/gather_mirror/gather_mirror.h"
 #include "passes/gather_rays/gather_rays.h"
+#include "passes/gather_surfels/gather_surfels.h"
 #include "passes/gather_vpls/gather_vpls.h"
 #include "passes/gbuffer/gbuffer_pass.h"
 #include "passes/inject_camera_rays/inject_camera_rays.h"
@@ -37,6 +38,7 @@
 #include "passes/sample_vpls/sample_vpls.h"
 #include "passes/select_vpls/select_vpls.h"
 #include "passes/show_voxels/show_voxels.h"
+#include "passes/smooth_surfels/smooth_surfels.h"
 #include "passes/trace_gather_rays/trace_gather_rays.h"
 #include "passes/update_radiance_cache/update_radiance_cache.h"
 #include "passes/voxelize/voxelize_pass.h"
@@ -54,6 +56,7 @@ void registerPasses(Registry& registry) {
     registry.add<InjectVoxelRays>();
     registry.add<LinkSurfels>();
     registry.add<InjectRadiosity>();
+    registry.add<SmoothSurfels>();
     registry.add<InjectGatherHits>();
     registry.add<InjectCameraRays>();
     registry.add<InjectRsm>();
@@ -64,6 +67,7 @@ void registerPasses(Registry& registry) {
     registry.add<GatherCones>();
     registry.add<ProbeIrradiance>();
     registry.add<GatherIrradiance>();
+    registry.add<GatherSurfels>();
     registry.add<ShowVoxels>();
     registry.add<TraceGatherRays>();
     registry.add<GatherRays>();

@@ -20,7 +20,7 @@ import sys
 
 LEFT_OUT = {"direct", "composite"}
 SHARED = {"gbuffer", "filter_irradiance"}
-LIGHT = {"inject", "few_rays", "inject_radiosity", "update_radiance_cache", "sample_vpls", "select_vpls"}
+LIGHT = {"inject", "few_rays", "inject_radiosity", "smooth_surfels", "update_radiance_cache", "sample_vpls", "select_vpls"}
 ERRORS = ("indirect_nrmse", "indirect_relmse")
 
 # Of each column: its title, the pass that its methods have, whether a build pass counts, and what does not count.

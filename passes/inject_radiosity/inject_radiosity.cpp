@@ -1,5 +1,6 @@
 #include "passes/inject_radiosity/inject_radiosity.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "passes/common/compute/dispatch.h"
@@ -10,7 +11,7 @@ namespace {
 
 constexpr uint64_t kIrradianceBytes = 4 * sizeof(float), kRadiosityBytes = sizeof(uint32_t);
 
-struct ReflectPush {
+struct ChunkPush {
     uint32_t count;
     uint32_t firstNumber;
 };
@@ -28,22 +29,29 @@ void InjectRadiosity::declare(PassBuilder& builder) {
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels to light");
     surfels_ = builder.read<Surfels>("surfels", "points where irradiance is measured");
     links_ = builder.read<SurfelLinks>("links", "which surfels each surfel sees");
+    byVoxel_ = builder.read<SurfelsByVoxel>("surfels_by_voxel", "the surfels of each voxel");
     irradiance_ = builder.write<VoxelIrradiance>("irradiance", "light that arrives at the voxels' surfaces");
+    surfelIrradiance_ = builder.write<SurfelIrradiance>("surfel_irradiance", "light that arrives at surfels");
 }
 
 void InjectRadiosity::plan(PassPlan& plan) {
     plan.get(irradiance_).lightBounces = params_.bounces;
     sources_ = requireLightSources(*plan.frame.scene, kName);
-    injection_.plan(plan, kName, params_, {Surfels::kChunk, true, false, params_.lightSamples},
-                    plan.get(voxels_));
+    injection_.plan(plan, kName, params_, {Surfels::kChunk, false, false}, plan.get(voxels_));
+    light_.plan(plan, Surfels::kChunk);
+    if (plan.get(surfelIrradiance_).isRead)
+        plan.reserve("indirect irradiance of surfels (estimated)",
+                     plan.get(surfels_).maxCount * kRadiosityBytes);
     plan.reserveScratch("light of surfels (estimated)",
                         plan.get(surfels_).maxCount * 2 * (kIrradianceBytes + kRadiosityBytes));
 }
 
 void InjectRadiosity::prepare(PassSetup& setup) {
     injection_.prepare(setup);
+    light_.prepare(setup);
     reflect_ =
         makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_radiosity/reflect.comp"));
+    keep_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_radiosity/keep.comp"));
     bounce_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_radiosity/bounce.comp"));
 }
 
@@ -60,6 +68,7 @@ void InjectRadiosity::record(PassContext& context) {
     const std::vector<Surfels::Chunk>& chunks = context.get(surfels_).chunks;
     for (size_t i = 0; i < chunks.size(); ++i)
         injection_.write(context, chunks[i].surfels, chunks[i].count, light[i].direct, light[i].indirect);
+    if (context.get(surfelIrradiance_).isRead) keep(context, light);
     injection_.finish(context, scene.voxels, irradiance);
     radiosity_[0] = {}, radiosity_[1] = {};
     requireLight(context.stream, scene.voxels, irradiance);
@@ -68,7 +77,6 @@ void InjectRadiosity::record(PassContext& context) {
 
 std::vector<InjectRadiosity::ChunkLight> InjectRadiosity::measure(PassContext& context) {
     const SurfelLinks& links = context.get(links_);
-    const PathScene scene{context.get(voxels_), sources_};
     for (LargeBuffer& radiosity : radiosity_)
         radiosity = LargeBuffer(context.device, "radiosity of surfels", links.surfelCount * kRadiosityBytes);
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
@@ -79,10 +87,10 @@ std::vector<InjectRadiosity::ChunkLight> InjectRadiosity::measure(PassContext& c
         ChunkLight& l = light.emplace_back(Buffer(context.device, "direct irradiance of surfels", bytes),
                                            Buffer(context.device, "indirect irradiance of surfels", bytes));
         context.stream.fill(l.indirect, 0);
-        injection_.paths().measure(context, scene, chunk.surfels, chunk.count, seed, l.direct);
+        light_.measure(context, sources_, chunk.surfels, chunk.count, params_.lightSamples, seed, l.direct);
         context.stream.dispatch(
             reflect_, {{"surfels", chunk.surfels}, {"direct", l.direct}, {"RadiosityAt", radiosity_[0].at()}},
-            ReflectPush{chunk.count, first}, linearGroups(chunk.count));
+            ChunkPush{chunk.count, first}, linearGroups(chunk.count));
         first += chunk.count;
     }
     return light;
@@ -106,6 +114,24 @@ void InjectRadiosity::bounce(PassContext& context, uint32_t number, const std::v
         first += chunks[i].count;
     }
     std::swap(radiosity_[0], radiosity_[1]);
+}
+
+void InjectRadiosity::keep(PassContext& context, const std::vector<ChunkLight>& light) {
+    const SurfelsByVoxel& byVoxel = context.get(byVoxel_);
+    SurfelIrradiance& kept = context.get(surfelIrradiance_);
+    kept.indirect = {};
+    kept.indirect = LargeBuffer(context.device, "indirect irradiance of surfels",
+                                std::max(byVoxel.slotCount, 1u) * kRadiosityBytes);
+    const std::vector<Surfels::Chunk>& chunks = context.get(surfels_).chunks;
+    uint32_t first = 0;
+    for (size_t i = 0; i < chunks.size(); ++i) {
+        context.stream.dispatch(keep_,
+                                {{"indirect", light[i].indirect},
+                                 {"SlotsAt", byVoxel.slots.at()},
+                                 {"KeptAt", kept.indirect.at()}},
+                                ChunkPush{chunks[i].count, first}, linearGroups(chunks[i].count));
+        first += chunks[i].count;
+    }
 }
 
 }  // namespace voxray

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "passes/common/surfels/surfel_injection.h"
+#include "passes/common/surfels/surfel_light.h"
 #include "passes/common/surfels/surfel_links.h"
 #include "passes/common/surfels/surfels.h"
+#include "passes/common/surfels/surfels_by_voxel.h"
 
 namespace voxray {
 
@@ -49,14 +51,20 @@ class InjectRadiosity final : public Pass {
     /// Bounce 1, 2 ...: adds to the indirect irradiance of all chunks.
     void bounce(PassContext& context, uint32_t number, const std::vector<ChunkLight>& light);
 
+    /// Leaves the indirect irradiance of all chunks in the surfels' slots.
+    void keep(PassContext& context, const std::vector<ChunkLight>& light);
+
     Params params_;
     Port<const SurfaceVoxels> voxels_;
     Port<const Surfels> surfels_;
     Port<const SurfelLinks> links_;
+    Port<const SurfelsByVoxel> byVoxel_;
     Port<VoxelIrradiance> irradiance_;
+    Port<SurfelIrradiance> surfelIrradiance_;
     std::vector<LightSource> sources_;
+    SurfelLight light_;
     SurfelInjection injection_;
-    Program reflect_, bounce_;
+    Program reflect_, bounce_, keep_;
     LargeBuffer radiosity_[2];  ///< Scratch: of all surfels, packed; before and after a bounce.
 };
 

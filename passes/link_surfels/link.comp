@@ -5,6 +5,7 @@
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"
 #include "shaders/surfels/sorted_surfels.h"
+#include "shaders/surfels/surfel_bias.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
@@ -26,11 +27,13 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 const uint NONE = 0xffffffffu;
+const float FAR = 0.5;
 
-// The nearest surfel so far, in a space of positions and, in voxels, normals.
+// The surfel so far that is nearest, in voxels, squared, and of the same surface (surfel_bias.glsl).
 struct Nearest {
     float distance_;
     uint number;
+    uint id;
 };
 
 void visit(ivec3 voxel, vec3 position, vec3 normal, inout Nearest nearest) {
@@ -39,18 +42,19 @@ void visit(ivec3 voxel, vec3 position, vec3 normal, inout Nearest nearest) {
     for (uint i = begins.data[number]; i < ends.data[number]; ++i) {
         const SortedSurfel s = sorted.data[i];
         if (dot(s.normal, normal) <= 0.0) continue;
-        const vec3 away = s.position - position, bent = (s.normal - normal) * push.grid.voxelSize;
-        const float d = dot(away, away) + dot(bent, bent);
-        if (d < nearest.distance_ || (d == nearest.distance_ && s.number < nearest.number)) nearest = Nearest(d, s.number);
+        const vec3 away = s.position - position;
+        const float d = dot(away, away) / (push.grid.voxelSize * push.grid.voxelSize) + surfelBias(position, normal, s.position, s.normal);
+        if (d < nearest.distance_ || (d == nearest.distance_ && s.id < nearest.id)) nearest = Nearest(d, s.number, s.id);
     }
 }
 
-// The surfel of the voxel that the place lies in; of the voxels around it where that has none on this side.
+// The surfel of the voxel that the place lies in; of the voxels around it, too, where that one is as far as the voxel's own size
+// allows or of another surface.
 uint nearestSurfel(vec3 position, vec3 normal) {
     const ivec3 voxel = voxelAt(push.grid, position);
-    Nearest nearest = Nearest(1.0e30, NONE);
+    Nearest nearest = Nearest(1.0e30, NONE, NONE);
     visit(voxel, position, normal, nearest);
-    if (nearest.number != NONE) return nearest.number;
+    if (nearest.distance_ < FAR) return nearest.number;
     for (int i = 0; i < 27; ++i)
         if (i != 13) visit(voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, position, normal, nearest);
     return nearest.number;

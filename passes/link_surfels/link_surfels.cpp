@@ -39,6 +39,7 @@ void LinkSurfels::declare(PassBuilder& builder) {
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels, by which surfels are found");
     surfels_ = builder.read<Surfels>("surfels", "points to link");
     links_ = builder.write<SurfelLinks>("links", "which surfels each surfel sees");
+    byVoxel_ = builder.write<SurfelsByVoxel>("surfels_by_voxel", "the surfels of each voxel");
 }
 
 void LinkSurfels::plan(PassPlan& plan) {
@@ -48,9 +49,10 @@ void LinkSurfels::plan(PassPlan& plan) {
     plan.scratchBuffer(rays_, "link rays", uint64_t(kBatchRays) * sizeof(Ray));
     plan.scratchBuffer(hits_, "link hits", uint64_t(kBatchRays) * sizeof(Hit));
     plan.scratchBuffer(unlinked_, "number of hits without surfel", sizeof(uint32_t));
-    plan.reserveScratch("surfels by voxel (estimated)", surfels * sizeof(gpu::SortedSurfel) +
-                                                            2 * voxels * sizeof(uint32_t) +
-                                                            PrefixSum::scratchBytes(uint32_t(voxels)));
+    plan.get(byVoxel_).maxCount = surfels;
+    plan.reserve("surfels by voxel (estimated)",
+                 surfels * (sizeof(gpu::SortedSurfel) + sizeof(uint32_t)) + 2 * voxels * sizeof(uint32_t));
+    plan.reserveScratch("counts of surfels (estimated)", PrefixSum::scratchBytes(uint32_t(voxels)));
 }
 
 void LinkSurfels::prepare(PassSetup& setup) {
@@ -59,6 +61,7 @@ void LinkSurfels::prepare(PassSetup& setup) {
     };
     count_ = program("passes/link_surfels/count.comp");
     sort_ = program("passes/link_surfels/sort.comp");
+    order_ = program("passes/link_surfels/order.comp");
     emit_ = program("passes/link_surfels/emit.comp");
     link_ = program("passes/link_surfels/link.comp");
     prefixSum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
@@ -83,7 +86,7 @@ void LinkSurfels::record(PassContext& context) {
     links.links =
         LargeBuffer(context.device, "surfel links", count * params_.raysPerSurfel * sizeof(uint32_t));
 
-    sortByVoxel(context, surfels);
+    sortByVoxel(context, surfels, links.surfelCount);
     context.stream.fill(unlinked_, 0);
     uint32_t first = 0;
     for (const Surfels::Chunk& chunk : surfels.chunks) {
@@ -94,34 +97,41 @@ void LinkSurfels::record(PassContext& context) {
     context.report("links", double(count) * params_.raysPerSurfel);
     context.report("hits without surfel, % of rays",
                    100.0 * unlinked / (double(count) * params_.raysPerSurfel));
-    firstOfVoxel_ = {}, endOfVoxel_ = {}, sorted_ = {};
 }
 
-void LinkSurfels::sortByVoxel(PassContext& context, const Surfels& surfels) {
+void LinkSurfels::sortByVoxel(PassContext& context, const Surfels& surfels, uint32_t count) {
     const uint32_t voxels = context.get(voxels_).voxelCount;
     CommandStream& stream = context.stream;
-    firstOfVoxel_ = Buffer(context.device, "first surfel of each voxel", voxels * sizeof(uint32_t));
-    endOfVoxel_ = Buffer(context.device, "last surfel of each voxel", voxels * sizeof(uint32_t));
-    stream.fill(firstOfVoxel_, 0);
+    SurfelsByVoxel& to = context.get(byVoxel_);
+    to.begins = {}, to.ends = {}, to.sorted = {}, to.slots = {};
+    to.begins = Buffer(context.device, "first surfel of each voxel", voxels * sizeof(uint32_t));
+    to.ends = Buffer(context.device, "last surfel of each voxel", voxels * sizeof(uint32_t));
+    stream.fill(to.begins, 0);
     for (const Surfels::Chunk& chunk : surfels.chunks)
-        stream.dispatch(count_, {{"surfels", chunk.surfels}, {"counts", firstOfVoxel_}}, chunk.count,
+        stream.dispatch(count_, {{"surfels", chunk.surfels}, {"counts", to.begins}}, chunk.count,
                         linearGroups(chunk.count));
-    const uint32_t listed = prefixSum_->run(stream, firstOfVoxel_, firstOfVoxel_, voxels);
-    stream.copy(firstOfVoxel_, endOfVoxel_, voxels * sizeof(uint32_t));
-    sorted_ =
-        LargeBuffer(context.device, "surfels by voxel", std::max(listed, 1u) * sizeof(gpu::SortedSurfel));
+    to.slotCount = prefixSum_->run(stream, to.begins, to.begins, voxels);
+    stream.copy(to.begins, to.ends, voxels * sizeof(uint32_t));
+    to.sorted = LargeBuffer(context.device, "surfels by voxel",
+                            std::max(to.slotCount, 1u) * sizeof(gpu::SortedSurfel));
+    to.slots = LargeBuffer(context.device, "slots of surfels", std::max(count, 1u) * sizeof(uint32_t));
+    stream.fill(to.slots, SurfelLinks::kNone);
     uint32_t first = 0;
     for (const Surfels::Chunk& chunk : surfels.chunks) {
-        stream.dispatch(sort_,
-                        {{"surfels", chunk.surfels}, {"SortedAt", sorted_.at()}, {"ends", endOfVoxel_}},
+        stream.dispatch(sort_, {{"surfels", chunk.surfels}, {"SortedAt", to.sorted.at()}, {"ends", to.ends}},
                         SortPush{chunk.count, first}, linearGroups(chunk.count));
         first += chunk.count;
     }
+    stream.dispatch(
+        order_,
+        {{"SortedAt", to.sorted.at()}, {"SlotsAt", to.slots.at()}, {"begins", to.begins}, {"ends", to.ends}},
+        voxels, linearGroups(voxels));
 }
 
 void LinkSurfels::link(PassContext& context, const Surfels::Chunk& chunk, uint32_t first,
                        SurfelLinks& links) const {
     const SurfaceVoxels& voxels = context.get(voxels_);
+    const SurfelsByVoxel& byVoxel = context.get(byVoxel_);
     const uint32_t perSurfel = params_.raysPerSurfel, batch = kBatchRays / perSurfel;
     for (uint32_t begin = 0; begin < chunk.count; begin += batch) {
         const uint32_t rays = std::min(batch, chunk.count - begin) * perSurfel;
@@ -132,9 +142,9 @@ void LinkSurfels::link(PassContext& context, const Surfels::Chunk& chunk, uint32
         context.stream.dispatch(link_,
                                 voxels.bindings(context.scene.bindings({{"rays", rays_},
                                                                         {"hits", hits_},
-                                                                        {"SortedAt", sorted_.at()},
-                                                                        {"begins", firstOfVoxel_},
-                                                                        {"ends", endOfVoxel_},
+                                                                        {"SortedAt", byVoxel.sorted.at()},
+                                                                        {"begins", byVoxel.begins},
+                                                                        {"ends", byVoxel.ends},
                                                                         {"LinksAt", links.links.at()},
                                                                         {"unlinked", unlinked_}})),
                                 LinkPush{voxels.grid, first + begin, rays, perSurfel, links.surfelCount},

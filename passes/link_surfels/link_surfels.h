@@ -5,6 +5,7 @@
 #include "passes/common/compute/prefix_sum.h"
 #include "passes/common/surfels/surfel_links.h"
 #include "passes/common/surfels/surfels.h"
+#include "passes/common/surfels/surfels_by_voxel.h"
 #include "passes/common/voxels/voxels.h"
 
 namespace voxray {
@@ -34,8 +35,8 @@ class LinkSurfels final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Lists the surfels of each voxel: sorts their numbers by voxel.
-    void sortByVoxel(PassContext& context, const Surfels& surfels);
+    /// Lists the surfels of each voxel. @param count of all chunks.
+    void sortByVoxel(PassContext& context, const Surfels& surfels, uint32_t count);
     /// Traces the rays of a chunk, whose first surfel has number `first`, and links them.
     void link(PassContext& context, const Surfels::Chunk& chunk, uint32_t first, SurfelLinks& links) const;
 
@@ -43,11 +44,10 @@ class LinkSurfels final : public Pass {
     Port<const SurfaceVoxels> voxels_;
     Port<const Surfels> surfels_;
     Port<SurfelLinks> links_;
-    Program count_, sort_, emit_, link_;
+    Port<SurfelsByVoxel> byVoxel_;
+    Program count_, sort_, order_, emit_, link_;
     std::optional<PrefixSum> prefixSum_;
-    Buffer rays_, hits_, unlinked_;     ///< Scratch, of a batch of rays.
-    Buffer firstOfVoxel_, endOfVoxel_;  ///< Scratch: places in `sorted_`, by voxel.
-    LargeBuffer sorted_;                ///< Scratch: gpu::SortedSurfel each.
+    Buffer rays_, hits_, unlinked_;  ///< Scratch, of a batch of rays.
 };
 
 }  // namespace voxray

@@ -22,5 +22,5 @@ void main() {
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
     if (s.voxel == 0xffffffffu) return;
-    sorted.data[atomicAdd(ends.data[s.voxel], 1u)] = SortedSurfel(s.position, push.firstNumber + i, s.normal);
+    sorted.data[atomicAdd(ends.data[s.voxel], 1u)] = SortedSurfel(s.position, push.firstNumber + i, s.normal, s.id);
 }

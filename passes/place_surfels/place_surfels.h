@@ -12,8 +12,9 @@ class PlaceSurfels final : public Pass {
  public:
     static constexpr const char* kName = "place_surfels";
     static constexpr const char* kHelp =
-        "Spreads points evenly over the surfaces, where inject_voxel_rays, inject_gather_hits and "
-        "inject_shadow_map measure the irradiance of voxels. Depends on geometry alone. Noisy by: "
+        "Spreads points evenly over the surfaces, where inject_voxel_rays, inject_gather_hits, "
+        "inject_shadow_map and inject_radiosity measure the irradiance of voxels. Depends on geometry alone. "
+        "Noisy by: "
         "points_per_voxel. "
         "Misses: voxels that hold little "
         "surface may get no point.";

@@ -11,6 +11,7 @@ struct SortedSurfel {
     vec3 position;  // m
     uint number;    // Through all chunks of surfels.
     vec3 normal;    // Unit length, on the lit side.
+    uint id;        // As Surfel's: the same in every run, which its number is not.
 };
 
 VOXRAY_SHARED_END

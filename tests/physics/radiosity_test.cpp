@@ -6,7 +6,9 @@
 
 #include "image/metrics.h"
 #include "passes/common/surfels/surfel_links.h"
+#include "passes/common/surfels/surfels_by_voxel.h"
 #include "passes/common/voxels/voxels.h"
+#include "scene/shapes.h"
 #include "tests/physics/voxels_read.h"
 
 namespace voxray::test {
@@ -71,23 +73,103 @@ TEST(Radiosity, LinksHoldWhatRaysSee) {
     EXPECT_NEAR(double(inside) / links.surfelCount, 0.5, 0.01);
 }
 
+// nRMSE of indirect light in Cornell after three bounces; `gather`: the passes after inject_radiosity.
+double errorInCornell(int resolution, int points, int rays, const std::vector<std::string>& gather) {
+    static const ImageF truth =
+        Chain("cornell", "{lights: point}", graphYaml({"path_trace, spp: 512, bounces: 3"}), 48, 48)
+            .image("indirect");
+    std::vector<std::string> passes{
+        "gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: " + std::to_string(resolution),
+        "place_surfels, points_per_voxel: " + std::to_string(points),
+        "link_surfels, rays_per_surfel: " + std::to_string(rays), "inject_radiosity, bounces: 3"};
+    passes.insert(passes.end(), gather.begin(), gather.end());
+    return nRmse(Chain("cornell", "{lights: point}", graphYaml(passes), 48, 48).image("indirect"), truth);
+}
+
 TEST(Radiosity, LookupsConvergeToTheReference) {
-    Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 512, bounces: 3"}), 48, 48);
-    const ImageF truth = reference.image("indirect");
-    const auto error = [&](int resolution, int points, int rays) {
-        Chain chain("cornell", "{lights: point}",
-                    graphYaml({"gbuffer, samples_per_pixel_edge: 2",
-                               "voxelize, resolution: " + std::to_string(resolution),
-                               "place_surfels, points_per_voxel: " + std::to_string(points),
-                               "link_surfels, rays_per_surfel: " + std::to_string(rays),
-                               "inject_radiosity, bounces: 3", "gather_irradiance"}),
-                    48, 48);
+    for (const std::string gather : {"gather_irradiance", "gather_surfels"}) {
+        const double few = errorInCornell(24, 1, 1, {gather}), coarse = errorInCornell(24, 8, 16, {gather});
+        const double fine = errorInCornell(48, 8, 32, {gather});
+        std::printf("%s: few rays %.3f, more %.3f, and smaller voxels %.3f\n", gather.c_str(), few, coarse,
+                    fine);
+        EXPECT_LT(coarse, 0.8 * few) << gather;
+        EXPECT_LT(fine, 0.8 * coarse) << gather;
+    }
+}
+
+// A wall of pleats, narrower than voxels, between a white wall on its left and a black one on its right.
+std::shared_ptr<const SceneState> pleatedWall() {
+    SceneBuilder scene("pleats");
+    const uint32_t white = scene.lambert("white", glm::vec3(0.8f)), black = scene.lambert("black", {});
+    scene.room({-1, -1, -1}, {1, 1, 1}, {white, black, black, black, SceneBuilder::none, black});
+    constexpr int kPleats = 24;
+    for (int i = 0; i < kPleats; ++i) {
+        const float width = 2.0f / kPleats, left = -1 + float(i) * width, half = 0.5f * width;
+        scene.quad("to the left", {left, -1, -1}, {half, 0, half}, {0, 2, 0}, white);
+        scene.quad("to the right", {left + half, -1, -1 + half}, {half, 0, -half}, {0, 2, 0}, white);
+    }
+    scene.pointLight({0, 0, 0.5f}, glm::vec3(2));
+    scene.camera({0, 0, 0.9f}, {0, 0, -1}, 60);
+    return std::make_shared<SceneState>(evaluate(scene.finish(), 0.0));
+}
+
+TEST(Radiosity, SurfelsTellSurfacesInAVoxelApart) {
+    // Pleats face +x or -x and all of them +z, so that a voxel's face +z mixes bright ones with dark ones.
+    // The surfels are the same.
+    const std::shared_ptr<const SceneState> state = pleatedWall();
+    const ImageF truth =
+        Chain(state, graphYaml({"path_trace, spp: 512, bounces: 1"}), 48, 48, 1).image("indirect");
+    const auto error = [&](const std::string& gather) {
+        Chain chain(state,
+                    graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 16",
+                               "place_surfels, points_per_voxel: 16", "link_surfels, rays_per_surfel: 32",
+                               "inject_radiosity, bounces: 1", gather}),
+                    48, 48, 1);
         return nRmse(chain.image("indirect"), truth);
     };
-    const double few = error(24, 1, 1), coarse = error(24, 8, 16), fine = error(48, 8, 32);
-    std::printf("few rays %.3f, more %.3f, and smaller voxels %.3f\n", few, coarse, fine);
-    EXPECT_LT(coarse, 0.8 * few);
-    EXPECT_LT(fine, 0.8 * coarse);
+    const double voxels = error("gather_irradiance"), surfels = error("gather_surfels");
+    std::printf("voxels %.3f, surfels %.3f\n", voxels, surfels);
+    EXPECT_LT(surfels, 0.6 * voxels);
+}
+
+TEST(Radiosity, SmoothSurfelsAreLessNoisy) {
+    const double noisy = errorInCornell(48, 4, 4, {"gather_surfels"});
+    const double once = errorInCornell(48, 4, 4, {"smooth_surfels, iterations: 1", "gather_surfels"});
+    const double twice = errorInCornell(48, 4, 4, {"smooth_surfels", "gather_surfels"});
+    std::printf("noisy %.3f, smoothed once %.3f, twice %.3f\n", noisy, once, twice);
+    EXPECT_LT(once, 0.8 * noisy);
+    EXPECT_LT(twice, 0.95 * once);
+}
+
+// Mean irradiance of all slots, W/m², by one to many iterations of smooth_surfels; 0 of them: without it.
+double meanOfSurfels(int iterations) {
+    Chain chain(
+        "cornell", "{lights: point}",
+        graphYaml({"voxelize, resolution: 24", "place_surfels, points_per_voxel: 4",
+                   "link_surfels, rays_per_surfel: 8", "inject_radiosity, bounces: 3",
+                   iterations > 0 ? "smooth_surfels, iterations: " + std::to_string(iterations) : ""}));
+    double sum = 0;
+    const std::vector<uint32_t> words =
+        chain.read<uint32_t>(chain.graph().resource<SurfelIrradiance>("surfel_irradiance")->indirect);
+    for (const uint32_t word : words)  // Green; packed as shaders/surfels/radiosity.glsl has it.
+        sum += std::ldexp(double(word >> 8 & 255u) / 255.0, int(word >> 24) - 128);
+    return sum / double(words.size());
+}
+
+TEST(Radiosity, SmoothSurfelsKeepEnergy) {
+    const double measured = meanOfSurfels(0);
+    for (const int iterations : {1, 2, 5})
+        EXPECT_NEAR(meanOfSurfels(iterations) / measured, 1.0, 0.01) << iterations;
+}
+
+TEST(Radiosity, TwoRunsAreIdentical) {
+    const auto image = [] {
+        return Chain("cornell", "{lights: point}",
+                     graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels", "link_surfels",
+                                "inject_radiosity", "smooth_surfels", "gather_surfels"}))
+            .image("indirect");
+    };
+    EXPECT_EQ(image().data, image().data);
 }
 
 }  // namespace

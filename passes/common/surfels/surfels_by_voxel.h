@@ -1,0 +1,23 @@
+#pragma once
+
+#include "graph/pass.h"
+#include "passes/common/compute/large_buffer.h"
+#include "shaders/surfels/sorted_surfels.h"
+
+namespace voxray {
+
+/// The surfels that lie in each voxel. Surfels without a voxel are left out.
+struct SurfelsByVoxel : Resource {
+    uint64_t maxCount = 0;  ///< Of slots: an upper bound, known from planning on.
+    uint32_t slotCount = 0;
+    Buffer begins, ends;  ///< By voxel: its first slot, and the one after its last; uint32_t.
+    LargeBuffer sorted;   ///< gpu::SortedSurfel in each slot; within a voxel by rising id.
+    LargeBuffer slots;    ///< Slot of each surfel by its number, or SurfelLinks::kNone; uint32_t.
+};
+
+/// Light that arrives at surfels, in the slots of SurfelsByVoxel.
+struct SurfelIrradiance : Resource {
+    LargeBuffer indirect;  ///< W/m², packed (shaders/surfels/radiosity.glsl); uint32_t.
+};
+
+}  // namespace voxray

@@ -1,0 +1,23 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Keeps the indirect irradiance of surfels in their slots, for gathers that read surfels.
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/surfels/radiosity.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Indirect { vec4 data[]; } indirect;  // W/m²
+layout(scalar) readonly buffer SlotsAt { LargeUints slots; };
+layout(scalar) readonly buffer KeptAt { LargeUints kept; };
+layout(push_constant) uniform Push {
+    uint count;
+    uint firstNumber;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const uint slot = slots.data[push.firstNumber + i];
+    if (slot != 0xffffffffu) kept.data[slot] = packRadiosity(indirect.data[i].rgb);
+}

@@ -1,0 +1,31 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
+// Orders each voxel's surfels by id, so that sums over them come out alike in every run, and tells each surfel its
+// slot.
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/surfels/sorted_surfels.h"
+layout(local_size_x = 64) in;
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SortedSurfels { SortedSurfel data[]; };
+layout(scalar) readonly buffer SortedAt { SortedSurfels sorted; };
+layout(scalar) readonly buffer SlotsAt { LargeUints slots; };
+readonly buffer Begins { uint data[]; } begins;
+readonly buffer Ends { uint data[]; } ends;
+layout(push_constant) uniform Push { uint voxels; } push;
+
+void main() {
+    const uint voxel = linearIndex();
+    if (voxel >= push.voxels) return;
+    const uint begin = begins.data[voxel], end = ends.data[voxel];
+    // By insertion: lists are short.
+    for (uint i = begin; i < end; ++i) {
+        const SortedSurfel s = sorted.data[i];
+        uint to = i;
+        for (; to > begin && sorted.data[to - 1u].id > s.id; --to) sorted.data[to] = sorted.data[to - 1u];
+        sorted.data[to] = s;
+    }
+    for (uint i = begin; i < end; ++i) slots.data[sorted.data[i].number] = i;
+}

@@ -1,0 +1,62 @@
+// The surfels around each surfel: those of the 27 voxels about it that lie within a voxel's size. Whoever includes this calls
+// around(slot) and defines
+//     void visit(uint slot, float bias, float kernel)
+// for each of them, itself too: how much their irradiance may differ for geometry's sake (surfel_bias.glsl), and a weight that falls
+// with distance, 1 to 0.
+#ifndef VOXRAY_SMOOTH_SURFELS_AROUND_GLSL
+#define VOXRAY_SMOOTH_SURFELS_AROUND_GLSL
+
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/sampling.glsl"
+#include "shaders/surfels/radiosity.glsl"
+#include "shaders/surfels/sorted_surfels.h"
+#include "shaders/surfels/surfel_bias.glsl"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+// Of the light around a surfel.
+struct Surroundings {
+    float mean;      // Luminance of irradiance, W/m².
+    float variance;  // Of a single surfel's.
+    float ofMean;    // Variance of the mean.
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SortedSurfels { SortedSurfel data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer AllSurroundings { Surroundings data[]; };
+layout(scalar) readonly buffer SortedAt { SortedSurfels sorted; };
+layout(scalar) readonly buffer LightAt { LargeUints light; };
+layout(scalar) readonly buffer SurroundingsAt { AllSurroundings surroundings; };
+readonly buffer Begins { uint data[]; } begins;
+readonly buffer Ends { uint data[]; } ends;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint count;
+    float noise;  // Relative variance of a surfel's irradiance, roughly.
+} push;
+
+void visit(uint slot, float bias, float kernel);
+
+void around(uint slot) {
+    const SortedSurfel own = sorted.data[slot];
+    const ivec3 voxel = voxelAt(push.grid, own.position);
+    const float squaredSize = push.grid.voxelSize * push.grid.voxelSize;
+    for (int i = 0; i < 27; ++i) {
+        const uint number = voxelNumber(push.grid, voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1);
+        if (number == NO_VOXEL) continue;
+        const uint end = ends.data[number];
+        for (uint j = begins.data[number]; j < end; ++j) {
+            const SortedSurfel s = sorted.data[j];
+            const vec3 away = s.position - own.position;
+            const float squared = dot(away, away);
+            if (squared >= squaredSize || dot(s.normal, own.normal) <= 0.0) continue;
+            // Rounding must not part a surfel from itself: it may be all that is known.
+            const float bias = j == slot ? 0.0 : surfelBias(own.position, own.normal, s.position, s.normal);
+            visit(j, bias, 1.0 - squared / squaredSize);
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,72 @@
+#include "passes/smooth_surfels/smooth_surfels.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "passes/common/compute/dispatch.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint64_t kSurroundingsBytes = 3 * sizeof(float), kLightBytes = sizeof(uint32_t);
+
+struct SmoothPush {
+    gpu::VoxelGrid grid;
+    uint32_t count;
+    float noise;
+};
+
+}  // namespace
+
+void SmoothSurfels::declare(PassBuilder& builder) {
+    voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels, by which surfels are found");
+    links_ = builder.read<SurfelLinks>("links", "which surfels each surfel sees");
+    surfels_ = builder.read<SurfelsByVoxel>("surfels_by_voxel", "the surfels of each voxel");
+    light_ = builder.read<SurfelIrradiance>("surfel_irradiance", "light that arrives at surfels");
+    smooth_ = builder.write<SurfelIrradiance>("surfel_irradiance", "the same with less noise");
+}
+
+void SmoothSurfels::plan(PassPlan& plan) {
+    const uint64_t slots = plan.get(surfels_).maxCount;
+    plan.reserve("smooth irradiance of surfels (estimated)", slots * kLightBytes);
+    plan.reserveScratch("surroundings of surfels (estimated)", slots * (kSurroundingsBytes + kLightBytes));
+}
+
+void SmoothSurfels::prepare(PassSetup& setup) {
+    const auto program = [&](const char* file) {
+        return makeComputeProgram(setup.device, setup.compiler.compile(file));
+    };
+    surroundings_ = program("passes/smooth_surfels/surroundings.comp");
+    mean_ = program("passes/smooth_surfels/mean.comp");
+}
+
+void SmoothSurfels::record(PassContext& context) {
+    const SurfelsByVoxel& surfels = context.get(surfels_);
+    const uint32_t count = surfels.slotCount;
+    const uint64_t slots = std::max(count, 1u);
+    LargeBuffer& result = context.get(smooth_).indirect;
+    result = {};
+    result = LargeBuffer(context.device, "smooth irradiance of surfels", slots * kLightBytes);
+    LargeBuffer other(context.device, "irradiance one step before", slots * kLightBytes);
+    const LargeBuffer surroundings(context.device, "surroundings of surfels", slots * kSurroundingsBytes);
+
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    const SmoothPush push{voxels.grid, count, 1.0f / float(context.get(links_).raysPerSurfel)};
+    const LargeBuffer* from = &context.get(light_).indirect;
+    for (uint32_t i = 0; i < params_.iterations; ++i) {
+        // The last iteration writes the result.
+        LargeBuffer& to = (params_.iterations - i) % 2 == 1 ? result : other;
+        std::vector<Binding> bindings = voxels.bindings({{"SortedAt", surfels.sorted.at()},
+                                                         {"begins", surfels.begins},
+                                                         {"ends", surfels.ends},
+                                                         {"LightAt", from->at()},
+                                                         {"SurroundingsAt", surroundings.at()}});
+        context.stream.dispatch(surroundings_, bindings, push, linearGroups(count));
+        bindings.push_back({"ResultAt", to.at()});
+        context.stream.dispatch(mean_, bindings, push, linearGroups(count));
+        from = &to;
+    }
+    context.stream.finish();
+}
+
+}  // namespace voxray
