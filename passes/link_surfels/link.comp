@@ -16,7 +16,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SortedSurfel
 layout(scalar) readonly buffer SortedAt { SortedSurfels sorted; };
 readonly buffer Begins { uint data[]; } begins;
 readonly buffer Ends { uint data[]; } ends;
-layout(scalar) writeonly buffer LinksAt { LargeUints links; };
+layout(scalar) readonly buffer LinksAt { LargeUints links; };
 buffer Unlinked { uint value; } unlinked;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
@@ -27,7 +27,7 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 const uint NONE = 0xffffffffu;
-const float FAR = 0.5;
+const float FAR = 0.5;  // 0.7 voxels on one plane, or half a voxel and a plane 20 degrees off.
 
 // The surfel so far that is nearest, in voxels, squared, and of the same surface (surfel_bias.glsl).
 struct Nearest {

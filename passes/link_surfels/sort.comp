@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Puts each surfel into its voxel's list. The order within a list is any; nothing depends on it.
+// Puts each surfel into its voxel's list. The order within a list is any; order.comp makes it one.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/surfels/sorted_surfels.h"
 #include "shaders/surfels/surfel_types.h"

@@ -4,7 +4,7 @@
 //
 //     noise / (noise + bias²)
 //
-// as in filter_irradiance. noise: variance of a surfel, the mean of both, so that neither takes more from the other than it gives.
+// as in filter_irradiance. noise: variance of a surfel, the mean of both, so that a pair has one weight.
 // bias²: what geometry allows the two to differ by, and what the means of their surroundings do differ by beyond their noise.
 #include "passes/smooth_surfels/around.glsl"
 
@@ -19,7 +19,7 @@ void visit(uint slot, float bias, float kernel) {
     const float mean_ = 0.5 * (own.mean + other.mean), noise = 0.5 * (own.variance + other.variance);
     const float apart = own.mean - other.mean;
     const float bias2 = bias * mean_ * mean_ + max(apart * apart - own.ofMean - other.ofMean, 0.0);
-    const float weight = kernel * (bias2 > 0.0 ? noise / (noise + bias2) : 1.0);
+    const float weight = kernel * (bias2 > 0.0 ? noise / max(noise + bias2, 1e-30) : 1.0);
     sum += weight * unpackRadiosity(light.data[slot]);
     weights += weight;
 }
