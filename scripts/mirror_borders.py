@@ -16,9 +16,9 @@ import argparse
 import os
 import sys
 
-sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.realpath(__file__))), "framework"))
 import numpy
-import exr_pixels
+from report import exr_pixels
 
 LUMINANCE = (0.2126, 0.7152, 0.0722)
 SURE = 0.75  # Part of a pixel's rays.
