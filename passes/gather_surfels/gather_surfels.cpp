@@ -17,7 +17,6 @@ void GatherSurfels::declare(PassBuilder& builder) {
     gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels, by which surfels are found");
     irradiance_ = builder.read<VoxelIrradiance>("irradiance", "light of voxels, where no surfel is near");
-    links_ = builder.read<SurfelLinks>("links", "which surfels each surfel sees");
     surfels_ = builder.read<SurfelsByVoxel>("surfels_by_voxel", "the surfels of each voxel");
     light_ = builder.read<SurfelIrradiance>("surfel_irradiance", "light that arrives at surfels");
     indirect_ = builder.write<FrameImage>("indirect", "radiance reflected of indirect light");
@@ -38,20 +37,20 @@ void GatherSurfels::record(PassContext& context) {
     const SurfaceVoxels& voxels = context.get(voxels_);
     const VoxelIrradiance& irradiance = context.get(irradiance_);
     const SurfelsByVoxel& surfels = context.get(surfels_);
-    context.stream.dispatch(
-        gather_,
-        voxels.bindings({{"position", gbuffer.position, sampler_},
-                         {"normal", gbuffer.normal, sampler_},
-                         {"albedo", gbuffer.albedo, sampler_},
-                         {"VoxelFluxAt", irradiance.indirect.at()},
-                         {"voxelArea", irradiance.area},
-                         {"begins", surfels.begins},
-                         {"ends", surfels.ends},
-                         {"SortedAt", surfels.sorted.at()},
-                         {"LightAt", context.get(light_).indirect.at()},
-                         {"result", context.get(indirect_).image}}),
-        GatherPush{voxels.grid, gbuffer.samples, 1.0f / float(context.get(links_).raysPerSurfel)},
-        pixelGroups(context.frame.width, context.frame.height));
+    context.stream.dispatch(gather_,
+                            voxels.bindings({{"position", gbuffer.position, sampler_},
+                                             {"normal", gbuffer.normal, sampler_},
+                                             {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                                             {"albedo", gbuffer.albedo, sampler_},
+                                             {"VoxelFluxAt", irradiance.indirect.at()},
+                                             {"voxelArea", irradiance.area},
+                                             {"begins", surfels.begins},
+                                             {"ends", surfels.ends},
+                                             {"SortedAt", surfels.sorted.at()},
+                                             {"LightAt", context.get(light_).indirect.at()},
+                                             {"result", context.get(indirect_).image}}),
+                            GatherPush{voxels.grid, gbuffer.samples, context.get(light_).relativeVariance},
+                            pixelGroups(context.frame.width, context.frame.height));
 }
 
 }  // namespace voxray

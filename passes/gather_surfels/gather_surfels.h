@@ -1,6 +1,5 @@
 #pragma once
 
-#include "passes/common/surfels/surfel_links.h"
 #include "passes/common/surfels/surfels_by_voxel.h"
 #include "passes/common/view/frame_image.h"
 #include "passes/common/view/gbuffer.h"
@@ -34,7 +33,6 @@ class GatherSurfels final : public Pass {
     Port<const GBuffer> gbuffer_;
     Port<const SurfaceVoxels> voxels_;
     Port<const VoxelIrradiance> irradiance_;
-    Port<const SurfelLinks> links_;
     Port<const SurfelsByVoxel> surfels_;
     Port<const SurfelIrradiance> light_;
     Port<FrameImage> indirect_;

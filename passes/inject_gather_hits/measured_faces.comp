@@ -15,6 +15,7 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
+    if (s.area == 0.0) return;  // Covered: no voxel's.
     const uint faces = faceBits(s.normal);
     if ((measured.data[s.voxel] & faces) != faces) atomicOr(measured.data[s.voxel], faces);
 }

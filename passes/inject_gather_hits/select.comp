@@ -15,7 +15,7 @@ layout(push_constant) uniform Push { uint count; } push;
 
 void main() {
     const uint i = linearIndex();
-    if (i >= push.count) return;
+    if (i >= push.count || surfels.data[i].area == 0.0) return;  // Covered ones light no voxel.
     const uint bits = asked.data[surfels.data[i].voxel];
     if (bits == 0u) return;
     const vec3 normal = surfels.data[i].normal;

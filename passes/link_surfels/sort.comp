@@ -22,5 +22,6 @@ void main() {
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
     if (s.voxel == 0xffffffffu) return;
-    sorted.data[atomicAdd(ends.data[s.voxel], 1u)] = SortedSurfel(s.position, push.firstNumber + i, s.normal, s.id);
+    sorted.data[atomicAdd(ends.data[s.voxel], 1u)] = 
+        SortedSurfel(s.position, push.firstNumber + i, s.normal, s.id | (s.area == 0.0 ? VOXRAY_COVERED : 0u));
 }

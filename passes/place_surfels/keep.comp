@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Keeps the candidates that have open space before them. Their order is any; nothing depends on it.
+// Keeps the candidates that have open space before them and, where all sides are asked for, those that have not, as covered ones:
+// they stand for no area. Their order is any; nothing depends on it.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
 #extension GL_EXT_scalar_block_layout : require
@@ -12,10 +13,17 @@ readonly buffer Occluded { uint data[]; } occluded;
 layout(scalar) readonly buffer Candidates { Surfel data[]; } candidates;
 layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
 buffer Count { uint value; } count;
-layout(push_constant) uniform Push { uint candidates; } push;
+layout(push_constant) uniform Push {
+    uint candidates;
+    uint keepCovered;  // 0 or 1.
+} push;
 
 void main() {
     const uint i = linearIndex();
-    if (i >= push.candidates || rays.data[i].tMax < 0.0 || occluded.data[i] != 0u) return;
-    surfels.data[atomicAdd(count.value, 1u)] = candidates.data[i];
+    if (i >= push.candidates || rays.data[i].tMax < 0.0) return;
+    const bool covered = occluded.data[i] != 0u;
+    if (covered && push.keepCovered == 0u) return;
+    Surfel s = candidates.data[i];
+    if (covered) s.area = 0.0;
+    surfels.data[atomicAdd(count.value, 1u)] = s;
 }

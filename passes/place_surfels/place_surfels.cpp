@@ -20,6 +20,11 @@ struct PlacePush {
     uint32_t seed;
 };
 
+struct KeepPush {
+    uint32_t candidates;
+    uint32_t keepCovered;
+};
+
 }  // namespace
 
 void PlaceSurfels::declare(PassBuilder& builder) {
@@ -76,7 +81,8 @@ void PlaceSurfels::record(PassContext& context) {
                          {"candidates", candidates_},
                          {"surfels", kept_},
                          {"count", count_}},
-                        2 * batch, linearGroups(2 * batch));
+                        KeepPush{2 * batch, params_.sides == SurfelSides::All ? 1u : 0u},
+                        linearGroups(2 * batch));
         const uint32_t count = stream.readAs<uint32_t>(count_, 1)[0];
         if (count == 0) continue;
         surfels.chunks.push_back({Buffer(context.device, "surfels", count * sizeof(gpu::Surfel)), count});
@@ -87,7 +93,8 @@ void PlaceSurfels::record(PassContext& context) {
         throw Error(
             "place_surfels: every surface has another within one voxel ({:.3g} m) before it, so none is open "
             "to "
-            "light; raise voxelize's 'resolution' or set its 'visibility_rays: 0'",
+            "light; raise voxelize's 'resolution', set its 'visibility_rays: 0', or place_surfels's 'sides: "
+            "all'",
             voxels.grid.voxelSize);
 }
 

@@ -5,9 +5,19 @@
 
 namespace voxray {
 
+/// Which sides of surfaces have points.
+enum class SurfelSides { Open, All };
+
+template <>
+struct EnumNames<SurfelSides> {
+    static constexpr std::array names{std::pair{SurfelSides::Open, "open"},
+                                      std::pair{SurfelSides::All, "all"}};
+};
+
 /// Spreads points evenly over all surfaces and keeps those sides that have open space before them, as far as
-/// a voxel: sides inside thin walls take no light and belong to no irradiance. Where voxelize probes no
-/// exposure, all sides are kept.
+/// a voxel: a voxel's irradiance is that of its open sides. `sides: all` keeps covered sides, too, with area
+/// 0: they belong to no voxel's irradiance, but light that gets into a gap narrower than a voxel is theirs.
+/// Where voxelize probes no exposure, all sides count as open.
 class PlaceSurfels final : public Pass {
  public:
     static constexpr const char* kName = "place_surfels";
@@ -20,9 +30,15 @@ class PlaceSurfels final : public Pass {
         "surface may get no point.";
     struct Params {
         uint32_t pointsPerVoxel = 4;
+        SurfelSides sides = SurfelSides::Open;
         static constexpr auto schema() {
-            return std::tuple{field("points_per_voxel", &Params::pointsPerVoxel,
-                                    "Points for each surface voxel, on average.", 1u, 256u)};
+            return std::tuple{
+                field("points_per_voxel", &Params::pointsPerVoxel,
+                      "Points for each surface voxel, on average.", 1u, 256u),
+                field("sides", &Params::sides,
+                      "open: sides with open space before them, as far as a voxel. all: covered "
+                      "ones, too, which gather_surfels and links read: inside of gaps narrower "
+                      "than a voxel; voxels are lit by open ones alone.")};
         }
     };
 

@@ -52,6 +52,7 @@ void around(uint slot) {
             const vec3 away = s.position - own.position;
             const float squared = dot(away, away);
             if (squared >= squaredSize || dot(s.normal, own.normal) <= 0.0) continue;
+            if (((s.id ^ own.id) & VOXRAY_COVERED) != 0u) continue;  // Light in a gap says nothing of light before it.
             // Rounding must not part a surfel from itself: it may be all that is known.
             const float bias = j == slot ? 0.0 : surfelBias(own.position, own.normal, s.position, s.normal);
             visit(j, bias, 1.0 - squared / squaredSize);

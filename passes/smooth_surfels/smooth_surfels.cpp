@@ -20,7 +20,6 @@ struct SmoothPush {
 
 void SmoothSurfels::declare(PassBuilder& builder) {
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels, by which surfels are found");
-    links_ = builder.read<SurfelLinks>("links", "which surfels each surfel sees");
     surfels_ = builder.read<SurfelsByVoxel>("surfels_by_voxel", "the surfels of each voxel");
     light_ = builder.read<SurfelIrradiance>("surfel_irradiance", "light that arrives at surfels");
     smooth_ = builder.write<SurfelIrradiance>("surfel_irradiance", "the same with less noise");
@@ -28,6 +27,7 @@ void SmoothSurfels::declare(PassBuilder& builder) {
 
 void SmoothSurfels::plan(PassPlan& plan) {
     const uint64_t slots = plan.get(surfels_).maxCount;
+    plan.get(smooth_).relativeVariance = plan.get(light_).relativeVariance;
     plan.reserve("smooth irradiance of surfels (estimated)", slots * kLightBytes);
     plan.reserveScratch("surroundings of surfels (estimated)", slots * (kSurroundingsBytes + kLightBytes));
 }
@@ -51,7 +51,7 @@ void SmoothSurfels::record(PassContext& context) {
     const LargeBuffer surroundings(context.device, "surroundings of surfels", slots * kSurroundingsBytes);
 
     const SurfaceVoxels& voxels = context.get(voxels_);
-    const SmoothPush push{voxels.grid, count, 1.0f / float(context.get(links_).raysPerSurfel)};
+    const SmoothPush push{voxels.grid, count, context.get(light_).relativeVariance};
     const LargeBuffer* from = &context.get(light_).indirect;
     for (uint32_t i = 0; i < params_.iterations; ++i) {
         // The last iteration writes the result.

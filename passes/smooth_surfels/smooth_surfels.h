@@ -1,6 +1,5 @@
 #pragma once
 
-#include "passes/common/surfels/surfel_links.h"
 #include "passes/common/surfels/surfels_by_voxel.h"
 #include "passes/common/voxels/voxels.h"
 
@@ -35,7 +34,6 @@ class SmoothSurfels final : public Pass {
  private:
     Params params_;
     Port<const SurfaceVoxels> voxels_;
-    Port<const SurfelLinks> links_;
     Port<const SurfelsByVoxel> surfels_;
     Port<const SurfelIrradiance> light_;
     Port<SurfelIrradiance> smooth_;

@@ -14,7 +14,7 @@ struct Surfel {
     uint id;           // Picks its random numbers; unique among surfels that are handled together.
     vec3 reflectance;  // Diffuse albedo; of a path's vertex times those before it, over the chance to get here.
     uint parent;       // Index of the gather ray, of the path, or of the vertex before.
-    float area;        // Of surface that it stands for, 1 where surfels are spread evenly over all surfaces.
+    float area;        // Of surface that it stands for, 1 where surfels are spread evenly over all surfaces; 0: covered (place_surfels).
 };
 
 VOXRAY_SHARED_END

@@ -132,6 +132,44 @@ TEST(Radiosity, SurfelsTellSurfacesInAVoxelApart) {
     EXPECT_LT(surfels, 0.6 * voxels);
 }
 
+// Shelves, nearer to each other than voxels are wide, open towards a lamp and a camera in front of them.
+std::shared_ptr<const SceneState> narrowShelves() {
+    SceneBuilder scene("shelves");
+    const uint32_t white = scene.lambert("white", glm::vec3(0.8f)),
+                   grey = scene.lambert("grey", glm::vec3(0.5f));
+    scene.room({-1, -1, -1}, {1, 1, 1}, {grey, grey, grey, grey, grey, grey});
+    constexpr int kShelves = 20;
+    for (int i = 1; i < kShelves; ++i) {
+        const float y = -1 + 2.0f * float(i) / kShelves;
+        scene.quad("shelf", {-1, y, 0}, {2, 0, 0}, {0, 0, -1}, white);
+    }
+    scene.pointLight({0, 0, 0.8f}, glm::vec3(2));
+    scene.camera({0, 0.4f, 0.9f}, {0, 0, -0.2f}, 60);
+    return std::make_shared<SceneState>(evaluate(scene.finish(), 0.0));
+}
+
+TEST(Radiosity, NarrowGapsHaveLightOfTheirOwn) {
+    // With points on open sides alone the shelves have none, and links and lookups take those of other
+    // surfaces.
+    const std::shared_ptr<const SceneState> state = narrowShelves();
+    const ImageF truth =
+        Chain(state, graphYaml({"path_trace, spp: 512, bounces: 3"}), 48, 48, 1).image("indirect");
+    const auto image = [&](const std::string& sides) {
+        return Chain(state,
+                     graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 16",
+                                "place_surfels, points_per_voxel: 16, sides: " + sides,
+                                "link_surfels, rays_per_surfel: 32", "inject_radiosity, bounces: 3",
+                                "gather_surfels"}),
+                     48, 48, 1)
+            .image("indirect");
+    };
+    const ImageF open = image("open"), all = image("all");
+    std::printf("open sides: nRMSE %.3f, mean %.3f; all sides: %.3f, %.3f\n", nRmse(open, truth),
+                meanRatio(open, truth), nRmse(all, truth), meanRatio(all, truth));
+    EXPECT_LT(nRmse(all, truth), 0.2 * nRmse(open, truth));
+    EXPECT_NEAR(meanRatio(all, truth), 1.0, 0.05);
+}
+
 TEST(Radiosity, SmoothSurfelsAreLessNoisy) {
     const double noisy = errorInCornell(48, 4, 4, {"gather_surfels"});
     const double once = errorInCornell(48, 4, 4, {"smooth_surfels, iterations: 1", "gather_surfels"});

@@ -15,7 +15,7 @@ layout(push_constant) uniform Push {
 
 void main() {
     const uint i = linearIndex();
-    if (i >= push.count || surfels.data[i].voxel == 0xffffffffu) return;
+    if (i >= push.count || surfels.data[i].voxel == 0xffffffffu || surfels.data[i].area == 0.0) return;
 #if WRITE == WRITE_AVERAGE || WRITE == WRITE_NONE
     const float weight = surfels.data[i].area;
 #else

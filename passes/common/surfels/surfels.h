@@ -8,7 +8,8 @@
 namespace voxray {
 
 /// Points on the sides of surfaces that open space lies before, spread evenly over their area: where the
-/// irradiance of voxels is measured. Each stands for the same area.
+/// irradiance of voxels is measured. Each stands for the same area. Covered sides may be among them, with
+/// area 0: no voxel's irradiance is theirs.
 struct Surfels : Resource {
     struct Chunk {
         Buffer surfels;  ///< gpu::Surfel each.

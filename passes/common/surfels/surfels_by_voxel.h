@@ -18,6 +18,8 @@ struct SurfelsByVoxel : Resource {
 /// Light that arrives at surfels, in the slots of SurfelsByVoxel.
 struct SurfelIrradiance : Resource {
     LargeBuffer indirect;  ///< W/m², packed (shaders/surfels/radiosity.glsl); uint32_t.
+    /// Of a surfel's irradiance, roughly, before smooth_surfels: known from planning on.
+    float relativeVariance = 0;
 };
 
 }  // namespace voxray
