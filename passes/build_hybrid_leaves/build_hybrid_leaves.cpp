@@ -17,13 +17,18 @@ namespace {
 
 /// The buffer `hybridLeaves` of shaders/hybrid_leaves/hybrid_leaves.glsl.
 struct Header {
-    VkDeviceAddress words, primitives, gridBits, gridRanks, cells, corners, positions;
+    VkDeviceAddress words, primitives, gridBits, gridRanks, cells, corners;
     gpu::HybridShape shape;
 };
 
 struct LeavesPush {
     uint32_t leaves;
     uint32_t capacity;
+};
+
+struct CornersPush {
+    uint32_t firstTriangle;
+    uint32_t count;
 };
 
 /// What size_lists.comp finds.
@@ -33,7 +38,7 @@ struct Found {
     uint32_t pairs;         ///< Of a triangle and a leaf with a grid that is built.
 };
 
-constexpr uint64_t kMaxListWords = 1ull << 31;                   // shaders/hybrid_leaves/hybrid_types.h
+constexpr uint64_t kMaxListItems = 1ull << 31;                   // shaders/hybrid_leaves/hybrid_types.h
 constexpr uint64_t kMaxCells = (1ull << 32) / BRIGHT_SUM_UINTS;  // cell_sums.h, by 32 bits.
 constexpr uint64_t kMaxBoundBytes = 128u << 20;  // What Vulkan guarantees of maxStorageBufferRange.
 
@@ -111,7 +116,7 @@ void BuildHybridLeaves::plan(PassPlan& plan) {
     const LeafCounts counts = plan.ofScene(key, [&] { return countLeaves(geometry, grid); });
     const uint64_t listed = counts.listed(params_.primitives);
     const uint64_t grids = counts.grids(params_.primitives), gridWords = grids * wordsPerGrid(params_.grid);
-    require(listed, kMaxListWords, "words of lists");
+    require(listed, kMaxListItems, "triangles in lists");
     require(gridWords, kMaxBoundBytes / sizeof(uint32_t) + 1, "words of grids");
     const uint64_t cells = plan.ofScene(
         fmt::format("cells {} {} {}", key, params_.primitives, params_.grid),
@@ -123,8 +128,11 @@ void BuildHybridLeaves::plan(PassPlan& plan) {
     if (!maskedTriangles(*plan.frame.scene).empty())
         plan.reserve("voxels with masks", 2 * wordBytes(voxels.words()));
     const CellSize size = cellSize(*plan.frame.scene->scene);
+    const uint64_t listBytes = wordBytes(listed * LIST_ITEM_WORDS);
     const uint64_t gridBytes = 2 * wordBytes(gridWords) + wordBytes(cells * size.words);
-    plan.reserve("lists of triangles (at most)", wordBytes(listed));
+    plan.reserve("lists of triangles (at most)", listBytes);
+    plan.buffer(plan.get(leaves_).corners, "corners of triangles",
+                std::max<uint64_t>(geometry.triangles.size(), 1) * sizeof(std::array<glm::vec3, 3>));
     plan.reserve("grids (at most)", gridBytes);
     plan.reserveScratch("triangles of each leaf (estimated)", 4 * wordBytes(voxels.voxelCount));
     plan.reserveScratch("triangles in grids (at most)", 3 * wordBytes(counts.all() - listed));
@@ -136,7 +144,7 @@ void BuildHybridLeaves::plan(PassPlan& plan) {
                  2 * wordBytes(voxels.words()) + wordBytes(voxels.voxelCount));
     plan.reserveScratch(
         "update of a region (at most)",
-        2 * wordBytes(voxels.words()) + 3 * wordBytes(voxels.voxelCount) + wordBytes(listed) + gridBytes);
+        2 * wordBytes(voxels.words()) + 3 * wordBytes(voxels.voxelCount) + listBytes + gridBytes);
 }
 
 void BuildHybridLeaves::prepare(PassSetup& setup) {
@@ -151,6 +159,7 @@ void BuildHybridLeaves::prepare(PassSetup& setup) {
     markLeaves_ = visitor("passes/build_hybrid_leaves/mark_leaves");
     count_ = visitor("passes/build_hybrid_leaves/count_triangles", lists);
     fill_ = visitor("passes/build_hybrid_leaves/fill_lists", lists);
+    copyCorners_ = program("passes/build_hybrid_leaves/copy_corners.comp");
     mark_ = program("passes/build_hybrid_leaves/mark_cells.comp");
     write_ = params_.write == CellWrite::Average ? program("passes/build_hybrid_leaves/add_cells.comp")
                                                  : program("passes/build_hybrid_leaves/write_cells.comp");
@@ -194,6 +203,7 @@ void BuildHybridLeaves::record(PassContext& context) {
     context.report("bytes of leaves", double(leaves.structureBytes()));
     context.report("bytes of lists", double(leaves.listBytes()));
     context.report("bytes of grids", double(leaves.gridBytes()));
+    context.report("bytes of triangles' corners", double(leaves.corners.bytes()));
     context.report("leaves built again", builtLeaves_);
 }
 
@@ -273,17 +283,13 @@ void BuildHybridLeaves::number(PassContext& context, const SurfaceVoxels& voxels
 void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves) {
     CommandStream& stream = context.stream;
     const LeavesPush push{voxels.voxelCount, params_.primitives};
-    leaves.primitives = Buffer(context.device, "lists of triangles", wordBytes(leaves.primitiveCount));
+    leaves.primitives = Buffer(context.device, "lists of triangles",
+                               wordBytes(uint64_t(leaves.primitiveCount) * LIST_ITEM_WORDS));
     const CellSize size = cellSize(*context.frame.scene->scene);
-    const bool hasOctants = context.frame.scene->geometry.triangles.size() < LIST_ENDS >> OCTANT_BITS;
-    leaves.shape = {push.leaves,
-                    push.capacity,
-                    hasOctants ? OCTANT_BITS : 0,
-                    params_.grid,
-                    wordsPerGrid(params_.grid),
-                    size.words,
-                    size.largestEmission};
+    leaves.shape = {push.leaves, push.capacity,       params_.grid, wordsPerGrid(params_.grid),
+                    size.words,  size.largestEmission};
     writeHeader(context, leaves);
+    copyCorners(context, leaves);
 
     // From the last place to the first, in order of arrival (Seok 2021, figure 8), then sorted: the same bits
     // each time. What is voxelized further (figure 9) is summed in whole numbers: its order does not matter.
@@ -301,6 +307,20 @@ void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& vox
                     linearGroups(push.leaves));
     if (isUpdate()) kept_->lists(stream, leaves, counts_);
     stream.finish();
+}
+
+void BuildHybridLeaves::copyCorners(PassContext& context, const HybridLeaves& leaves) const {
+    const Geometry& geometry = context.frame.scene->geometry;
+    std::vector<InstanceRange> runs = movingRuns(geometry);
+    if (!isUpdate()) {
+        runs.resize(1);
+        runs[0].firstTriangle = 0, runs[0].triangleCount = uint32_t(geometry.triangles.size());
+    }
+    const std::vector<Binding> bindings = context.scene.bindings({{"hybridLeaves", leaves.header}});
+    for (const InstanceRange& run : runs)
+        if (run.triangleCount > 0)
+            context.stream.dispatch(copyCorners_, bindings, CornersPush{run.firstTriangle, run.triangleCount},
+                                    linearGroups(run.triangleCount));
 }
 
 void BuildHybridLeaves::fillGrids(PassContext& context, HybridLeaves& leaves) {
@@ -359,8 +379,7 @@ void BuildHybridLeaves::writeHeader(PassContext& context, HybridLeaves& leaves) 
                         address(leaves.gridBits),
                         address(leaves.gridRanks),
                         address(leaves.cells),
-                        context.scene.triangles.address(),
-                        context.scene.positions.address(),
+                        address(leaves.corners),
                         leaves.shape};
     context.stream.upload(leaves.header, std::as_bytes(std::span(&header, 1)));
 }

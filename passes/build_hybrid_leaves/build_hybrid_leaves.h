@@ -89,6 +89,8 @@ class BuildHybridLeaves final : public Pass {
     void number(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves);
     /// Fills lists, and pairs of a triangle and a grid leaf.
     void fillLists(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves);
+    /// Puts each triangle's corners in one place: of all triangles, or in an update of those that move.
+    void copyCorners(PassContext& context, const HybridLeaves& leaves) const;
     /// Voxelizes the triangles of these pairs into cells.
     void fillGrids(PassContext& context, HybridLeaves& leaves);
     void writeHeader(PassContext& context, HybridLeaves& leaves) const;
@@ -97,7 +99,8 @@ class BuildHybridLeaves final : public Pass {
     Port<const SurfaceVoxels> voxels_;
     Port<HybridLeaves> leaves_;
     std::unique_ptr<TriangleWalk> walk_;
-    Program markLeaves_, count_, size_, number_, fill_, sort_, mark_, write_, resolve_, enclose_;
+    Program markLeaves_, count_, size_, number_, fill_, copyCorners_, sort_, mark_, write_, resolve_,
+        enclose_;
     std::optional<PrefixSum> sum_, sumBits_;
     std::optional<KeptLeaves> kept_;  ///< Where surfaces move.
     RegionMerge merge_;

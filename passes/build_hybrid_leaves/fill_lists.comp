@@ -3,9 +3,9 @@
 // A walk's visitor: adds a triangle to the list of its leaf, from the last place to the first; or the pair of both to those that are
 // voxelized further, where the leaf has a grid.
 #include "passes/build_hybrid_leaves/listed.glsl"
+#include "passes/build_hybrid_leaves/box_in_leaf.glsl"
 #include "shaders/hybrid_leaves/hybrid_leaves.glsl"
 #include "shaders/octree/octree_cells.glsl"
-#include "passes/build_hybrid_leaves/octants.glsl"
 #include "shaders/voxels/voxels.glsl"
 
 buffer Left { uint places[]; } left;  // In each leaf's list; 0 of leaves that are kept.
@@ -22,7 +22,6 @@ void visitFragment(TriangleFragment f) {
         leafPairs.data[at + 1u] = packCell(f.voxel);
         leafPairs.data[at + 2u] = word & ~LEAF_IS_GRID;
     } else {
-        hybridLeaves.primitives.data[word + atomicAdd(left.places[leaf], ~0u) - 1u] =
-            hybridLeaves.shape.octantBits == 0u ? f.triangle : f.triangle << OCTANT_BITS | octantsOf(f);
+        hybridLeaves.primitives.data[word + atomicAdd(left.places[leaf], ~0u) - 1u] = ListItem(boxInLeaf(f), f.triangle);
     }
 }

@@ -22,5 +22,5 @@ void main() {
         return;
     }
     const uint triangles = counts.triangles[leaf];
-    for (uint i = 0u; i < triangles; ++i) hybridLeaves.primitives.data[word + i] = previousWord(push.primitives, before + i);
+    for (uint i = 0u; i < triangles; ++i) hybridLeaves.primitives.data[word + i] = LeafLists(push.primitives).data[before + i];
 }

@@ -9,14 +9,15 @@ readonly buffer Counts { uint triangles[]; } counts;  // 0 of leaves that are ke
 
 // Moves the item at `root` down the heap of `count` items until no item below it is larger.
 void siftDown(uint first, uint root, uint count) {
-    const uint item = hybridLeaves.primitives.data[first + root];
+    const ListItem item = hybridLeaves.primitives.data[first + root];
     while (2u * root + 1u < count) {
-        uint child = 2u * root + 1u, larger = hybridLeaves.primitives.data[first + child];
+        uint child = 2u * root + 1u;
+        ListItem larger = hybridLeaves.primitives.data[first + child];
         if (child + 1u < count) {
-            const uint other = hybridLeaves.primitives.data[first + child + 1u];
-            if (other > larger) ++child, larger = other;
+            const ListItem other = hybridLeaves.primitives.data[first + child + 1u];
+            if (other.triangle > larger.triangle) ++child, larger = other;
         }
-        if (larger <= item) break;
+        if (larger.triangle <= item.triangle) break;
         hybridLeaves.primitives.data[first + root] = larger;
         root = child;
     }
@@ -30,10 +31,10 @@ void main() {
     if (count == 0u || isGridLeaf(first)) return;
     for (uint root = count / 2u; root > 0u; --root) siftDown(first, root - 1u, count);
     for (uint left = count - 1u; left > 0u; --left) {
-        const uint largest = hybridLeaves.primitives.data[first];
+        const ListItem largest = hybridLeaves.primitives.data[first];
         hybridLeaves.primitives.data[first] = hybridLeaves.primitives.data[first + left];
         hybridLeaves.primitives.data[first + left] = largest;
         siftDown(first, 0u, left);
     }
-    hybridLeaves.primitives.data[first + count - 1u] |= LIST_ENDS;
+    hybridLeaves.primitives.data[first + count - 1u].box |= LIST_ENDS;
 }

@@ -10,18 +10,21 @@
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/hybrid_leaves/hybrid_types.h"
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleCorners { uvec3 data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer CornerPositions { vec3 data[]; };
+struct ListItem {
+    uint box;  // And LIST_ENDS.
+    uint triangle;
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LeafLists { ListItem data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TriangleCorners { vec3 data[]; };
 
 // The arrays stand behind addresses, since they outgrow what devices bind.
 layout(scalar) buffer HybridLeaves {
     LargeUints words;       // One a leaf.
-    LargeUints primitives;  // Lists, one after the other, each in ascending order.
+    LeafLists primitives;   // Lists, one after the other, each in ascending order of triangles.
     LargeUints gridBits;    // Which cells of each grid are not empty: wordsPerGrid words a grid, x + m (y + m z) a bit.
     LargeUints gridRanks;   // Such cells before each word.
     LargeUints cells;       // shape.cellWords each (shaders/hybrid_leaves/grid_cell.glsl).
-    TriangleCorners corners;    // The scene's triangles and
-    CornerPositions positions;  // vertices, by address: lavapipe checks each read of a binding, which costs a tenth of the time.
+    TriangleCorners corners;  // Three positions for each of the scene's triangles, in one place for a test.
     HybridShape shape;
 } hybridLeaves;
 

@@ -5,15 +5,16 @@
 
 #include "shaders/shared/types.h"
 
-// A leaf's word: nothing; or the place where its list of triangles begins; or, with this bit, its grid's number.
+// A leaf's word: nothing; or the number of its list's first item; or, with this bit, its grid's number.
 #define LEAF_EMPTY 0xffffffffu
 #define LEAF_IS_GRID 0x80000000u
-// A word of a list: which octants of the leaf a triangle overlaps, a bit each, then the triangle's number (HybridShape::octantBits); the
-// last one with this bit. Scenes have fewer than 2^31 triangles.
+// An item of a list has two words: a triangle's box in the leaf (shaders/hybrid_leaves/leaf_box.glsl), with this bit in the last one of
+// a list; and its number.
 #define LIST_ENDS 0x80000000u
-#define OCTANT_BITS 8u
-// Octants reach so far beyond their planes, in voxels: what rounding may do to rays and triangles.
-#define OCTANT_MARGIN 0.015625
+#define LIST_ITEM_WORDS 2u
+// Boxes are told in so many steps along a leaf's edge, and reach so far beyond, in voxels: what rounding may do to rays and triangles.
+#define LEAF_BOX_STEPS 32
+#define LEAF_BOX_MARGIN 0.015625
 
 // Hit::triangle of a ray through hybrid leaves: a triangle's number; or, with this bit, the number of a grid's cell; or NO_HIT; or
 // this, where the ray has become wider than a voxel, at Hit::t.
@@ -30,7 +31,6 @@ VOXRAY_SHARED_BEGIN
 struct HybridShape {
     uint leaves;          // As many as surface voxels, and in their order.
     uint capacity;        // Triangles of a list, at most.
-    uint octantBits;      // Lowest bits of a list's words: OCTANT_BITS, or 0 where triangles are too many for such.
     uint gridResolution;  // Cells along an edge of a leaf's grid; 0 where no leaf has one.
     uint wordsPerGrid;    // Bits of a grid's cells, in words.
     uint cellWords;       // GRID_CELL_WORDS or BRIGHT_CELL_WORDS.

@@ -6,34 +6,40 @@
 #define VOXRAY_HYBRID_WALK_GLSL
 
 #include "shaders/hybrid_leaves/grid_cell.glsl"
+#include "shaders/hybrid_leaves/leaf_box.glsl"
 #include "shaders/hybrid_leaves/ray_triangle.glsl"
 #include "shaders/voxel_march/voxel_march.glsl"
 
 // Rays and triangles of lists that this thread has tested.
 uint hybridTests = 0u;
 
-// Octants of a leaf that the part [begin, end] of a ray may pass: of each axis the halves that it touches. No octant that it passes is
-// missing, and where it crosses one half plane or none there is none too many.
-uint octantsOnRay(VoxelGrid g, vec3 origin, vec3 direction, float begin, float end, ivec3 voxel) {
-    const float margin = OCTANT_MARGIN * g.voxelSize;
-    const vec3 from = origin - (g.origin + (vec3(voxel) + 0.5) * g.voxelSize);
-    const vec3 a = from + begin * direction, b = from + end * direction;
-    const bvec3 isLow = lessThanEqual(min(a, b), vec3(margin)), isHigh = greaterThanEqual(max(a, b), vec3(-margin));
-    const uvec3 low = mix(uvec3(0u), uvec3(0x55u, 0x33u, 0x0fu), isLow), high = mix(uvec3(0u), uvec3(0xaau, 0xccu, 0xf0u), isHigh);
-    const uvec3 halves = low | high;
-    return halves.x & halves.y & halves.z;
+// The part [begin, end] of a ray in a leaf, from the leaf's corner.
+LeafSegment leafSegment(vec3 from, vec3 way, float begin, float end) {
+    return LeafSegment(from + 0.5 * (begin + end) * way, 0.5 * (end - begin) * way);
 }
 
-// Tests the triangles of a list that overlap `octants`, also where they reach out of their leaf: the closest of all counts.
-void meetList(vec3 origin, vec3 direction, float tMin, uint octants, uint first, inout Hit best) {
-    const uint bits = hybridLeaves.shape.octantBits;
-    for (uint i = 0u; i < hybridLeaves.shape.capacity; ++i) {
-        const uint word = hybridLeaves.primitives.data[first + i], triangle = (word & ~LIST_ENDS) >> bits;
-        if (triangle != best.triangle && (bits == 0u || (word & octants) != 0u)) {
-            ++hybridTests;
-            meetTriangle(origin, direction, tMin, triangle, best);
+// Tests the triangles of a list that lie where the part [begin, end] of a ray in the leaf is, also where they reach out of the leaf:
+// the closest of all counts.
+void meetList(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float begin, float end, ivec3 voxel, uint first, inout Hit best) {
+    const float halfSteps = float(2 * LEAF_BOX_STEPS);
+    const vec3 from = ((origin - g.origin) / g.voxelSize - vec3(voxel)) * halfSteps, way = direction / g.voxelSize * halfSteps;
+    LeafSegment s = leafSegment(from, way, begin, end);
+    bool isLast = false;
+    for (uint i = 0u; i < hybridLeaves.shape.capacity && !isLast;) {
+        // Each turn finds the next triangle to test: threads whose lists differ still test together.
+        uint box = 0u;
+        bool isFound = false;
+        while (!isFound && !isLast) {
+            box = hybridLeaves.primitives.data[first + i++].box;
+            isLast = (box & LIST_ENDS) != 0u;
+            isFound = meetsLeafBox(s, box);
         }
-        if ((word & LIST_ENDS) != 0u) break;
+        const uint triangle = hybridLeaves.primitives.data[first + i - 1u].triangle;
+        if (isFound && triangle != best.triangle) {
+            ++hybridTests;
+            meetTriangle(origin, direction, tMin, triangle, (box & LEAF_BOX_IS_MASKED) != 0u, best);
+            s = leafSegment(from, way, begin, min(end, best.t));
+        }
     }
 }
 
@@ -109,7 +115,7 @@ Hit hybridClosest(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float tM
         if (isGridLeaf(leaf))
             meetGrid(g, origin, direction, enters, leaves, voxel, leaf & ~LEAF_IS_GRID, start, best);
         else if (!isEmptyLeaf(leaf))
-            meetList(origin, direction, tMin, octantsOnRay(g, origin, direction, enters - rounding, leaves + rounding, voxel), leaf, best);
+            meetList(g, origin, direction, tMin, enters - rounding, leaves + rounding, voxel, leaf, best);
         // A hit within the leaf is the closest: whatever is closer has a part in this leaf or in those before. One behind it may be
         // hidden yet.
         if (best.triangle != NO_HIT && best.t <= leaves - rounding) break;

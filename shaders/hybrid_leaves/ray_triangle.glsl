@@ -8,11 +8,11 @@
 
 // Takes a triangle for the closest hit where the ray meets it between tMin and the closest hit so far; of two at the same distance the
 // first one counts. Edges are told by Plücker coordinates: the product of the ray's line and an edge's changes its sign, and
-// nothing else, with the edge's direction, so that rounding opens no gap between neighbours (Platis and Theoharis 2003).
-void meetTriangle(vec3 origin, vec3 direction, float tMin, uint triangle, inout Hit best) {
-    const uvec3 v = hybridLeaves.corners.data[triangle];
-    precise const vec3 a = hybridLeaves.positions.data[v.x] - origin, b = hybridLeaves.positions.data[v.y] - origin,
-                       c = hybridLeaves.positions.data[v.z] - origin;
+// nothing else, with the edge's direction, so that rounding opens no gap between neighbours (Platis and Theoharis 2003). `isMasked`:
+// whether an alpha mask may cut the point away.
+void meetTriangle(vec3 origin, vec3 direction, float tMin, uint triangle, bool isMasked, inout Hit best) {
+    precise const vec3 a = hybridLeaves.corners.data[3u * triangle] - origin, b = hybridLeaves.corners.data[3u * triangle + 1u] - origin,
+                       c = hybridLeaves.corners.data[3u * triangle + 2u] - origin;
     precise const vec3 ca = c - a, ab = a - b, bc = b - c;
     precise const float u = dot(cross(ca, c + a), direction), v_ = dot(cross(ab, a + b), direction),
                         w = dot(cross(bc, b + c), direction);
@@ -28,10 +28,7 @@ void meetTriangle(vec3 origin, vec3 direction, float tMin, uint triangle, inout 
     if (!(t >= tMin && isCloser)) return;
 
     const vec2 barycentrics = vec2(u, v_) / sum;
-    const uint material = sceneTriangleMaterials.data[triangle];
-    if (sceneMaterials.data[material].alphaMode == ALPHA_MASK &&
-        alphaCut(sceneMaterials.data[material], surfacePoint(triangle, barycentrics)))
-        return;
+    if (isMasked && alphaCut(sceneMaterials.data[sceneTriangleMaterials.data[triangle]], surfacePoint(triangle, barycentrics))) return;
     best = Hit(t, triangle, barycentrics.x, barycentrics.y);
 }
 

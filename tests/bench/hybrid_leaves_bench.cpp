@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "config/config.h"
+#include "experiment/scene_setup.h"
 #include "passes/common/hybrid_leaves/hybrid_tracer.h"
+#include "scene/camera_rays.h"
 #include "tests/bench/sponza.h"
 #include "tests/gpu/prepared.h"
 
@@ -19,14 +22,15 @@ std::vector<Hit> closestHits(CommandStream& stream, RayTracer& tracer, const std
     return stream.readAs<Hit>(out, rays.size());
 }
 
-/// What a mirror on every surface would reflect: rays from a camera in Sponza's nave, by pixel, reflected
-/// where they end.
-std::vector<Ray> mirrorRays(CommandStream& stream, RayTracer& tracer, const Geometry& geometry) {
+/// What a mirror on every surface would reflect: rays from the scene's camera, by pixel, reflected where they
+/// end.
+std::vector<Ray> mirrorRays(CommandStream& stream, RayTracer& tracer, const SceneState& state) {
+    const Geometry& geometry = state.geometry;
+    const CameraRays camera = cameraRays(state.cameras.at(0), kSide, kSide);
     std::vector<Ray> rays(kSide * kSide);
     for (uint32_t i = 0; i < rays.size(); ++i) {
-        const float x = (float(i % kSide) + 0.5f) / kSide * 2 - 1,
-                    y = (float(i / kSide) + 0.5f) / kSide * 2 - 1;
-        rays[i] = {{-9, 3, -0.3f}, 0, glm::normalize(glm::vec3(1, -0.8f * y, 0.8f * x)), 1000};
+        const float x = (float(i % kSide) + 0.5f) / kSide, y = (float(i / kSide) + 0.5f) / kSide;
+        rays[i] = {camera.origin, 0, glm::normalize(camera.direction(x, y)), 1000};
     }
     const std::vector<Hit> hits = closestHits(stream, tracer, rays);
     std::vector<Ray> reflected;
@@ -43,21 +47,47 @@ std::vector<Ray> mirrorRays(CommandStream& stream, RayTracer& tracer, const Geom
     return reflected;
 }
 
-/// Reflected rays through Sponza's leaves by both walks, and by the ray tracers, one after another in each
+/// The scene of a config in configs/papers/seok2021/ at 256³; `more`: passes after voxelization. One is kept
+/// at a time.
+test::Chain& mirrorScene(const std::string& config, const std::string& more) {
+    test::device();  // Made before the chains, so that it goes after them.
+    static std::string current;
+    static std::shared_ptr<const SceneState> state;
+    static std::map<std::string, std::unique_ptr<test::Chain>> chains;
+    if (current != config) {
+        chains.clear();
+        const std::filesystem::path file =
+            test::sourceRoot() / "configs/papers/seok2021" / (config + ".yaml");
+        SceneLoader loader(sceneFolders({}, test::sourceRoot(), file));
+        state = std::make_shared<SceneState>(loader.prepare(loadExperiment(file).setup.scene).state);
+        current = config;
+    }
+    std::unique_ptr<test::Chain>& chain = chains[more];
+    if (!chain) {
+        std::erase_if(chains, [](const auto& other) { return !other.first.empty(); });
+        chains[more] = std::make_unique<test::Chain>(
+            state, "[{pass: voxelize, resolution: 256, directions: 1, visibility_rays: 0}" + more + "]", 16,
+            16, 1);
+    }
+    return *chains[more];
+}
+
+/// Reflected rays through a scene's leaves by both walks, and by the ray tracers, one after another in each
 /// iteration: rays a second of CPU time; steps, visits and tests of triangles a ray; the rays that meet a
 /// cell; those that meet another triangle than Embree's, of those that meet a triangle; memory by kind, and
 /// the build's time.
-void hybridLeaves(benchmark::State& state) {
-    test::Chain& chain = sponza(256, 1,
-                                fmt::format(", {{pass: build_hybrid_leaves, primitives: {}, grid: {}}}",
-                                            state.range(0), state.range(1)));
+void hybridLeaves(benchmark::State& state, const std::string& config) {
+    test::Chain& without = mirrorScene(config, "");
+    test::Chain& chain =
+        mirrorScene(config, fmt::format(", {{pass: build_hybrid_leaves, primitives: {}, grid: {}}}",
+                                        state.range(0), state.range(1)));
     const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
     const HybridLeaves& leaves = *chain.graph().resource<HybridLeaves>("hybrid_leaves");
     ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
     CommandStream stream(test::device());
     const GpuScene scene = makeGpuScene(test::device(), stream, chain.state());
     const auto embree = makeRayTracer(TracerKind::Embree, test::device(), compiler, chain.state());
-    const std::vector<Ray> rays = mirrorRays(stream, *embree, chain.state().geometry);
+    const std::vector<Ray> rays = mirrorRays(stream, *embree, chain.state());
     const std::vector<Hit> expected = closestHits(stream, *embree, rays);
     const double count = double(rays.size());
 
@@ -112,7 +142,6 @@ void hybridLeaves(benchmark::State& state) {
         built.rebuild();
         return 1e3 * (cpuSeconds() - begin);
     };
-    test::Chain& without = sponza(256, 1);
     const double voxelize = std::min(build(without), build(without));
     state.counters["voxelize_ms"] = voxelize;
     state.counters["build_ms"] = std::min(build(chain), build(chain)) - voxelize;
@@ -122,15 +151,29 @@ void hybridLeaves(benchmark::State& state) {
     state.counters["grids"] = leaves.gridCount;
     state.counters["leaves"] = leaves.shape.leaves;
 }
-BENCHMARK(hybridLeaves)
-    ->ArgNames({"primitives", "grid"})
-    ->Args({8, 8})
-    ->Args({8, 16})
-    ->Args({32, 8})
-    ->Args({32, 16})
-    ->Args({64, 16})
-    ->Args({128, 16})
-    ->Args({1 << 20, 16})
+
+/// Capacities p and grids of m³.
+void manyLeaves(benchmark::internal::Benchmark* b) {
+    b->ArgNames({"primitives", "grid"});
+    for (const auto& [p, m] : std::vector<std::pair<int, int>>{
+             {8, 8}, {8, 16}, {32, 8}, {32, 16}, {64, 16}, {128, 16}, {1 << 20, 16}})
+        b->Args({p, m});
+}
+void fewLeaves(benchmark::internal::Benchmark* b) {
+    b->ArgNames({"primitives", "grid"})->Args({8, 8})->Args({64, 16})->Args({1 << 20, 16});
+}
+BENCHMARK_CAPTURE(hybridLeaves, sponza, "table1")
+    ->Apply(manyLeaves)
+    ->MeasureProcessCPUTime()
+    ->Iterations(3)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(hybridLeaves, bunnies, "table1_bunnies")
+    ->Apply(fewLeaves)
+    ->MeasureProcessCPUTime()
+    ->Iterations(3)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(hybridLeaves, kitchen, "table1_kitchen")
+    ->Apply(fewLeaves)
     ->MeasureProcessCPUTime()
     ->Iterations(3)
     ->Unit(benchmark::kMillisecond);

@@ -1,5 +1,6 @@
 // What leaves of hybrid octrees hold, against brute force on the host and closed forms.
 #include <cstdio>
+#include <optional>
 #include <set>
 
 #include "tests/physics/hybrid_scene.h"
@@ -10,12 +11,23 @@
 namespace voxray::test {
 namespace {
 
+/// As in shaders/hybrid_leaves/hybrid_leaves.glsl.
+struct ListItem {
+    uint32_t box, triangle;
+};
+
 /// What a leaf lists; nothing where it has a grid.
-std::vector<uint32_t> listOf(uint32_t word, const std::vector<uint32_t>& primitives) {
-    std::vector<uint32_t> list;
+std::vector<ListItem> itemsOf(uint32_t word, const std::vector<ListItem>& primitives) {
+    std::vector<ListItem> list;
     if (word >= LEAF_IS_GRID) return list;
-    do list.push_back((primitives[word] & ~LIST_ENDS) >> OCTANT_BITS);
-    while (!(primitives[word++] & LIST_ENDS));
+    do list.push_back({primitives[word].box & ~LIST_ENDS, primitives[word].triangle});
+    while (!(primitives[word++].box & LIST_ENDS));
+    return list;
+}
+
+std::vector<uint32_t> listOf(uint32_t word, const std::vector<ListItem>& primitives) {
+    std::vector<uint32_t> list;
+    for (const ListItem& item : itemsOf(word, primitives)) list.push_back(item.triangle);
     return list;
 }
 
@@ -49,7 +61,7 @@ TEST(HybridLeaves, ListEveryTriangleThatOverlaps) {
         const gpu::VoxelGrid& grid = leafVoxels.grid;
         const std::vector<uint32_t> occupancy = hybrid.chain().read<uint32_t>(leafVoxels.occupancy);
         const std::vector<uint32_t> words = hybrid.chain().read<uint32_t>(hybrid.leaves().words);
-        const std::vector<uint32_t> primitives = hybrid.chain().read<uint32_t>(hybrid.leaves().primitives);
+        const std::vector<ListItem> primitives = hybrid.chain().read<ListItem>(hybrid.leaves().primitives);
         const Geometry& g = state->geometry;
         std::vector<Triangle> triangles;
         for (const glm::uvec3& t : g.triangles) {
@@ -96,6 +108,79 @@ TEST(HybridLeaves, ListEveryTriangleThatOverlaps) {
         EXPECT_EQ(hybrid.leaves().gridCount, grids);
         EXPECT_GT(lists, 80u);
         std::printf("%zu lists of %.3g triangles, %zu grids\n", lists, double(pairs) / double(lists), grids);
+    }
+}
+
+/// Bounds of a triangle's part in the unit cube, by corners of the polygon that is left; nothing where they
+/// don't meet.
+std::optional<std::array<glm::dvec3, 2>> boundsInCube(const Triangle& triangle) {
+    std::vector<glm::dvec3> polygon(triangle.begin(), triangle.end());
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double sign : {-1.0, 1.0}) {
+            std::vector<glm::dvec3> left;
+            const double limit = sign > 0 ? 1 : 0;
+            for (size_t i = 0; i < polygon.size(); ++i) {
+                const glm::dvec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+                const double outA = sign * a[axis] - limit, outB = sign * b[axis] - limit;
+                if (outA <= 0) left.push_back(a);
+                if (outA * outB < 0) left.push_back(glm::mix(a, b, outA / (outA - outB)));
+            }
+            polygon = left;
+        }
+    if (polygon.empty()) return {};
+    std::array<glm::dvec3, 2> bounds{polygon[0], polygon[0]};
+    for (const glm::dvec3& corner : polygon)
+        bounds = {glm::min(bounds[0], corner), glm::max(bounds[1], corner)};
+    return bounds;
+}
+
+TEST(HybridLeaves, BoxesAreThoseOfTheTrianglesInTheLeaf) {
+    for (const std::shared_ptr<const SceneState>& state :
+         {builtin("cornell"), builtin("spheres", "{count: 8}"), soup()}) {
+        Hybrid hybrid(state, 10, "primitives: 100000");
+        const SurfaceVoxels& leafVoxels = hybrid.leaves().voxels(hybrid.voxels());
+        const gpu::VoxelGrid& grid = leafVoxels.grid;
+        const std::vector<uint32_t> occupancy = hybrid.chain().read<uint32_t>(leafVoxels.occupancy);
+        const std::vector<uint32_t> words = hybrid.chain().read<uint32_t>(hybrid.leaves().words);
+        const std::vector<ListItem> primitives = hybrid.chain().read<ListItem>(hybrid.leaves().primitives);
+        const Geometry& g = state->geometry;
+        size_t leaf = 0, boxes = 0;
+        double width = 0, truth = 0;
+        for (int z = 0; z < int(grid.resolution.z); ++z)
+            for (int y = 0; y < int(grid.resolution.y); ++y)
+                for (int x = 0; x < int(grid.resolution.x); ++x) {
+                    const size_t row = size_t(z) * grid.resolution.y + size_t(y);
+                    if (!(occupancy[row * grid.wordsPerRow + size_t(x) / 32] >> (x % 32) & 1u)) continue;
+                    for (const ListItem& item : itemsOf(words[leaf++], primitives)) {
+                        Triangle corners;
+                        for (int k = 0; k < 3; ++k)
+                            corners[size_t(k)] = (glm::dvec3(g.positions[g.triangles[item.triangle][k]]) -
+                                                  glm::dvec3(grid.origin)) /
+                                                     double(grid.voxelSize) -
+                                                 glm::dvec3(x, y, z);
+                        const AlphaMode mode =
+                            state->scene->materials[g.triangleMaterials[item.triangle]].alphaMode;
+                        EXPECT_EQ(item.box >> 30, mode == AlphaMode::Mask ? 1u : 0u);
+                        const auto bounds = boundsInCube(corners);
+                        if (!bounds) continue;  // Near the leaf, not in it.
+                        ++boxes;
+                        for (int axis = 0; axis < 3; ++axis) {
+                            const double first = double(item.box >> (5 * axis) & 31u) / LEAF_BOX_STEPS,
+                                         last =
+                                             double((item.box >> (15 + 5 * axis) & 31u) + 1) / LEAF_BOX_STEPS;
+                            // Rounding apart, and what a walk allows for it
+                            EXPECT_LE(first, (*bounds)[0][axis] + 1e-4);
+                            EXPECT_GE(last, (*bounds)[1][axis] - 1e-4);
+                            width += last - first;
+                            truth += (*bounds)[1][axis] - (*bounds)[0][axis];
+                        }
+                    }
+                }
+        EXPECT_GT(boxes, 500u);
+        // A step more, of each axis, and what the leaf's margin adds.
+        EXPECT_LT((width - truth) / double(3 * boxes), 2.0 / LEAF_BOX_STEPS);
+        std::printf("%zu boxes, %.3g of a leaf's edge wide, %.3g larger than they need be\n", boxes,
+                    width / double(3 * boxes), (width - truth) / double(3 * boxes));
     }
 }
 

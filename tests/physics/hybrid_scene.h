@@ -123,12 +123,22 @@ inline bool isCell(const Hit& hit) {
     return hit.triangle != Hit::kMiss && hit.triangle >= HIT_IS_CELL;
 }
 
-/// A soup of triangles with alpha masks and degenerate triangles, every third one twice.
+/// A soup of triangles with alpha masks and degenerate triangles, every third one twice, and two that are no
+/// triangles.
 inline std::shared_ptr<const SceneState> soup() {
     SceneState state = triangleSoup(1500, 0.12f, 1);
     for (size_t t = 0; t < 1500; t += 3) {
         state.geometry.triangles.push_back(state.geometry.triangles[t]);
         state.geometry.triangleMaterials.push_back(state.geometry.triangleMaterials[t]);
+    }
+    for (const float corner : {std::numeric_limits<float>::quiet_NaN(), kInfinity}) {
+        const uint32_t first = uint32_t(state.geometry.positions.size());
+        for (const glm::vec3 position : {glm::vec3(0), glm::vec3(0.1f, 0, 0), glm::vec3(0, corner, 0)}) {
+            state.geometry.positions.push_back(position);
+            state.geometry.attributes.emplace_back();
+        }
+        state.geometry.triangles.emplace_back(first, first + 1, first + 2);
+        state.geometry.triangleMaterials.push_back(0);
     }
     state.cameras.emplace_back();
     return std::make_shared<SceneState>(std::move(state));

@@ -79,8 +79,8 @@ TEST(MovingVoxels, HybridLeavesAreThoseThatAreRebuilt) {
         EXPECT_GT(reported(moved.updateSamples[1], "leaves built again"), 0);
         EXPECT_LT(reported(moved.updateSamples[1], "leaves built again"), a.shape.leaves / 2);
         for (Buffer HybridLeaves::*buffer :
-             {&HybridLeaves::words, &HybridLeaves::primitives, &HybridLeaves::gridBits,
-              &HybridLeaves::gridRanks, &HybridLeaves::cells})
+             {&HybridLeaves::words, &HybridLeaves::primitives, &HybridLeaves::corners,
+              &HybridLeaves::gridBits, &HybridLeaves::gridRanks, &HybridLeaves::cells})
             EXPECT_TRUE(sameBits(moved.read<uint32_t>(a.*buffer), made.read<uint32_t>(b.*buffer)))
                 << (a.*buffer).name();
     });

@@ -16,11 +16,12 @@ struct HybridLeaves : Resource {
     uint64_t version = 0;  ///< Another one whenever the content is.
     uint32_t gridCount = 0;
     uint32_t emptyCount = 0;      ///< Leaves that hold nothing.
-    uint32_t primitiveCount = 0;  ///< Words of all lists.
+    uint32_t primitiveCount = 0;  ///< Items of all lists.
     uint32_t cellCount = 0;       ///< Of all grids, those that are not empty.
-    Buffer header;                ///< Addresses of the arrays and of the scene's triangles, and `shape`.
+    Buffer header;                ///< Addresses of the arrays, and `shape`.
     Buffer words;                 ///< A word a leaf.
-    Buffer primitives;            ///< Triangles' numbers, list by list; at least one word.
+    Buffer primitives;            ///< Items, list by list: triangles' boxes and numbers; at least one word.
+    Buffer corners;               ///< Three positions for each of the scene's triangles.
     Buffer gridBits, gridRanks;   ///< A bit for each cell, and the cells before each word.
     Buffer cells;                 ///< shape.cellWords each. Like the bits, none where no leaf has a grid.
 
@@ -38,7 +39,7 @@ struct HybridLeaves : Resource {
     }
     uint64_t listBytes() const { return primitives.bytes(); }
     uint64_t gridBytes() const { return gridBits.bytes() + gridRanks.bytes() + cells.bytes(); }
-    /// Frees all but the header.
+    /// Frees all but the header and the corners.
     void release() {
         words = {}, primitives = {}, gridBits = {}, gridRanks = {}, cells = {}, masked = {};
         gridCount = emptyCount = primitiveCount = cellCount = 0;
