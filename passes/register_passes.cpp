@@ -1,5 +1,6 @@
 #include "passes/register_passes.h"
 
+#include "passes/accumulate/accumulate.h"
 #include "passes/build_hybrid_leaves/build_hybrid_leaves.h"
 #include "passes/cluster_visibility/cluster_visibility.h"
 #include "passes/cluster_voxels/cluster_voxels.h"
@@ -50,6 +51,7 @@ void registerPasses(Registry& registry) {
     registry.add<GBufferPass>();
     registry.add<VoxelizePass>();
     registry.add<CompareVoxels>();
+    registry.add<Accumulate>();
     registry.add<BuildHybridLeaves>();
     registry.add<InjectLightRays>();
     registry.add<PlaceSurfels>();

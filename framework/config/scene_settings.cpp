@@ -30,11 +30,13 @@ ConfigLight readLight(const Value& entry, size_t index) {
         light.type = LightType::Directional;
         light.intensity = p.irradiance;
         read.move = p.move;
+        read.offAt = p.offAt;
         light.direction = direction(p.direction, *axis, what + ".directional");
     } else if (entry.find("point")) {
         const auto p = readParams<PointLightSettings>(entry, what);
         light.intensity = p.intensity;
         read.move = p.move;
+        read.offAt = p.offAt;
         light.position = p.position;
     } else if (entry.find("spot")) {
         const auto p = readParams<SpotLightSettings>(entry, what);
@@ -43,6 +45,7 @@ ConfigLight readLight(const Value& entry, size_t index) {
         light.type = LightType::Spot;
         light.intensity = p.intensity;
         read.move = p.move;
+        read.offAt = p.offAt;
         light.position = p.position;
         light.direction = direction(p.direction, entry, what + ".direction");
         light.innerConeAngle = glm::radians(p.innerDegrees);
@@ -146,8 +149,16 @@ SceneSettings readSceneSettings(const Value& map) {
 
 bool changesInTime(const SceneSettings& settings) {
     return settings.options.timeStep > 0 ||
-           std::any_of(settings.lights.begin(), settings.lights.end(),
-                       [](const ConfigLight& entry) { return entry.move != glm::vec3(0.0f); });
+           std::any_of(settings.lights.begin(), settings.lights.end(), [](const ConfigLight& entry) {
+               return entry.move != glm::vec3(0.0f) || entry.offAt > 0;
+           });
+}
+
+std::optional<uint32_t> firstLightOff(const SceneSettings& settings) {
+    std::optional<uint32_t> first;
+    for (const ConfigLight& light : settings.lights)
+        if (light.offAt > 0) first = std::min(light.offAt, first.value_or(light.offAt));
+    return first;
 }
 
 }  // namespace voxray

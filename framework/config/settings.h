@@ -176,11 +176,21 @@ struct CameraSettings {
     }
 };
 
+/// `off_at` of a light.
+template <typename Light>
+constexpr auto lightOffField(uint32_t Light::*offAt) {
+    return field("off_at", offAt,
+                 "The measured frame from which on it does not shine, so that one sees how long it stays in "
+                 "the picture; 0: it always shines.",
+                 0u, 100000u);
+}
+
 /// Entries of `scene.lights`; the first key says which kind.
 struct DirectionalLightSettings {
     glm::vec3 direction{0, -1, 0};
     glm::vec3 irradiance{1.0f};
     glm::vec3 move{0.0f};
+    uint32_t offAt = 0;
     static constexpr auto schema() {
         return std::tuple{field("directional", &DirectionalLightSettings::direction,
                                 "The way the light travels, any length but 0.", glm::vec3(-kMaxCoordinate),
@@ -192,13 +202,15 @@ struct DirectionalLightSettings {
                                 "Added to the direction from one frame to the next; in the compared frame it "
                                 "shines along `directional`.",
                                 glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                              .asVector()};
+                              .asVector(),
+                          lightOffField(&DirectionalLightSettings::offAt)};
     }
 };
 struct PointLightSettings {
     glm::vec3 position{0.0f};
     glm::vec3 intensity{1.0f};
     glm::vec3 move{0.0f};
+    uint32_t offAt = 0;
     static constexpr auto schema() {
         return std::tuple{
             field("point", &PointLightSettings::position, "Where the light is, metres.",
@@ -209,7 +221,8 @@ struct PointLightSettings {
             field("move", &PointLightSettings::move,
                   "How far it moves from one frame to the next, metres: at its place in the compared frame.",
                   glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector()};
+                .asVector(),
+            lightOffField(&PointLightSettings::offAt)};
     }
 };
 struct SpotLightSettings {
@@ -219,6 +232,7 @@ struct SpotLightSettings {
     float innerDegrees = 0;
     float outerDegrees = 45;
     glm::vec3 move{0.0f};
+    uint32_t offAt = 0;
     static constexpr auto schema() {
         return std::tuple{
             field("spot", &SpotLightSettings::position, "Where the light is, metres.",
@@ -236,7 +250,8 @@ struct SpotLightSettings {
             field("move", &SpotLightSettings::move,
                   "How far it moves from one frame to the next, metres: at its place in the compared frame.",
                   glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector()};
+                .asVector(),
+            lightOffField(&SpotLightSettings::offAt)};
     }
 };
 
@@ -258,6 +273,7 @@ struct ConfigLight {
     Light light;
     glm::vec3 move{
         0.0f};  ///< From one frame to the next: of its position in m, or of a directional's direction.
+    uint32_t offAt = 0;  ///< The frame from which on it does not shine; 0: none.
 };
 
 /// `scene`, read.
@@ -277,7 +293,10 @@ struct SceneSettings {
 /// Reads the block `scene`. Touches no file. @throws UsageError with file, line and the nearest valid word.
 SceneSettings readSceneSettings(const Value& map);
 
-/// Whether surfaces or lights are elsewhere in the next frame.
+/// Whether surfaces or lights are elsewhere in the next frame, or a light is switched off.
 bool changesInTime(const SceneSettings& settings);
+
+/// The first frame from which on a light does not shine; nullopt where none is switched off.
+std::optional<uint32_t> firstLightOff(const SceneSettings& settings);
 
 }  // namespace voxray

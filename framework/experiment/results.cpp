@@ -166,6 +166,15 @@ std::string valuesCsv(const std::vector<VariantResult>& results) {
 std::string framesCsv(const std::vector<VariantResult>& results, const MeasureSettings& measure) {
     std::vector<ScoreColumn> columns = scoreColumns(measure);
     for (const std::string light : kLightPrefixes) columns.push_back({light + temporalMetrics()[0].name, ""});
+    // Where a light is switched off
+    for (const std::string light : kLightPrefixes)
+        for (const char* name : {"afterglow", "frames_lit"})
+            if (std::ranges::any_of(results, [&](const VariantResult& r) {
+                    return std::ranges::any_of(r.frames, [&](const FrameScores& frame) {
+                        return frame.scores.contains(light + name);
+                    });
+                }))
+                columns.push_back({light + name, ""});
     std::vector<std::string> header{"variant", "frame"};
     append(header, namesOf(columns));
     std::string text = csvLine(header);

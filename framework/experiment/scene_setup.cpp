@@ -95,6 +95,7 @@ void chooseLightsAndCamera(PreparedScene& prepared, const SceneSettings& setting
     if (!settings.options.keepFileLights) lights.clear();
     for (const ConfigLight& entry : settings.lights) {
         Light light = entry.light;
+        if (entry.offAt > 0 && frame >= int(entry.offAt)) light.intensity = glm::vec3(0.0f);
         const glm::vec3 way = float(frame) * entry.move;
         if (light.type == LightType::Directional && way != glm::vec3(0.0f)) {
             const float length = glm::length(light.direction + way);
@@ -199,7 +200,7 @@ std::string SceneLoader::key(const SceneSettings& settings) {
     Value camera = settings.camera ? writeParams(*settings.camera) : Value();
     camera.erase("move");
     hasher.add(settings.camera ? camera.text() : "");
-    for (const auto& [light, move] : settings.lights) {
+    for (const auto& [light, move, offAt] : settings.lights) {
         hasher.addPlain(light.type)
             .addPlain(light.intensity)
             .addPlain(light.position)

@@ -1,5 +1,8 @@
 #include "experiment/scoring.h"
 
+#include <numeric>
+
+#include "experiment/afterglow.h"
 #include "image/seed_error.h"
 #include "image/temporal.h"
 
@@ -19,6 +22,11 @@ void forEachRegion(const std::vector<PixelSelection>& masks, const Body& body) {
 
 void add(Scores& all, const std::string& light, const Scores& scores, const std::string& region) {
     for (const auto& [metric, value] : scores) all[light + metric + region] = value;
+}
+
+/// Of all pixels and channels.
+double meanOf(const ImageF& image) {
+    return std::accumulate(image.data.begin(), image.data.end(), 0.0) / double(image.data.size());
 }
 
 void addScores(Scores& all, const std::string& light, const Comparison& comparison,
@@ -86,8 +94,9 @@ void scoreSeeds(const FrameImages& first, const FrameImages& second, const Refer
 
 void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReference& reference,
                    const Scores& first, const std::function<FrameReference(uint32_t)>& referenceOf,
-                   float exposureStops, VariantResult& result) {
+                   float exposureStops, std::optional<uint32_t> lightOff, VariantResult& result) {
     TemporalError total, indirect;
+    std::vector<FrameMeans> totalMeans, indirectMeans;
     for (const FrameImages& test : frames) {
         // Frame 0 has its scores already
         std::optional<FrameReference> own;
@@ -100,6 +109,12 @@ void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReferen
                 scoreFrame(test, right, masks, reference.record, exposureStops).scores;
         total.add(test.final, right.final.halves());
         if (test.indirect) indirect.add(*test.indirect, right.indirect.halves());
+        totalMeans.push_back({meanOf(test.final), meanOf(right.final.mean)});
+        if (test.indirect) indirectMeans.push_back({meanOf(*test.indirect), meanOf(right.indirect.mean)});
+    }
+    if (lightOff) {
+        scoreAfterglow(totalMeans, *lightOff, kTotal, result.frames);
+        if (!indirectMeans.empty()) scoreAfterglow(indirectMeans, *lightOff, kIndirect, result.frames);
     }
     const auto addLight = [&](const std::string& light, const TemporalError& temporal) {
         add(result.scores, light, temporal.scores(), "");

@@ -55,9 +55,9 @@ struct FrameReference {
 /// Scores each compared frame into `result.frames` and the temporal error of all of them into
 /// `result.scores`.
 /// @param first the scores of frame 0. @param referenceOf the reference of another frame; empty: all frames
-/// share the prepared one.
+/// share the prepared one. @param lightOff the frame in which a light is switched off, if any.
 void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReference& reference,
                    const Scores& first, const std::function<FrameReference(uint32_t)>& referenceOf,
-                   float exposureStops, VariantResult& result);
+                   float exposureStops, std::optional<uint32_t> lightOff, VariantResult& result);
 
 }  // namespace voxray

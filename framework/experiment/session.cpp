@@ -93,7 +93,7 @@ std::string Session::referenceHashOf(const WiredExperiment& experiment, const Se
     Hasher hasher;
     hasher.add(first).addPlain(number).addPlain(setup.scene.options.timeStep);
     hasher.addPlain(setup.scene.camera ? setup.scene.camera->move : glm::vec3(0.0f));
-    for (const ConfigLight& light : setup.scene.lights) hasher.addPlain(light.move);
+    for (const ConfigLight& light : setup.scene.lights) hasher.addPlain(light.move).addPlain(light.offAt);
     return hasher.hex();
 }
 

@@ -111,7 +111,8 @@ RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experimen
         result.scores = first.scores;
         if (second) scoreSeeds(frames[0], *second, reference->images, result.scores);
         if (measure.compareEvery > 0)
-            scoreSequence(frames, *reference, first.scores, referenceOf, stops, result);
+            scoreSequence(frames, *reference, first.scores, referenceOf, stops,
+                          firstLightOff(variant.setup.scene), result);
     }
     rendered.final = std::move(frames[0].final);
     rendered.indirect = std::move(frames[0].indirect);

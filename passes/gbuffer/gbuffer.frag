@@ -15,6 +15,10 @@ layout(location = 4) in vec4 color;
 layout(location = 5) flat in vec3 geometricNormal;
 layout(location = 6) flat in uint material;
 layout(location = 7) flat in vec2 uvDensity;
+#ifdef MOTION
+layout(location = 8) in vec3 previous;
+layout(location = 9) flat in float instance;
+#endif
 
 layout(location = 0) out vec4 outPosition;
 layout(location = 1) out vec4 outNormal;
@@ -23,6 +27,9 @@ layout(location = 3) out vec4 outAlbedo;
 layout(location = 4) out vec4 outEmission;
 layout(location = 5) out vec4 outSpecular;
 layout(location = 6) out vec4 outFresnel;
+#ifdef MOTION
+layout(location = 7) out vec4 outPrevious;
+#endif
 
 void main() {
     SurfacePoint s;
@@ -44,4 +51,7 @@ void main() {
     outEmission = vec4(visible.emission, 0.0);
     outSpecular = specularTexel(visible.specular);
     outFresnel = fresnelTexel(visible.specular);
+#ifdef MOTION
+    outPrevious = vec4(previous, instance);
+#endif
 }

@@ -2,6 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "passes/gbuffer/view.glsl"
 #include "shaders/scene/scene.glsl"
+#ifdef MOTION
+#include "passes/gbuffer/previous.glsl"
+#endif
 
 layout(push_constant, scalar) uniform Push {
     mat4 viewProjection;
@@ -16,6 +19,10 @@ layout(location = 4) out vec4 color;
 layout(location = 5) flat out vec3 geometricNormal;
 layout(location = 6) flat out uint material;
 layout(location = 7) flat out vec2 uvDensity;
+#ifdef MOTION
+layout(location = 8) out vec3 previous;
+layout(location = 9) flat out float instance;
+#endif
 
 void main() {
     const uint corner = uint(gl_VertexIndex) % 3u;
@@ -27,6 +34,10 @@ void main() {
     texCoords = s.texCoords;
     color = s.color;
     uvDensity = s.uvDensity;
+#ifdef MOTION
+    previous = previousPosition(uint(gl_VertexIndex) / 3u, barycentrics);
+    instance = instanceOf(uint(gl_VertexIndex) / 3u);
+#endif
     geometricNormal = s.geometricNormal;
     material = s.material;
     gl_Position = push.viewProjection * vec4(s.position, 1.0);

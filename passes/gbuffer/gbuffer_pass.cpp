@@ -4,6 +4,7 @@
 
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/view/camera_matrix.h"
+#include "passes/common/view/frame_image.h"
 
 namespace voxray {
 namespace {
@@ -76,6 +77,7 @@ uint64_t batchRays(glm::uvec2 extent) {
 
 void GBufferPass::declare(PassBuilder& builder) {
     gbuffer_ = builder.write<GBuffer>("gbuffer", "what the camera sees");
+    motion_ = builder.write<SurfaceMotion>("motion", "where it was in the frame before");
 }
 
 void GBufferPass::plan(PassPlan& plan) {
@@ -83,6 +85,15 @@ void GBufferPass::plan(PassPlan& plan) {
     g.samples = params_.samplesPerPixelEdge;
     const glm::uvec2 extent = gbufferExtent(plan.frame, params_.samplesPerPixelEdge);
     for (const Target& t : kTargets) plan.image(g.*t.image, t.name, targetDesc(extent, t.format));
+    if (hasMotion(plan)) {
+        const Geometry& geometry = plan.frame.scene->geometry;
+        SurfaceMotion& motion = plan.get(motion_);
+        plan.image(motion.motion, "motion", targetDesc(extent, kWide));
+        plan.image(motion.previous, "previous position", targetDesc(extent, kWide));
+        plan.buffer(previousPositions_, "previous vertices", geometry.positions.size() * sizeof(glm::vec3));
+        plan.buffer(previousView_, "previous view", sizeof(View));
+        plan.buffer(instanceStarts_, "instances", geometry.instances.size() * sizeof(uint32_t));
+    }
     if (params_.method == GBufferMethod::Raster) {
         plan.image(depth_, "gbuffer depth", depthTarget(extent));
     } else {
@@ -92,11 +103,21 @@ void GBufferPass::plan(PassPlan& plan) {
 }
 
 void GBufferPass::prepare(PassSetup& setup) {
+    Defines defines;
+    if (params_.normalMaps == NormalMaps::Sharp) defines.emplace("SHARP_NORMALS", "1");
+    if (hasMotion(setup)) defines.emplace("MOTION", "1");
     const auto compile = [&](const char* file) {
-        return setup.compiler.compile(
-            std::string("passes/gbuffer/") + file,
-            params_.normalMaps == NormalMaps::Sharp ? Defines{{"SHARP_NORMALS", "1"}} : Defines{});
+        return setup.compiler.compile(std::string("passes/gbuffer/") + file, defines);
     };
+    if (hasMotion(setup)) {
+        findMotion_ = makeComputeProgram(setup.device, compile("motion.comp"));
+        sampler_ = texelSampler(setup.device);
+        std::vector<uint32_t> starts;
+        for (const InstanceRange& range : setup.frame.scene->geometry.instances)
+            starts.push_back(range.firstTriangle);
+        setup.stream.upload(instanceStarts_, starts);
+        sceneVersion_.reset();
+    }
     if (params_.method == GBufferMethod::Rays) {
         aim_ = makeComputeProgram(setup.device, compile("aim.comp"));
         shade_ = makeComputeProgram(setup.device, compile("shade.comp"));
@@ -106,15 +127,43 @@ void GBufferPass::prepare(PassSetup& setup) {
     const ShaderModule stages[] = {compile("gbuffer.vert"), compile("gbuffer.frag")};
     RasterState state;
     for (const Target& t : kTargets) state.colorFormats.push_back(t.format);
+    if (hasMotion(setup)) state.colorFormats.push_back(kWide);
     state.depthFormat = VK_FORMAT_D32_SFLOAT;
     surfaces_ = makeRasterProgram(setup.device, stages, state);
 }
 
 void GBufferPass::record(PassContext& context) {
+    if (hasMotion(context)) beginMotion(context);
     if (params_.method == GBufferMethod::Rays)
         trace(context);
     else
         rasterize(context);
+    if (hasMotion(context)) endMotion(context);
+}
+
+void GBufferPass::beginMotion(PassContext& context) {
+    if (sceneVersion_) return;
+    const glm::uvec2 extent = gbufferExtent(context.frame, params_.samplesPerPixelEdge);
+    context.stream.copy(context.scene.positions, previousPositions_, previousPositions_.bytes());
+    context.stream.upload(previousView_, std::vector{viewOf(context.frame, extent)});
+}
+
+void GBufferPass::endMotion(PassContext& context) {
+    const SurfaceMotion& motion = context.get(motion_);
+    const glm::uvec2 extent = gbufferExtent(context.frame, params_.samplesPerPixelEdge);
+    const View view = viewOf(context.frame, extent);
+    context.stream.dispatch(findMotion_,
+                            {{"position", context.get(gbuffer_).position, sampler_},
+                             {"previous", motion.previous, sampler_},
+                             {"motion", motion.motion},
+                             {"previousView", previousView_}},
+                            view, pixelGroups(extent.x, extent.y));
+
+    // For the next frame
+    if (sceneVersion_ != context.frame.sceneVersion)
+        context.stream.copy(context.scene.positions, previousPositions_, previousPositions_.bytes());
+    context.stream.upload(previousView_, std::vector{view});
+    sceneVersion_ = context.frame.sceneVersion;
 }
 
 void GBufferPass::trace(PassContext& context) {
@@ -127,16 +176,20 @@ void GBufferPass::trace(PassContext& context) {
         const RaysPush push{view, first, batch};
         context.stream.dispatch(aim_, {{"rays", rays_}}, push, linearGroups(batch));
         context.tracer.closestHit(context.stream, rays_, hits_, batch, Coherence::Coherent);
-        context.stream.dispatch(shade_,
-                                context.scene.bindings({{"hits", hits_},
-                                                        {"position", g.position},
-                                                        {"normal", g.normal},
-                                                        {"geometricNormal", g.geometricNormal},
-                                                        {"albedo", g.albedo},
-                                                        {"emitted", g.emission},
-                                                        {"specular", g.specular},
-                                                        {"fresnel", g.fresnel}}),
-                                push, linearGroups(batch));
+        std::vector<Binding> bindings = context.scene.bindings({{"hits", hits_},
+                                                                {"position", g.position},
+                                                                {"normal", g.normal},
+                                                                {"geometricNormal", g.geometricNormal},
+                                                                {"albedo", g.albedo},
+                                                                {"emitted", g.emission},
+                                                                {"specular", g.specular},
+                                                                {"fresnel", g.fresnel}});
+        if (hasMotion(context)) {
+            bindings.emplace_back("previous", context.get(motion_).previous);
+            bindings.emplace_back("previousPositions", previousPositions_);
+            bindings.emplace_back("instanceStarts", instanceStarts_);
+        }
+        context.stream.dispatch(shade_, bindings, push, linearGroups(batch));
     }
 }
 
@@ -157,13 +210,18 @@ void GBufferPass::rasterize(PassContext& context) {
         targets.colors.push_back({&(g.*t.image), {}});
         if (t.cleared) targets.colors.back().clear = VkClearColorValue{};
     }
+    std::vector<Binding> bindings = context.scene.bindings({});
+    if (hasMotion(context)) {
+        targets.colors.push_back({&context.get(motion_).previous, VkClearColorValue{}});
+        bindings.emplace_back("previousPositions", previousPositions_);
+        bindings.emplace_back("instanceStarts", instanceStarts_);
+    }
     targets.depth = &depth_;
     targets.extent = {extent, 1};
     const SurfacePush push{
         viewProjection(frame.camera, frame.width, frame.height, geometry.boundsMin, geometry.boundsMax),
         view};
-    context.stream.draw(surfaces_, context.scene.bindings({}), push, targets,
-                        context.scene.triangleCount * 3);
+    context.stream.draw(surfaces_, bindings, push, targets, context.scene.triangleCount * 3);
 }
 
 }  // namespace voxray

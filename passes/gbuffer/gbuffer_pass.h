@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "passes/common/view/gbuffer.h"
+#include "passes/common/view/surface_motion.h"
 
 namespace voxray {
 
@@ -62,13 +64,24 @@ class GBufferPass final : public Pass {
  private:
     void trace(PassContext& context);
     void rasterize(PassContext& context);
+    void beginMotion(PassContext& context);
+    void endMotion(PassContext& context);
+    bool hasMotion(const PortAccess& access) const { return access.get(motion_).isRead; }
 
     Params params_;
     Port<GBuffer> gbuffer_;
+    Port<SurfaceMotion> motion_;
     Program aim_, shade_;            ///< Of rays.
     Buffer rays_, hits_;             ///< Of rays.
     Program background_, surfaces_;  ///< Of raster.
     Image depth_;                    ///< Of raster.
+    // Of motion, where it is read
+    Program findMotion_;
+    Sampler sampler_;
+    Buffer previousPositions_;              ///< Of vertices, m.
+    Buffer previousView_;                   ///< View.
+    Buffer instanceStarts_;                 ///< First triangle of each mesh instance.
+    std::optional<uint64_t> sceneVersion_;  ///< Of previousPositions_; none before the first frame.
 };
 
 }  // namespace voxray

@@ -4,6 +4,9 @@
 #include "passes/gbuffer/visible_surface.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
+#ifdef MOTION
+#include "passes/gbuffer/previous.glsl"
+#endif
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
@@ -14,6 +17,9 @@ layout(rgba16f) writeonly uniform image2D albedo;
 layout(rgba32f) writeonly uniform image2D emitted;
 layout(rgba16f) writeonly uniform image2D specular;
 layout(rgba8) writeonly uniform image2D fresnel;
+#ifdef MOTION
+layout(rgba32f) writeonly uniform image2D previous;
+#endif
 layout(push_constant, scalar) uniform Push {
     View view;
     uint firstTexel;
@@ -28,7 +34,7 @@ void main() {
     const Hit hit = hits.data[i];
 
     // Nothing met: the environment.
-    vec4 point = vec4(0.0);
+    vec4 point = vec4(0.0), before = vec4(0.0);
     VisibleSurface visible = VisibleSurface(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0),
                                             Specular(vec3(0.0), 0.0, 0.0, 0.0, 0.0));
     if (hit.triangle == NO_HIT) {
@@ -37,6 +43,9 @@ void main() {
         const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
         point = vec4(s.position, 1.0);
         visible = visibleSurface(push.view, s);
+#ifdef MOTION
+        before = vec4(previousPosition(hit.triangle, vec2(hit.u, hit.v)), instanceOf(hit.triangle));
+#endif
     }
     imageStore(position, texel, point);
     imageStore(normal, texel, vec4(visible.normal, 0.0));
@@ -45,4 +54,7 @@ void main() {
     imageStore(emitted, texel, vec4(visible.emission, 0.0));
     imageStore(specular, texel, specularTexel(visible.specular));
     imageStore(fresnel, texel, fresnelTexel(visible.specular));
+#ifdef MOTION
+    imageStore(previous, texel, before);
+#endif
 }

@@ -50,6 +50,8 @@ const Case kCases[] = {
     {"lists", graphYaml({"voxelize, resolution: 48", "build_hybrid_leaves"})},
     {"grids", graphYaml({"voxelize, resolution: 48", "build_hybrid_leaves, primitives: 1, grid: 6"})},
     {"path_trace", graphYaml({"path_trace, spp: 1, bounces: 0"})},
+    {"accumulate",
+     graphYaml({"gbuffer, samples_per_pixel_edge: 2", "path_trace, spp: 1, bounces: 1", "accumulate"})},
 };
 
 TEST(Memory, IsPredicted) {

@@ -1,0 +1,30 @@
+// Where a point that the camera sees was in the frame before.
+#ifndef VOXRAY_GBUFFER_PREVIOUS_GLSL
+#define VOXRAY_GBUFFER_PREVIOUS_GLSL
+
+#include "shaders/scene/scene.glsl"
+
+layout(scalar) readonly buffer PreviousPositions { float data[]; } previousPositions;  // As scenePositions.
+layout(scalar) readonly buffer InstanceStarts { uint data[]; } instanceStarts;  // First triangle of each mesh instance.
+
+vec3 previousPosition(uint triangle, vec2 barycentrics) {
+    const uvec3 v = 3u * triangleVertices(triangle);
+    const vec3 p0 = vec3(previousPositions.data[v.x], previousPositions.data[v.x + 1u], previousPositions.data[v.x + 2u]);
+    const vec3 p1 = vec3(previousPositions.data[v.y], previousPositions.data[v.y + 1u], previousPositions.data[v.y + 2u]);
+    const vec3 p2 = vec3(previousPositions.data[v.z], previousPositions.data[v.z + 1u], previousPositions.data[v.z + 2u]);
+    const vec3 w = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
+    return w.x * p0 + w.y * p1 + w.z * p2;
+}
+
+// Number of the instance that a triangle belongs to, plus 1.
+float instanceOf(uint triangle) {
+    uint low = 0u, high = uint(instanceStarts.data.length());
+    while (low < high) {
+        const uint split = (low + high) / 2u;
+        if (instanceStarts.data[split] <= triangle) low = split + 1u;
+        else high = split;
+    }
+    return float(low);
+}
+
+#endif

@@ -1,0 +1,51 @@
+#!/usr/bin/python3
+"""Prints the table of docs/accumulation.md from results of configs/stability/accumulate.yaml.
+
+accumulation_table.py DIR: for each gather and length of history, the nRMSE of indirect light, the mean over frames, and its
+flicker, while the camera moves and while a light moves, and in how many frames a light that is switched off is still seen.
+"""
+import csv
+import os
+import sys
+
+COLUMNS = (("camera moves", "nRMSE"), ("camera moves", "flicker"), ("light moves", "nRMSE"), ("light moves", "flicker"),
+           ("light off", "nRMSE"), ("light off", "frames lit"))
+
+
+def read(*parts):
+    with open(os.path.join(*parts), newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def table(folder):
+    """Rows of cells."""
+    frames = {}
+    for row in read(folder, "frames.csv"):
+        frames.setdefault(row["variant"], []).append(row)
+    cells, order = {}, []
+    for row in read(folder, "results.csv"):
+        if row["status"] != "ok":
+            raise SystemExit(f"accumulation_table: {row['variant']} failed: {row['error']}")
+        own, key = frames[row["variant"]], (row["gather"], row["accumulate"])
+        if key not in order:
+            order.append(key)
+        errors = [float(frame["indirect_nrmse"]) for frame in own]
+        of = cells.setdefault(key, {})
+        of[row["scene"], "nRMSE"] = f"{sum(errors) / len(errors):.3f}"
+        of[row["scene"], "flicker"] = f"{float(row['indirect_temporal_flicker']):.3f}"
+        of[row["scene"], "frames lit"] = own[-1].get("indirect_frames_lit") or "0"
+    return [[*key, *(cells[key].get(column, "-") for column in COLUMNS)] for key in order]
+
+
+def main():
+    if len(sys.argv) != 2:
+        raise SystemExit(__doc__)
+    rows = table(sys.argv[1])
+    print("| gather | history | " + " | ".join(f"{scene}: {what}" for scene, what in COLUMNS) + " |")
+    print("| --- " * (2 + len(COLUMNS)) + "|")
+    for row in rows:
+        print("| " + " | ".join(row) + " |")
+
+
+if __name__ == "__main__":
+    main()
