@@ -24,11 +24,13 @@ def table(folder):
         frames.setdefault(row["variant"], []).append(row)
     cells, order = {}, []
     for row in read(folder, "results.csv"):
-        if row["status"] != "ok":
-            raise SystemExit(f"accumulation_table: {row['variant']} failed: {row['error']}")
-        own, key = frames[row["variant"]], (row["gather"], row["accumulate"])
+        key = (row["gather"], row["accumulate"])
         if key not in order:
             order.append(key)
+        if row["status"] != "ok":
+            cells.setdefault(key, {}).update({(row["scene"], what): "fails" for what in ("nRMSE", "flicker", "frames lit")})
+            continue
+        own = frames[row["variant"]]
         errors = [float(frame["indirect_nrmse"]) for frame in own]
         of = cells.setdefault(key, {})
         of[row["scene"], "nRMSE"] = f"{sum(errors) / len(errors):.3f}"

@@ -25,6 +25,10 @@ import subprocess
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
+sys.dont_write_bytecode = True
+sys.path.append(os.path.join(ROOT, "framework"))
+from trials.yaml_text import yaml_lines  # noqa: E402
+
 PROGRAM = os.environ.get("VOXRAY_PROGRAM", os.path.join(ROOT, "voxray"))
 
 
@@ -147,24 +151,6 @@ def search(cost, count, trials):
         marks = [-1, *sorted(tried), count]
         gap, start = max((b - a, -a) for a, b in zip(marks, marks[1:]))
         of(-start + gap // 2)
-
-
-def scalar(value):
-    return json.dumps(value, ensure_ascii=False)
-
-
-def yaml_lines(value, indent=0):
-    """A config as YAML: maps in blocks, lists of maps an entry a line."""
-    for key, item in value.items():
-        name = key if key.replace("_", "a").isalnum() else scalar(key)
-        if isinstance(item, dict) and item:
-            yield f"{' ' * indent}{name}:"
-            yield from yaml_lines(item, indent + 2)
-        elif isinstance(item, list) and item and all(isinstance(entry, dict) for entry in item):
-            yield f"{' ' * indent}{name}:"
-            yield from (f"{' ' * (indent + 2)}- {scalar(entry)}" for entry in item)
-        else:
-            yield f"{' ' * indent}{name}: {scalar(item)}"
 
 
 def write_results(trials):

@@ -36,7 +36,7 @@ void printSummary(const RunSummary& summary, const RunOptions& options) {
     fmt::print("{} of {} variants done{}{}\n", summary.ok, summary.total,
                summary.resumed > 0 ? fmt::format(", {} of them by an earlier run", summary.resumed) : "",
                summary.failed > 0 ? fmt::format("; {} failed, results.csv says why", summary.failed) : "");
-    if (summary.reportError.empty() && summary.ok + summary.failed > 0)
+    if (options.report && summary.reportError.empty() && summary.ok + summary.failed > 0)
         fmt::print("Report: {}\n", (summary.out / "report.html").string());
 }
 
@@ -89,6 +89,7 @@ void addRunCommand(CLI::App& app, int& status) {
         "--aovs", options.aovs,
         "Write what passes offer to look at in frame 0 (position, normals, albedo, depth, ids) into "
         "aovs.PASS.exr of each variant.");
+    command->add_flag("!--no-report", options.report, "Write result files alone, no report.html.");
     command->add_flag("--validate", options.validation,
                       "Turn Vulkan's validation layer on: its messages are printed and fail the run (exit "
                       "status 1). Times are then not the method's.");
