@@ -36,7 +36,9 @@ class GatherSurfels final : public Pass {
     Port<const SurfelsByVoxel> surfels_;
     Port<const SurfelIrradiance> light_;
     Port<FrameImage> indirect_;
-    Program gather_;
+    bool probed_ = false;  ///< Whether covered surfaces have surfels of their own.
+    Program probe_, gather_;
+    Buffer probes_, covered_;  ///< Scratch, of each surface in a pixel.
     Sampler sampler_;
 };
 

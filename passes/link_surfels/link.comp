@@ -12,6 +12,7 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+readonly buffer Covered { uint data[]; } covered;  // Of the hit: 0 where open space lies before it, as far as a voxel.
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SortedSurfels { SortedSurfel data[]; };
 layout(scalar) readonly buffer SortedAt { SortedSurfels sorted; };
 readonly buffer Begins { uint data[]; } begins;
@@ -36,27 +37,31 @@ struct Nearest {
     uint id;
 };
 
-void visit(ivec3 voxel, vec3 position, vec3 normal, inout Nearest nearest) {
+// Bias² of an open surfel for a covered place, and the other way round: that of two unrelated values.
+const float OTHER_KIND = 2.0;
+
+void visit(ivec3 voxel, vec3 position, vec3 normal, uint kind, inout Nearest nearest) {
     const uint number = voxelNumber(push.grid, voxel);
     if (number == NO_VOXEL) return;
     for (uint i = begins.data[number]; i < ends.data[number]; ++i) {
         const SortedSurfel s = sorted.data[i];
         if (dot(s.normal, normal) <= 0.0) continue;
         const vec3 away = s.position - position;
-        const float d = dot(away, away) / (push.grid.voxelSize * push.grid.voxelSize) + surfelBias(position, normal, s.position, s.normal);
+        const float d = dot(away, away) / (push.grid.voxelSize * push.grid.voxelSize) + surfelBias(position, normal, s.position, s.normal) +
+                        ((s.id & VOXRAY_COVERED) == kind ? 0.0 : OTHER_KIND);
         if (d < nearest.distance_ || (d == nearest.distance_ && s.id < nearest.id)) nearest = Nearest(d, s.number, s.id);
     }
 }
 
 // The surfel of the voxel that the place lies in; of the voxels around it, too, where that one is as far as the voxel's own size
 // allows or of another surface.
-uint nearestSurfel(vec3 position, vec3 normal) {
+uint nearestSurfel(vec3 position, vec3 normal, uint kind) {
     const ivec3 voxel = voxelAt(push.grid, position);
     Nearest nearest = Nearest(1.0e30, NONE, NONE);
-    visit(voxel, position, normal, nearest);
+    visit(voxel, position, normal, kind, nearest);
     if (nearest.distance_ < FAR) return nearest.number;
     for (int i = 0; i < 27; ++i)
-        if (i != 13) visit(voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, position, normal, nearest);
+        if (i != 13) visit(voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, position, normal, kind, nearest);
     return nearest.number;
 }
 
@@ -65,9 +70,10 @@ void main() {
     if (i >= push.rayCount) return;
     uint number = NONE;
     if (hits.data[i].triangle != NO_HIT) {
+        const uint kind = covered.data[i] != 0u ? VOXRAY_COVERED : 0u;
         const SurfacePoint p = surfacePoint(hits.data[i].triangle, vec2(hits.data[i].u, hits.data[i].v));
         const vec3 n = dot(p.geometricNormal, rays.data[i].direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
-        number = nearestSurfel(p.position, n);
+        number = nearestSurfel(p.position, n, kind);
         if (number == NONE) atomicAdd(unlinked.value, 1u);
     }
     links.data[(i % push.raysPerSurfel) * push.surfelCount + push.firstNumber + i / push.raysPerSurfel] = number;

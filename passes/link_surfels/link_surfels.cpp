@@ -25,6 +25,11 @@ struct EmitPush {
     uint32_t seed;
 };
 
+struct ProbePush {
+    uint32_t rayCount;
+    float distance;
+};
+
 struct LinkPush {
     gpu::VoxelGrid grid;
     uint32_t firstNumber;
@@ -48,8 +53,11 @@ void LinkSurfels::plan(PassPlan& plan) {
     plan.reserve("surfel links (estimated)", surfels * params_.raysPerSurfel * sizeof(uint32_t));
     plan.scratchBuffer(rays_, "link rays", uint64_t(kBatchRays) * sizeof(Ray));
     plan.scratchBuffer(hits_, "link hits", uint64_t(kBatchRays) * sizeof(Hit));
+    plan.scratchBuffer(probes_, "rays that tell covered hits", uint64_t(kBatchRays) * sizeof(Ray));
+    plan.scratchBuffer(covered_, "link hits on covered sides", uint64_t(kBatchRays) * sizeof(uint32_t));
     plan.scratchBuffer(unlinked_, "number of hits without surfel", sizeof(uint32_t));
     plan.get(byVoxel_).maxCount = surfels;
+    plan.get(byVoxel_).coveredSides = plan.get(surfels_).coveredSides;
     plan.reserve("surfels by voxel (estimated)",
                  surfels * (sizeof(gpu::SortedSurfel) + sizeof(uint32_t)) + 2 * voxels * sizeof(uint32_t));
     plan.reserveScratch("counts of surfels (estimated)", PrefixSum::scratchBytes(uint32_t(voxels)));
@@ -63,6 +71,7 @@ void LinkSurfels::prepare(PassSetup& setup) {
     sort_ = program("passes/link_surfels/sort.comp");
     order_ = program("passes/link_surfels/order.comp");
     emit_ = program("passes/link_surfels/emit.comp");
+    probe_ = program("passes/link_surfels/probe.comp");
     link_ = program("passes/link_surfels/link.comp");
     prefixSum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
 }
@@ -132,6 +141,8 @@ void LinkSurfels::link(PassContext& context, const Surfels::Chunk& chunk, uint32
                        SurfelLinks& links) const {
     const SurfaceVoxels& voxels = context.get(voxels_);
     const SurfelsByVoxel& byVoxel = context.get(byVoxel_);
+    const bool probe = context.get(surfels_).coveredSides;
+    if (!probe) context.stream.fill(covered_, 0);
     const uint32_t perSurfel = params_.raysPerSurfel, batch = kBatchRays / perSurfel;
     for (uint32_t begin = 0; begin < chunk.count; begin += batch) {
         const uint32_t rays = std::min(batch, chunk.count - begin) * perSurfel;
@@ -139,9 +150,16 @@ void LinkSurfels::link(PassContext& context, const Surfels::Chunk& chunk, uint32
                                 EmitPush{begin, rays, perSurfel, randomSeed(context.frame)},
                                 linearGroups(rays));
         context.tracer.closestHit(context.stream, rays_, hits_, rays);
+        if (probe) {
+            context.stream.dispatch(
+                probe_, context.scene.bindings({{"rays", rays_}, {"hits", hits_}, {"probes", probes_}}),
+                ProbePush{rays, voxels.grid.voxelSize}, linearGroups(rays));
+            context.tracer.occluded(context.stream, probes_, covered_, rays);
+        }
         context.stream.dispatch(link_,
                                 voxels.bindings(context.scene.bindings({{"rays", rays_},
                                                                         {"hits", hits_},
+                                                                        {"covered", covered_},
                                                                         {"SortedAt", byVoxel.sorted.at()},
                                                                         {"begins", byVoxel.begins},
                                                                         {"ends", byVoxel.ends},

@@ -17,8 +17,8 @@ class LinkSurfels final : public Pass {
     static constexpr const char* kName = "link_surfels";
     static constexpr const char* kHelp =
         "Finds by rays which surfels see each other, once for a geometry: light then travels along these "
-        "links "
-        "without rays (inject_radiosity). Biased by: surfels' distance (a hit takes the light of the nearest "
+        "links without rays (inject_radiosity). Biased by: surfels' distance (a hit takes the light of the "
+        "nearest "
         "surfel in its voxel). Noisy by: rays_per_surfel. Source: Goral et al. 1984; Lehtinen et al. 2008.";
     struct Params {
         uint32_t raysPerSurfel = 64;
@@ -45,9 +45,9 @@ class LinkSurfels final : public Pass {
     Port<const Surfels> surfels_;
     Port<SurfelLinks> links_;
     Port<SurfelsByVoxel> byVoxel_;
-    Program count_, sort_, order_, emit_, link_;
+    Program count_, sort_, order_, emit_, probe_, link_;
     std::optional<PrefixSum> prefixSum_;
-    Buffer rays_, hits_, unlinked_;  ///< Scratch, of a batch of rays.
+    Buffer rays_, hits_, probes_, covered_, unlinked_;  ///< Scratch, of a batch of rays.
 };
 
 }  // namespace voxray

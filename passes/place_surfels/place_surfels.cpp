@@ -37,6 +37,7 @@ void PlaceSurfels::plan(PassPlan& plan) {
         std::min(uint64_t(plan.get(voxels_).voxelCount) * params_.pointsPerVoxel, kMaxPoints);
     Surfels& surfels = plan.get(surfels_);
     surfels.maxCount = 2 * points;
+    surfels.coveredSides = params_.sides == SurfelSides::All && plan.get(voxels_).unoccludedOnly;
     plan.reserve("surfels (estimated)", surfels.maxCount * sizeof(gpu::Surfel));
     plan.scratchBuffer(triangles_, "surfels' triangles", kBatchPoints * sizeof(uint32_t));
     plan.scratchBuffer(rays_, "visibility rays", Surfels::kChunk * sizeof(Ray));

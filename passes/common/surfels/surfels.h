@@ -18,7 +18,8 @@ struct Surfels : Resource {
     /// Surfels of a chunk, at most.
     static constexpr uint32_t kChunk = 1u << 18;
     std::vector<Chunk> chunks;
-    uint64_t maxCount = 0;  ///< An upper bound of their number, known from planning on.
+    bool coveredSides = false;  ///< Whether covered sides have surfels; known from planning on.
+    uint64_t maxCount = 0;      ///< An upper bound of their number, known from planning on.
 };
 
 }  // namespace voxray

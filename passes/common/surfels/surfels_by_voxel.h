@@ -8,7 +8,8 @@ namespace voxray {
 
 /// The surfels that lie in each voxel. Surfels without a voxel are left out.
 struct SurfelsByVoxel : Resource {
-    uint64_t maxCount = 0;  ///< Of slots: an upper bound, known from planning on.
+    uint64_t maxCount = 0;      ///< Of slots: an upper bound, known from planning on.
+    bool coveredSides = false;  ///< Whether covered sides have surfels; known from planning on.
     uint32_t slotCount = 0;
     Buffer begins, ends;  ///< By voxel: its first slot, and the one after its last; uint32_t.
     LargeBuffer sorted;   ///< gpu::SortedSurfel in each slot; within a voxel by rising id.

@@ -1,0 +1,28 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// A ray from each hit along its normal, on the side that was hit: it tells whether open space lies before it, as place_surfels'
+// rays do for surfels.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/sampling.glsl"
+#include "shaders/scene/scene.glsl"
+#include "shaders/trace/ray_types.h"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Rays { Ray data[]; } rays;
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+layout(scalar) writeonly buffer Probes { Ray data[]; } probes;
+layout(push_constant) uniform Push {
+    uint rayCount;
+    float distance_;  // m
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.rayCount) return;
+    probes.data[i] = kNoRay;
+    if (hits.data[i].triangle == NO_HIT) return;
+    const SurfacePoint p = surfacePoint(hits.data[i].triangle, vec2(hits.data[i].u, hits.data[i].v));
+    const vec3 n = dot(p.geometricNormal, rays.data[i].direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
+    probes.data[i] = Ray(p.position + n * surfaceOffset(p.position), 0.0, n, push.distance_);
+}
