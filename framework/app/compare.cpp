@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/config_options.h"
 #include "base/error.h"
+#include "base/suggest.h"
 #include "base/value.h"
 #include "image/image.h"
 #include "image/score.h"
@@ -103,11 +105,15 @@ std::vector<ImageF> readHalves(const std::filesystem::path& path, const ImageF& 
 }
 
 void compare(const CompareOptions& options) {
+    for (const std::filesystem::path& file : {options.test, options.reference})
+        if (!std::filesystem::exists(file))
+            throw UsageError("no file '{}'{}", file.string(), didYouMeanFile(file));
     const ImageF test = readImage(options.test);
     const ImageF reference = readImage(options.reference);
     if (test.width != reference.width || test.height != reference.height)
-        throw Error("{} is {}x{} and {} is {}x{}: images to compare are of one size", options.test.string(),
-                    test.width, test.height, options.reference.string(), reference.width, reference.height);
+        throw UsageError("{} is {}x{} and {} is {}x{}: images to compare are of one size",
+                         options.test.string(), test.width, test.height, options.reference.string(),
+                         reference.width, reference.height);
 
     // The same exposures for all rows, chosen from the reference alone.
     ScoreOptions scoring;
@@ -146,7 +152,8 @@ void addCompareCommand(CLI::App& app, int&) {
             "taken off nRMSE and relMSE, which then have 95 % confidence intervals.")
         ->required();
     command->add_flag("--json", options->json, "Print JSON.");
-    command->add_option("--flip-map", options->flipMap, "Write the HDR-FLIP error map to this PNG.");
+    command->add_option("--flip-map", options->flipMap, "Write the HDR-FLIP error map to this PNG.")
+        ->check(endsWith(".png"));
     command
         ->add_option(
             "--exposure", options->exposureStops,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
@@ -26,7 +28,18 @@ inline void addConfigOptions(CLI::App& command, ConfigArguments& arguments) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_option("--scenes", arguments.scenes, "Folder in which scene files are looked for first.")
-        ->type_name("DIR");
+        ->type_name("DIR")
+        ->check(CLI::ExistingDirectory);
+}
+
+/// Refuses the name of a file to write that says another format than the file will have.
+inline CLI::Validator endsWith(const std::string& ending) {
+    return CLI::Validator(
+        [ending](const std::string& name) {
+            return name.ends_with(ending) ? std::string()
+                                          : fmt::format("'{}' does not end in {}", name, ending);
+        },
+        "");
 }
 
 /// What every command that renders variants takes besides.

@@ -36,7 +36,7 @@ void addExportSceneCommand(CLI::App& app, int&) {
         "Write what a config renders, camera and lights included, as glTF. Sweeps are left out.");
     auto arguments = std::make_shared<ExportArguments>();
     command->add_option("CONFIG", arguments->file, "Config file.")->required();
-    command->add_option("OUT.glb", arguments->target, "File to write.")->required();
+    command->add_option("OUT.glb", arguments->target, "File to write.")->required()->check(endsWith(".glb"));
     addConfigOptions(*command, *arguments);
     command->callback([arguments] { exportScene(*arguments); });
 }

@@ -35,6 +35,19 @@ void checkCommandName(const CLI::App& app, const std::string& word) {
     throw UsageError("unknown command '{}'{}", word, didYouMean(word, names));
 }
 
+/// What was written that no command takes, with the nearest option where it is one.
+std::string unknownArguments(const CLI::App& app) {
+    const std::string first = app.remaining(true).empty() ? "" : app.remaining(true).front();
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands())
+        for (const CLI::Option* option : command->get_options())
+            for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    const std::string option = first.substr(0, first.find('='));
+    const std::string near = option.starts_with('-') ? nearest(option, names) : "";
+    return fmt::format("unknown {} '{}'{}", option.starts_with('-') ? "option" : "argument", option,
+                       near.empty() ? "; see voxray --help" : fmt::format("; did you mean '{}'?", near));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -69,6 +82,8 @@ int main(int argc, char** argv) {
         return status;
     } catch (const CLI::Success& asked) {  // --help, --version
         return app.exit(asked);
+    } catch (const CLI::ExtrasError&) {
+        return complain(unknownArguments(app), kBadUsage);
     } catch (const CLI::ParseError& error) {
         return complain(oneLine(error.what()) + "; see voxray --help", kBadUsage);
     } catch (const UsageError& error) {

@@ -136,7 +136,7 @@ void describe(const SceneArguments& arguments) {
                size.x, size.y, size.z);
     fmt::print("cameras: {}\n", own.cameras.size());
     for (const Camera& camera : own.cameras)
-        fmt::print("  {}: {}\n", camera.name, block(settingsOf(camera, g)));
+        fmt::print("  '{}'  {}\n", camera.name, block(settingsOf(camera, g)));
     fmt::print("lights: {}\n", scene.state.lights.size());
     printLights(scene.state);
     const bool shines = printMaterials(scene.state);
@@ -160,7 +160,8 @@ void addSceneCommand(CLI::App& app, int&) {
                      "with all that the config changes. Sweeps are left out.")
         ->required();
     command->add_option("--picture", arguments->picture, "Write a small path-traced picture.")
-        ->type_name("OUT.png");
+        ->type_name("OUT.png")
+        ->check(endsWith(".png"));
     addConfigOptions(*command, *arguments);
     command->callback([arguments] { describe(*arguments); });
 }

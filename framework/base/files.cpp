@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/suggest.h"
 
 namespace voxray {
 namespace fs = std::filesystem;
@@ -33,7 +34,11 @@ std::vector<uint8_t> readFile(const fs::path& path) {
     std::error_code code;
     if (fs::is_directory(path, code)) throw Error("{}: is a folder, not a file", path.string());
     std::ifstream in(path, std::ios::binary);
-    if (!in) throw Error("{}: {}", path.string(), std::strerror(errno));
+    if (!in) {
+        const int reason = errno;
+        throw Error("{}: {}{}", path.string(), std::strerror(reason),
+                    reason == ENOENT ? didYouMeanFile(path) : "");
+    }
     std::vector<uint8_t> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
     if (in.bad()) throw Error("{}: read failed", path.string());
     return bytes;

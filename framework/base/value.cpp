@@ -2,18 +2,21 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace voxray {
 namespace {
+
+constexpr size_t kShown = 60;  ///< Bytes of a wrong value that a message repeats.
 
 std::string describe(const Value& value) {
     switch (value.kind) {
         case Value::Kind::Null:
             return "nothing";
         case Value::Kind::Scalar:
-            return value.quoted ? "the text \"" + value.scalar + "\", which stands in quotes"
-                                : "'" + value.scalar + "'";
+            return value.quoted ? "the text \"" + oneLine(value.scalar, kShown) + "\", which stands in quotes"
+                                : "'" + oneLine(value.scalar, kShown) + "'";
         case Value::Kind::List:
             return "a list";
         case Value::Kind::Map:
@@ -29,6 +32,17 @@ bool parseAll(const std::string& text, T& out) {
     if (begin != end && *begin == '+') ++begin;
     const auto [last, code] = std::from_chars(begin, end, out);
     return code == std::errc() && last == end;
+}
+
+/// ": write 1000000" for a whole number that is written as 1e6 or 1_000_000, else "".
+std::string inDigits(const Value& value) {
+    if (!value.isScalar() || value.quoted) return {};
+    std::string text = value.scalar;
+    std::erase(text, '_');
+    double number = 0;
+    constexpr double kExact = double(1ull << std::numeric_limits<double>::digits);
+    if (!parseAll(text, number) || !(std::abs(number) <= kExact) || number != std::floor(number)) return {};
+    return fmt::format(": write {}", int64_t(number));
 }
 
 std::string quotedJson(const std::string& text) {
@@ -157,7 +171,11 @@ bool Value::asBool(std::string_view what) const {
 int64_t Value::asInteger(std::string_view what) const {
     int64_t number = 0;
     if (isScalar() && !quoted && parseAll(scalar, number)) return number;
-    throw UsageError(where, "{}: expected a whole number, not {}", what, describe(*this));
+    if (isScalar() && !quoted && !scalar.empty() &&
+        scalar.find_first_not_of("0123456789") == std::string::npos)
+        throw UsageError(where, "{}: {} is out of range, at most {}", what, scalar,
+                         std::numeric_limits<int64_t>::max());
+    throw UsageError(where, "{}: expected a whole number, not {}{}", what, describe(*this), inDigits(*this));
 }
 
 double Value::asNumber(std::string_view what) const {

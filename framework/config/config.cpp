@@ -21,8 +21,9 @@ void checkName(const Value& config, const std::string& name) {
                                     (c >= 'A' && c <= 'Z') || c == '_' || c == '-' || c == '.';
                          });
     if (!isPlain)
-        throw UsageError(
-            where, "name: '{}' can't name a folder; use up to 100 letters, digits, '_', '-', '.'", name);
+        throw UsageError(where,
+                         "name: '{}' can't name a folder; use up to 100 letters, digits, '_', '-', '.'",
+                         oneLine(name, 60));
 }
 
 // Ids share the first part of override paths with the config's keys.

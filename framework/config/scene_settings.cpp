@@ -95,6 +95,13 @@ void readEnvironment(const Value& value, SceneSettings& settings) {
             } catch (const UsageError&) {
             }
         }
+        const bool isFile = value.isScalar() && value.scalar.find('.') != std::string::npos;
+        if (!isNumber && !isFile)
+            throw UsageError(
+                value.where,
+                "scene.environment: expected none, a radiance as in 0.5 or [1, 1, 1], or a map as "
+                "in sky.exr, not '{}'",
+                value.text());
         if (isNumber)
             readParam(environment, &EnvironmentSettings::scale, value, "scene.environment");
         else

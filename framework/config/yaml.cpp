@@ -18,7 +18,7 @@ constexpr int kMaxDepth = 64;
 /// Turns yaml-cpp's nodes into Values.
 class Converter {
  public:
-    explicit Converter(std::string file) : file_(std::move(file)) {}
+    Converter(const std::string& text, std::string file) : text_(text), file_(std::move(file)) {}
 
     Value convert(const YAML::Node& node, int depth, const TextLocation& fallback) {
         // Limits: aliases make a small file large, and a node may contain itself
@@ -38,6 +38,9 @@ class Converter {
                 value.kind = Value::Kind::Scalar;
                 value.scalar = node.Scalar();
                 value.quoted = node.Tag() == "!";
+                if (value.quoted && goesOnInNextLine(node.Mark()))
+                    throw UsageError(where,
+                                     "a text in quotes goes on in the next line: is a quote left open?");
                 break;
             case YAML::NodeType::Sequence:
                 value.kind = Value::Kind::List;
@@ -53,6 +56,22 @@ class Converter {
     TextLocation locate(const YAML::Mark& mark) const { return {file_, mark.is_null() ? 0 : mark.line + 1}; }
 
  private:
+    /// Whether a line ends before the quote that ends the text in quotes at `mark`.
+    bool goesOnInNextLine(const YAML::Mark& mark) const {
+        if (mark.is_null() || size_t(mark.pos) >= text_.size()) return false;
+        const char quote = text_[size_t(mark.pos)];
+        if (quote != '"' && quote != '\'') return false;
+        for (size_t i = size_t(mark.pos) + 1; i < text_.size() && text_[i] != '\n'; ++i) {
+            if (quote == '"' && text_[i] == '\\')
+                ++i;
+            else if (text_[i] == quote && quote == '\'' && i + 1 < text_.size() && text_[i + 1] == quote)
+                ++i;
+            else if (text_[i] == quote)
+                return false;
+        }
+        return true;
+    }
+
     void convertMap(const YAML::Node& node, int depth, Value& value) {
         value.kind = Value::Kind::Map;
         std::unordered_set<std::string> seen;
@@ -68,6 +87,7 @@ class Converter {
         }
     }
 
+    const std::string& text_;
     std::string file_;
     size_t nodes_ = 0;
 };
@@ -109,7 +129,7 @@ std::string hintOf(const std::string& message) {
 Value parseYaml(const std::string& text, const std::string& fileName) {
     if (text.size() > kMaxBytes) throw UsageError({fileName, 0}, "is larger than 1 MiB; not a config");
     checkUtf8(text, fileName);
-    Converter converter(fileName);
+    Converter converter(text, fileName);
     try {
         const std::vector<YAML::Node> documents = YAML::LoadAll(text);
         if (documents.size() > 1)

@@ -12,13 +12,13 @@ namespace {
 constexpr const char* kTemporaryPrefix = ".tmp-";
 
 // Turns the standard library's exceptions into one line that says what to do.
-template <typename Work>
+template <typename Failure = Error, typename Work>
 void orError(const fs::path& path, const Work& work) {
     try {
         work();
     } catch (const fs::filesystem_error& error) {
-        throw Error("{}: {}; choose another folder with --out or make room", path.string(),
-                    error.code().message());
+        throw Failure("{}: {}; choose another folder with --out or make room", path.string(),
+                      error.code().message());
     }
 }
 
@@ -30,7 +30,7 @@ bool startsWith(const std::string& text, const char* prefix) {
 
 ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, bool resume)
     : path_(std::move(path)) {
-    orError(path_, [&] {
+    orError<UsageError>(path_, [&] {
         if (fs::exists(path_) && !fs::is_directory(path_))
             throw UsageError("{}: is not a folder", path_.string());
         if (fs::exists(path_)) checkOwner(experiment);

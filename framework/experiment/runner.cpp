@@ -238,8 +238,11 @@ const PreparedReference* Run::referenceOf(const WiredVariant& variant, Progress&
 
     const std::vector<float>& radiance = images.final.mean.data;
     if (std::ranges::all_of(radiance, [](float value) { return value == 0; })) {
-        warnings_.push_back(fmt::format(
-            "the reference of '{}' is black: no light reaches what the camera sees", variant.name));
+        warnings_.push_back(
+            fmt::format("the reference of '{}' is black: no light reaches what the camera sees; './voxray "
+                        "scene' tells where "
+                        "the scene is, and what shines",
+                        variant.name));
         progress.warn(warnings_.back());
     }
 

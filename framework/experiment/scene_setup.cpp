@@ -138,12 +138,19 @@ std::vector<fs::path> sceneFolders(const fs::path& scenesOption, const fs::path&
 fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& folders,
                        const TextLocation& where) {
     if (const auto path = lookUp(name, folders)) return *path;
+    const bool isAbsolute = fs::path(name).is_absolute();
     std::vector<std::string> looked;
-    if (!fs::path(name).is_absolute())
-        for (const fs::path& folder : folders) looked.push_back(folder.string());
-    throw UsageError(where,
-                     "no file '{}'{}; name its folder with --scenes DIR or VOXRAY_SCENES, see docs/scenes.md",
-                     name, looked.empty() ? "" : fmt::format(" in {}", fmt::join(looked, ", ")));
+    std::string advice;
+    for (const fs::path& folder : folders) {
+        if (!isAbsolute) looked.push_back(folder.string());
+        if (advice.empty()) advice = didYouMeanFile(name, folder);
+    }
+    if (advice.empty())
+        advice = name.starts_with("~/")
+                     ? "; '~' stands for no folder here: write the whole path"
+                     : "; name its folder with --scenes DIR or VOXRAY_SCENES, see docs/scenes.md";
+    throw UsageError(where, "no file '{}'{}{}", oneLine(name, 200),
+                     looked.empty() ? "" : fmt::format(" in {}", fmt::join(looked, ", ")), advice);
 }
 
 std::shared_ptr<const Scene> SceneLoader::load(const SceneSource& source) {

@@ -72,11 +72,14 @@ void checkDepth(std::string_view text) {
 }
 
 json parse(std::string_view text) {
+    if (text.empty()) throw Error("it is empty");
     checkDepth(text);
     try {
         return json::parse(text);
     } catch (const json::exception& error) {
-        throw Error("its JSON is broken: {}", error.what());
+        // Without the name of the exception, which stands in brackets before what it says
+        const std::string_view what = error.what();
+        throw Error("its JSON is broken: {}", what.substr(what.find(' ') + 1));
     }
 }
 

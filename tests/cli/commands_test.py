@@ -120,8 +120,8 @@ class Compare(CommandTest):
         self.image("a.png", 90)
         self.image("b.png", 90, (10, 10))
         self.write("broken.png", "not an image")
-        self.assertIn("40x30", self.expect(1, "compare", "a.png", "b.png").stderr)
-        self.assertIn("missing.exr", self.expect(1, "compare", "a.png", "missing.exr").stderr)
+        self.assertIn("40x30", self.expect(2, "compare", "a.png", "b.png").stderr)
+        self.assertIn("missing.exr", self.expect(2, "compare", "a.png", "missing.exr").stderr)
         self.assertIn("broken.png", self.expect(1, "compare", "a.png", "broken.png").stderr)
         self.assertIn("a.png", self.expect(1, "compare", "a.png", "a.png", "--flip-map", "a.png/map.png").stderr)
 

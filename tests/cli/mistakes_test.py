@@ -100,7 +100,23 @@ MISTAKES = {
     "a light of two kinds": ("point: [0, 1.8, 0]", "point: [0, 1.8, 0], directional: [0, -1, 0]", 6, "has one of the keys"),
     "a cone inside out": ("{point: [0, 1.8, 0]", "{spot: [0, 1.8, 0], inner_deg: 60", 6, "inner_deg must be less"),
     "a seed below 0": ("seed: 7", "seed: -1", 8, "mine.yaml:8: seed: -1 is out of range"),
+    "a number with an exponent": ("rays_per_light: 4096", "rays_per_light: 1e6", 12, "not '1e6': write 1000000"),
+    "a number with underscores": ("rays_per_light: 4096", "rays_per_light: 1_000_000", 12, "write 1000000"),
+    "a seed of more than 63 bits": ("seed: 7", "seed: 9223372036854775808", 8, "seed: 9223372036854775808 is out of range, at most"),
+    "an infinite light": ("intensity: [1, 1, 1]", "intensity: .inf", 6, "expected a number, not '.inf'"),
+    "a metric in capitals": ("frames: 2", "frames: 2, metrics: [SSIM]", 21, "did you mean 'ssim'?"),
+    "metrics by one word": ("frames: 2", "frames: 2, metrics: all", 21, "expected a list"),
+    "a sequence too short for its frames": ("frames: 2", "frames: 2, compare_every: 1", 21, "raise 'frames'"),
+    "an environment by a color's name": ("  lights:", "  environment: white\n  lights:", 5, "expected none, a radiance"),
+    "a rotation without its unit": ("  lights:", "  add: [{builtin: mirror_row, transform: {rotate: [0, 9, 0]}}]\n  lights:", 5,
+                                    "did you mean 'rotate_deg'?"),
+    "one scene to add, not a list": ("  lights:", "  add: {builtin: mirror_row}\n  lights:", 5, "expected a list of scenes"),
+    # YAML
+    "a quote left open": ("name: mine", 'name: "mine', 1, "is a quote left open?"),
+    "no space after a colon": ("width: 32", "width:32", 7, "a space is missing after ':'"),
     # Paths of files
+    "a file's name with a typo": ("builtin: cornell", "file: mime.yaml", 3, "did you mean 'mine.yaml'?"),
+    "a file below the home folder": ("builtin: cornell", "file: ~/room.glb", 3, "write the whole path"),
     "a scene file that holds no scene": ("builtin: cornell", "file: mine.yaml", 3, "its JSON is broken"),
     "a folder for a scene file": ("builtin: cornell", "file: .", 3, "is a folder"),
     "an environment that is no image": ("  lights:", "  environment: mine.yaml\n  lights:", 5, "not an image"),
@@ -110,7 +126,12 @@ MISTAKES = {
     "a reference by its pass alone": ("{pass: path_trace, spp: 8, bounces: 3}", "path_trace", 18, "as in {pass: path_trace"),
     "a reference of indirect light": ("bounces: 3}", "bounces: 3, light: indirect}", 18, "reference.light: 'all'"),
     "samples by another renderer's word": ("spp: 8", "samples: 8", 18, "one of: spp"),
+    "samples by a word": ("spp: 8", "spp: many", 18, "reference.spp: expected a whole number"),
     # Sweeps
+    "a chain without its last pass": ("inject.rays_per_light: [4096, 8192]", "indirect: [gather_irradiance, [trace_gather_rays]]",
+                                      20, "'[trace_gather_rays]' is never run"),
+    "numbers of one place as a sweep": ("inject.rays_per_light: [4096, 8192]", "scene.camera.position: [0, 1, 3]", 20,
+                                        "expected three numbers, as in [0, 1, 0], not '0'"),
     "a sweep written as nested maps": ("inject.rays_per_light: [4096, 8192]", "inject: {rays_per_light: [4096, 8192]}", 20,
                                        "write inject.rays_per_light: [4096, 8192]"),
     "a nested sweep of words": ("inject.rays_per_light: [4096, 8192]", "voxelize:\n    method: [exact, three_axis]", 21,
@@ -151,6 +172,19 @@ class Mistakes(CommandTest):
     def test_a_pass_that_never_runs_is_warned_of(self):
         self.write("mine.yaml", CONFIG.replace("  - {pass: composite}", "  - {pass: composite}\n  - {pass: composite, id: again}"))
         self.assertIn("warning: 'composite' is never run", self.expect(0, "validate", "mine.yaml").stderr)
+
+    def test_mistakes_on_the_command_line(self):
+        self.write("mine.yaml", CONFIG)
+        for words, *arguments in (("unknown option '--dryrun'; did you mean '--dry-run'?", "run", "mine.yaml", "--dryrun"),
+                                  ("unknown option '--profil'; did you mean '--profile'?", "run", "mine.yaml", "--profil=x"),
+                                  ("unknown argument 'x'", "devices", "x"),
+                                  ("did you mean 'mine.yaml'?", "run", "mime.yaml"),
+                                  ("did you mean 'mine.yaml'?", "compare", "mime.yaml", "mine.yaml"),
+                                  ("--scenes: Directory does not exist: nowhere", "run", "mine.yaml", "--scenes", "nowhere"),
+                                  ("'x.jpg' does not end in .png", "scene", "cornell", "--picture", "x.jpg"),
+                                  ("'x.gltf' does not end in .glb", "export-scene", "mine.yaml", "x.gltf")):
+            with self.subTest(arguments):
+                self.assertIn(words, self.expect(2, *arguments).stderr)
 
     def test_the_config_without_a_mistake(self):
         self.write("mine.yaml", CONFIG)

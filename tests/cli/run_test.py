@@ -239,7 +239,7 @@ class Disk(Run):
     def test_unwritable_folder(self):
         self.write("file", "")
         self.write("tiny.yaml", TINY)
-        done = self.expect(1, "run", "tiny.yaml", "--out", "file/out")
+        done = self.expect(2, "run", "tiny.yaml", "--out", "file/out")
         self.assertIn("file/out", done.stderr)
         self.assertEqual(self.bytes("file"), b"")
 

@@ -89,6 +89,7 @@ TEST(Suggest, NearestWord) {
     EXPECT_EQ(nearest("voxel", longer), "points_per_voxel");
     EXPECT_EQ(nearest("ray", longer), "") << "a word, not any letters";
     EXPECT_EQ(nearest("", longer), "");
+    EXPECT_EQ(nearest("WIDTH", words), "width") << "capitals don't count";
     EXPECT_EQ(didYouMean("widht", words), "; did you mean 'width'?");
     EXPECT_EQ(didYouMean("banana", words), "; one of: resolution, width, height, rays");
     EXPECT_EQ(didYouMean("x", {}), "");
@@ -107,6 +108,13 @@ TEST(Value, TypedReads) {
     for (const char* bad : {"", "yes", "True", "1"})
         EXPECT_THROW(Value::fromScalar(bad).asBool("x"), UsageError) << bad;
     EXPECT_THROW(Value::fromScalar("1", true).asInteger("x"), UsageError);
+    const auto integerError = [](const char* text) {
+        return errorOf([&] { Value::fromScalar(text).asInteger("x"); });
+    };
+    EXPECT_CONTAINS(integerError("1e6"), "not '1e6': write 1000000");
+    EXPECT_CONTAINS(integerError("4_096"), "not '4_096': write 4096");
+    EXPECT_CONTAINS(integerError("9223372036854775808"), "9223372036854775808 is out of range, at most");
+    EXPECT_EQ(integerError("1.5").find("write"), std::string::npos);
     EXPECT_THROW(Value::list().asString("x"), UsageError);
 }
 

@@ -13,10 +13,9 @@ class AmbientOcclusion final : public Pass {
  public:
     static constexpr const char* kName = "ambient_occlusion";
     static constexpr const char* kHelp =
-        "Indirect light out of a constant: 'ambient' arrives from each direction in which nothing is met "
-        "within "
-        "'radius'. Biased: no light is carried from surface to surface. Noisy by: rays. Lambert surfaces "
-        "only. "
+        "Indirect light out of a constant: 'ambient' arrives from each direction in which nothing is met\n"
+        "within 'radius'.\n"
+        "Biased: no light is carried from surface to surface. Noisy by: rays. Lambert surfaces only.\n"
         "Source: Zhukov et al. 1998.";
     struct Params {
         uint32_t rays = 16;

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+/// Parameters written once. A struct lists its fields in `schema()`; parsing, ranges, defaults, help and
+/// JSON Schema all come from that list:
+///
+///     struct Params {
+///         uint32_t raysPerLight = 1024;
+///         static constexpr auto schema() {
+///             return std::tuple{
+///                 field("rays_per_light", &Params::raysPerLight, "Rays of each light.", 1u, 1u << 26)};
+///         }
+///     };
+namespace voxray {
+
+/// Specialise for an enum that a parameter uses:
+///     template <> struct EnumNames<Write> {
+///         static constexpr std::array names{std::pair{Write::Average, "average"}, ...}; };
+template <typename E>
+struct EnumNames;
+
+/// Values of another parameter: one of `values`, or none of them.
+template <typename Owner, typename T>
+struct Condition {
+    T Owner::*member;
+    std::vector<T> values;
+    bool isOneOf;
+
+    constexpr bool holds(const T& value) const {
+        return (std::ranges::find(values, value) != values.end()) == isOneOf;
+    }
+};
+
+template <typename Owner, typename T>
+constexpr Condition<Owner, T> oneOf(T Owner::*member, std::type_identity_t<std::vector<T>> values) {
+    return {member, std::move(values), true};
+}
+template <typename Owner, typename T>
+constexpr Condition<Owner, T> noneOf(T Owner::*member, std::type_identity_t<std::vector<T>> values) {
+    return {member, std::move(values), false};
+}
+
+/// One parameter. `min` and `max` are inclusive; `allowed` are the only values it may have, empty: any. It
+/// has an effect where one of its conditions holds; without conditions, always.
+template <typename Owner, typename T, typename... Conditions>
+struct Field {
+    const char* name;
+    T Owner::*member;
+    const char* help;
+    T min;
+    T max;
+    bool ranged;
+    std::vector<T> allowed = {};
+    std::tuple<Conditions...> conditions = {};
+    bool isVector = false;
+
+    /// The same parameter, a place or a direction: one number does not stand for all three.
+    constexpr Field asVector() && {
+        isVector = true;
+        return std::move(*this);
+    }
+
+    /// The same parameter, which has an effect with certain values of others alone:
+    /// field("samples", ...).onlyWith(oneOf(&Params::method, {Method::Sampled})). Written where none of these
+    /// conditions holds it is an error (idleParams()); the pass takes no notice of it there.
+    template <typename... Others>
+    constexpr Field<Owner, T, Others...> onlyWith(Others... others) && {
+        return {name, member, help, min, max, ranged, std::move(allowed), {std::move(others)...}, isVector};
+    }
+};
+
+template <typename Owner, typename T>
+constexpr Field<Owner, T> field(const char* name, T Owner::*member, const char* help) {
+    return {name, member, help, T{}, T{}, false};
+}
+template <typename Owner, typename T>
+constexpr Field<Owner, T> field(const char* name, T Owner::*member, const char* help,
+                                std::type_identity_t<T> min, std::type_identity_t<T> max) {
+    return {name, member, help, min, max, true};
+}
+/// A parameter that has to be one of some values: field("block", &Params::block, "...", {1, 2, 4, 8}).
+template <typename Owner, typename T>
+constexpr Field<Owner, T> field(const char* name, T Owner::*member, const char* help,
+                                std::type_identity_t<std::vector<T>> allowed) {
+    return {name, member, help, T{}, T{}, false, std::move(allowed)};
+}
+
+/// The powers of two from `min` to `max`, which are two of them.
+constexpr std::vector<uint32_t> powersOfTwo(uint32_t min, uint32_t max) {
+    std::vector<uint32_t> powers{min};
+    while (powers.back() < max) powers.push_back(2 * powers.back());
+    return powers;
+}
+
+template <typename P, typename Visitor>
+void forEachField(Visitor&& visit) {
+    std::apply([&](const auto&... fields) { (visit(fields), ...); }, P::schema());
+}
+
+/// The name of the parameter that a member holds.
+template <typename P, typename Member>
+std::string fieldName(Member member) {
+    std::string name;
+    forEachField<P>([&](const auto& f) {
+        if constexpr (std::is_same_v<decltype(f.member), Member>)
+            if (f.member == member) name = f.name;
+    });
+    return name;
+}
+
+template <typename P>
+std::vector<std::string> fieldNames() {
+    std::vector<std::string> names;
+    forEachField<P>([&](const auto& f) { names.emplace_back(f.name); });
+    return names;
+}
+
+}  // namespace voxray
