@@ -105,10 +105,13 @@ std::vector<std::string> Graph::keepOnly(const std::vector<std::string>& portNam
 
 std::vector<std::pair<std::string, std::vector<Aov>>> Graph::aovs() const {
     std::vector<std::pair<std::string, std::vector<Aov>>> all;
-    for (const GraphNode& node : impl_->nodes)
+    for (const GraphNode& node : impl_->nodes) {
+        std::vector<Aov> own;
         for (const std::unique_ptr<Resource>& output : node.outputs)
-            if (std::vector<Aov> own = output->aovs(); !own.empty())
-                all.emplace_back(node.id, std::move(own));
+            for (const Aov& aov : output->aovs())
+                if (*aov.image) own.push_back(aov);  // Not made where no pass reads it.
+        if (!own.empty()) all.emplace_back(node.id, std::move(own));
+    }
     return all;
 }
 
