@@ -122,22 +122,6 @@ std::string whyWithoutEffect(const WiredVariant& variant, const std::string& axi
     return {};
 }
 
-/// A value of a sweep over whole passes of which the pass never runs, such as a chain whose last pass is
-/// missing.
-/// @throws UsageError with file and line.
-void checkSwaps(const WiredExperiment& wired, const std::vector<std::string>& keys) {
-    for (size_t a = 0; a < keys.size(); ++a) {
-        std::map<std::string, bool> runs;
-        for (const WiredVariant& variant : wired.variants)
-            runs[variant.values[a]] |= std::ranges::count(variant.leftOut, keys[a]) == 0;
-        for (const auto& [value, isRun] : runs)
-            if (!isRun)
-                throw UsageError(wired.experiment.sweep.members[a].value.where,
-                                 "sweep.{}: '{}' is never run: no image depends on what it writes", keys[a],
-                                 value);
-    }
-}
-
 /// A swept parameter that has no effect in a variant: such variants come once.
 /// @throws UsageError with file and line for an axis that changes nothing in any variant.
 void leaveOutEqual(WiredExperiment& wired) {
@@ -145,7 +129,6 @@ void leaveOutEqual(WiredExperiment& wired) {
     std::set<std::vector<std::string>> seen;
     VariantNames names(wired.experiment);
     std::vector<std::string> reasons(keys.size());
-    checkSwaps(wired, keys);
     std::erase_if(wired.variants, [&](WiredVariant& variant) {
         for (size_t a = 0; a < keys.size(); ++a)
             if (const std::string why = whyWithoutEffect(variant, keys[a]); !why.empty()) {

@@ -43,10 +43,11 @@ def sources(root, folder, endings):
 
 
 def benchmarks(root):
-    """Names of benchmarks: of BENCHMARK, and of macros that make them from a scene's name."""
+    """Names of benchmarks: of BENCHMARK, BENCHMARK_CAPTURE, and macros that make them from a scene's name."""
     names = []
     for text in sources(root, "tests", ".cpp"):
         names += re.findall(r"^BENCHMARK\((\w+)\)", text, re.M)
+        names += ["/".join(name) for name in re.findall(r"^BENCHMARK_CAPTURE\((\w+), (\w+),", text, re.M)]
         for macro, parameters, body in re.findall(r"^#define (\w+)\(([^)]*)\)((?:.*\\\n)*.*)", text, re.M):
             for function, case in re.findall(r"BENCHMARK_CAPTURE\((\w+), ([\w#]+)", body):
                 for values in re.findall(rf"^{macro}\(([^)]*)\)", text, re.M):
