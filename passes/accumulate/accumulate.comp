@@ -10,8 +10,10 @@ uniform sampler2D irradiance;  // W/m², number of rays.
 uniform sampler2D geometricNormal;
 uniform sampler2D motion;    // To where the point was seen in the frame before, texels.
 uniform sampler2D previous;  // Where it was, m; instance, 0 without a surface.
+#ifdef CLAMP
 uniform sampler2D cellLight;
 uniform sampler2D cellSurface;
+#endif
 uniform sampler2D historyLight;
 uniform sampler2D historyPosition;
 uniform sampler2D historyNormal;
@@ -24,6 +26,7 @@ layout(push_constant, scalar) uniform Push {
     uint spacing;
 } push;
 
+#ifdef CLAMP
 #define REACH 3  // Surroundings are 7 x 7 cells.
 
 // History within `clamp_` standard deviations of the mean of this frame's surroundings on the same surface.
@@ -46,6 +49,7 @@ vec3 clamped(vec3 light, ivec2 texel, vec3 normal, float instance) {
     const vec3 mean = sum / rays, deviation = sqrt(max(squares / rays - mean * mean, 0.0));
     return clamp(light, origin + mean - push.clamp_ * deviation, origin + mean + push.clamp_ * deviation);
 }
+#endif
 
 void main() {
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(result);
@@ -80,7 +84,9 @@ void main() {
             rays *= (push.history - 1.0) / count;
             count = push.history - 1.0;
         }
-        if (rays > 0.0 && push.clamp_ > 0.0) light = clamped(light, texel, normal, before.w);
+#ifdef CLAMP
+        if (rays > 0.0) light = clamped(light, texel, normal, before.w);
+#endif
     }
 
     const float all = rays + now.a;

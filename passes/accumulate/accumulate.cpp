@@ -50,6 +50,7 @@ void Accumulate::plan(PassPlan& plan) {
     plan.image(historyLight_, "history of irradiance", descOf(texels, kWide));
     plan.image(historyPosition_, "history of positions", descOf(texels, kWide));
     plan.image(historyNormal_, "history of normals", descOf(texels, VK_FORMAT_R16G16B16A16_SFLOAT));
+    if (params_.clamp == 0) return;
     const glm::uvec2 cells = (texels + noisy.spacing - 1u) / noisy.spacing;
     plan.image(cellLight_, "light of cells", descOf(cells, kWide));
     plan.image(cellSurface_, "surfaces of cells", descOf(cells, kWide));
@@ -59,8 +60,10 @@ void Accumulate::prepare(PassSetup& setup) {
     const auto program = [&](const char* file) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file));
     };
-    findCells_ = program("passes/accumulate/cells.comp");
-    accumulate_ = program("passes/accumulate/accumulate.comp");
+    if (params_.clamp > 0) findCells_ = program("passes/accumulate/cells.comp");
+    accumulate_ = makeComputeProgram(
+        setup.device, setup.compiler.compile("passes/accumulate/accumulate.comp",
+                                             params_.clamp > 0 ? Defines{{"CLAMP", "1"}} : Defines{}));
     keep_ = program("passes/accumulate/keep.comp");
     resolve_ = IrradianceResolve(setup);
     sampler_ = texelSampler(setup.device);
@@ -72,11 +75,21 @@ void Accumulate::record(PassContext& context) {
     const SurfaceMotion& motion = context.get(motion_);
     const NoisyIrradiance& noisy = context.get(noisy_);
     const NoisyIrradiance& result = context.get(accumulated_);
-    const glm::uvec3 texels = result.irradiance.desc().extent, cells = cellLight_.desc().extent;
+    const glm::uvec3 texels = result.irradiance.desc().extent;
     CommandStream& stream = context.stream;
+    std::vector<Binding> bindings{{"irradiance", noisy.irradiance, sampler_},
+                                  {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                                  {"motion", motion.motion, sampler_},
+                                  {"previous", motion.previous, sampler_},
+                                  {"historyLight", historyLight_, sampler_},
+                                  {"historyPosition", historyPosition_, sampler_},
+                                  {"historyNormal", historyNormal_, sampler_},
+                                  {"result", result.irradiance},
+                                  {"frames", frames_}};
 
     // What this frame's surroundings hold
-    if (params_.clamp > 0)
+    if (params_.clamp > 0) {
+        const glm::uvec3 cells = cellLight_.desc().extent;
         stream.dispatch(findCells_,
                         {{"irradiance", noisy.irradiance, sampler_},
                          {"geometricNormal", gbuffer.geometricNormal, sampler_},
@@ -84,20 +97,12 @@ void Accumulate::record(PassContext& context) {
                          {"cellLight", cellLight_},
                          {"cellSurface", cellSurface_}},
                         noisy.spacing, pixelGroups(cells.x, cells.y));
+        bindings.emplace_back("cellLight", cellLight_, sampler_);
+        bindings.emplace_back("cellSurface", cellSurface_, sampler_);
+    }
 
     // This frame and those before it
-    stream.dispatch(accumulate_,
-                    {{"irradiance", noisy.irradiance, sampler_},
-                     {"geometricNormal", gbuffer.geometricNormal, sampler_},
-                     {"motion", motion.motion, sampler_},
-                     {"previous", motion.previous, sampler_},
-                     {"cellLight", cellLight_, sampler_},
-                     {"cellSurface", cellSurface_, sampler_},
-                     {"historyLight", historyLight_, sampler_},
-                     {"historyPosition", historyPosition_, sampler_},
-                     {"historyNormal", historyNormal_, sampler_},
-                     {"result", result.irradiance},
-                     {"frames", frames_}},
+    stream.dispatch(accumulate_, bindings,
                     AccumulatePush{float(params_.history), params_.clamp, hasHistory_, noisy.spacing},
                     pixelGroups(texels.x, texels.y));
 

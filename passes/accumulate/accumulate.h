@@ -20,7 +20,7 @@ class Accumulate final : public Pass {
         "the blur of lookups between texels. Source: Schied et al. 2017; Salvi 2016; docs/accumulation.md.";
     struct Params {
         uint32_t history = 16;
-        float clamp = 1.0f;
+        float clamp = 0.0f;
         static constexpr auto schema() {
             return std::tuple{
                 field("history", &Params::history,

@@ -5,7 +5,7 @@
 namespace voxray {
 namespace {
 
-/// Surfaces in a pixel, at most; passes/gather_surfels/groups.glsl.
+/// Surfaces in a pixel, at most.
 constexpr uint32_t kGroups = 4;
 
 struct GatherPush {
@@ -39,8 +39,9 @@ void GatherSurfels::plan(PassPlan& plan) {
 
 void GatherSurfels::prepare(PassSetup& setup) {
     const auto program = [&](const char* file) {
-        return makeComputeProgram(setup.device,
-                                  setup.compiler.compile(file, {{"PROBED", probed_ ? "1" : "0"}}));
+        return makeComputeProgram(
+            setup.device, setup.compiler.compile(
+                              file, {{"GROUPS", std::to_string(kGroups)}, {"PROBED", probed_ ? "1" : "0"}}));
     };
     if (probed_) probe_ = program("passes/gather_surfels/probe.comp");
     gather_ = program("passes/gather_surfels/gather.comp");

@@ -24,7 +24,7 @@ layout(push_constant, scalar) uniform Push {
     float noise;   // Relative variance of a surfel's irradiance.
 } push;
 
-const int GROUPS = 4;     // A pixel's, at most; passes/gather_surfels/gather_surfels.cpp.
+// GROUPS, a pixel's at most, is defined by gather_surfels.cpp.
 const float NEAR = 0.25;  // Voxels.
 
 struct Group {

@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A ray from each surface in a pixel along its normal, as long as a voxel: it tells whether open space lies before it, as
-// place_surfels' rays do for surfels. None where all surfels around are open.
+// A ray from each surface in a pixel that tells whether it is open, as place_surfels' rays do for surfels. None where all surfels
+// around are open.
 #include "passes/gather_surfels/groups.glsl"
-#include "shaders/trace/ray_types.h"
+#include "shaders/surfels/open_space.glsl"
 
 layout(scalar) writeonly buffer Probes { Ray data[]; } probes;
 
@@ -29,7 +29,7 @@ void main() {
         Ray ray = kNoRay;
         if (i < count) {
             const vec3 p = groups[i].position, ng = groups[i].geometricNormal;
-            if (coveredNear(p)) ray = Ray(p + ng * surfaceOffset(p), 0.0, ng, push.grid.voxelSize);
+            if (coveredNear(p)) ray = openSpaceRay(p, ng, push.grid.voxelSize);
         }
         probes.data[(pixel.y * push.extent.x + pixel.x) * GROUPS + i] = ray;
     }

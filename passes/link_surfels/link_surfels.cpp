@@ -27,7 +27,7 @@ struct EmitPush {
 
 struct ProbePush {
     uint32_t rayCount;
-    float distance;
+    float voxelSize;
 };
 
 struct LinkPush {

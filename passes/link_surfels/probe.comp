@@ -1,12 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// A ray from each hit along its normal, on the side that was hit: it tells whether open space lies before it, as place_surfels'
-// rays do for surfels.
+// A ray from each hit that tells whether the side that was hit is open, as place_surfels' rays do for surfels.
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
-#include "shaders/trace/ray_types.h"
+#include "shaders/surfels/open_space.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
@@ -14,7 +12,7 @@ layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(scalar) writeonly buffer Probes { Ray data[]; } probes;
 layout(push_constant) uniform Push {
     uint rayCount;
-    float distance_;  // m
+    float voxelSize;  // m
 } push;
 
 void main() {
@@ -24,5 +22,5 @@ void main() {
     if (hits.data[i].triangle == NO_HIT) return;
     const SurfacePoint p = surfacePoint(hits.data[i].triangle, vec2(hits.data[i].u, hits.data[i].v));
     const vec3 n = dot(p.geometricNormal, rays.data[i].direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
-    probes.data[i] = Ray(p.position + n * surfaceOffset(p.position), 0.0, n, push.distance_);
+    probes.data[i] = openSpaceRay(p.position, n, push.voxelSize);
 }

@@ -5,7 +5,7 @@
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
-#include "shaders/trace/ray_types.h"
+#include "shaders/surfels/open_space.glsl"
 #include "shaders/surfels/surfel_types.h"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
@@ -25,7 +25,6 @@ void main() {
     if (i >= push.points) return;
     const SurfacePoint p = surfacePoint(pointTriangles.data[i], trianglePoint(sobol2(push.firstPoint + i, push.seed)));
     const uint voxel = voxelNumber(push.grid, voxelAt(push.grid, p.position));
-    const float offset = surfaceOffset(p.position);
     const vec3 albedo = clamp(diffuseAlbedo(sceneMaterials.data[p.material], p, 0.0), 0.0, 1.0);
     for (uint side = 0u; side < 2u; ++side) {
         Surfel s;
@@ -37,11 +36,7 @@ void main() {
         s.parent = 0u;
         s.area = 1.0;
         candidates.data[2u * i + side] = s;
-        Ray ray;
-        ray.origin = s.position + s.normal * offset;
-        ray.direction = s.normal;
-        ray.tMin = 0.0;
-        ray.tMax = voxel != NO_VOXEL && dot(s.normal, s.normal) > 0.0 ? push.grid.voxelSize : -1.0;
-        rays.data[2u * i + side] = ray;
+        const bool isPlaced = voxel != NO_VOXEL && dot(s.normal, s.normal) > 0.0;
+        rays.data[2u * i + side] = isPlaced ? openSpaceRay(s.position, s.normal, push.grid.voxelSize) : kNoRay;
     }
 }

@@ -57,8 +57,12 @@ class Chain {
 
     /// Frames 1 to `count`, which draw other random numbers than frame 0.
     void runFrames(uint32_t count) {
-        for (uint32_t i = 1; i <= count; ++i)
-            frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, i, true);
+        for (uint32_t i = 1; i <= count; ++i) runFrame(i);
+    }
+
+    /// Frame `index`, which draws its own random numbers.
+    void runFrame(uint32_t index) {
+        frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, index, true);
     }
 
     /// Changes the scene in place, takes over what the change says that it changed, and renders a frame.
