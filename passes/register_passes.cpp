@@ -11,6 +11,7 @@
 #include "passes/direct_voxels/direct_voxels.h"
 #include "passes/filter_irradiance/filter_irradiance.h"
 #include "passes/filter_voxels/filter_voxels.h"
+#include "passes/find_patches/find_patches.h"
 #include "passes/gather_cached_rays/gather_cached_rays.h"
 #include "passes/gather_clusters/gather_clusters.h"
 #include "passes/gather_cones/gather_cones.h"
@@ -76,6 +77,7 @@ void registerPasses(Registry& registry) {
     registry.add<MergeVoxels>();
     registry.add<GatherMergedRays>();
     registry.add<ClusterVoxels>();
+    registry.add<FindPatches>();
     registry.add<FindClusterVisibility>();
     registry.add<InjectClusters>();
     registry.add<GatherClusters>();

@@ -10,18 +10,13 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kChunkRays = 1u << 22;  // Bounds the targets in hand to 16 MiB.
+constexpr uint32_t kChunkRays = 1u << 20;  // Bounds the rays in hand to 32 MiB.
+constexpr uint32_t kRounds = 4;            // As in choose.comp.
 
-/// As in face_ray.glsl.
-struct RayPush {
-    gpu::VoxelGrid grid;
-    uint32_t firstFace;
-    uint32_t rays;
-    uint32_t raysPerFace;
-    uint32_t seed;
-    float nearDistance;
-    uint32_t voxelTargets;
-    uint32_t alongAxis;
+/// As in choose.comp.
+struct Proposal {
+    uint32_t surfel;
+    uint32_t hidden[kRounds];
 };
 
 struct ListPush {
@@ -31,10 +26,23 @@ struct ListPush {
 
 }  // namespace
 
+/// As in face_ray.glsl.
+struct FindClusterVisibility::RayPush {
+    gpu::VoxelGrid grid;
+    uint32_t firstFace;
+    uint32_t rays;
+    uint32_t raysPerFace;
+    uint32_t seed;
+    float nearDistance;
+    uint32_t sideTargets;
+    uint32_t alongAxis;
+    uint32_t round;
+};
+
 void FindClusterVisibility::declare(PassBuilder& builder) {
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
-    clusters_ = builder.read<VoxelClusters>("clusters", "surface voxels in groups");
-    visibility_ = builder.write<ClusterVisibility>("cluster_visibility", "which clusters each face sees");
+    patches_ = builder.read<VoxelPatches>("patches", "surfaces by the open space that they look into");
+    visibility_ = builder.write<ClusterVisibility>("cluster_visibility", "which clusters each patch sees");
 }
 
 uint32_t FindClusterVisibility::chunkFaces() const {
@@ -47,19 +55,22 @@ void FindClusterVisibility::plan(PassPlan& plan) {
     visibility.rays = params_.rays;
     visibility.seesVoxels = params_.nearDistance > 0;
     march_.plan(plan, voxels);
-    const uint64_t faces = uint64_t(voxels.voxelCount) * kFaces;
-    const uint64_t chunk = std::min<uint64_t>(chunkFaces(), faces), rays = chunk * params_.rays;
+    const uint64_t faces = kSidesPerVoxel * voxels.voxelCount * kFaces;
+    const uint64_t chunk = chunkFaces(), rays = chunk * params_.rays;
     plan.reserve("what faces see (at most)", faces * (params_.rays + 2) * sizeof(uint32_t));
-    plan.scratchBuffer(faces_, "faces with surfaces", faces * sizeof(uint32_t) + (faces / 16 + 1024));
+    plan.reserveScratch("patches (estimated)", faces * sizeof(uint32_t));
     plan.scratchBuffer(targets_, "targets of rays", rays * sizeof(uint32_t));
     plan.scratchBuffer(counts_, "targets of faces", (chunk + 1) * sizeof(uint32_t));
-    plan.scratchBuffer(missed_, "rays that met nothing", sizeof(uint32_t));
+    plan.scratchBuffer(missed_, "rays that met nothing", 2 * sizeof(uint32_t));
     plan.reserveScratch("lists of faces (estimated)", faces / 8 +
                                                           Compaction::scratchBytes(uint32_t(faces / 32 + 1)) +
                                                           PrefixSum::scratchBytes(uint32_t(chunk) + 1));
     if (params_.visibility == FaceRays::Exact) {
         plan.scratchBuffer(rays_, "rays of faces", rays * sizeof(Ray));
         plan.scratchBuffer(hits_, "hits of faces' rays", rays * sizeof(Hit));
+        plan.scratchBuffer(proposals_, "what rays may have hit", rays * sizeof(Proposal));
+        plan.scratchBuffer(between_, "rays from hits", rays * sizeof(Ray));
+        plan.scratchBuffer(occluded_, "visibility of hits", rays * sizeof(uint32_t));
     }
 }
 
@@ -76,26 +87,27 @@ void FindClusterVisibility::prepare(PassSetup& setup) {
     merge_ = program("merge");
     compact_ = program("compact");
     if (params_.visibility == FaceRays::Exact) {
-        place_ = program("exact_place");
-        aim_ = program("exact_aim");
-        see_ = program("exact_see");
+        emit_ = program("emit");
+        choose_ = program("choose");
     } else {
-        marchRays_ = program("march", march_.defines());
+        Defines defines = march_.defines();
+        if (params_.visibility == FaceRays::Bresenham) defines["BRESENHAM"] = "1";
+        marchRays_ = program("march", defines);
     }
 }
 
 void FindClusterVisibility::record(PassContext& context) {
     const SurfaceVoxels& voxels = context.get(voxels_);
-    const VoxelClusters& clusters = context.get(clusters_);
+    const VoxelPatches& patches = context.get(patches_);
     ClusterVisibility& visibility = context.get(visibility_);
-    const std::pair version{voxels.version, clusters.version};
+    const std::pair version{voxels.version, patches.version};
     if (version_ == version) return;
     version_ = version;
     ++visibility.version;
     visibility.chunks.clear();
-    visibility.voxelTargets = kFaces * clusters.count;
-    const uint64_t all = uint64_t(kFaces) * voxels.voxelCount;
-    const uint64_t targets = visibility.voxelTargets + (visibility.seesVoxels ? all : 0);
+    visibility.sideTargets = kFaces * patches.partCount;
+    const uint64_t all = uint64_t(kFaces) * patches.sideCount;
+    const uint64_t targets = visibility.sideTargets + (visibility.seesVoxels ? all : 0);
     if (targets > SEEN_MAX_TARGETS)
         throw Error(
             "{}: {} faces of clusters and voxels don't fit into 22 bits; set 'near_distance: 0' or lower "
@@ -106,66 +118,95 @@ void FindClusterVisibility::record(PassContext& context) {
     CommandStream& stream = context.stream;
     march_.begin(stream, voxels);
     const uint32_t words = uint32_t((all + 31) / 32);
-    const Buffer flags(context.device, "faces with surfaces", words * sizeof(uint32_t));
-    stream.dispatch(faceBits_, voxels.bindings({{"flags", flags}}), uint32_t(all), linearGroups(words));
+    const Buffer flags(context.device, "patches", std::max(words, 1u) * sizeof(uint32_t));
+    stream.dispatch(faceBits_, {{"VoxelMaterialsAt", patches.materials.at()}, {"flags", flags}},
+                    uint32_t(all), linearGroups(words));
+    faces_ = Buffer(context.device, "patches", std::max<uint64_t>(all, 1) * sizeof(uint32_t));
     const uint32_t faces = compaction_->run(stream, flags, faces_, words);
 
     stream.fill(missed_, 0);
     for (uint32_t first = 0; first < faces; first += chunkFaces())
         look(context, first, std::min(chunkFaces(), faces - first));
+    faces_ = {};
     context.voxelCounts.push_back(&march_.counts());
 
     uint64_t seen = 0;
     for (const ClusterVisibility::Chunk& chunk : visibility.chunks)
         seen += chunk.seen.bytes() / sizeof(uint32_t);
     const double rays = double(faces) * params_.rays;
+    const std::vector<uint32_t> missed = stream.readAs<uint32_t>(missed_, 2);
+    const auto percent = [&](uint32_t count) { return faces > 0 ? 100 * count / rays : 0; };
     context.report("faces with surfaces", faces);
     context.report("clusters and voxels seen by a face", faces > 0 ? double(seen) / faces : 0);
-    context.report("rays that met nothing, %",
-                   faces > 0 ? 100 * stream.readAs<uint32_t>(missed_, 1)[0] / rays : 0);
+    context.report("rays that met nothing, %", percent(missed[0]));
+    context.report("hits without surfel, % of rays", percent(missed[1]));
     context.report("bytes of the lists", double(visibility.bytes()));
 }
 
-void FindClusterVisibility::look(PassContext& context, uint32_t first, uint32_t count) {
+void FindClusterVisibility::traceRays(PassContext& context, RayPush push) {
     const SurfaceVoxels& voxels = context.get(voxels_);
-    const VoxelClusters& clusters = context.get(clusters_);
+    const VoxelPatches& patches = context.get(patches_);
+    CommandStream& stream = context.stream;
+    stream.dispatch(emit_,
+                    {{"faces", faces_},
+                     {"sides", patches.sides},
+                     {"PatchSurfelsAt", patches.surfels.at()},
+                     {"rays", rays_}},
+                    push, linearGroups(push.rays));
+    context.tracer.closestHit(stream, rays_, hits_, push.rays);
+    for (push.round = 0; push.round <= kRounds; ++push.round) {
+        stream.dispatch(choose_,
+                        context.scene.bindings({{"faces", faces_},
+                                                {"sides", patches.sides},
+                                                {"ofSide", patches.ofSide},
+                                                {"firstSide", patches.firstSide},
+                                                {"PatchSurfelsAt", patches.surfels.at()},
+                                                {"VoxelMaterialsAt", patches.materials.at()},
+                                                {"voxelOccupancy", voxels.occupancy},
+                                                {"voxelRank", voxels.rank},
+                                                {"rays", rays_},
+                                                {"hits", hits_},
+                                                {"proposals", proposals_},
+                                                {"between", between_},
+                                                {"occluded", occluded_},
+                                                {"targets", targets_},
+                                                {"missed", missed_}}),
+                        push, linearGroups(push.rays));
+        if (push.round < kRounds) context.tracer.occluded(stream, between_, occluded_, push.rays);
+    }
+}
+
+void FindClusterVisibility::marchRays(PassContext& context, const RayPush& push) {
+    const VoxelPatches& patches = context.get(patches_);
+    std::vector<Binding> bindings;
+    for (const Binding& binding : march_.bindings()) bindings.push_back(ifUsed(binding));
+    bindings.insert(bindings.end(), {{"faces", faces_},
+                                     {"sides", patches.sides},
+                                     {"ofSide", patches.ofSide},
+                                     {"firstSide", patches.firstSide},
+                                     {"PatchSurfelsAt", patches.surfels.at()},
+                                     {"VoxelMaterialsAt", patches.materials.at()},
+                                     {"targets", targets_},
+                                     {"missed", missed_}});
+    context.stream.dispatch(marchRays_, bindings, push, linearGroups(push.rays));
+}
+
+void FindClusterVisibility::look(PassContext& context, uint32_t first, uint32_t count) {
     ClusterVisibility& visibility = context.get(visibility_);
     CommandStream& stream = context.stream;
-    const uint32_t rays = count * params_.rays;
-    const RayPush push{voxels.grid,
+    const RayPush push{context.get(voxels_).grid,
                        first,
-                       rays,
+                       count * params_.rays,
                        params_.rays,
                        randomSeed(context.frame),
                        params_.nearDistance,
-                       visibility.voxelTargets,
-                       params_.hemisphere == FaceHemisphere::Face ? 1u : 0u};
-    const std::vector<Binding> shared = {{"faces", faces_},
-                                         ifUsed({"coordinates", clusters.coordinates}),
-                                         ifUsed({"ofVoxel", clusters.ofVoxel}),
-                                         ifUsed({"VoxelMaterialsAt", voxels.materials.at()})};
-    const auto with = [&](std::vector<Binding> bindings, std::initializer_list<Binding> more) {
-        bindings.insert(bindings.end(), shared.begin(), shared.end());
-        bindings.insert(bindings.end(), more.begin(), more.end());
-        return bindings;
-    };
-
-    // Targets of all rays
-    if (params_.visibility == FaceRays::Voxels) {
-        stream.dispatch(marchRays_, with(march_.bindings(), {{"targets", targets_}, {"missed", missed_}}),
-                        push, linearGroups(rays));
-    } else {
-        stream.dispatch(place_, with({}, {{"rays", rays_}}), push, linearGroups(rays));
-        context.tracer.closestHit(stream, rays_, hits_, rays);
-        stream.dispatch(aim_, with(context.scene.bindings({}), {{"rays", rays_}, {"hits", hits_}}), push,
-                        linearGroups(rays));
-        context.tracer.closestHit(stream, rays_, hits_, rays);
-        stream.dispatch(see_,
-                        with(context.scene.bindings({ifUsed({"voxelOccupancy", voxels.occupancy}),
-                                                     ifUsed({"voxelRank", voxels.rank})}),
-                             {{"rays", rays_}, {"hits", hits_}, {"targets", targets_}, {"missed", missed_}}),
-                        push, linearGroups(rays));
-    }
+                       visibility.sideTargets,
+                       params_.hemisphere == FaceHemisphere::Face ? 1u : 0u,
+                       0};
+    if (params_.visibility == FaceRays::Exact)
+        traceRays(context, push);
+    else
+        marchRays(context, push);
 
     // Merged by face, and moved together
     const ListPush list{count, params_.rays};

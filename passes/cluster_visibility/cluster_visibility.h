@@ -6,18 +6,19 @@
 
 #include "graph/registry.h"
 #include "passes/common/clusters/cluster_visibility.h"
-#include "passes/common/clusters/voxel_clusters.h"
+#include "passes/common/clusters/voxel_patches.h"
 #include "passes/common/compute/compaction.h"
 #include "passes/common/voxel_march/voxel_march.h"
 
 namespace voxray {
 
 /// What rays of faces meet.
-enum class FaceRays { Voxels, Exact };
+enum class FaceRays { Exact, Voxels, Bresenham };
 template <>
 struct EnumNames<FaceRays> {
-    static constexpr std::array names{std::pair{FaceRays::Voxels, "voxels"},
-                                      std::pair{FaceRays::Exact, "exact"}};
+    static constexpr std::array names{std::pair{FaceRays::Exact, "exact"},
+                                      std::pair{FaceRays::Voxels, "voxels"},
+                                      std::pair{FaceRays::Bresenham, "bresenham"}};
 };
 
 /// What the rays of a face are distributed about.
@@ -28,37 +29,37 @@ struct EnumNames<FaceHemisphere> {
                                       std::pair{FaceHemisphere::Face, "face"}};
 };
 
-/// Finds which clusters each face of each voxel sees, once for a scene: light is gathered from these lists.
+/// Finds which clusters each patch of each voxel sees, once for a scene: light is gathered from these lists.
 /// Source: Cosin and Patow 2022, section 4.3.
 class FindClusterVisibility final : public Pass {
  public:
     static constexpr const char* kName = "cluster_visibility";
     static constexpr const char* kHelp =
-        "Sends rays from each face of each voxel, by the cosine about its surfaces' normal, and lists the "
-        "clusters that they meet, with the number of rays for each: a form factor. What is near is listed by "
-        "its voxels. Biased by: voxel size (surfaces are as thick as their voxels). Noisy by: rays. "
-        "Source: Cosin and Patow 2022, section 4.3, with a walk that misses no voxel in place of "
-        "Bresenham's.";
+        "Sends rays from the surfels of each patch (a face of one of the sides in a voxel, find_patches), by "
+        "the cosine about their normal, and lists the clusters' parts that they meet, with the number of "
+        "rays for each: a form factor. What is near is listed by its voxels. Biased by: cluster size; "
+        "through voxels also by voxel size (surfaces are as thick as their voxels). Noisy by: rays. "
+        "Source: Cosin and Patow 2022, section 4.3.";
     struct Params {
         uint32_t rays = 128;
         float nearDistance = 4;
-        FaceRays visibility = FaceRays::Voxels;
+        FaceRays visibility = FaceRays::Exact;
         FaceHemisphere hemisphere = FaceHemisphere::Surface;
         static constexpr auto schema() {
             return std::tuple{
-                field("rays", &Params::rays, "From each face.", 1u, SEEN_MAX_RAYS),
+                field("rays", &Params::rays, "From each patch.", 1u, SEEN_MAX_RAYS),
                 field(
                     "near_distance", &Params::nearDistance,
                     "What is nearer than this many voxels is seen by its voxels, and what is farther by its "
                     "clusters. 0: all by clusters. 10000: all by voxels, for comparison.",
                     0.0f, 10000.0f),
-                field(
-                    "visibility", &Params::visibility,
-                    "voxels: rays walk through voxels. exact: from the scene's surfaces through the scene."),
+                field("visibility", &Params::visibility,
+                      "exact: rays go through the scene. voxels: through voxels, all that they meet. "
+                      "bresenham: the paper's walk through voxels, which passes some by."),
                 field(
                     "hemisphere", &Params::hemisphere,
-                    "surface: rays leave by the cosine about the normal of the surfaces before a face. face: "
-                    "about the face's own axis (the paper's).")};
+                    "surface: rays leave by the cosine about the surfels' normal. face: about the face's own "
+                    "axis (the paper's).")};
         }
     };
 
@@ -69,20 +70,24 @@ class FindClusterVisibility final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    struct RayPush;
     uint32_t chunkFaces() const;
-    /// Lists what `count` faces from `first` on see.
+    /// Lists what `count` patches from `first` on see.
     void look(PassContext& context, uint32_t first, uint32_t count);
+    /// The targets of their rays.
+    void traceRays(PassContext& context, RayPush push);
+    void marchRays(PassContext& context, const RayPush& push);
 
     Params params_;
     Port<const SurfaceVoxels> voxels_;
-    Port<const VoxelClusters> clusters_;
+    Port<const VoxelPatches> patches_;
     Port<ClusterVisibility> visibility_;
     VoxelMarch march_{VoxelWalk::Bricks};
     std::optional<Compaction> compaction_;
     std::optional<PrefixSum> prefixSum_;
-    Program faceBits_, marchRays_, place_, aim_, see_, merge_, compact_;
-    Buffer faces_, targets_, counts_, missed_, rays_, hits_;
-    std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of the voxels and their clusters.
+    Program faceBits_, marchRays_, emit_, choose_, merge_, compact_;
+    Buffer faces_, targets_, counts_, missed_, rays_, hits_, proposals_, between_, occluded_;  ///< Scratch.
+    std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of the voxels and their patches.
 };
 
 }  // namespace voxray

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A bit for each face of a voxel that has surfaces with open space before them. A thread takes a word: 32 faces.
+// A bit for each face of a side (whose materials are bound) that has surfaces with open space before them. A thread takes a word: 32
+// faces.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;

@@ -1,17 +1,12 @@
 #include "passes/gather_clusters/gather_clusters.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "passes/common/compute/dispatch.h"
 
 namespace voxray {
 namespace {
-
-struct FilterPush {
-    gpu::VoxelGrid grid;
-    uint32_t count;
-    int32_t radius;
-};
 
 struct StorePush {
     uint32_t pairs;
@@ -22,18 +17,19 @@ struct StorePush {
 
 void GatherClusters::declare(PassBuilder& builder) {
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
-    injected_ = builder.read<VoxelIrradiance>("irradiance", "light that was injected");
+    patches_ = builder.read<VoxelPatches>("patches", "surfaces by the open space that they look into");
     clusters_ = builder.read<VoxelClusters>("clusters", "surface voxels in groups");
-    visibility_ = builder.read<ClusterVisibility>("cluster_visibility", "which clusters each face sees");
+    visibility_ = builder.read<ClusterVisibility>("cluster_visibility", "which clusters each patch sees");
     light_ = builder.read<ClusterLight>("cluster_light", "what clusters send");
-    irradiance_ = builder.write<VoxelIrradiance>("irradiance", "injected direct light, gathered indirect");
+    irradiance_ =
+        builder.write<VoxelIrradiance>("irradiance", "direct light, and indirect light that was gathered");
 }
 
 void GatherClusters::plan(PassPlan& plan) {
     const uint32_t voxels = plan.get(voxels_).voxelCount;
     plan.get(irradiance_).lightBounces = oneMore(plan.get(light_).lightBounces);
     plan.reserve("irradiance of voxels (estimated)", VoxelIrradiance::bytes(voxels));
-    plan.reserveScratch("irradiance of faces (estimated)", 2 * ClusterGather::bytes(voxels));
+    plan.reserveScratch("irradiance of faces (estimated)", 2 * ClusterGather::bytes(kSidesPerVoxel * voxels));
 }
 
 void GatherClusters::prepare(PassSetup& setup) {
@@ -45,40 +41,50 @@ void GatherClusters::prepare(PassSetup& setup) {
 
 void GatherClusters::record(PassContext& context) {
     const SurfaceVoxels& voxels = context.get(voxels_);
-    const VoxelIrradiance& injected = context.get(injected_);
+    const VoxelPatches& patches = context.get(patches_);
     const ClusterVisibility& visibility = context.get(visibility_);
     const ClusterLight& light = context.get(light_);
-    const std::tuple version{visibility.version, light.version, injected.version};
+    const std::pair version{visibility.version, light.version};
     if (version_ == version) return;
     version_ = version;
 
     CommandStream& stream = context.stream;
-    const uint32_t count = voxels.voxelCount;
-    LargeBuffer faces(context.device, "irradiance of faces", ClusterGather::bytes(count));
-    LargeBuffer filtered(context.device, "filtered irradiance", ClusterGather::bytes(count));
+    const uint32_t sides = patches.sideCount;
+    const uint64_t bytes = ClusterGather::bytes(std::max(sides, 1u));
+    LargeBuffer faces(context.device, "irradiance of faces", bytes);
+    LargeBuffer filtered(context.device, "filtered irradiance", bytes);
     stream.fill(faces, 0);
     gather_.gather(stream, visibility, light, faces);
-    for (uint32_t i = 0; i < params_.filterPasses; ++i) {
+    // Binomial weights of 5 voxels are those of 3, twice.
+    const uint32_t steps = params_.filterPasses * (params_.filterSize / 2);
+    for (uint32_t i = 0; i < steps; ++i) {
         stream.dispatch(filter_,
-                        voxels.bindings({{"coordinates", context.get(clusters_).coordinates},
-                                         {"FacesAt", faces.at()},
-                                         {"FilteredAt", filtered.at()}}),
-                        FilterPush{voxels.grid, count, int32_t(params_.filterSize / 2)}, linearGroups(count));
+                        {{"sides", patches.sides},
+                         {"coordinates", context.get(clusters_).coordinates},
+                         {"firstNeighbour", patches.firstNeighbour},
+                         {"NeighboursAt", patches.neighbours.at()},
+                         {"VoxelMaterialsAt", patches.materials.at()},
+                         {"FacesAt", faces.at()},
+                         {"FilteredAt", filtered.at()}},
+                        sides, linearGroups(sides));
         stream.finish();
         std::swap(faces, filtered);
     }
 
     VoxelIrradiance& result = context.get(irradiance_);
-    result.allocate(context.device, count);
-    stream.copy(injected.direct, result.direct, injected.direct.bytes());
+    result.allocate(context.device, voxels.voxelCount);
     stream.dispatch(store_,
-                    {{"VoxelMaterialsAt", voxels.materials.at()},
+                    {{"firstSide", patches.firstSide},
+                     {"VoxelMaterialsAt", patches.materials.at()},
                      {"FacesAt", faces.at()},
-                     {"FluxAt", result.indirect.at()},
+                     {"SidesDirectAt", light.direct.at()},
+                     {"DirectAt", result.direct.at()},
+                     {"IndirectAt", result.indirect.at()},
                      {"area", result.area}},
-                    StorePush{3 * count, voxels.grid.voxelSize * voxels.grid.voxelSize},
-                    linearGroups(3 * count));
+                    StorePush{3 * voxels.voxelCount, voxels.grid.voxelSize * voxels.grid.voxelSize},
+                    linearGroups(3 * voxels.voxelCount));
     stream.finish();
+    requireLight(stream, voxels, result);
 }
 
 }  // namespace voxray

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <optional>
-#include <tuple>
+#include <utility>
 
 #include "graph/registry.h"
 #include "passes/common/clusters/cluster_light.h"
+#include "passes/common/clusters/voxel_clusters.h"
 
 namespace voxray {
 
@@ -14,11 +15,11 @@ class GatherClusters final : public Pass {
  public:
     static constexpr const char* kName = "gather_clusters";
     static constexpr const char* kHelp =
-        "Gathers what each face of each voxel receives from the clusters that it sees (cluster_visibility, "
-        "inject_clusters) and smooths it over neighbouring voxels. The result is irradiance of voxels, with "
-        "the injection's direct light: gather_irradiance or gather_rays show it. "
-        "Biased by: voxel and cluster size, the filter (light creeps round edges). Noisy by: the lists' "
-        "rays. "
+        "Gathers what each patch receives from the clusters that it sees (cluster_visibility, "
+        "inject_clusters) and smooths it over neighbours that look into the same space. The result is "
+        "irradiance of voxels, with the direct light that inject_clusters read or measured: "
+        "gather_irradiance or gather_rays show it. Biased by: voxel and cluster size, the filter (light "
+        "creeps round edges). Noisy by: the lists' rays. "
         "Source: Cosin and Patow 2022, section 4.4.";
     struct Params {
         uint32_t filterPasses = 2;
@@ -26,11 +27,11 @@ class GatherClusters final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("filter_passes", &Params::filterPasses,
-                      "Times that faces are averaged with the same faces of the voxels round them.", 0u, 8u),
+                      "Times that faces are averaged with the same faces of the sides round them.", 0u, 8u),
                 field(
                     "filter_size", &Params::filterSize,
                     "Voxels along each edge of the filter's cube, with binomial weights (about a Gaussian). "
-                    "Empty voxels and faces without surfaces don't count.",
+                    "Sides that something hides and faces without surfaces don't count.",
                     std::vector{3u, 5u})
                     .onlyWith(noneOf(&Params::filterPasses, {0u}))};
         }
@@ -45,14 +46,14 @@ class GatherClusters final : public Pass {
  private:
     Params params_;
     Port<const SurfaceVoxels> voxels_;
-    Port<const VoxelIrradiance> injected_;
+    Port<const VoxelPatches> patches_;
     Port<const VoxelClusters> clusters_;
     Port<const ClusterVisibility> visibility_;
     Port<const ClusterLight> light_;
     Port<VoxelIrradiance> irradiance_;
     ClusterGather gather_;
     Program filter_, store_;
-    std::optional<std::tuple<uint64_t, uint64_t, uint64_t>> version_;  ///< Of lists, lights of both kinds.
+    std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of lists and light.
 };
 
 }  // namespace voxray

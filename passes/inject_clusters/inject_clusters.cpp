@@ -1,65 +1,106 @@
 #include "passes/inject_clusters/inject_clusters.h"
 
+#include <algorithm>
+
 #include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/random_seed.h"
 
 namespace voxray {
 namespace {
 
-struct ReflectPush {
+struct InjectedPush {
     uint32_t faces;
     float voxelFaceArea;
+};
+
+struct PlacePush {
+    uint32_t count;
+    uint32_t firstNumber;
+};
+
+struct ReflectPush {
+    uint32_t faces;
     uint32_t hasBounced;
 };
+
+constexpr uint64_t kIrradianceBytes = 4 * sizeof(float);
 
 }  // namespace
 
 void InjectClusters::declare(PassBuilder& builder) {
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
-    irradiance_ = builder.read<VoxelIrradiance>("irradiance", "light that arrives at the voxels' surfaces");
-    clusters_ = builder.read<VoxelClusters>("clusters", "surface voxels in groups");
-    visibility_ = builder.read<ClusterVisibility>("cluster_visibility", "which clusters each face sees");
+    if (params_.direct == ClusterDirect::Injected)
+        irradiance_ = builder.read<VoxelIrradiance>("irradiance", "light that arrives at voxels' surfaces");
+    else
+        surfels_ = builder.read<Surfels>("surfels", "points where irradiance is measured");
+    patches_ = builder.read<VoxelPatches>("patches", "surfaces by the open space that they look into");
+    visibility_ = builder.read<ClusterVisibility>("cluster_visibility", "which clusters each patch sees");
     light_ = builder.write<ClusterLight>("cluster_light", "what clusters send");
 }
 
 void InjectClusters::plan(PassPlan& plan) {
-    const SurfaceVoxels& voxels = plan.get(voxels_);
-    const std::optional<uint32_t> injected = plan.get(irradiance_).lightBounces;
-    if (injected) plan.get(light_).lightBounces = *injected + params_.bounces;
-    const uint64_t faces = ClusterGather::bytes(voxels.voxelCount);
-    plan.reserve("light of clusters (at most)", ClusterGather::bytes(plan.get(clusters_).maxCount));
-    plan.reserve("light of voxels (estimated)", faces);
-    if (params_.bounces > 0) plan.reserveScratch("bounced light (estimated)", faces);
+    const uint64_t faces = ClusterGather::bytes(kSidesPerVoxel * plan.get(voxels_).voxelCount);
+    plan.reserve("light of sides (estimated)", 3 * faces);
+    plan.reserveScratch("bounced light (estimated)", 2 * faces);
+    if (params_.direct == ClusterDirect::Injected) {
+        const std::optional<uint32_t> injected = plan.get(irradiance_).lightBounces;
+        if (injected) plan.get(light_).lightBounces = *injected + params_.bounces;
+        return;
+    }
+    plan.get(light_).lightBounces = params_.bounces;
+    sources_ = requireLightSources(*plan.frame.scene, kName);
+    surfelLight_.plan(plan, Surfels::kChunk);
+    plan.scratchBuffer(direct_, "direct irradiance of surfels", Surfels::kChunk * kIrradianceBytes);
+    plan.reserveScratch("irradiance of surfels (estimated)", plan.get(surfels_).maxCount * sizeof(glm::vec3));
 }
 
 void InjectClusters::prepare(PassSetup& setup) {
     version_.reset();
     gather_ = ClusterGather(setup.device, setup.compiler);
-    reflectVoxels_ =
-        makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_clusters/reflect.comp"));
-    sumClusters_ =
-        makeComputeProgram(setup.device, setup.compiler.compile("passes/inject_clusters/sum.comp"));
+    const auto program = [&](const char* name) {
+        const std::string file = std::string("passes/inject_clusters/") + name + ".comp";
+        return makeComputeProgram(setup.device, setup.compiler.compile(file));
+    };
+    if (params_.direct == ClusterDirect::Injected) {
+        injected_ = program("injected");
+    } else {
+        surfelLight_.prepare(setup);
+        place_ = program("place");
+        mean_ = program("mean");
+    }
+    reflectSides_ = program("reflect");
+    sumParts_ = program("sum");
 }
 
 void InjectClusters::record(PassContext& context) {
-    const SurfaceVoxels& voxels = context.get(voxels_);
+    const VoxelPatches& patches = context.get(patches_);
     const ClusterVisibility& visibility = context.get(visibility_);
-    const std::tuple version{voxels.version, visibility.version, context.get(irradiance_).version};
-    if (version_ == version) return;
-    version_ = version;
+    const bool isInjected = params_.direct == ClusterDirect::Injected;
+    if (isInjected) {
+        const std::tuple version{patches.version, visibility.version, context.get(irradiance_).version};
+        if (version_ == version) return;
+        version_ = version;
+    }
     ClusterLight& light = context.get(light_);
     ++light.version;
     const auto make = [&](auto& buffer, const char* name, uint64_t count) {
-        const uint64_t bytes = ClusterGather::bytes(count);
+        const uint64_t bytes = ClusterGather::bytes(std::max<uint64_t>(count, 1));
         if (buffer && buffer.bytes() == bytes) return;
         buffer = {};
         buffer = std::remove_reference_t<decltype(buffer)>(context.device, name, bytes);
     };
-    make(light.clusters, "radiosity of clusters", context.get(clusters_).count);
-    make(light.voxels, "radiosity of voxels", voxels.voxelCount);
+    make(light.parts, "radiosity of parts", patches.partCount);
+    make(light.sides, "radiosity of sides", patches.sideCount);
+    make(light.direct, "direct irradiance of sides", patches.sideCount);
+    make(arriving_, "light that arrives", patches.sideCount);
     if (params_.bounces > 0) {
-        make(bounced_, "bounced light", voxels.voxelCount);
+        make(bounced_, "bounced light", patches.sideCount);
         context.stream.fill(bounced_, 0);
     }
+    if (isInjected)
+        readInjected(context, light);
+    else
+        measure(context, light);
     reflect(context, false);
     for (uint32_t i = 0; i < params_.bounces; ++i) {
         gather_.gather(context.stream, visibility, light, bounced_);
@@ -67,32 +108,67 @@ void InjectClusters::record(PassContext& context) {
         context.stream.finish();
     }
     context.stream.finish();
+    arriving_ = {};
     bounced_ = {};
 }
 
-void InjectClusters::reflect(PassContext& context, bool hasBounced) {
-    const SurfaceVoxels& voxels = context.get(voxels_);
-    const VoxelClusters& clusters = context.get(clusters_);
+void InjectClusters::readInjected(PassContext& context, const ClusterLight& light) {
+    const VoxelPatches& patches = context.get(patches_);
     const VoxelIrradiance& irradiance = context.get(irradiance_);
-    ClusterLight& light = context.get(light_);
-    const uint32_t faces = kFaces * voxels.voxelCount;
-    context.stream.dispatch(
-        reflectVoxels_,
-        {{"VoxelMaterialsAt", voxels.materials.at()},
-         {"DirectAt", irradiance.direct.at()},
-         {"IndirectAt", irradiance.indirect.at()},
-         {"area", irradiance.area},
-         {"BouncedAt", hasBounced ? bounced_.at() : light.voxels.at()},
-         {"RadiosityAt", light.voxels.at()}},
-        ReflectPush{faces, voxels.grid.voxelSize * voxels.grid.voxelSize, hasBounced ? 1u : 0u},
-        linearGroups(faces));
-    context.stream.dispatch(sumClusters_,
-                            {{"VoxelMaterialsAt", voxels.materials.at()},
-                             {"clusters", clusters.clusters},
-                             {"members", clusters.members},
-                             {"RadiosityAt", light.voxels.at()},
-                             {"sent", light.clusters}},
-                            clusters.count, linearGroups(clusters.count));
+    const float voxelSize = context.get(voxels_).grid.voxelSize;
+    const uint32_t faces = kFaces * patches.sideCount;
+    context.stream.dispatch(injected_,
+                            {{"sides", patches.sides},
+                             {"DirectAt", irradiance.direct.at()},
+                             {"IndirectAt", irradiance.indirect.at()},
+                             {"area", irradiance.area},
+                             {"SidesDirectAt", light.direct.at()},
+                             {"ArrivingAt", arriving_.at()}},
+                            InjectedPush{faces, voxelSize * voxelSize}, linearGroups(faces));
+}
+
+void InjectClusters::measure(PassContext& context, const ClusterLight& light) {
+    const VoxelPatches& patches = context.get(patches_);
+    CommandStream& stream = context.stream;
+    const LargeBuffer ofSurfels(context.device, "irradiance of surfels",
+                                std::max(patches.surfelCount, 1u) * sizeof(glm::vec3));
+    const uint32_t seed = randomSeed(context.frame, context.frameIndex);
+    uint32_t first = 0;
+    for (const Surfels::Chunk& chunk : context.get(surfels_).chunks) {
+        surfelLight_.measure(context, sources_, chunk.surfels, chunk.count, params_.lightSamples, seed,
+                             direct_);
+        stream.dispatch(
+            place_, {{"direct", direct_}, {"PlacesAt", patches.places.at()}, {"PlacedAt", ofSurfels.at()}},
+            PlacePush{chunk.count, first}, linearGroups(chunk.count));
+        first += chunk.count;
+    }
+    stream.dispatch(mean_,
+                    {{"sides", patches.sides},
+                     {"PatchSurfelsAt", patches.surfels.at()},
+                     {"PlacedAt", ofSurfels.at()},
+                     {"SidesDirectAt", light.direct.at()}},
+                    patches.sideCount, linearGroups(patches.sideCount));
+    stream.copy(light.direct, arriving_, light.direct.bytes());
+    stream.finish();
+}
+
+void InjectClusters::reflect(PassContext& context, bool hasBounced) {
+    const VoxelPatches& patches = context.get(patches_);
+    const ClusterLight& light = context.get(light_);
+    const uint32_t faces = kFaces * patches.sideCount;
+    context.stream.dispatch(reflectSides_,
+                            {{"VoxelMaterialsAt", patches.materials.at()},
+                             {"ArrivingAt", arriving_.at()},
+                             {"BouncedAt", hasBounced ? bounced_.at() : arriving_.at()},
+                             {"RadiosityAt", light.sides.at()}},
+                            ReflectPush{faces, hasBounced ? 1u : 0u}, linearGroups(faces));
+    context.stream.dispatch(sumParts_,
+                            {{"VoxelMaterialsAt", patches.materials.at()},
+                             {"parts", patches.parts},
+                             {"members", patches.members},
+                             {"RadiosityAt", light.sides.at()},
+                             {"sent", light.parts}},
+                            patches.partCount, linearGroups(patches.partCount));
 }
 
 }  // namespace voxray

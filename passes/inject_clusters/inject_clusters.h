@@ -1,12 +1,24 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <tuple>
 
 #include "graph/registry.h"
 #include "passes/common/clusters/cluster_light.h"
+#include "passes/common/lights/light_sources.h"
+#include "passes/common/surfels/surfel_light.h"
+#include "passes/common/surfels/surfels.h"
 
 namespace voxray {
+
+/// Where the direct light comes from that clusters send on.
+enum class ClusterDirect { Injected, ShadowRays };
+template <>
+struct EnumNames<ClusterDirect> {
+    static constexpr std::array names{std::pair{ClusterDirect::Injected, "injected"},
+                                      std::pair{ClusterDirect::ShadowRays, "shadow_rays"}};
+};
 
 /// Light of voxels, summed up to what their clusters send, and bounced from face to face by the lists of what
 /// faces see. Source: Cosin and Patow 2022, section 4.4.
@@ -14,18 +26,28 @@ class InjectClusters final : public Pass {
  public:
     static constexpr const char* kName = "inject_clusters";
     static constexpr const char* kHelp =
-        "Sums the light of lit voxels, whichever pass injected it, up to their clusters: what each cluster "
-        "sends from each of its six faces. With bounces, light goes on from cluster to face and on, by the "
-        "lists of cluster_visibility. Biased by: the size of clusters, over which light is averaged. "
-        "Source: Cosin and Patow 2022, section 4.4.";
+        "Sums the light of lit voxels, whichever pass injected it, or that of their surfels, up to their "
+        "clusters: what each part of a cluster sends from each of its six faces. With bounces, light goes "
+        "on from cluster to face and on, by the lists of cluster_visibility. Biased by: the size of "
+        "clusters, over which light is averaged; injected light by that of voxels, too, which may hold both "
+        "sides of a wall. Source: Cosin and Patow 2022, section 4.4.";
     struct Params {
         uint32_t bounces = 0;
+        ClusterDirect direct = ClusterDirect::Injected;
+        uint32_t lightSamples = 4;
         static constexpr auto schema() {
             return std::tuple{
                 field("bounces", &Params::bounces,
                       "Bounces between clusters, after those of the injection and before the one "
                       "of gather_clusters.",
-                      0u, 64u)};
+                      0u, 64u),
+                field("direct", &Params::direct,
+                      "injected: the light that an injection left in the voxels. shadow_rays: direct light "
+                      "of the surfels (place_surfels) by rays to the lights, without an injection."),
+                field("light_samples", &Params::lightSamples,
+                      "Shadow rays from each surfel to the emissive surfaces, and to the environment.", 1u,
+                      256u)
+                    .onlyWith(oneOf(&Params::direct, {ClusterDirect::ShadowRays}))};
         }
     };
 
@@ -36,18 +58,25 @@ class InjectClusters final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// What is sent of the injected light and of what has bounced so far.
+    /// Direct light by face of each side, and all that arrives before the first bounce in arriving_.
+    void readInjected(PassContext& context, const ClusterLight& light);
+    void measure(PassContext& context, const ClusterLight& light);
+    /// What is sent of arriving_ and of what has bounced so far.
     void reflect(PassContext& context, bool hasBounced);
 
     Params params_;
     Port<const SurfaceVoxels> voxels_;
     Port<const VoxelIrradiance> irradiance_;
-    Port<const VoxelClusters> clusters_;
+    Port<const Surfels> surfels_;
+    Port<const VoxelPatches> patches_;
     Port<const ClusterVisibility> visibility_;
     Port<ClusterLight> light_;
+    std::vector<LightSource> sources_;
+    SurfelLight surfelLight_;
     ClusterGather gather_;
-    Program reflectVoxels_, sumClusters_;
-    LargeBuffer bounced_;
+    Program injected_, place_, mean_, reflectSides_, sumParts_;
+    LargeBuffer arriving_, bounced_;
+    Buffer direct_;                                                    ///< Scratch: of a chunk of surfels.
     std::optional<std::tuple<uint64_t, uint64_t, uint64_t>> version_;  ///< Of voxels, lists and light.
 };
 

@@ -6,17 +6,11 @@
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/compute/random_seed.h"
-#include "shaders/surfels/sorted_surfels.h"
 
 namespace voxray {
 namespace {
 
 constexpr uint32_t kBatchRays = 1u << 20;
-
-struct SortPush {
-    uint32_t count;
-    uint32_t firstNumber;
-};
 
 struct EmitPush {
     uint32_t firstSurfel;
@@ -56,24 +50,18 @@ void LinkSurfels::plan(PassPlan& plan) {
     plan.scratchBuffer(probes_, "rays that tell covered hits", uint64_t(kBatchRays) * sizeof(Ray));
     plan.scratchBuffer(covered_, "link hits on covered sides", uint64_t(kBatchRays) * sizeof(uint32_t));
     plan.scratchBuffer(unlinked_, "number of hits without surfel", sizeof(uint32_t));
-    plan.get(byVoxel_).maxCount = surfels;
+    SurfelSort::plan(plan, plan.get(surfels_), voxels, plan.get(byVoxel_));
     plan.get(byVoxel_).coveredSides = plan.get(surfels_).coveredSides;
-    plan.reserve("surfels by voxel (estimated)",
-                 surfels * (sizeof(gpu::SortedSurfel) + sizeof(uint32_t)) + 2 * voxels * sizeof(uint32_t));
-    plan.reserveScratch("counts of surfels (estimated)", PrefixSum::scratchBytes(uint32_t(voxels)));
 }
 
 void LinkSurfels::prepare(PassSetup& setup) {
     const auto program = [&](const char* file) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file));
     };
-    count_ = program("passes/link_surfels/count.comp");
-    sort_ = program("passes/link_surfels/sort.comp");
-    order_ = program("passes/link_surfels/order.comp");
+    sort_.prepare(setup);
     emit_ = program("passes/link_surfels/emit.comp");
     probe_ = program("passes/link_surfels/probe.comp");
     link_ = program("passes/link_surfels/link.comp");
-    prefixSum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
 }
 
 void LinkSurfels::record(PassContext& context) {
@@ -95,7 +83,7 @@ void LinkSurfels::record(PassContext& context) {
     links.links =
         LargeBuffer(context.device, "surfel links", count * params_.raysPerSurfel * sizeof(uint32_t));
 
-    sortByVoxel(context, surfels, links.surfelCount);
+    sort_.run(context.stream, surfels, context.get(voxels_).voxelCount, context.get(byVoxel_));
     context.stream.fill(unlinked_, 0);
     uint32_t first = 0;
     for (const Surfels::Chunk& chunk : surfels.chunks) {
@@ -106,35 +94,6 @@ void LinkSurfels::record(PassContext& context) {
     context.report("links", double(count) * params_.raysPerSurfel);
     context.report("hits without surfel, % of rays",
                    100.0 * unlinked / (double(count) * params_.raysPerSurfel));
-}
-
-void LinkSurfels::sortByVoxel(PassContext& context, const Surfels& surfels, uint32_t count) {
-    const uint32_t voxels = context.get(voxels_).voxelCount;
-    CommandStream& stream = context.stream;
-    SurfelsByVoxel& to = context.get(byVoxel_);
-    to.begins = {}, to.ends = {}, to.sorted = {}, to.slots = {};
-    to.begins = Buffer(context.device, "first surfel of each voxel", voxels * sizeof(uint32_t));
-    to.ends = Buffer(context.device, "last surfel of each voxel", voxels * sizeof(uint32_t));
-    stream.fill(to.begins, 0);
-    for (const Surfels::Chunk& chunk : surfels.chunks)
-        stream.dispatch(count_, {{"surfels", chunk.surfels}, {"counts", to.begins}}, chunk.count,
-                        linearGroups(chunk.count));
-    to.slotCount = prefixSum_->run(stream, to.begins, to.begins, voxels);
-    stream.copy(to.begins, to.ends, voxels * sizeof(uint32_t));
-    to.sorted = LargeBuffer(context.device, "surfels by voxel",
-                            std::max(to.slotCount, 1u) * sizeof(gpu::SortedSurfel));
-    to.slots = LargeBuffer(context.device, "slots of surfels", std::max(count, 1u) * sizeof(uint32_t));
-    stream.fill(to.slots, SurfelLinks::kNone);
-    uint32_t first = 0;
-    for (const Surfels::Chunk& chunk : surfels.chunks) {
-        stream.dispatch(sort_, {{"surfels", chunk.surfels}, {"SortedAt", to.sorted.at()}, {"ends", to.ends}},
-                        SortPush{chunk.count, first}, linearGroups(chunk.count));
-        first += chunk.count;
-    }
-    stream.dispatch(
-        order_,
-        {{"SortedAt", to.sorted.at()}, {"SlotsAt", to.slots.at()}, {"begins", to.begins}, {"ends", to.ends}},
-        voxels, linearGroups(voxels));
 }
 
 void LinkSurfels::link(PassContext& context, const Surfels::Chunk& chunk, uint32_t first,

@@ -1,11 +1,7 @@
 #pragma once
 
-#include <optional>
-
-#include "passes/common/compute/prefix_sum.h"
 #include "passes/common/surfels/surfel_links.h"
-#include "passes/common/surfels/surfels.h"
-#include "passes/common/surfels/surfels_by_voxel.h"
+#include "passes/common/surfels/surfel_sort.h"
 #include "passes/common/voxels/voxels.h"
 
 namespace voxray {
@@ -35,8 +31,6 @@ class LinkSurfels final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Lists the surfels of each voxel. @param count of all chunks.
-    void sortByVoxel(PassContext& context, const Surfels& surfels, uint32_t count);
     /// Traces the rays of a chunk, whose first surfel has number `first`, and links them.
     void link(PassContext& context, const Surfels::Chunk& chunk, uint32_t first, SurfelLinks& links) const;
 
@@ -45,8 +39,8 @@ class LinkSurfels final : public Pass {
     Port<const Surfels> surfels_;
     Port<SurfelLinks> links_;
     Port<SurfelsByVoxel> byVoxel_;
-    Program count_, sort_, order_, emit_, probe_, link_;
-    std::optional<PrefixSum> prefixSum_;
+    SurfelSort sort_;
+    Program emit_, probe_, link_;
     Buffer rays_, hits_, probes_, covered_, unlinked_;  ///< Scratch, of a batch of rays.
 };
 

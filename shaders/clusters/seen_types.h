@@ -1,6 +1,6 @@
 // What a face sees, in a word: a target, and how many of the face's rays met it. Shared by C++ and GLSL.
 //
-// Targets are faces: 6 * cluster + face, and from 6 * clusters on 6 * voxel + face.
+// Targets are faces: 6 * part of a cluster + face, and from 6 * parts on 6 * side + face.
 #ifndef VOXRAY_SHARED_SEEN_TYPES_H
 #define VOXRAY_SHARED_SEEN_TYPES_H
 

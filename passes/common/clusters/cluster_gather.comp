@@ -11,13 +11,13 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Radiosities 
 layout(scalar) readonly buffer Faces { uint data[]; } faces;
 layout(scalar) readonly buffer First { uint data[]; } first;
 layout(scalar) readonly buffer Seen { uint data[]; } seen;
-layout(scalar) readonly buffer ClusterRadiosity { vec3 data[]; } clusterRadiosity;
-layout(scalar) readonly buffer VoxelRadiosityAt { Radiosities voxelRadiosity; };
+layout(scalar) readonly buffer PartRadiosity { vec3 data[]; } partRadiosity;
+layout(scalar) readonly buffer SideRadiosityAt { Radiosities sideRadiosity; };
 layout(scalar) readonly buffer IrradianceAt { Radiosities irradiance; };
 layout(push_constant) uniform Push {
     uint faces;
     uint raysPerFace;
-    uint voxelTargets;
+    uint sideTargets;
 } push;
 
 void main() {
@@ -26,8 +26,8 @@ void main() {
     vec3 sum = vec3(0.0);
     for (uint k = first.data[i]; k < first.data[i + 1u]; ++k) {
         const uint target = seenTarget(seen.data[k]);
-        const vec3 radiosity = target < push.voxelTargets ? clusterRadiosity.data[target]
-                                                          : voxelRadiosity.data[target - push.voxelTargets];
+        const vec3 radiosity =
+            target < push.sideTargets ? partRadiosity.data[target] : sideRadiosity.data[target - push.sideTargets];
         sum += float(seenRays(seen.data[k])) * radiosity;
     }
     irradiance.data[faces.data[i]] = sum / float(push.raysPerFace);

@@ -8,7 +8,7 @@ namespace {
 struct Push {
     uint32_t faces;
     uint32_t raysPerFace;
-    uint32_t voxelTargets;
+    uint32_t sideTargets;
 };
 
 }  // namespace
@@ -23,10 +23,10 @@ void ClusterGather::gather(CommandStream& stream, const ClusterVisibility& visib
                         {{"faces", chunk.faces},
                          {"first", chunk.first},
                          {"seen", chunk.seen},
-                         {"clusterRadiosity", light.clusters},
-                         {"VoxelRadiosityAt", light.voxels.at()},
+                         {"partRadiosity", light.parts},
+                         {"SideRadiosityAt", light.sides.at()},
                          {"IrradianceAt", irradiance.at()}},
-                        Push{chunk.count, visibility.rays, visibility.voxelTargets},
+                        Push{chunk.count, visibility.rays, visibility.sideTargets},
                         linearGroups(chunk.count));
 }
 

@@ -2,19 +2,20 @@
 
 #include "graph/pass.h"
 #include "passes/common/clusters/cluster_visibility.h"
-#include "passes/common/clusters/voxel_clusters.h"
+#include "passes/common/clusters/voxel_patches.h"
 #include "passes/common/voxels/voxels.h"
 
 namespace voxray {
 
-/// What clusters and voxels send: radiosity (W/m²) by the targets of ClusterVisibility. Light that lamps
-/// send themselves is not in it.
+/// What parts of clusters and sides of voxels send: radiosity (W/m²) by the targets of ClusterVisibility.
+/// Light that lamps send themselves is not in it.
 struct ClusterLight : Resource {
-    Buffer clusters;       ///< 6 x 3 floats a cluster.
-    LargeBuffer voxels;    ///< 6 x 3 floats a voxel.
+    Buffer parts;          ///< 6 x 3 floats a part.
+    LargeBuffer sides;     ///< 6 x 3 floats a side.
+    LargeBuffer direct;    ///< Irradiance (W/m²) straight from the lights, 6 x 3 floats a side.
     uint64_t version = 0;  ///< Another one whenever the light is.
 
-    std::vector<const Buffer*> checkedBuffers() const override { return {&clusters, &voxels}; }
+    std::vector<const Buffer*> checkedBuffers() const override { return {&parts, &sides, &direct}; }
 };
 
 /// Radiosity of what faces see, weighted by their rays: the irradiance (W/m²) of each face.
@@ -24,8 +25,8 @@ class ClusterGather {
     ClusterGather(Device& device, const ShaderCompiler& compiler);
 
     /// Bytes of the irradiance that gather() writes.
-    static uint64_t bytes(uint64_t voxels) { return voxels * kFaces * sizeof(glm::vec3); }
-    /// @param irradiance 6 x 3 floats a voxel, W/m²; faces without a list are left as they are.
+    static uint64_t bytes(uint64_t sides) { return sides * kFaces * sizeof(glm::vec3); }
+    /// @param irradiance 6 x 3 floats a side, W/m²; faces without a list are left as they are.
     void gather(CommandStream& stream, const ClusterVisibility& visibility, const ClusterLight& light,
                 const LargeBuffer& irradiance) const;
 

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+
+#include "passes/common/compute/prefix_sum.h"
+#include "passes/common/surfels/surfels.h"
+#include "passes/common/surfels/surfels_by_voxel.h"
+
+namespace voxray {
+
+/// Lists the surfels of each voxel.
+class SurfelSort {
+ public:
+    /// Announces the lists of all surfels. @param voxels that hold them.
+    static void plan(PassPlan& plan, const Surfels& surfels, uint64_t voxels, SurfelsByVoxel& lists);
+    void prepare(PassSetup& setup);
+    /// Fills the lists. Waits for the device.
+    void run(CommandStream& stream, const Surfels& surfels, uint32_t voxels, SurfelsByVoxel& lists) const;
+
+ private:
+    Program count_, sort_, order_;
+    std::optional<PrefixSum> prefixSum_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,326 @@
+#include "passes/find_patches/find_patches.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "base/error.h"
+#include "passes/common/compute/dispatch.h"
+#include "trace/ray.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kBatchRays = 1u << 20;
+/// Of a voxel: what is left after that many is one more.
+constexpr uint32_t kMaxSides = 8;
+/// Of a side, in the mean: two layers of the voxels round it.
+constexpr uint64_t kNeighbours = 18;
+
+struct ChunkPush {
+    uint32_t count;
+    uint32_t firstNumber;
+};
+
+struct PivotPush {
+    uint32_t voxels;
+    uint32_t round;
+};
+
+struct AimPush {
+    uint32_t first;
+    uint32_t count;
+    float voxelSize;
+};
+
+struct JoinPush {
+    uint32_t first;
+    uint32_t count;
+    uint32_t round;
+    uint32_t isLast;
+};
+
+struct ListPush {
+    uint32_t voxels;
+    float voxelSize;
+};
+
+struct NearPush {
+    gpu::VoxelGrid grid;
+    uint32_t sides;
+};
+
+struct PairPush {
+    uint32_t first;
+    uint32_t count;
+};
+
+struct AssignPush {
+    uint32_t sides;
+    uint32_t parts;
+};
+
+/// Calls f with the first and the number of each batch of rays.
+template <class F>
+void inBatches(uint32_t count, F f) {
+    for (uint32_t first = 0; first < count; first += kBatchRays)
+        f(first, std::min(kBatchRays, count - first));
+}
+
+uint64_t uints(uint64_t count) {
+    return std::max<uint64_t>(count, 1) * sizeof(uint32_t);
+}
+
+}  // namespace
+
+void FindPatches::declare(PassBuilder& builder) {
+    voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
+    surfels_ = builder.read<Surfels>("surfels", "points of their surfaces");
+    clusters_ = builder.read<VoxelClusters>("clusters", "surface voxels in groups");
+    patches_ = builder.write<VoxelPatches>("patches", "surfaces by the open space that they look into");
+}
+
+void FindPatches::plan(PassPlan& plan) {
+    const uint64_t voxels = plan.get(voxels_).voxelCount, surfels = plan.get(surfels_).maxCount;
+    const uint64_t sides = kSidesPerVoxel * voxels, pairs = kNeighbours * sides;
+    SurfelsByVoxel lists;
+    SurfelSort::plan(plan, plan.get(surfels_), voxels, lists);
+    plan.reserve("surfels by side (estimated)", surfels * sizeof(gpu::PatchSurfel) + uints(surfels));
+    plan.reserve(
+        "sides of voxels (estimated)",
+        sides * (sizeof(gpu::SurfaceSide) + sizeof(gpu::PackedVoxelMaterial)) + uints(voxels + sides));
+    plan.reserve("neighbours of sides (estimated)", uints(pairs));
+    plan.reserve("parts of clusters (estimated)", sides * sizeof(gpu::ClusterPart) + 2 * uints(sides));
+    plan.reserveScratch("search of parts (estimated)",
+                        uints(pairs) + 8 * uints(sides) + RadixSort::scratchBytes(uint32_t(sides)));
+    plan.scratchBuffer(rays_, "rays between surfels", uint64_t(kBatchRays) * sizeof(Ray));
+    plan.scratchBuffer(occluded_, "visibility of surfels", uint64_t(kBatchRays) * sizeof(uint32_t));
+    plan.scratchBuffer(counter_, "what is left", sizeof(uint32_t));
+}
+
+void FindPatches::prepare(PassSetup& setup) {
+    version_.reset();
+    sort_.prepare(setup);
+    prefixSum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
+    compaction_.emplace(setup.device, setup.compiler);
+    histogram_.emplace(setup.device, setup.compiler);
+    radixSort_.emplace(setup.device, setup.compiler);
+    const auto program = [&](const char* name, const Defines& defines = {}) {
+        const std::string file = std::string("passes/find_patches/") + name + ".comp";
+        return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
+    };
+    begin_ = program("begin");
+    pivot_ = program("pivot");
+    aim_ = program("aim");
+    join_ = program("join");
+    order_ = program("order");
+    list_ = program("list");
+    describe_ = program("describe");
+    countNear_ = program("near");
+    listNear_ = program("near", {{"LIST", "1"}});
+    aimNear_ = program("aim_near");
+    partNear_ = program("part_near");
+    label_ = program("label");
+    spread_ = program("spread");
+    flag_ = program("flag");
+    number_ = program("number");
+    assign_ = program("assign");
+    parts_ = program("parts");
+}
+
+void FindPatches::record(PassContext& context) {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    const std::pair version{voxels.version, context.get(clusters_).version};
+    if (version_ == version) return;
+    version_ = version;
+    if (!voxels.unoccludedOnly)
+        throw Error(
+            "{}: surfels without open space before them have no side; leave voxelize's 'visibility_rays' "
+            "above 0",
+            kName);
+    VoxelPatches& patches = context.get(patches_);
+    ++patches.version;
+    patches.clear();
+    SurfelsByVoxel lists;
+    sort_.run(context.stream, context.get(surfels_), voxels.voxelCount, lists);
+    findSides(context, lists);
+    listSides(context, lists);
+    lists = {};
+    findNeighbours(context);
+    findParts(context);
+    context.report("sides of voxels", patches.sideCount);
+    context.report("sides for each voxel", double(patches.sideCount) / voxels.voxelCount);
+    context.report("parts of clusters", patches.partCount);
+    context.report("bytes of sides", double(patches.bytes()));
+}
+
+void FindPatches::findSides(PassContext& context, SurfelsByVoxel& lists) {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    VoxelPatches& patches = context.get(patches_);
+    CommandStream& stream = context.stream;
+    patches.surfelCount = lists.slotCount;
+    patches.surfels = LargeBuffer(context.device, "surfels by side",
+                                  std::max(lists.slotCount, 1u) * sizeof(gpu::PatchSurfel));
+    uint32_t number = 0;
+    for (const Surfels::Chunk& chunk : context.get(surfels_).chunks) {
+        stream.dispatch(begin_,
+                        {{"surfels", chunk.surfels},
+                         {"SlotsAt", lists.slots.at()},
+                         {"PatchSurfelsAt", patches.surfels.at()}},
+                        ChunkPush{chunk.count, number}, linearGroups(chunk.count));
+        number += chunk.count;
+    }
+    stream.finish();
+    patches.places = std::move(lists.slots);
+    lists.sorted = {};
+    const Buffer pivots(context.device, "surfels that began sides", uints(voxels.voxelCount));
+    for (uint32_t round = 0; round < kMaxSides; ++round) {
+        stream.fill(counter_, 0);
+        stream.dispatch(pivot_,
+                        {{"begins", lists.begins},
+                         {"ends", lists.ends},
+                         {"pivots", pivots},
+                         {"left", counter_},
+                         {"PatchSurfelsAt", patches.surfels.at()}},
+                        PivotPush{voxels.voxelCount, round}, linearGroups(voxels.voxelCount));
+        if (stream.readAs<uint32_t>(counter_, 1)[0] == 0) break;
+        inBatches(patches.surfelCount, [&](uint32_t first, uint32_t count) {
+            stream.dispatch(aim_,
+                            {{"pivots", pivots}, {"rays", rays_}, {"PatchSurfelsAt", patches.surfels.at()}},
+                            AimPush{first, count, voxels.grid.voxelSize}, linearGroups(count));
+            context.tracer.occluded(stream, rays_, occluded_, count);
+            stream.dispatch(join_, {{"occluded", occluded_}, {"PatchSurfelsAt", patches.surfels.at()}},
+                            JoinPush{first, count, round, round + 1 == kMaxSides ? 1u : 0u},
+                            linearGroups(count));
+        });
+    }
+    stream.finish();
+}
+
+void FindPatches::listSides(PassContext& context, const SurfelsByVoxel& lists) {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    VoxelPatches& patches = context.get(patches_);
+    CommandStream& stream = context.stream;
+    const uint32_t count = voxels.voxelCount;
+    patches.firstSide = Buffer(context.device, "first side by voxel", uints(count + 1));
+    stream.dispatch(order_,
+                    {{"begins", lists.begins},
+                     {"ends", lists.ends},
+                     {"counts", patches.firstSide},
+                     {"PatchSurfelsAt", patches.surfels.at()}},
+                    count, linearGroups(count + 1));
+    patches.sideCount = prefixSum_->run(stream, patches.firstSide, patches.firstSide, count + 1);
+    const uint64_t sides = std::max(patches.sideCount, 1u);
+    patches.sides = Buffer(context.device, "sides of voxels", sides * sizeof(gpu::SurfaceSide));
+    patches.materials =
+        LargeBuffer(context.device, "materials of sides", sides * sizeof(gpu::PackedVoxelMaterial));
+    stream.dispatch(list_,
+                    {{"begins", lists.begins},
+                     {"ends", lists.ends},
+                     {"firstSide", patches.firstSide},
+                     {"PlacesAt", patches.places.at()},
+                     {"sides", patches.sides},
+                     {"PatchSurfelsAt", patches.surfels.at()}},
+                    ListPush{count, voxels.grid.voxelSize}, linearGroups(count));
+    stream.dispatch(describe_,
+                    {{"VoxelMaterialsAt", voxels.materials.at()},
+                     {"sides", patches.sides},
+                     {"firstSide", patches.firstSide},
+                     {"SideMaterialsAt", patches.materials.at()},
+                     {"PatchSurfelsAt", patches.surfels.at()}},
+                    count, linearGroups(count));
+    stream.finish();
+}
+
+void FindPatches::findNeighbours(PassContext& context) {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    VoxelPatches& patches = context.get(patches_);
+    CommandStream& stream = context.stream;
+    const uint32_t sides = patches.sideCount;
+    const NearPush push{voxels.grid, sides};
+    const auto shared = [&](std::initializer_list<Binding> more) {
+        std::vector<Binding> bindings = {{"coordinates", context.get(clusters_).coordinates},
+                                         {"sides", patches.sides},
+                                         {"firstSide", patches.firstSide},
+                                         {"SideMaterialsAt", patches.materials.at()}};
+        bindings.insert(bindings.end(), more.begin(), more.end());
+        return voxels.bindings(bindings);
+    };
+    patches.firstNeighbour = Buffer(context.device, "first neighbour of each side", uints(sides + 1));
+    stream.dispatch(countNear_, shared({{"counts", patches.firstNeighbour}}), push, linearGroups(sides + 1));
+    const uint32_t pairs = prefixSum_->run(stream, patches.firstNeighbour, patches.firstNeighbour, sides + 1);
+    patches.neighbours = LargeBuffer(context.device, "neighbours of sides", uints(pairs));
+    const LargeBuffer whose(context.device, "whose neighbours", uints(pairs));
+    stream.dispatch(listNear_,
+                    shared({{"firstNeighbour", patches.firstNeighbour},
+                            {"NeighboursAt", patches.neighbours.at()},
+                            {"WhoseAt", whose.at()}}),
+                    push, linearGroups(sides + 1));
+    inBatches(pairs, [&](uint32_t first, uint32_t count) {
+        stream.dispatch(aimNear_,
+                        {{"sides", patches.sides},
+                         {"NeighboursAt", patches.neighbours.at()},
+                         {"WhoseAt", whose.at()},
+                         {"rays", rays_}},
+                        PairPush{first, count}, linearGroups(count));
+        context.tracer.occluded(stream, rays_, occluded_, count);
+        stream.dispatch(partNear_, {{"occluded", occluded_}, {"NeighboursAt", patches.neighbours.at()}},
+                        PairPush{first, count}, linearGroups(count));
+    });
+    stream.finish();
+}
+
+void FindPatches::findParts(PassContext& context) {
+    const VoxelClusters& clusters = context.get(clusters_);
+    VoxelPatches& patches = context.get(patches_);
+    CommandStream& stream = context.stream;
+    Device& device = context.device;
+    const uint32_t sides = patches.sideCount, words = (sides + 31) / 32;
+    const Buffer labels(device, "labels of sides", uints(sides));
+    stream.dispatch(label_, {{"labels", labels}}, sides, linearGroups(sides));
+    for (bool isDone = false; !isDone;) {
+        stream.fill(counter_, 0);
+        stream.dispatch(spread_,
+                        {{"sides", patches.sides},
+                         {"firstNeighbour", patches.firstNeighbour},
+                         {"NeighboursAt", patches.neighbours.at()},
+                         {"ofVoxel", clusters.ofVoxel},
+                         {"labels", labels},
+                         {"changed", counter_}},
+                        sides, linearGroups(sides));
+        isDone = stream.readAs<uint32_t>(counter_, 1)[0] == 0;
+    }
+    const Buffer flags(device, "sides that lead parts", uints(words));
+    const Buffer leaders(device, "leaders of parts", uints(sides)), numbers(device, "parts", uints(sides));
+    stream.dispatch(
+        flag_,
+        {{"sides", patches.sides}, {"ofVoxel", clusters.ofVoxel}, {"labels", labels}, {"flags", flags}},
+        sides, linearGroups(words));
+    patches.partCount = compaction_->run(stream, flags, leaders, words);
+    stream.fill(numbers, NO_PART);
+    stream.dispatch(number_, {{"leaders", leaders}, {"numbers", numbers}}, patches.partCount,
+                    linearGroups(patches.partCount));
+
+    // Sides by part: the sort is stable, so those of a part stay in their order
+    Buffer keys(device, "parts of sides", uints(sides));
+    patches.ofSide = Buffer(device, "parts of sides", uints(sides));
+    patches.members = Buffer(device, "sides by part", uints(sides));
+    patches.parts =
+        Buffer(device, "parts of clusters", std::max(patches.partCount, 1u) * sizeof(gpu::ClusterPart));
+    stream.dispatch(assign_,
+                    {{"labels", labels},
+                     {"numbers", numbers},
+                     {"ofSide", patches.ofSide},
+                     {"keys", keys},
+                     {"members", patches.members}},
+                    AssignPush{sides, patches.partCount}, linearGroups(sides));
+    radixSort_->record(stream, keys, patches.members, sides, uint32_t(std::bit_width(patches.partCount)));
+    const Buffer counts(device, "sides of parts", uints(patches.partCount));
+    const Buffer before(device, "sides before parts", uints(patches.partCount));
+    histogram_->record(stream, patches.ofSide, counts, sides, patches.partCount);
+    prefixSum_->run(stream, counts, before, patches.partCount);
+    stream.dispatch(parts_, {{"counts", counts}, {"before", before}, {"parts", patches.parts}},
+                    patches.partCount, linearGroups(patches.partCount));
+    stream.finish();
+}
+
+}  // namespace voxray

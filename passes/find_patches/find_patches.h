@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "graph/registry.h"
+#include "passes/common/clusters/voxel_clusters.h"
+#include "passes/common/clusters/voxel_patches.h"
+#include "passes/common/compute/compaction.h"
+#include "passes/common/compute/histogram.h"
+#include "passes/common/compute/radix_sort.h"
+#include "passes/common/surfels/surfel_sort.h"
+
+namespace voxray {
+
+/// Splits the surfaces of each voxel by the open space that they look into, and clusters likewise, so that
+/// no side of a thin wall holds the other side's light. Beyond Cosin and Patow 2022; docs/clusters.md.
+class FindPatches final : public Pass {
+ public:
+    static constexpr const char* kName = "find_patches";
+    static constexpr const char* kHelp =
+        "Splits the surfels of each voxel into sides, those between which nothing stands, and clusters into "
+        "parts that hang together: so both sides of a wall that is thinner than a voxel are told apart where "
+        "light is gathered (cluster_visibility, inject_clusters, gather_clusters). Biased by: voxel size "
+        "(what hides less than half a voxel above surfaces splits nothing). Noisy by: points_per_voxel (a "
+        "surface without a point has no side). Source: docs/clusters.md.";
+    struct Params {
+        static constexpr auto schema() { return std::tuple{}; }
+    };
+
+    explicit FindPatches(const Params&) {}
+    void declare(PassBuilder& builder) override;
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    /// Orders the surfels of each voxel by the side that they are on.
+    void findSides(PassContext& context, SurfelsByVoxel& lists);
+    void listSides(PassContext& context, const SurfelsByVoxel& lists);
+    /// Sides next to each other that nothing hides.
+    void findNeighbours(PassContext& context);
+    /// Sides of a cluster that hang together by neighbours.
+    void findParts(PassContext& context);
+
+    Port<const SurfaceVoxels> voxels_;
+    Port<const Surfels> surfels_;
+    Port<const VoxelClusters> clusters_;
+    Port<VoxelPatches> patches_;
+    SurfelSort sort_;
+    std::optional<PrefixSum> prefixSum_;
+    std::optional<Compaction> compaction_;
+    std::optional<Histogram> histogram_;
+    std::optional<RadixSort> radixSort_;
+    Program begin_, pivot_, aim_, join_, order_, list_, describe_;
+    Program countNear_, listNear_, aimNear_, partNear_, label_, spread_, flag_, number_, assign_, parts_;
+    Buffer rays_, occluded_, counter_;                      ///< Scratch.
+    std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of the voxels and their clusters.
+};
+
+}  // namespace voxray

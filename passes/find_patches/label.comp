@@ -1,0 +1,13 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Each side begins with its own number for a label.
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+writeonly buffer Labels { uint data[]; } labels;
+layout(push_constant) uniform Push { uint sides_; } push;
+
+void main() {
+    const uint side = linearIndex();
+    if (side < push.sides_) labels.data[side] = side;
+}

@@ -1,0 +1,32 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The sides in each voxel, and where each surfel is. A thread takes a voxel.
+#include "shaders/clusters/patches.glsl"
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+readonly buffer Begins { uint data[]; } begins;
+readonly buffer Ends { uint data[]; } ends;
+readonly buffer FirstSide { uint data[]; } firstSide;
+layout(scalar) readonly buffer PlacesAt { LargeUints places; };
+layout(scalar) writeonly buffer Sides { SurfaceSide data[]; } sides;
+layout(push_constant) uniform Push {
+    uint voxels;
+    float voxelSize;  // m
+} push;
+
+void main() {
+    const uint voxel = linearIndex();
+    if (voxel >= push.voxels) return;
+    const uint end = ends.data[voxel];
+    uint i = begins.data[voxel];
+    for (uint side = firstSide.data[voxel]; side < firstSide.data[voxel + 1u]; ++side) {
+        const uint first = i, own = patchSurfels.data[i].side;
+        for (; i < end && patchSurfels.data[i].side == own; ++i) {
+            patchSurfels.data[i].side = side;
+            places.data[patchSurfels.data[i].number] = i;
+        }
+        sides.data[side] = SurfaceSide(raisedOver(patchSurfels.data[first], push.voxelSize), voxel, first, i - first);
+    }
+}

@@ -1,0 +1,29 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Orders each voxel's surfels by side, and counts its sides. A thread takes a voxel.
+#include "shaders/clusters/patches.glsl"
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+readonly buffer Begins { uint data[]; } begins;
+readonly buffer Ends { uint data[]; } ends;
+writeonly buffer Counts { uint data[]; } counts;
+layout(push_constant) uniform Push { uint voxels; } push;
+
+void main() {
+    const uint voxel = linearIndex();
+    if (voxel > push.voxels) return;
+    uint sides = 0u;
+    if (voxel < push.voxels) {
+        const uint begin = begins.data[voxel];
+        // By insertion, which keeps the order of ids.
+        for (uint i = begin; i < ends.data[voxel]; ++i) {
+            const PatchSurfel s = patchSurfels.data[i];
+            if (s.side != COVERED_SIDE) sides = max(sides, s.side + 1u);
+            uint to = i;
+            for (; to > begin && patchSurfels.data[to - 1u].side > s.side; --to) patchSurfels.data[to] = patchSurfels.data[to - 1u];
+            patchSurfels.data[to] = s;
+        }
+    }
+    counts.data[voxel] = sides;  // One more than there are voxels: where the last one ends.
+}

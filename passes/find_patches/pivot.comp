@@ -1,0 +1,27 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Of each voxel's surfels that are on no side yet, the first begins one. A thread takes a voxel.
+#include "shaders/clusters/patches.glsl"
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+readonly buffer Begins { uint data[]; } begins;
+readonly buffer Ends { uint data[]; } ends;
+writeonly buffer Pivots { uint data[]; } pivots;
+buffer Left { uint count; } left;  // Voxels that have such surfels.
+layout(push_constant) uniform Push {
+    uint voxels;
+    uint round;
+} push;
+
+void main() {
+    const uint voxel = linearIndex();
+    if (voxel >= push.voxels) return;
+    for (uint i = begins.data[voxel]; i < ends.data[voxel]; ++i) {
+        if (patchSurfels.data[i].side != NO_SIDE) continue;
+        patchSurfels.data[i].side = push.round;
+        pivots.data[voxel] = i;
+        atomicAdd(left.count, 1u);
+        return;
+    }
+}

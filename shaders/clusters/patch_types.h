@@ -1,0 +1,40 @@
+// Surfaces of a voxel by the open space that they look into, shared by C++ (passes/common/clusters/voxel_patches.h) and GLSL.
+#ifndef VOXRAY_SHARED_PATCH_TYPES_H
+#define VOXRAY_SHARED_PATCH_TYPES_H
+
+#include "shaders/shared/types.h"
+
+VOXRAY_SHARED_BEGIN
+
+#define NO_SIDE 0xffffffffu
+#define COVERED_SIDE 0xfffffffeu  // While sides are searched: no open space lies before the surfel (place_surfels).
+#define NO_PART 0xffffffffu
+
+// A point of a side.
+struct PatchSurfel {
+    vec3 position;  // m
+    uint number;    // Through all chunks of surfels.
+    vec3 normal;    // Unit length, on the lit side.
+    uint id;        // As Surfel's: the same in every run.
+    vec3 reflectance;
+    uint voxel;
+    uint side;  // Among all; while sides are searched, among those of its voxel.
+};
+
+// Surfaces of a voxel that look into the same open space. Its patches are its six faces.
+struct SurfaceSide {
+    vec3 raised;  // m, in the open space: half a voxel above its first surfel.
+    uint voxel;
+    uint firstSurfel;
+    uint surfels;
+};
+
+// Sides of a cluster's voxels that look into the same open space.
+struct ClusterPart {
+    uint firstMember;
+    uint members;
+};
+
+VOXRAY_SHARED_END
+
+#endif

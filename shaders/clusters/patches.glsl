@@ -1,0 +1,16 @@
+// The surfels of voxels, by the side that they are on (passes/common/clusters/voxel_patches.h).
+#ifndef VOXRAY_PATCHES_GLSL
+#define VOXRAY_PATCHES_GLSL
+
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
+
+#include "shaders/clusters/patch_types.h"
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PatchSurfels { PatchSurfel data[]; };
+layout(scalar) readonly buffer PatchSurfelsAt { PatchSurfels patchSurfels; };
+
+// A place in the open space before a surfel: nothing is within a voxel along its normal (place_surfels).
+vec3 raisedOver(PatchSurfel s, float voxelSize) { return s.position + 0.5 * voxelSize * s.normal; }
+
+#endif
