@@ -9,14 +9,15 @@
 // as the taps of filter_irradiance do: it helps as long as the noise that it averages out outweighs the bias that it brings.
 // noise: relative variance of a surfel's irradiance. bias²: surfel_bias.glsl. Surfels in a gap narrower than a voxel (covered) and
 // those with open space before them see different light: a point takes the mean of its own kind alone.
-#include "passes/gather_surfels/groups.glsl"
+#include "passes/gather_surfels/band.glsl"
+#include "shaders/scene/sampling.glsl"
 #include "shaders/surfels/radiosity.glsl"
 #include "shaders/voxels/voxel_irradiance.glsl"
 
-uniform sampler2D albedo;
+layout(scalar) readonly buffer Surfaces { PixelSurface data[]; } surfaces;
 layout(scalar) readonly buffer LightAt { LargeUints light; };
 #if PROBED
-readonly buffer Covered { uint data[]; } covered;  // By pixel and surface: 0 where open space lies before it.
+readonly buffer Covered { uint data[]; } covered;  // Of each surface: 0 where open space lies before it.
 #endif
 layout(rgba32f) writeonly uniform image2D result;
 
@@ -53,28 +54,18 @@ vec3 irradianceAt(vec3 p, vec3 n, vec3 ng, uint kind) {
 }
 
 void main() {
-    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, push.extent))) return;
-
-    // The pixel's surfaces, and their albedo.
-    Group groups[GROUPS];
-    vec3 albedos[GROUPS] = vec3[GROUPS](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-    int count = 0;
-    for (int t = 0; t < push.samples * push.samples; ++t) {
-        const ivec2 texel = pixel * push.samples + ivec2(t % push.samples, t / push.samples);
-        const int to = joined(texel, groups, count);
-        if (to >= 0) albedos[to] += texelFetch(albedo, texel, 0).rgb;
-    }
-
-    // One lookup each.
+    const ivec2 inBand = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(inBand, push.extent))) return;
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < SURFACES; ++i) {
+        const int at = surfaceIndex(inBand, i);
+        const PixelSurface s = surfaces.data[at];
+        if (s.albedo == vec3(0.0)) break;
         uint kind = 0u;
 #if PROBED
-        if (covered.data[(pixel.y * push.extent.x + pixel.x) * GROUPS + i] != 0u) kind = VOXRAY_COVERED;
+        if (covered.data[at] != 0u) kind = VOXRAY_COVERED;
 #endif
-        const Group g = groups[i];
-        sum += albedos[i] / PI * irradianceAt(g.positions / g.texels, g.normal, g.geometricNormal, kind);
+        sum += s.albedo / PI * irradianceAt(s.position, s.normal, s.geometricNormal, kind);
     }
-    imageStore(result, pixel, vec4(sum / float(push.samples * push.samples), 1.0));
+    imageStore(result, inBand + ivec2(0, push.firstRow), vec4(sum, 1.0));
 }

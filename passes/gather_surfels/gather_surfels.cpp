@@ -1,17 +1,21 @@
 #include "passes/gather_surfels/gather_surfels.h"
 
+#include <algorithm>
+
 #include "passes/common/compute/dispatch.h"
+#include "passes/gather_surfels/pixel_surface.h"
 
 namespace voxray {
 namespace {
 
-/// Surfaces in a pixel, at most.
-constexpr uint32_t kGroups = 4;
+/// Surfaces in pixels that are kept at a time, unless a row has more: scratch memory does not grow with the
+/// image.
+constexpr uint32_t kBandSurfaces = 1u << 19;
 
 struct GatherPush {
     gpu::VoxelGrid grid;
     glm::ivec2 extent;
-    uint32_t samples;
+    uint32_t firstRow;
     float noise;
 };
 
@@ -29,21 +33,25 @@ void GatherSurfels::declare(PassBuilder& builder) {
 void GatherSurfels::plan(PassPlan& plan) {
     plan.get(indirect_).lightBounces = plan.get(irradiance_).lightBounces;
     probed_ = plan.get(surfels_).coveredSides;
+    samples_ = plan.get(gbuffer_).samples;
+    const uint32_t perPixel = samples_ * samples_, width = plan.frame.width;
+    bandRows_ = std::clamp(kBandSurfaces / (width * perPixel), 1u, plan.frame.height);
+    const uint64_t surfaces = uint64_t(width) * bandRows_ * perPixel;
+    plan.scratchBuffer(surfaces_, "surfaces in pixels", surfaces * sizeof(gpu::PixelSurface));
     if (probed_) {
-        const uint64_t groups = uint64_t(plan.frame.width) * plan.frame.height * kGroups;
-        plan.scratchBuffer(probes_, "rays that tell covered surfaces", groups * sizeof(Ray));
-        plan.scratchBuffer(covered_, "covered surfaces", groups * sizeof(uint32_t));
+        plan.scratchBuffer(probes_, "rays that tell covered surfaces", surfaces * sizeof(Ray));
+        plan.scratchBuffer(covered_, "covered surfaces", surfaces * sizeof(uint32_t));
     }
     plan.image(plan.get(indirect_).image, "indirect", frameImageDesc(plan.frame));
 }
 
 void GatherSurfels::prepare(PassSetup& setup) {
     const auto program = [&](const char* file) {
-        return makeComputeProgram(
-            setup.device, setup.compiler.compile(
-                              file, {{"GROUPS", std::to_string(kGroups)}, {"PROBED", probed_ ? "1" : "0"}}));
+        return makeComputeProgram(setup.device,
+                                  setup.compiler.compile(file, {{"SAMPLES", std::to_string(samples_)},
+                                                                {"PROBED", probed_ ? "1" : "0"}}));
     };
-    if (probed_) probe_ = program("passes/gather_surfels/probe.comp");
+    findSurfaces_ = program("passes/gather_surfels/surfaces.comp");
     gather_ = program("passes/gather_surfels/gather.comp");
     sampler_ = texelSampler(setup.device);
 }
@@ -53,33 +61,37 @@ void GatherSurfels::record(PassContext& context) {
     const SurfaceVoxels& voxels = context.get(voxels_);
     const VoxelIrradiance& irradiance = context.get(irradiance_);
     const SurfelsByVoxel& surfels = context.get(surfels_);
-    const glm::uvec2 extent(context.frame.width, context.frame.height);
-    const GatherPush push{voxels.grid, extent, gbuffer.samples, context.get(light_).relativeVariance};
-    std::vector<Binding> bindings = voxels.bindings({{"position", gbuffer.position, sampler_},
-                                                     {"normal", gbuffer.normal, sampler_},
-                                                     {"geometricNormal", gbuffer.geometricNormal, sampler_},
-                                                     {"begins", surfels.begins},
-                                                     {"ends", surfels.ends},
-                                                     {"SortedAt", surfels.sorted.at()}});
-    const auto with = [&](std::vector<Binding> more) {
-        more.insert(more.end(), bindings.begin(), bindings.end());
-        return more;
-    };
-
-    // Which surfaces lie in gaps narrower than a voxel.
+    const std::vector<Binding> bindings = voxels.bindings(
+        {{"begins", surfels.begins}, {"ends", surfels.ends}, {"SortedAt", surfels.sorted.at()}});
+    std::vector<Binding> find{{"position", gbuffer.position, sampler_},
+                              {"normal", gbuffer.normal, sampler_},
+                              {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                              {"albedo", gbuffer.albedo, sampler_},
+                              {"surfaces", surfaces_}};
+    std::vector<Binding> gather{{"surfaces", surfaces_},
+                                {"VoxelFluxAt", irradiance.indirect.at()},
+                                {"voxelArea", irradiance.area},
+                                {"LightAt", context.get(light_).indirect.at()},
+                                {"result", context.get(indirect_).image}};
+    gather.insert(gather.end(), bindings.begin(), bindings.end());
     if (probed_) {
-        context.stream.dispatch(probe_, with({{"probes", probes_}}), push, pixelGroups(extent.x, extent.y));
-        context.tracer.occluded(context.stream, probes_, covered_, extent.x * extent.y * kGroups);
-        bindings.push_back({"covered", covered_});
+        find.push_back({"probes", probes_});
+        find.insert(find.end(), bindings.begin(), bindings.end());
+        gather.push_back({"covered", covered_});
     }
 
-    context.stream.dispatch(gather_,
-                            with({{"albedo", gbuffer.albedo, sampler_},
-                                  {"VoxelFluxAt", irradiance.indirect.at()},
-                                  {"voxelArea", irradiance.area},
-                                  {"LightAt", context.get(light_).indirect.at()},
-                                  {"result", context.get(indirect_).image}}),
-                            push, pixelGroups(extent.x, extent.y));
+    const uint32_t width = context.frame.width;
+    for (uint32_t row = 0; row < context.frame.height; row += bandRows_) {
+        const uint32_t rows = std::min(bandRows_, context.frame.height - row);
+        const GatherPush push{voxels.grid, glm::uvec2(width, rows), row,
+                              context.get(light_).relativeVariance};
+        context.stream.dispatch(findSurfaces_, find, push, pixelGroups(width, rows));
+        // Which surfaces lie in gaps narrower than a voxel.
+        if (probed_)
+            context.tracer.occluded(context.stream, probes_, covered_, width * rows * samples_ * samples_,
+                                    Coherence::Coherent);
+        context.stream.dispatch(gather_, gather, push, pixelGroups(width, rows));
+    }
 }
 
 }  // namespace voxray

@@ -37,8 +37,9 @@ class GatherSurfels final : public Pass {
     Port<const SurfelIrradiance> light_;
     Port<FrameImage> indirect_;
     bool probed_ = false;  ///< Whether covered surfaces have surfels of their own.
-    Program probe_, gather_;
-    Buffer probes_, covered_;  ///< Scratch, of each surface in a pixel.
+    uint32_t samples_ = 1, bandRows_ = 1;
+    Program findSurfaces_, gather_;
+    Buffer surfaces_, probes_, covered_;  ///< Scratch, of each surface in a band's pixels.
     Sampler sampler_;
 };
 

@@ -14,7 +14,7 @@ uint packRadiosity(vec3 radiosity) {
 
 vec3 unpackRadiosity(uint bits) {
     const vec3 parts = vec3(bits & 255u, bits >> 8 & 255u, bits >> 16 & 255u);
-    return ldexp(parts / 255.0, ivec3(int(bits >> 24) - 128));
+    return parts * (uintBitsToFloat((max(bits >> 24, 1u) - 1u) << 23) / 255.0);
 }
 
 #endif
