@@ -36,9 +36,10 @@ struct Found {
     uint32_t empty;         ///< Leaves.
     uint32_t maxTriangles;  ///< Of a leaf.
     uint32_t pairs;         ///< Of a triangle and a leaf with a grid that is built.
+    uint32_t listed;        ///< Triangles in lists.
 };
 
-constexpr uint64_t kMaxListItems = 1ull << 31;                   // shaders/hybrid_leaves/hybrid_types.h
+constexpr uint64_t kMaxListItems = 1ull << 30;                   // shaders/hybrid_leaves/hybrid_types.h
 constexpr uint64_t kMaxCells = (1ull << 32) / BRIGHT_SUM_UINTS;  // cell_sums.h, by 32 bits.
 constexpr uint64_t kMaxBoundBytes = 128u << 20;  // What Vulkan guarantees of maxStorageBufferRange.
 
@@ -114,9 +115,9 @@ void BuildHybridLeaves::plan(PassPlan& plan) {
     const Geometry& geometry = plan.frame.scene->geometry;
     const std::string key = fmt::format("triangles of leaves {}", grid.voxelSize);
     const LeafCounts counts = plan.ofScene(key, [&] { return countLeaves(geometry, grid); });
-    const uint64_t listed = counts.listed(params_.primitives);
+    const uint64_t items = counts.items(params_.primitives);
     const uint64_t grids = counts.grids(params_.primitives), gridWords = grids * wordsPerGrid(params_.grid);
-    require(listed, kMaxListItems, "triangles in lists");
+    require(items, kMaxListItems, "items of lists");
     require(gridWords, kMaxBoundBytes / sizeof(uint32_t) + 1, "words of grids");
     const uint64_t cells = plan.ofScene(
         fmt::format("cells {} {} {}", key, params_.primitives, params_.grid),
@@ -128,14 +129,15 @@ void BuildHybridLeaves::plan(PassPlan& plan) {
     if (!maskedTriangles(*plan.frame.scene).empty())
         plan.reserve("voxels with masks", 2 * wordBytes(voxels.words()));
     const CellSize size = cellSize(*plan.frame.scene->scene);
-    const uint64_t listBytes = wordBytes(listed * LIST_ITEM_WORDS);
+    const uint64_t listBytes = wordBytes(items * LIST_ITEM_WORDS);
     const uint64_t gridBytes = 2 * wordBytes(gridWords) + wordBytes(cells * size.words);
     plan.reserve("lists of triangles (at most)", listBytes);
     plan.buffer(plan.get(leaves_).corners, "corners of triangles",
                 std::max<uint64_t>(geometry.triangles.size(), 1) * sizeof(std::array<glm::vec3, 3>));
     plan.reserve("grids (at most)", gridBytes);
     plan.reserveScratch("triangles of each leaf (estimated)", 4 * wordBytes(voxels.voxelCount));
-    plan.reserveScratch("triangles in grids (at most)", 3 * wordBytes(counts.all() - listed));
+    plan.reserveScratch("triangles in grids (at most)",
+                        3 * wordBytes(counts.pairsInGrids(params_.primitives)));
     plan.reserveScratch("sums of cells (at most)",
                         cells * size.sums * sizeof(uint32_t) + PrefixSum::scratchBytes(uint32_t(gridWords)));
     walk_->plan(plan, grid);
@@ -270,12 +272,13 @@ void BuildHybridLeaves::number(PassContext& context, const SurfaceVoxels& voxels
         {{"counts", counts_}, {"counted", counted_}, {"sizes", sizes}, {"grids", grids}, {"found", found}},
         push, groups);
     leaves.words = Buffer(context.device, "hybrid leaves", wordBytes(push.leaves));
-    leaves.primitiveCount = sum_->run(stream, sizes, leaves.words, push.leaves);
+    itemCount_ = sum_->run(stream, sizes, leaves.words, push.leaves);
     leaves.gridCount = sum_->run(stream, grids, grids, push.leaves);
     const Found numbers = stream.readAs<Found>(found, 1)[0];
     cellUnit_ = unitsPerFace(numbers.maxTriangles);
     pairCount_ = numbers.pairs;
     leaves.emptyCount = numbers.empty;
+    leaves.primitiveCount = numbers.listed;
     stream.dispatch(number_, {{"counts", counts_}, {"grids", grids}, {"words", leaves.words}}, push, groups);
     stream.finish();
 }
@@ -283,8 +286,8 @@ void BuildHybridLeaves::number(PassContext& context, const SurfaceVoxels& voxels
 void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves) {
     CommandStream& stream = context.stream;
     const LeavesPush push{voxels.voxelCount, params_.primitives};
-    leaves.primitives = Buffer(context.device, "lists of triangles",
-                               wordBytes(uint64_t(leaves.primitiveCount) * LIST_ITEM_WORDS));
+    leaves.primitives =
+        Buffer(context.device, "lists of triangles", wordBytes(uint64_t(itemCount_) * LIST_ITEM_WORDS));
     const CellSize size = cellSize(*context.frame.scene->scene);
     leaves.shape = {push.leaves, push.capacity,       params_.grid, wordsPerGrid(params_.grid),
                     size.words,  size.largestEmission};

@@ -108,6 +108,7 @@ class BuildHybridLeaves final : public Pass {
     Buffer counted_;     ///< The same of those that are built, 0 of kept ones.
     LargeBuffer pairs_;  ///< Of triangles and grid leaves, while it is built: three words each.
     uint32_t pairCount_ = 0;
+    uint32_t itemCount_ = 0;  ///< Of all lists.
     uint32_t builtLeaves_ = 0;
     float cellUnit_ = 0;               ///< Units of area for a cell's face.
     std::optional<uint64_t> version_;  ///< Of the voxels that it is built over.

@@ -22,6 +22,6 @@ void visitFragment(TriangleFragment f) {
         leafPairs.data[at + 1u] = packCell(f.voxel);
         leafPairs.data[at + 2u] = word & ~LEAF_IS_GRID;
     } else {
-        hybridLeaves.primitives.data[word + atomicAdd(left.places[leaf], ~0u) - 1u] = ListItem(boxInLeaf(f), f.triangle);
+        hybridLeaves.primitives.data[firstItem(word) + atomicAdd(left.places[leaf], ~0u) - 1u] = ListItem(boxInLeaf(f), f.triangle);
     }
 }

@@ -21,6 +21,7 @@ void main() {
         gridFrom.grid[word & ~LEAF_IS_GRID] = before & ~LEAF_IS_GRID;
         return;
     }
-    const uint triangles = counts.triangles[leaf];
-    for (uint i = 0u; i < triangles; ++i) hybridLeaves.primitives.data[word + i] = LeafLists(push.primitives).data[before + i];
+    const uint items = LIST_ITEMS(counts.triangles[leaf]);
+    for (uint i = 0u; i < items; ++i)
+        hybridLeaves.primitives.data[firstItem(word) + i] = LeafLists(push.primitives).data[firstItem(before) + i];
 }

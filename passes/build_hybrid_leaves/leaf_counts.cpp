@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "passes/common/voxels/triangle_voxels.h"
+#include "shaders/hybrid_leaves/hybrid_types.h"
 
 namespace voxray {
 namespace {
@@ -23,9 +24,15 @@ std::vector<uint32_t> weights(const Geometry& geometry) {
 
 }  // namespace
 
-uint64_t LeafCounts::listed(uint32_t capacity) const {
+uint64_t LeafCounts::items(uint32_t capacity) const {
     uint64_t sum = 0;
-    for (const uint32_t count : triangles) sum += count <= capacity ? count : 0;
+    for (const uint32_t count : triangles) sum += count <= capacity ? LIST_ITEMS(uint64_t(count)) : 0;
+    return sum;
+}
+
+uint64_t LeafCounts::pairsInGrids(uint32_t capacity) const {
+    uint64_t sum = 0;
+    for (const uint32_t count : triangles) sum += count > capacity ? count : 0;
     return sum;
 }
 

@@ -15,12 +15,12 @@ struct LeafCounts {
     std::vector<uint32_t> voxels;     ///< Ascending; 10 bits for each coordinate, x lowest.
     std::vector<uint32_t> triangles;  ///< As many, by voxel.
 
-    /// Pairs of a triangle and a leaf.
-    uint64_t all() const { return listed(UINT32_MAX); }
-    /// Words of the lists of leaves that hold at most `capacity` triangles.
-    uint64_t listed(uint32_t capacity) const;
-    /// Leaves that hold more.
+    /// Pairs of a triangle and a leaf, of the leaves that hold more than `capacity` triangles.
+    uint64_t pairsInGrids(uint32_t capacity) const;
+    /// Such leaves.
     uint32_t grids(uint32_t capacity) const;
+    /// Items of the lists of all others.
+    uint64_t items(uint32_t capacity) const;
 };
 LeafCounts countLeaves(const Geometry& geometry, const gpu::VoxelGrid& grid);
 

@@ -12,6 +12,11 @@ void main() {
     const uint leaf = linearIndex();
     if (leaf >= push.leaves) return;
     const uint count = counts.triangles[leaf];
-    if (count == 0u) words.data[leaf] = LEAF_EMPTY;
-    if (count > push.capacity) words.data[leaf] = LEAF_IS_GRID | grids.before[leaf];
+    if (count == 0u) {
+        words.data[leaf] = LEAF_EMPTY;
+    } else if (count > push.capacity) {
+        words.data[leaf] = LEAF_IS_GRID | grids.before[leaf];
+    } else if (count > LIST_GROUP) {
+        words.data[leaf] |= LIST_HAS_GROUPS;
+    }
 }

@@ -91,7 +91,7 @@ class GatherMirror final : public Pass {
                 field("walk", &Params::walk,
                       "What finds the ends of rays. exact: the ray tracer. hierarchical, voxel_by_voxel: "
                       "leaves of "
-                      "the octree, which hold triangles or grids of fine voxels, past empty nodes of all "
+                      "the octree, which hold triangles or grids of fine voxels, past empty space of all "
                       "sizes or, "
                       "as in the paper, through each finest voxel on the way, from the root each time."),
                 field("wide_rays", &Params::wideRays,

@@ -20,7 +20,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TriangleCorn
 // The arrays stand behind addresses, since they outgrow what devices bind.
 layout(scalar) buffer HybridLeaves {
     LargeUints words;       // One a leaf.
-    LeafLists primitives;   // Lists, one after the other, each in ascending order of triangles.
+    LeafLists primitives;   // Lists, one after the other.
     LargeUints gridBits;    // Which cells of each grid are not empty: wordsPerGrid words a grid, x + m (y + m z) a bit.
     LargeUints gridRanks;   // Such cells before each word.
     LargeUints cells;       // shape.cellWords each (shaders/hybrid_leaves/grid_cell.glsl).
@@ -30,6 +30,8 @@ layout(scalar) buffer HybridLeaves {
 
 bool isEmptyLeaf(uint leaf) { return leaf == LEAF_EMPTY; }
 bool isGridLeaf(uint leaf) { return leaf != LEAF_EMPTY && (leaf & LEAF_IS_GRID) != 0u; }
+// Of a leaf with a list: the number of its first item.
+uint firstItem(uint leaf) { return leaf & ~LIST_HAS_GROUPS; }
 
 // A cell of a grid by its bit.
 struct GridBit {

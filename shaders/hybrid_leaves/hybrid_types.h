@@ -5,13 +5,20 @@
 
 #include "shaders/shared/types.h"
 
-// A leaf's word: nothing; or the number of its list's first item; or, with this bit, its grid's number.
+// A leaf's word: nothing; or the number of its list's first item, with LIST_HAS_GROUPS where the list is long; or, with LEAF_IS_GRID,
+// its grid's number.
 #define LEAF_EMPTY 0xffffffffu
 #define LEAF_IS_GRID 0x80000000u
+#define LIST_HAS_GROUPS 0x40000000u
 // An item of a list has two words: a triangle's box in the leaf (shaders/hybrid_leaves/leaf_box.glsl), with this bit in the last one of
 // a list; and its number.
 #define LIST_ENDS 0x80000000u
 #define LIST_ITEM_WORDS 2u
+// A list of more than LIST_GROUP triangles goes in groups of so many. Before each stands an item with the box around all of them, by
+// which a ray passes over them at once; LIST_ENDS marks that of the last group, too.
+#define LIST_GROUP 3u
+// Items of a list of so many triangles.
+#define LIST_ITEMS(triangles) ((triangles) + ((triangles) > LIST_GROUP ? ((triangles) + LIST_GROUP - 1u) / LIST_GROUP : 0u))
 // Boxes are told in so many steps along a leaf's edge, and reach so far beyond, in voxels: what rounding may do to rays and triangles.
 #define LEAF_BOX_STEPS 32
 #define LEAF_BOX_MARGIN 0.015625

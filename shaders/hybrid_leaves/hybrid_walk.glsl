@@ -20,22 +20,30 @@ LeafSegment leafSegment(vec3 from, vec3 way, float begin, float end) {
 
 // Tests the triangles of a list that lie where the part [begin, end] of a ray in the leaf is, also where they reach out of the leaf:
 // the closest of all counts.
-void meetList(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float begin, float end, ivec3 voxel, uint first, inout Hit best) {
+void meetList(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float begin, float end, ivec3 voxel, uint leaf, inout Hit best) {
+    const uint first = firstItem(leaf), items = LIST_ITEMS(hybridLeaves.shape.capacity);
+    const bool hasGroups = leaf != first;
+    LeafLists lists = hybridLeaves.primitives;  // Read once: no compiler takes it out of the loop.
     const float halfSteps = float(2 * LEAF_BOX_STEPS);
     const vec3 from = ((origin - g.origin) / g.voxelSize - vec3(voxel)) * halfSteps, way = direction / g.voxelSize * halfSteps;
     LeafSegment s = leafSegment(from, way, begin, end);
     bool isLast = false;
-    for (uint i = 0u; i < hybridLeaves.shape.capacity && !isLast;) {
+    for (uint i = 0u; i < items && !isLast;) {
         // Each turn finds the next triangle to test: threads whose lists differ still test together.
         uint box = 0u;
         bool isFound = false;
         while (!isFound && !isLast) {
-            box = hybridLeaves.primitives.data[first + i++].box;
-            isLast = (box & LIST_ENDS) != 0u;
-            isFound = meetsLeafBox(s, box);
+            // An item before a group tells whether to pass over all of it.
+            const bool isGroup = hasGroups && i % (LIST_GROUP + 1u) == 0u;
+            box = lists.data[first + i].box;
+            const bool isMet = meetsLeafBox(s, box);
+            isLast = (box & LIST_ENDS) != 0u && !(isGroup && isMet);
+            isFound = isMet && !isGroup;
+            i += isGroup && !isMet ? LIST_GROUP + 1u : 1u;
         }
-        const uint triangle = hybridLeaves.primitives.data[first + i - 1u].triangle;
-        if (isFound && triangle != best.triangle) {
+        if (!isFound) break;
+        const uint triangle = lists.data[first + i - 1u].triangle;
+        if (triangle != best.triangle) {
             ++hybridTests;
             meetTriangle(origin, direction, tMin, triangle, (box & LEAF_BOX_IS_MASKED) != 0u, best);
             s = leafSegment(from, way, begin, min(end, best.t));

@@ -12,6 +12,13 @@ uint packLeafBox(uvec3 first, uvec3 last) {
     return first.x | first.y << 5 | first.z << 10 | last.x << 15 | last.y << 20 | last.z << 25;
 }
 
+// The box around both; no alpha mask.
+uint unionOfLeafBoxes(uint a, uint b) {
+    const uvec3 first = min(uvec3(a, a >> 5, a >> 10) & 31u, uvec3(b, b >> 5, b >> 10) & 31u);
+    const uvec3 last = max(uvec3(a >> 15, a >> 20, a >> 25) & 31u, uvec3(b >> 15, b >> 20, b >> 25) & 31u);
+    return packLeafBox(first, last);
+}
+
 // The part of a ray in a leaf, in half steps from the leaf's corner.
 struct LeafSegment {
     vec3 center;

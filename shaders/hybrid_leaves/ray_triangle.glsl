@@ -11,8 +11,9 @@
 // nothing else, with the edge's direction, so that rounding opens no gap between neighbours (Platis and Theoharis 2003). `isMasked`:
 // whether an alpha mask may cut the point away.
 void meetTriangle(vec3 origin, vec3 direction, float tMin, uint triangle, bool isMasked, inout Hit best) {
-    precise const vec3 a = hybridLeaves.corners.data[3u * triangle] - origin, b = hybridLeaves.corners.data[3u * triangle + 1u] - origin,
-                       c = hybridLeaves.corners.data[3u * triangle + 2u] - origin;
+    TriangleCorners corners = hybridLeaves.corners;
+    precise const vec3 a = corners.data[3u * triangle] - origin, b = corners.data[3u * triangle + 1u] - origin,
+                       c = corners.data[3u * triangle + 2u] - origin;
     precise const vec3 ca = c - a, ab = a - b, bc = b - c;
     precise const float u = dot(cross(ca, c + a), direction), v_ = dot(cross(ab, a + b), direction),
                         w = dot(cross(bc, b + c), direction);

@@ -98,6 +98,49 @@ TEST(HybridRays, CellsAreAsThinAsTheirSurfaces) {
     EXPECT_EQ(cells(across), 5000);
 }
 
+TEST(HybridRays, MasksLeaveHolesInListsAndGrids) {
+    // A square at z = 0, twice in one place, whose half at x < 0 a mask cuts away, before a wall at z = -1.
+    SceneBuilder b("mask");
+    Texture half;
+    half.width = half.height = 64;
+    half.wrapU = half.wrapV = Wrap::ClampToEdge;
+    for (uint32_t i = 0; i < 64 * 64; ++i)
+        for (const uint8_t channel : {255, 255, 255, i % 64 < 32 ? 0 : 255}) half.rgba.push_back(channel);
+    b.scene().textures = {half};
+    Material material;
+    material.baseColorTexture.texture = 0;
+    material.alphaMode = AlphaMode::Mask;
+    Mesh square;
+    square.material = b.material(material);
+    square.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    square.normals.assign(4, {0, 0, 1});
+    square.texCoords0 = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    square.triangles = {{0, 1, 2}, {0, 2, 3}};
+    for (int i = 0; i < 2; ++i) b.place(b.mesh(square));
+    b.quad("wall", {-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, b.lambert("grey", glm::vec3(0.5f)));
+    b.camera({0, 0, 3}, {0, 0, 0}, 60);
+    const auto state = std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
+    TestRandom random(6);
+    std::vector<Ray> rays;
+    // Away from the mask's edge by more than what a texel is blended in, 1/256 of its width
+    for (int i = 0; i < 5000; ++i)
+        rays.push_back({{(i % 2 == 0 ? 1.0f : -1.0f) * random(0.001f, 0.9f), random(-0.9f, 0.9f), 1},
+                        0,
+                        {0, 0, -1},
+                        kInfinity});
+    Hybrid grids(state, 16, "primitives: 1, grid: 8"), lists(state, 16, "primitives: 4");
+    EXPECT_GT(grids.leaves().cellCount, 0u);
+    EXPECT_EQ(lists.leaves().gridCount, 0u);
+    EXPECT_EQ(differing(lists.embree(rays), lists.closest(HybridWalk::Hierarchical, rays)), 0);
+    const float cell = grids.voxels().grid.voxelSize / 8;
+    const std::vector<Hit> hits = grids.closest(HybridWalk::Hierarchical, rays);
+    for (size_t i = 0; i < rays.size(); ++i) {
+        const float x = rays[i].origin.x;
+        if (std::abs(x) < 1.5f * cell) continue;
+        EXPECT_NEAR(hits[i].t, x < 0 ? 2.0f : 1.0f, 1e-3f) << x;
+    }
+}
+
 TEST(HybridRays, RaysDoNotMeetTheSurfaceThatTheyLeave) {
     const glm::vec3 u(2, 0.3f, 0.1f), v(-0.2f, 0.4f, 1.8f), normal = glm::normalize(glm::cross(v, u));
     Hybrid hybrid(mesh(u, v, false), 16, "primitives: 1, grid: 8");

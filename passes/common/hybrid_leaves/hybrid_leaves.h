@@ -16,11 +16,11 @@ struct HybridLeaves : Resource {
     uint64_t version = 0;  ///< Another one whenever the content is.
     uint32_t gridCount = 0;
     uint32_t emptyCount = 0;      ///< Leaves that hold nothing.
-    uint32_t primitiveCount = 0;  ///< Items of all lists.
+    uint32_t primitiveCount = 0;  ///< Triangles of all lists.
     uint32_t cellCount = 0;       ///< Of all grids, those that are not empty.
     Buffer header;                ///< Addresses of the arrays, and `shape`.
     Buffer words;                 ///< A word a leaf.
-    Buffer primitives;            ///< Items, list by list: triangles' boxes and numbers; at least one word.
+    Buffer primitives;            ///< Items, list by list (LIST_ITEMS()); at least one word.
     Buffer corners;               ///< Three positions for each of the scene's triangles.
     Buffer gridBits, gridRanks;   ///< A bit for each cell, and the cells before each word.
     Buffer cells;                 ///< shape.cellWords each. Like the bits, none where no leaf has a grid.

@@ -19,7 +19,7 @@ struct HybridPush {
 }  // namespace
 
 HybridTracer::HybridTracer(HybridWalk walk)
-    : march_(walk == HybridWalk::Hierarchical ? VoxelWalk::Svo : VoxelWalk::SvoVoxels) {}
+    : march_(walk == HybridWalk::Hierarchical ? VoxelWalk::Bricks : VoxelWalk::SvoVoxels) {}
 
 void HybridTracer::plan(MemoryPlan& plan, const SurfaceVoxels& voxels) {
     march_.plan(plan, voxels);

@@ -9,7 +9,7 @@ namespace voxray {
 
 /// How a ray gets from leaf to leaf.
 enum class HybridWalk {
-    Hierarchical,  ///< Past empty nodes of all sizes (VoxelWalk::Svo).
+    Hierarchical,  ///< Past empty space of all sizes (VoxelWalk::Bricks).
     VoxelByVoxel,  ///< From the root for each finest voxel, empty ones too (Seok 2021, figure 12).
 };
 template <>
@@ -25,7 +25,7 @@ class HybridTracer final : public RayTracer {
  public:
     explicit HybridTracer(HybridWalk walk);
 
-    /// Describes what a walk takes besides voxels and leaves: the octree. @throws Error as
+    /// Describes what a walk takes besides voxels and leaves: bricks, or the octree. @throws Error as
     /// VoxelMarch::plan().
     void plan(MemoryPlan& plan, const SurfaceVoxels& voxels);
     void prepare(Device& device, const ShaderCompiler& compiler);
@@ -43,7 +43,7 @@ class HybridTracer final : public RayTracer {
     void setStarts(const Buffer* starts) { starts_ = starts; }
     /// Nothing: begin() takes over what has moved.
     void update(CommandStream&) override {}
-    /// Of the octree.
+    /// Of bricks or octree.
     size_t memoryBytes() const override { return march_.memoryBytes(); }
     /// Steps and visits of nodes (PassContext::voxelCounts), and tests of triangles, since begin(): 64 bits
     /// each.
