@@ -34,6 +34,7 @@
 #include "passes/link_surfels/link_surfels.h"
 #include "passes/merge_voxels/merge_voxels.h"
 #include "passes/path_trace/path_trace_pass.h"
+#include "passes/path_trace/path_tracer.h"
 #include "passes/place_surfels/place_surfels.h"
 #include "passes/probe_irradiance/probe_irradiance.h"
 #include "passes/render_rsm/render_rsm.h"
@@ -94,6 +95,11 @@ void registerPasses(Registry& registry) {
     registry.add<DirectVoxels>();
     registry.add<Composite>();
     registry.add<PathTracePass>();
+    registry.preview = [](const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
+                          uint32_t width, uint32_t height, uint32_t spp, uint32_t bounces) {
+        const PathTraceOptions options{.width = width, .height = height, .spp = spp, .bounces = bounces};
+        return pathTrace(state, tracer, camera, options).total;
+    };
 }
 
 }  // namespace voxray

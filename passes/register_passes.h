@@ -4,7 +4,8 @@
 
 namespace voxray {
 
-/// Adds every technique under passes/. A new pass is one line here.
+/// Adds every technique under passes/, and the path tracer as the registry's preview. A new pass is one line
+/// here.
 void registerPasses(Registry& registry);
 
 }  // namespace voxray

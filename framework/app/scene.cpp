@@ -55,25 +55,6 @@ std::string block(const CameraSettings& camera) {
                        triple(camera.target), up, camera.fovDegrees);
 }
 
-void printLights(const SceneState& state) {
-    for (const Light& light : state.lights) {
-        const char* name = light.type == LightType::Point  ? "point"
-                           : light.type == LightType::Spot ? "spot"
-                                                           : "directional";
-        if (light.type == LightType::Directional)
-            fmt::print("  - {{{}: {}, irradiance: {}}}  # W/m²\n", name, triple(light.direction),
-                       triple(light.intensity));
-        else
-            fmt::print("  - {{{}: {}, {}intensity: {}}}  # W/sr\n", name, triple(light.position),
-                       light.type == LightType::Spot ? "direction: " + triple(light.direction) + ", " : "",
-                       triple(light.intensity));
-    }
-    const Environment& environment = state.scene->environment;
-    if (environment.radiance != glm::vec3(0.0f))
-        fmt::print("  environment {}{}\n", triple(environment.radiance),
-                   environment.map ? " times a map" : " W/(m² sr)");
-}
-
 /// Square metres and triangles of each material.
 std::vector<std::pair<double, size_t>> usesOf(const SceneState& state) {
     const Geometry& g = state.geometry;
@@ -86,22 +67,49 @@ std::vector<std::pair<double, size_t>> usesOf(const SceneState& state) {
     return uses;
 }
 
-/// @return whether anything shines: a light, a surface or the environment.
-bool printMaterials(const SceneState& state) {
+bool emits(const Material& material) {
+    return material.emission != glm::vec3(0.0f);
+}
+
+/// Lights, and what else shines. @return whether anything does.
+bool printLights(const SceneState& state) {
+    const Environment& environment = state.scene->environment;
+    const bool hasEnvironment = environment.radiance != glm::vec3(0.0f);
     const auto uses = usesOf(state);
-    bool shines = !state.lights.empty() || state.scene->environment.radiance != glm::vec3(0.0f);
+    size_t emissive = 0;
+    for (size_t i = 0; i < uses.size(); ++i)
+        emissive += emits(state.scene->materials[i]) && uses[i].first > 0;
+    fmt::print("lights: {} punctual, {} emissive material{}, {} environment\n", state.lights.size(), emissive,
+               emissive == 1 ? "" : "s", hasEnvironment ? "an" : "no");
+    for (const Light& light : state.lights) {
+        const char* name = light.type == LightType::Point  ? "point"
+                           : light.type == LightType::Spot ? "spot"
+                                                           : "directional";
+        if (light.type == LightType::Directional)
+            fmt::print("  - {{{}: {}, irradiance: {}}}  # W/m²\n", name, triple(light.direction),
+                       triple(light.intensity));
+        else
+            fmt::print("  - {{{}: {}, {}intensity: {}}}  # W/sr\n", name, triple(light.position),
+                       light.type == LightType::Spot ? "direction: " + triple(light.direction) + ", " : "",
+                       triple(light.intensity));
+    }
+    if (hasEnvironment)
+        fmt::print("  environment {}{}\n", triple(environment.radiance),
+                   environment.map ? " times a map" : " W/(m² sr)");
+    return emissive > 0 || hasEnvironment || !state.lights.empty();
+}
+
+void printMaterials(const SceneState& state) {
+    const auto uses = usesOf(state);
     fmt::print("materials: {}\n  {:32} {:>10} {:>10}  {:22} {:>8} {:>9}\n", uses.size(), "name", "triangles",
                "area, m²", "base color", "metallic", "roughness");
     for (size_t i = 0; i < uses.size(); ++i) {
         const Material& m = state.scene->materials[i];
-        const bool emits = m.emission != glm::vec3(0.0f);
-        shines |= emits && uses[i].second > 0;
         fmt::print("  {:32} {:10} {:10.3g}  {:22} {:8.2g} {:9.2g}{}{}\n", m.name, uses[i].second,
                    uses[i].first, triple(glm::vec3(m.baseColor)), m.metallic, m.roughness,
                    m.baseColorTexture.texture >= 0 ? ", textured" : "",
-                   emits ? ", emits " + triple(m.emission) + " W/(m² sr)" : "");
+                   emits(m) ? ", emits " + triple(m.emission) + " W/(m² sr)" : "");
     }
-    return shines;
 }
 
 /// A path-traced picture of a few samples. What nothing lights is shown in even light from all sides.
@@ -137,12 +145,14 @@ void describe(const SceneArguments& arguments) {
     fmt::print("cameras: {}\n", own.cameras.size());
     for (const Camera& camera : own.cameras)
         fmt::print("  '{}'  {}\n", camera.name, block(settingsOf(camera, g)));
-    fmt::print("lights: {}\n", scene.state.lights.size());
-    printLights(scene.state);
-    const bool shines = printMaterials(scene.state);
+    const bool shines = printLights(scene.state);
+    printMaterials(scene.state);
     if (!shines) fmt::print("nothing shines: add lights, or an environment as in\n  environment: 1\n");
     fmt::print("{}:\n  {}\n", hasCamera ? "the camera in use" : "a camera to begin with",
                block(settingsOf(scene.camera, g)));
+    if (settings.camera && hasCamera && own.cameras.empty())
+        fmt::print("another, which sees the scene:\n  {}\n",
+                   block(suggestCamera(g, EmbreeScene(scene.state, RaysToCome::Few))));
     for (const std::string& warning : loader.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     if (!arguments.picture.empty())
         writePicture(scene.state, EmbreeScene(scene.state), scene.camera, shines, arguments.picture);

@@ -147,6 +147,9 @@ P readParams(const Value& map, const std::string& owner, const std::vector<std::
         if (!known && key.find(':') != std::string::npos)
             throw UsageError(value.where, "{}: unknown parameter '{}'; a space is missing after ':'", owner,
                              key);
+        if (!known && key.find('=') != std::string::npos)
+            throw UsageError(value.where, "{}: unknown parameter '{}'; write ':' in place of '='", owner,
+                             key);
         if (!known)
             throw UsageError(value.where, "{}: unknown parameter '{}'{}", owner, key, didYouMean(key, valid));
         forEachField<P>([&, &key = key, &value = value](const auto& f) {

@@ -45,9 +45,11 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
     }
     if (!best.empty() || word.empty()) return best;
 
-    // A part of a name that says more: `rays` of `rays_per_block`
+    // A part of a name that says more: `rays` of `rays_per_block`, `pos` of `position`
+    constexpr size_t kTelling = 3;
     const auto isPart = [&](const std::string& candidate) {
-        return fmt::format("_{}_", candidate).find(fmt::format("_{}_", word)) != std::string::npos;
+        return fmt::format("_{}_", candidate).find(fmt::format("_{}_", word)) != std::string::npos ||
+               (word.size() >= kTelling && candidate.starts_with(word));
     };
     const auto whole = std::ranges::find_if(candidates, isPart);
     return whole == candidates.end() ? std::string() : *whole;

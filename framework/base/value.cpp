@@ -34,6 +34,13 @@ bool parseAll(const std::string& text, T& out) {
     return code == std::errc() && last == end;
 }
 
+/// ": write '-'..." for a number with a typographic minus or dash, else "".
+std::string withHyphen(const Value& value) {
+    for (const char* dash : {"\u2212", "\u2013"})
+        if (value.isScalar() && value.scalar.starts_with(dash)) return ": write a plain '-' for the minus";
+    return {};
+}
+
 /// ": write 1000000" for a whole number that is written as 1e6 or 1_000_000, else "".
 std::string inDigits(const Value& value) {
     if (!value.isScalar() || value.quoted) return {};
@@ -175,13 +182,14 @@ int64_t Value::asInteger(std::string_view what) const {
         scalar.find_first_not_of("0123456789") == std::string::npos)
         throw UsageError(where, "{}: {} is out of range, at most {}", what, scalar,
                          std::numeric_limits<int64_t>::max());
-    throw UsageError(where, "{}: expected a whole number, not {}{}", what, describe(*this), inDigits(*this));
+    throw UsageError(where, "{}: expected a whole number, not {}{}{}", what, describe(*this), inDigits(*this),
+                     withHyphen(*this));
 }
 
 double Value::asNumber(std::string_view what) const {
     double number = 0;
     if (isScalar() && !quoted && parseAll(scalar, number) && std::isfinite(number)) return number;
-    throw UsageError(where, "{}: expected a number, not {}", what, describe(*this));
+    throw UsageError(where, "{}: expected a number, not {}{}", what, describe(*this), withHyphen(*this));
 }
 
 std::string Value::asString(std::string_view what) const {

@@ -118,8 +118,11 @@ void checkTopLevel(const Value& config) {
     if (!config.isMap()) throw UsageError(config.where, "a config is a map; see docs/writing-a-config.md");
     for (const auto& [key, value] : config.members) {
         const auto& keys = configKeys();
-        if (std::find(keys.begin(), keys.end(), key) == keys.end())
-            throw UsageError(value.where, "unknown key '{}'{}", key, didYouMean(key, keys));
+        if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+        if (const std::string path = pathOfKey(key); !path.empty())
+            throw UsageError(value.where, "unknown key '{}'; it stands in '{}'", key,
+                             path.substr(0, path.find('.')));
+        throw UsageError(value.where, "unknown key '{}'{}", key, didYouMean(key, keys));
     }
     if (const Value* profiles = config.find("profiles");
         profiles && !profiles->isMap() && !profiles->isNull())

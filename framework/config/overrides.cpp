@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/suggest.h"
+#include "config/settings.h"
 #include "config/yaml.h"
 
 namespace voxray {
@@ -90,17 +91,21 @@ void overridePass(Value& graph, size_t index, const std::string& rest, const std
     }
 }
 
-/// "; did you mean ...": a pass that has another id here, an underscore in place of a dot, or the nearest of
-/// the candidates.
+/// "; did you mean ...": a pass that has another id here, a parameter that stands in the graph, whose pass is
+/// left out or followed by an underscore in place of a dot, a key of a block, or the nearest of the
+/// candidates.
 std::string nearestPath(const Value& config, const std::string& word,
                         const std::vector<std::string>& candidates) {
     const Value* graph = config.find("graph");
     for (const Value& entry : graph && graph->isList() ? graph->items : std::vector<Value>())
         if (const Value* pass = entry.find("pass"); pass && pass->isScalar() && pass->scalar == word)
             return fmt::format("; did you mean '{}', the id of that pass?", passId(entry));
-    for (const std::string& candidate : candidates)
-        if (word.size() > candidate.size() + 1 && word.starts_with(candidate + "_"))
-            return fmt::format("; did you mean '{}.{}'?", candidate, word.substr(candidate.size() + 1));
+    for (const Value& entry : graph && graph->isList() ? graph->items : std::vector<Value>())
+        for (const auto& [key, value] : entry.members)
+            if (word == key || word == passId(entry) + "_" + key)
+                return fmt::format("; did you mean '{}.{}'?", passId(entry), key);
+    if (const std::string path = pathOfKey(word); !path.empty())
+        return fmt::format("; did you mean '{}'?", path);
     return didYouMean(word, candidates);
 }
 

@@ -52,8 +52,9 @@ ConfigLight readLight(const Value& entry, size_t index) {
         light.outerConeAngle = glm::radians(p.outerDegrees);
     } else {
         const std::string first = entry.members.empty() ? std::string() : entry.members[0].key;
-        throw UsageError(entry.where, "{}: not a type of light: '{}'{}", what, first,
-                         didYouMean(first, kinds));
+        throw UsageError(entry.where, "{}: not a type of light: '{}'{}{}", what, first,
+                         didYouMean(first, kinds),
+                         nearest(first, kinds).empty() ? "; as in {point: [0, 2, 0], intensity: 5}" : "");
     }
     return read;
 }
@@ -118,6 +119,17 @@ std::vector<std::string> sceneKeys() {
 }
 
 }  // namespace
+
+std::string pathOfKey(const std::string& key) {
+    std::vector<std::string> measure = fieldNames<MeasureSettings>(), scene = sceneKeys();
+    measure.insert(measure.end(), {"masks", "metrics"});
+    scene.insert(scene.end(), {"file", "builtin"});
+    const std::pair<const char*, std::vector<std::string>> blocks[] = {
+        {"scene", scene}, {"image", fieldNames<ImageSettings>()}, {"measure", measure}};
+    for (const auto& [block, keys] : blocks)
+        if (std::ranges::count(keys, key) > 0) return fmt::format("{}.{}", block, key);
+    return {};
+}
 
 SceneSettings readSceneSettings(const Value& map) {
     if (!map.isMap())

@@ -117,6 +117,9 @@ struct MeasureSettings {
     }
 };
 
+/// "scene.camera" for `camera`: the path of a key of `scene`, `image` or `measure`, or "" for another word.
+std::string pathOfKey(const std::string& key);
+
 /// How many of the measured frames are compared with a reference: 0, compareEvery, 2 compareEvery ...
 uint32_t comparedFrames(const MeasureSettings& settings);
 

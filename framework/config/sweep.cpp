@@ -46,12 +46,6 @@ std::string fileSafe(const std::string& text) {
     return safe;
 }
 
-std::vector<std::string> keysOf(const Value& map) {
-    std::vector<std::string> keys;
-    for (const auto& member : map.members) keys.push_back(member.key);
-    return keys;
-}
-
 std::vector<Axis> readAxes(const Value& sweep) {
     std::vector<Axis> axes;
     std::map<std::string, int> labels;
@@ -61,7 +55,7 @@ std::vector<Axis> readAxes(const Value& sweep) {
         const std::string label = dot == std::string::npos ? path : path.substr(dot + 1);
         ++labels[label];
         axes.push_back({path, label, sweepValues(list), {}, list.where});
-        axes.back().texts = list.isMap() ? keysOf(list) : valueLabels(list.items);
+        axes.back().texts = sweepLabels(list);
         const std::set<std::string> unique(axes.back().texts.begin(), axes.back().texts.end());
         if (unique.size() != axes.back().texts.size())
             throw UsageError(list.where, "sweep.{}: a value appears twice", path);
@@ -118,6 +112,13 @@ std::vector<Value> sweepValues(const Value& axis) {
     std::vector<Value> values = axis.items;
     for (const auto& member : axis.members) values.push_back(member.value);
     return values;
+}
+
+std::vector<std::string> sweepLabels(const Value& axis) {
+    if (!axis.isMap()) return valueLabels(axis.items);
+    std::vector<std::string> names;
+    for (const auto& member : axis.members) names.push_back(member.key);
+    return names;
 }
 
 std::vector<Variant> expandSweep(const Experiment& experiment) {

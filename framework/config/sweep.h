@@ -22,6 +22,9 @@ std::vector<std::string> sweepKeys(const Experiment& experiment);
 /// The values of an axis, which is a list of values, or a map that gives each value a name.
 std::vector<Value> sweepValues(const Value& axis);
 
+/// Short texts of these values, as in Variant::values: the names that a map gives them, else valueLabels().
+std::vector<std::string> sweepLabels(const Value& axis);
+
 /// In place of the value of an axis that a variant does not have.
 inline constexpr const char* kNoValue = "-";
 

@@ -100,13 +100,33 @@ void checkUtf8(const std::string& text, const std::string& file) {
     }
 }
 
-// The first line that begins with white space of which some is a tab, counted from 1; 0: none.
-int indentedByTab(const std::string& text) {
+/// A white space that YAML takes for none.
+struct WhiteSpace {
+    const char* bytes;
+    const char* name;
+};
+constexpr WhiteSpace kOtherSpaces[] = {{"\t", "a tab"}, {"\u00a0", "a non-breaking space"}};
+
+/// @throws UsageError for the first line that is indented by such a space.
+void checkIndentation(const std::string& text, const std::string& file) {
     std::istringstream lines(text);
     std::string line;
     for (int number = 1; std::getline(lines, line); ++number)
-        if (line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string::npos) return number;
-    return 0;
+        for (const WhiteSpace& space : kOtherSpaces)
+            if (line.find(space.bytes) != std::string::npos &&
+                line.find(space.bytes) == line.find_first_not_of(' '))
+                throw UsageError({file, number}, "bad YAML: {} in the indentation; YAML takes spaces",
+                                 space.name);
+}
+
+/// Whether a line without braces has a ': ' after its first one.
+bool hasSecondColon(const std::string& text, int line) {
+    std::istringstream lines(text);
+    std::string found;
+    for (int number = 0; number <= line; ++number) std::getline(lines, found);
+    const size_t first = found.find(": ");
+    return first != std::string::npos && found.find(": ", first + 1) != std::string::npos &&
+           found.find('{') == std::string::npos;
 }
 
 /// What mostly lies behind a message of the parser, or "".
@@ -138,8 +158,10 @@ Value parseYaml(const std::string& text, const std::string& fileName) {
         if (documents.empty()) return converter.convert(YAML::Node(), 0, {fileName, 1});
         return converter.convert(documents[0], 0, {fileName, 1});
     } catch (const YAML::Exception& error) {
-        if (const int line = indentedByTab(text); line > 0)
-            throw UsageError({fileName, line}, "bad YAML: a tab in the indentation; YAML takes spaces");
+        checkIndentation(text, fileName);
+        if (hasSecondColon(text, error.mark.line))
+            throw UsageError(converter.locate(error.mark),
+                             "bad YAML: a second ': ' in a line; put a text that holds one between quotes");
         throw UsageError(converter.locate(error.mark), "bad YAML: {}{}", error.msg, hintOf(error.msg));
     }
 }

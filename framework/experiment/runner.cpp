@@ -138,7 +138,7 @@ void Run::openSession() {
         manifest_.referenceHashes[variant.name] = session_->referenceHashOf(wired_, variant.setup);
     }
     for (const auto& [id, count] : variantsWithout(wired_))
-        if (count < variants_.size())
+        if (runsSomewhere(wired_, id))
             notes_.push_back(fmt::format(
                 "'{}' is left out of {} of {} variants: no image that is compared depends on it there", id,
                 count, variants_.size()));

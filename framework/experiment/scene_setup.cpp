@@ -45,6 +45,24 @@ void checkRadiance(const ImageF& map, const fs::path& path) {
             throw Error("{}: an environment map holds finite radiance of at least 0", path.string());
 }
 
+void checkFormat(const SceneSource& source) {
+    const std::string ending = fs::path(source.file).extension().string();
+    for (const char* other : {".obj", ".fbx", ".blend", ".dae", ".ply", ".stl", ".usd", ".usdz", ".pbrt"})
+        if (ending == other)
+            throw UsageError(source.where, "{}.file: '{}' is no glTF: export it as .glb", source.owner,
+                             oneLine(source.file, 200));
+}
+
+/// An image for display holds no radiance: what is brighter than white is cut off.
+void checkMapFormat(const SceneSettings& settings) {
+    const std::string ending = fs::path(settings.environment->map).extension().string();
+    for (const char* other : {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp"})
+        if (ending == other)
+            throw UsageError(settings.environmentWhere,
+                             "scene.environment: '{}' holds no radiance: take an .exr file",
+                             oneLine(settings.environment->map, 200));
+}
+
 /// What reads a file that the config names: what is wrong with it is told at the config's line.
 template <typename Read>
 auto readAt(const TextLocation& where, const Read& read) {
@@ -146,8 +164,9 @@ fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& fol
         if (advice.empty()) advice = didYouMeanFile(name, folder);
     }
     if (advice.empty())
-        advice = name.starts_with("~/")
-                     ? "; '~' stands for no folder here: write the whole path"
+        advice = name.starts_with("~/") ? "; '~' stands for no folder here: write the whole path"
+                 : name.find('\\') != std::string::npos
+                     ? "; write paths with '/'"
                      : "; name its folder with --scenes DIR or VOXRAY_SCENES, see docs/scenes.md";
     throw UsageError(where, "no file '{}'{}{}", oneLine(name, 200),
                      looked.empty() ? "" : fmt::format(" in {}", fmt::join(looked, ", ")), advice);
@@ -163,6 +182,7 @@ std::shared_ptr<const Scene> SceneLoader::load(const SceneSource& source) {
         }
         return scene;
     }
+    checkFormat(source);
     const fs::path path = findSceneFile(source.file, folders_, source.where);
     auto& scene = scenes_[path.string()];
     if (!scene) scene = readAt(source.where, [&] { return loadGltf(path); });
@@ -171,6 +191,7 @@ std::shared_ptr<const Scene> SceneLoader::load(const SceneSource& source) {
 
 std::shared_ptr<const ImageF> SceneLoader::loadMap(const SceneSettings& settings) {
     if (!settings.environment || settings.environment->map.empty()) return nullptr;
+    checkMapFormat(settings);
     const fs::path path = findSceneFile(settings.environment->map, folders_, settings.environmentWhere);
     auto& map = maps_[path.string()];
     if (!map) {

@@ -1,5 +1,7 @@
 #include "experiment/validate.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -10,7 +12,7 @@
 #include "experiment/pixel_masks.h"
 #include "experiment/reference.h"
 #include "experiment/session.h"
-#include "scene/view.h"
+#include "experiment/view_check.h"
 
 namespace voxray {
 namespace {
@@ -47,7 +49,15 @@ void checkPassNames(const Experiment& experiment, const Registry& registry) {
         for (const Value& entry : experiment.setup.graph.items)
             if (passId(entry) == path) {
                 checkNestedAxis(entry, path, values, registry);
-                for (const Value& value : sweepValues(values)) checkPassName(value, registry);
+                for (const Value& value : sweepValues(values)) {
+                    if (value.isScalar() &&
+                        value.scalar.find_first_not_of("0123456789.") == std::string::npos)
+                        throw UsageError(value.where,
+                                         "sweep.{0}: '{1}' is no pass: to vary a parameter of '{0}', write "
+                                         "{0}.PARAMETER: {2}",
+                                         path, value.scalar, values.text());
+                    checkPassName(value, registry);
+                }
             }
 }
 
@@ -100,16 +110,6 @@ std::string bounceDifference(const WiredVariant& variant, const WiredExperiment&
         .what();
 }
 
-/// A camera that no surface lies before makes an empty image.
-void checkView(const Setup& setup, const PreparedScene& prepared) {
-    const SceneSettings& scene = setup.scene;
-    if (!isInView(prepared.state.geometry, prepared.camera, setup.image.width, setup.image.height))
-        throw UsageError(
-            scene.cameraWhere.file.empty() ? scene.where : scene.cameraWhere,
-            "scene.camera: no surface lies in its view; './voxray scene' tells where the scene is "
-            "and gives a camera that sees it");
-}
-
 /// Why an axis changes nothing in a variant: no image depends on its pass, or other parameters leave the
 /// swept one without effect. Empty where it has one.
 std::string whyWithoutEffect(const WiredVariant& variant, const std::string& axis) {
@@ -120,6 +120,42 @@ std::string whyWithoutEffect(const WiredVariant& variant, const std::string& axi
     for (const IdlePath& idle : variant.idle)
         if (idle.path == axis) return idle.parameter.why;
     return {};
+}
+
+/// The name of the pass that has the id where a value stands in place of a pass: a chain's last.
+std::string lastPass(const Value& value) {
+    const Value& last = value.isList() ? value.items.back() : value;
+    return last.isMap() ? last.find("pass")->scalar : last.scalar;
+}
+
+/// A value of a sweep over whole passes whose pass runs in no variant, while another value's does: such as a
+/// chain whose last pass is missing.
+/// @throws UsageError with file and line.
+void checkSwaps(const WiredExperiment& wired, const Registry& registry) {
+    const auto& axes = wired.experiment.sweep.members;
+    for (size_t a = 0; a < axes.size(); ++a) {
+        const auto isOfAxis = [&](const Value& entry) { return passId(entry) == axes[a].key; };
+        if (std::ranges::none_of(wired.experiment.setup.graph.items, isOfAxis)) continue;
+        const auto isRun = [&](const std::string& label) {
+            return std::ranges::any_of(wired.variants, [&](const WiredVariant& variant) {
+                return variant.values[a] == label && std::ranges::count(variant.leftOut, axes[a].key) == 0;
+            });
+        };
+        const std::vector<std::string> labels = sweepLabels(axes[a].value);
+        const auto run = std::ranges::find_if(labels, isRun);
+        const auto idle = std::ranges::find_if_not(labels, isRun);
+        if (run == labels.end() || idle == labels.end()) continue;
+        const std::vector<Value> values = sweepValues(axes[a].value);
+        const Value& wrong = values[size_t(idle - labels.begin())];
+        const std::string right = lastPass(values[size_t(run - labels.begin())]);
+        std::vector<std::string> ports;
+        for (const PortDoc& port : registry.require(right, {}).ports)
+            if (port.output) ports.push_back("'" + port.name + "'");
+        throw UsageError(wrong.where,
+                         "sweep.{}: '{}' is never run: no image depends on what it writes; '{}' in its place "
+                         "writes {}: end a chain with a pass that does",
+                         axes[a].key, lastPass(wrong), right, fmt::join(ports, ", "));
+    }
 }
 
 /// A swept parameter that has no effect in a variant: such variants come once.
@@ -197,6 +233,7 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
                              "reference.light: 'all', or left out: direct and indirect light are compared");
     }
     wired.experiment = std::move(experiment);
+    checkSwaps(wired, registry);
     leaveOutEqual(wired);
     checkIdleParameters(wired);
     return wired;
@@ -209,10 +246,17 @@ std::map<std::string, size_t> variantsWithout(const WiredExperiment& wired) {
     return counts;
 }
 
+bool runsSomewhere(const WiredExperiment& wired, const std::string& id) {
+    return std::ranges::any_of(wired.variants, [&](const WiredVariant& variant) {
+        return std::ranges::any_of(variant.resolved.items,
+                                   [&](const Value& pass) { return passId(pass) == id; });
+    });
+}
+
 std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
                                     const Registry& registry) {
     constexpr uint64_t kAnySize = std::numeric_limits<uint64_t>::max();
-    std::map<std::string, std::vector<std::string>> differences;  // What is said, of which variants.
+    std::map<std::string, std::vector<std::string>> notices;  // What is said, of which variants.
     std::string key;
     PreparedScene prepared;
     for (WiredVariant& variant : wired.variants) {
@@ -221,7 +265,8 @@ std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader,
             prepared = loader.prepare(variant.setup.scene);
             key = std::move(own);
             checkMaskNames(wired.experiment.measure.masks, *prepared.state.scene);
-            checkView(variant.setup, prepared);
+            if (std::string text = checkView(variant.setup, prepared, registry.preview); !text.empty())
+                notices[std::move(text)].push_back(variant.name);
         }
         const Frame frame = frameOf(variant.setup, prepared, variant.setup.general.seed);
         try {
@@ -230,7 +275,7 @@ std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader,
             Graph reference = referenceGraph(wired.experiment, registry);
             reference.plan(frame, device, kAnySize);
             if (std::string text = bounceDifference(variant, wired, reference); !text.empty())
-                differences[std::move(text)].push_back(variant.name);
+                notices[std::move(text)].push_back(variant.name);
         } catch (const Error& error) {
             throw UsageError("{}{}", error.what(),
                              wired.variants.size() > 1 ? fmt::format(" (variant {})", variant.name) : "");
@@ -238,9 +283,9 @@ std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader,
     }
     std::vector<std::string> warnings;
     for (const auto& [id, count] : variantsWithout(wired))
-        if (count == wired.variants.size())
+        if (!runsSomewhere(wired, id))
             warnings.push_back(fmt::format("'{}' is never run: no image that is compared depends on it", id));
-    for (const auto& [text, names] : differences)
+    for (const auto& [text, names] : notices)
         warnings.push_back(names.size() == 1
                                ? fmt::format("{} ({})", text, names[0])
                                : fmt::format("{} ({} and {} more)", text, names[0], names.size() - 1));

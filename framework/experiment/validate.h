@@ -29,20 +29,24 @@ struct WiredExperiment {
 
 /// Expands the sweep and wires the graph of every variant, once, and the reference's. Touches no device and
 /// no scene.
-/// @throws UsageError with file and line.
+/// @throws UsageError with file and line; also for a value of a sweep whose pass runs in no variant, while
+/// another value's does.
 WiredExperiment wireExperiment(Experiment experiment, const Registry& registry);
 
 /// Prepares the scene of every variant and plans its graph and the reference's there, so that what a pass
 /// refuses shows before anything is rendered. How much memory there is does not count: any size fits.
-/// @return warnings: passes that run in no variant; with file and line, variants whose light bounces more or
-/// fewer times than the reference's, which shows as a difference that no other parameter lowers. A config may
-/// ask for that.
+/// @return warnings: passes that run in no variant; with file and line, views in which no light was found,
+/// and variants whose light bounces more or fewer times than the reference's, which shows as a difference
+/// that no other parameter lowers. A config may ask for either.
 /// @throws UsageError with file and line, for a scene as SceneLoader::prepare().
 std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
                                     const Registry& registry);
 
 /// Passes that no image of a variant depends on, by id: in how many variants that is so.
 std::map<std::string, size_t> variantsWithout(const WiredExperiment& wired);
+
+/// Whether any variant runs the pass of this id.
+bool runsSomewhere(const WiredExperiment& wired, const std::string& id);
 
 /// A variant's graph, wired for one more rendering of it: without passes that nothing of what is compared
 /// depends on.

@@ -8,6 +8,7 @@
 #include "base/schema.h"
 #include "base/value.h"
 #include "graph/pass.h"
+#include "graph/preview.h"
 
 namespace voxray {
 
@@ -75,6 +76,9 @@ class Registry {
     const PassKind* find(const std::string& name) const;
     /// @throws UsageError with "did you mean" at `where`.
     const PassKind& require(const std::string& name, const TextLocation& where) const;
+
+    /// Looks at a view before anything is rendered there. Empty where no pass brings one.
+    Preview preview;
 
  private:
     template <typename P>

@@ -312,7 +312,7 @@ struct EmbreeScene::Impl {
     }
 };
 
-EmbreeScene::EmbreeScene(const SceneState& state) : impl_(std::make_unique<Impl>()) {
+EmbreeScene::EmbreeScene(const SceneState& state, RaysToCome rays) : impl_(std::make_unique<Impl>()) {
     impl_->device = rtcNewDevice(nullptr);
     if (!impl_->device) throwEmbreeError("no device");
     rtcSetDeviceMemoryMonitorFunction(
@@ -325,8 +325,10 @@ EmbreeScene::EmbreeScene(const SceneState& state) : impl_(std::make_unique<Impl>
 
     // What moves is rebuilt in each frame: in less time, and no worse for its few triangles.
     impl_->sort(state);
-    impl_->build(impl_->still, RTC_BUILD_QUALITY_HIGH);
-    if (!impl_->moving.moving.empty()) impl_->build(impl_->moving, RTC_BUILD_QUALITY_MEDIUM);
+    const bool many = rays == RaysToCome::Many;
+    impl_->build(impl_->still, many ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_LOW);
+    if (!impl_->moving.moving.empty())
+        impl_->build(impl_->moving, many ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_LOW);
 }
 
 void EmbreeScene::update() {

@@ -9,13 +9,16 @@
 
 namespace voxray {
 
+/// What a BVH is built for: a good one takes several times as long to build.
+enum class RaysToCome { Many, Few };
+
 /// A scene's triangles in an Embree BVH, and a second one of those that move, with alpha masks honoured on
 /// every ray. The only user of Embree's headers is the .cpp. Rays may come from any thread, but not during an
 /// update.
 class EmbreeScene {
  public:
     /// `state` must outlive this object. @throws Error where Embree refuses (out of memory).
-    explicit EmbreeScene(const SceneState& state);
+    explicit EmbreeScene(const SceneState& state, RaysToCome rays = RaysToCome::Many);
     ~EmbreeScene();
     EmbreeScene(EmbreeScene&&) noexcept;
     EmbreeScene& operator=(EmbreeScene&&) noexcept;

@@ -310,6 +310,7 @@ class SceneCommand(CommandTest):
     def test_a_built_in_scene_and_its_picture(self):
         out = self.expect(0, "scene", "cornell", "--picture", "box.png").stdout
         for words in ("36 triangles", "2 x 2 x 2 m", "emits [20, 20, 20] W/(m² sr)",
+                      "lights: 0 punctual, 1 emissive material, no environment",
                       "camera: {position: [0, 1, 3.8], target: [0, 1, 0], fov_deg: 40}"):
             self.assertIn(words, out)
         with Image.open(self.path("box.png")) as picture:

@@ -153,6 +153,34 @@ MISTAKES = {
         "  - {pass: gather_rays, id: gather}\n  - {pass: filter_irradiance, id: indirect, inputs: {noisy_irradiance: gather}}",
         "  - {pass: filter_irradiance, id: indirect, inputs: {noisy_irradiance: gather}}\n  - {pass: gather_rays, id: gather}",
         14, "put 'indirect' right before 'composite'"),
+    # Words out of their place
+    "a sweep of a parameter without its pass": ("inject.rays_per_light", "rays_per_light", 20, "did you mean 'inject.rays_per_light'?"),
+    "a sweep of a key without its block": ("inject.rays_per_light: [4096, 8192]", "camera.fov_deg: [40, 60]", 20, "did you mean 'scene.camera'?"),
+    "a key of another block": ("seed: 7", "frames: 3", 8, "unknown key 'frames'; it stands in 'measure'"),
+    "the beginning of a word": ("position: [0, 1, 3]", "pos: [0, 1, 3]", 4, "did you mean 'position'?"),
+    "a built-in scene's parameter, cut short": ("builtin: cornell", "builtin: cornell\n  box: false", 4, "did you mean 'boxes'?"),
+    "a sweep that adds a pass": ("inject.rays_per_light: [4096, 8192]", "inject_rsm: [inject_rsm, inject_light_rays]", 20,
+                                 "neither a key of the config nor a pass of its graph; one of"),
+    "values of a parameter for passes": ("inject.rays_per_light: [4096, 8192]", "inject: [4096, 8192]", 20,
+                                         "'4096' is no pass: to vary a parameter of 'inject', write inject.PARAMETER: [4096, 8192]"),
+    "a light by its type": ("{point: [0, 1.8, 0], ", "{type: point, position: [0, 1.8, 0], ", 6, "as in {point: [0, 2, 0], intensity: 5}"),
+    # Signs
+    "an equals sign": ("{width: 32, height: 24}", "{width = 32, height = 24}", 7, "write ':' in place of '='"),
+    "a typographic minus": ("1.8", "\u22121.8", 6, "write a plain '-'"),
+    "a non-breaking space": ("  builtin: cornell", "\u00a0\u00a0builtin: cornell", 3, "a non-breaking space in the indentation"),
+    "a colon in a text": ("name: mine", "name: mine: two", 1, "put a text that holds one between quotes"),
+    "backslashes": ("builtin: cornell", "file: scenes\\room.glb", 3, "write paths with '/'"),
+    # Formats
+    "a scene of another format": ("builtin: cornell", "file: room.obj", 3, "export it as .glb"),
+    "a picture as an environment": ("  lights:", "  environment: sky.jpg\n  lights:", 5, "holds no radiance: take an .exr file"),
+    # Views
+    "a camera behind the room": ("position: [0, 1, 3]", "position: [0, 1, -4]", 4, "stands outside of a closed room"),
+    "a camera below the floor": ("position: [0, 1, 3]", "position: [0, -3, 0.5]", 4, "sees the backs of surfaces, and no light"),
+    "a camera in a box": ("position: [0, 1, 3], target: [0, 1, 0]", "position: [-0.35, 0.6, -0.3], target: [0, 0.6, 0]", 4,
+                          "'./voxray scene cornell' gives a camera that sees the scene"),
+    # Chains
+    "a chain without its last pass": ("inject.rays_per_light: [4096, 8192]", "indirect: [gather_irradiance, [trace_gather_rays]]", 20,
+                                      "'trace_gather_rays' is never run: no image depends on what it writes; 'gather_irradiance' in its place writes"),
 }
 
 
@@ -170,6 +198,12 @@ class Mistakes(CommandTest):
     def test_a_pass_that_never_runs_is_warned_of(self):
         self.write("mine.yaml", CONFIG.replace("  - {pass: composite}", "  - {pass: composite}\n  - {pass: composite, id: again}"))
         self.assertIn("warning: 'composite' is never run", self.expect(0, "validate", "mine.yaml").stderr)
+
+    def test_a_dark_view_is_warned_of(self):
+        # A room that light must not leak into
+        self.write("dark.yaml", CONFIG.replace("builtin: cornell\n  " + CAMERA, "builtin: thin_wall").replace("grey", "white"))
+        error = self.expect(0, "validate", "dark.yaml").stderr
+        self.assertIn("warning: dark.yaml:2: scene.camera: no light was found in its view", error)
 
     def test_mistakes_on_the_command_line(self):
         self.write("mine.yaml", CONFIG)

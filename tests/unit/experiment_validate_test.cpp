@@ -23,24 +23,61 @@ void expectError(const std::string& graph, std::initializer_list<const char*> pa
     for (const char* part : parts) EXPECT_CONTAINS(message, part);
 }
 
+/// Reads the image and writes it again.
+class Veil : public Pass {
+ public:
+    static constexpr const char* kName = "veil";
+    static constexpr const char* kHelp = "Over an image.";
+    struct Params {
+        static constexpr auto schema() { return std::tuple{}; }
+    };
+    explicit Veil(const Params&) {}
+    void declare(PassBuilder& b) override {
+        b.read<FrameImage>("final", "The image.");
+        b.write<FrameImage>("final", "The image again.");
+    }
+    void plan(PassPlan&) override {}
+    void prepare(PassSetup&) override {}
+    void record(PassContext&) override {}
+};
+
 }  // namespace
 
 TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
-    // Of two passes that write the image the last one counts
+    // Of two passes that write the image the last one counts, unless it reads the first one's
+    Registry registry = fakes::registry();
+    registry.add<Veil>();
     const auto wired = wireExperiment(
         parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: a}\n"
-                        "  - {pass: constant, id: b}\nsweep: {b: [constant, layers], a.value: [4, 5]}\n",
+                        "  - {pass: constant, id: b}\nsweep: {b: [constant, veil], a.value: [4, 5]}\n",
                         "x.yaml"),
-        fakes::registry());
+        registry);
     std::vector<std::string> names;
     for (const WiredVariant& variant : wired.variants) names.push_back(variant.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"b-constant", "b-layers_value-4", "b-layers_value-5"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"b-constant", "b-veil_value-4", "b-veil_value-5"}));
     EXPECT_EQ(wired.variants[0].values, (std::vector<std::string>{"constant", "-"}));
 
     // One that changes nothing anywhere is a mistake
     expectError(
         "graph:\n  - {pass: constant, id: unseen}\n  - {pass: constant}\nsweep:\n  unseen.value: [1, 2]\n",
         {"x.yaml:7: ", "sweep.unseen.value", "no image depends on 'unseen'"});
+}
+
+TEST(Validate, AValueWhosePassNeverRunsIsRefusedWhereAnothersRuns) {
+    expectError(
+        "graph:\n  - {pass: constant}\nsweep:\n  constant:\n    - constant\n    - [{pass: constant, id: "
+        "other}, layers]\n",
+        {"x.yaml:8: ", "sweep.constant: 'layers' is never run",
+         "'constant' in its place writes 'final', 'indirect'"});
+    // Values that have names
+    expectError(
+        "graph:\n  - {pass: constant, id: c}\nsweep:\n  c: {whole: constant, part: [constant, layers]}\n",
+        {"x.yaml:6: ", "sweep.c: 'layers' is never run"});
+    // Different passes that are read
+    wireExperiment(parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: layers, id: l}\n"
+                                   "  - {pass: constant}\nsweep: {l: [layers, witness]}\n",
+                                   "x.yaml"),
+                   fakes::registry());
 }
 
 TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {

@@ -1,0 +1,71 @@
+#include "experiment/view_check.h"
+
+#include <gtest/gtest.h>
+
+#include "passes/register_passes.h"
+#include "scene/load.h"
+#include "tests/support/errors.h"
+
+namespace voxray {
+namespace {
+
+/// What is said of a scene's view.
+std::string saidOf(const std::string& scene) {
+    const Experiment experiment = parseExperiment(
+        "name: x\nscene: {" + scene + "}\nimage: {width: 64, height: 36}\ngraph: [{pass: gbuffer}]\n",
+        "x.yaml");
+    SceneLoader loader({});
+    Registry registry;
+    registerPasses(registry);
+    return checkView(experiment.setup, loader.prepare(experiment.setup.scene), registry.preview);
+}
+
+std::string refusalOf(const std::string& scene) {
+    return errorOf<UsageError>([&] { saidOf(scene); });
+}
+
+TEST(ViewCheck, SaysNothingOfBuiltInScenesButThoseThatAreDarkByIntention) {
+    for (const std::string& name : builtinSceneNames()) {
+        const std::string said = saidOf("builtin: " + name);
+        const bool isDark = name == "thin_wall" || name == "shell_room";
+        EXPECT_EQ(said.empty(), !isDark) << name << ": " << said;
+    }
+    EXPECT_EQ(saidOf("builtin: thin_wall, view: lit"), "");
+    EXPECT_EQ(saidOf("builtin: shell_room, light: inside"), "");
+}
+
+TEST(ViewCheck, RefusesDarkBacks) {
+    const char* outside[] = {
+        // Outside of a closed room, behind the open box, below a plane that is lit from above
+        "builtin: white_room, camera: {position: [0, 1, 9], target: [0, 1, 0]}",
+        "builtin: cornell, lights: point, camera: {position: [0, 1, -4], target: [0, 1, 0]}",
+        "builtin: plane, camera: {position: [0, -2, 0.1], target: [0, 0, 0]}"};
+    for (const char* scene : outside) {
+        const std::string message = refusalOf(scene);
+        EXPECT_CONTAINS(message, "x.yaml:2: ");
+        EXPECT_CONTAINS(message, "the backs of surfaces, and no light");
+        EXPECT_CONTAINS(message, "./voxray scene ");
+    }
+    // Inside of the taller box
+    EXPECT_CONTAINS(
+        refusalOf("builtin: cornell, camera: {position: [-0.35, 0.6, -0.3], target: [0, 0.6, 0]}"),
+        "inside of a solid");
+    EXPECT_CONTAINS(refusalOf("builtin: cornell, camera: {position: [0, 1, 3], target: [0, 1, 9]}"),
+                    "no surface lies in its view");
+}
+
+TEST(ViewCheck, AllowsBacksThatAreLit) {
+    EXPECT_EQ(saidOf("builtin: white_room, environment: 1, camera: {position: [0, 1, 9], target: [0, 1, 0]}"),
+              "");
+}
+
+TEST(ViewCheck, FindsLightThatFewPathsMeet) {
+    // A spot of two degrees on a part of the ceiling
+    EXPECT_EQ(saidOf("builtin: white_room, keep_file_lights: false, lights: [{spot: [0, 0, 0], direction: "
+                     "[0, 1, 0.2], "
+                     "intensity: 1, outer_deg: 2}]"),
+              "");
+}
+
+}  // namespace
+}  // namespace voxray
