@@ -91,7 +91,7 @@ void FindClusterVisibility::prepare(PassSetup& setup) {
         choose_ = program("choose");
     } else {
         Defines defines = march_.defines();
-        if (params_.visibility == FaceRays::Bresenham) defines["BRESENHAM"] = "1";
+        if (params_.visibility == FaceRays::Bresenham) defines.emplace("BRESENHAM", "1");
         marchRays_ = program("march", defines);
     }
 }
