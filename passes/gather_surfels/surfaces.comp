@@ -29,14 +29,15 @@ bool coveredNear(vec3 p) {
 }
 #endif
 
-// Keeps the pixel's surface number `surface`; one of no albedo ends the list.
-void keep(ivec2 inBand, int surface, PixelSurface kept) {
+// Keeps the pixel's surface number `surface`; one of no albedo ends the list. `from` lies on the surface, which the mean of its texels
+// need not.
+void keep(ivec2 inBand, int surface, PixelSurface kept, vec3 from) {
     const int at = surfaceIndex(inBand, surface);
     surfaces.data[at] = kept;
 #if PROBED
     Ray ray = kNoRay;
-    if (kept.albedo != vec3(0.0) && coveredNear(kept.position))
-        ray = openSpaceRay(kept.position, kept.geometricNormal, push.grid.voxelSize);
+    if (kept.albedo != vec3(0.0) && coveredNear(from))
+        ray = openSpaceRay(from, kept.geometricNormal, push.grid.voxelSize);
     probes.data[at] = ray;
 #endif
 }
@@ -74,7 +75,8 @@ void main() {
             albedo_ += albedos[u];
             texels += 1.0;
         }
-        keep(inBand, count++, PixelSurface(position_ / texels, normals[t], ng, albedo_ / float(SURFACES)));
+        keep(inBand, count++, PixelSurface(position_ / texels, normals[t], ng, albedo_ / float(SURFACES)), positions[t]);
     }
-    for (int i = count; i < SURFACES; ++i) keep(inBand, i, PixelSurface(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)));
+    const PixelSurface none = PixelSurface(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    for (int i = count; i < SURFACES; ++i) keep(inBand, i, none, vec3(0.0));
 }
