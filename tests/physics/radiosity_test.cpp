@@ -170,6 +170,39 @@ TEST(Radiosity, NarrowGapsHaveLightOfTheirOwn) {
     EXPECT_NEAR(meanRatio(all, truth), 1.0, 0.05);
 }
 
+// Two pipes, one in the other, with a gap between them that is narrower than a voxel.
+std::shared_ptr<const SceneState> doublePipe() {
+    SceneBuilder scene("pipe");
+    const uint32_t grey = scene.lambert("grey", glm::vec3(0.5f));
+    scene.room({-1, -1, -1}, {1, 1, 1}, {grey, grey, grey, grey, grey, grey});
+    constexpr int kFacets = 96;
+    const auto on = [](float radius, int i) {
+        const float angle = 2 * std::numbers::pi_v<float> * float(i) / kFacets;
+        return glm::vec3(radius * std::cos(angle), -1, radius * std::sin(angle));
+    };
+    for (int i = 0; i < kFacets; ++i)
+        for (const float radius : {0.4f, 0.38f})
+            scene.quad("facet", on(radius, i), {0, 2, 0}, on(radius, i + 1) - on(radius, i), grey);
+    scene.pointLight({0.8f, 0, 0.8f}, glm::vec3(2));
+    scene.camera({0, 0, 0.9f}, {0, 0, 0}, 60);
+    return std::make_shared<SceneState>(evaluate(scene.finish(), 0.0));
+}
+
+TEST(Radiosity, TexelsOfABentSurfaceDontCoverIt) {
+    // The mean of a pixel's texels lies behind a convex surface. Told from there it would be covered, and
+    // take the light of the gap.
+    const std::shared_ptr<const SceneState> state = doublePipe();
+    const ImageF truth =
+        Chain(state, graphYaml({"path_trace, spp: 512, bounces: 3"}), 48, 48, 1).image("indirect");
+    Chain chain(
+        state,
+        graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 16",
+                   "place_surfels, points_per_voxel: 16, sides: all", "link_surfels, rays_per_surfel: 32",
+                   "inject_radiosity, bounces: 3", "gather_surfels"}),
+        48, 48, 1);
+    EXPECT_NEAR(meanRatio(chain.image("indirect"), truth), 1.0, 0.02);
+}
+
 TEST(Radiosity, SmoothSurfelsAreLessNoisy) {
     const double noisy = errorInCornell(48, 4, 4, {"gather_surfels"});
     const double once = errorInCornell(48, 4, 4, {"smooth_surfels, iterations: 1", "gather_surfels"});
