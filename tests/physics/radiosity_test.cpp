@@ -188,7 +188,7 @@ std::shared_ptr<const SceneState> doublePipe() {
     return std::make_shared<SceneState>(evaluate(scene.finish(), 0.0));
 }
 
-TEST(Radiosity, TexelsOfABentSurfaceDontCoverIt) {
+TEST(Radiosity, TexelsOfABentSurfaceDontHideIt) {
     // The mean of a pixel's texels lies behind a convex surface. Told from there it would be covered, and
     // take the light of the gap.
     const std::shared_ptr<const SceneState> state = doublePipe();
