@@ -14,7 +14,7 @@ layout(scalar) writeonly buffer Surfaces { PixelSurface data[]; } surfaces;
 layout(scalar) writeonly buffer Probes { Ray data[]; } probes;
 #endif
 
-const float NEAR = 0.25;  // Voxels.
+const float NEAR = 0.25;  // Voxels. Chosen; docs/radiosity.md has what others bring.
 
 #if PROBED
 bool coveredNear(vec3 p) {

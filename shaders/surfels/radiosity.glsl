@@ -14,6 +14,7 @@ uint packRadiosity(vec3 radiosity) {
 
 vec3 unpackRadiosity(uint bits) {
     const vec3 parts = vec3(bits & 255u, bits >> 8 & 255u, bits >> 16 & 255u);
+    // Two to the power of the exponent, by its bits; below 2^-126: 0.
     return parts * (uintBitsToFloat((max(bits >> 24, 1u) - 1u) << 23) / 255.0);
 }
 
