@@ -176,8 +176,7 @@ void FindPatches::findSides(PassContext& context, SurfelsByVoxel& lists) {
     for (uint32_t round = 0; round < kMaxSides; ++round) {
         stream.fill(counter_, 0);
         stream.dispatch(pivot_,
-                        {{"begins", lists.begins},
-                         {"ends", lists.ends},
+                        {{"lists", lists.lists},
                          {"pivots", pivots},
                          {"left", counter_},
                          {"PatchSurfelsAt", patches.surfels.at()}},
@@ -202,20 +201,17 @@ void FindPatches::listSides(PassContext& context, const SurfelsByVoxel& lists) {
     CommandStream& stream = context.stream;
     const uint32_t count = voxels.voxelCount;
     patches.firstSide = Buffer(context.device, "first side by voxel", uints(count + 1));
-    stream.dispatch(order_,
-                    {{"begins", lists.begins},
-                     {"ends", lists.ends},
-                     {"counts", patches.firstSide},
-                     {"PatchSurfelsAt", patches.surfels.at()}},
-                    count, linearGroups(count + 1));
+    stream.dispatch(
+        order_,
+        {{"lists", lists.lists}, {"counts", patches.firstSide}, {"PatchSurfelsAt", patches.surfels.at()}},
+        count, linearGroups(count + 1));
     patches.sideCount = prefixSum_->run(stream, patches.firstSide, patches.firstSide, count + 1);
     const uint64_t sides = std::max(patches.sideCount, 1u);
     patches.sides = Buffer(context.device, "sides of voxels", sides * sizeof(gpu::SurfaceSide));
     patches.materials =
         LargeBuffer(context.device, "materials of sides", sides * sizeof(gpu::PackedVoxelMaterial));
     stream.dispatch(list_,
-                    {{"begins", lists.begins},
-                     {"ends", lists.ends},
+                    {{"lists", lists.lists},
                      {"firstSide", patches.firstSide},
                      {"PlacesAt", patches.places.at()},
                      {"sides", patches.sides},

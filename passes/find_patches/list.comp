@@ -6,8 +6,7 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer Begins { uint data[]; } begins;
-readonly buffer Ends { uint data[]; } ends;
+readonly buffer Lists { uvec2 data[]; } lists;
 readonly buffer FirstSide { uint data[]; } firstSide;
 layout(scalar) readonly buffer PlacesAt { LargeUints places; };
 layout(scalar) writeonly buffer Sides { SurfaceSide data[]; } sides;
@@ -19,8 +18,8 @@ layout(push_constant) uniform Push {
 void main() {
     const uint voxel = linearIndex();
     if (voxel >= push.voxels) return;
-    const uint end = ends.data[voxel];
-    uint i = begins.data[voxel];
+    const uint end = lists.data[voxel].y;
+    uint i = lists.data[voxel].x;
     for (uint side = firstSide.data[voxel]; side < firstSide.data[voxel + 1u]; ++side) {
         const uint first = i, own = patchSurfels.data[i].side;
         for (; i < end && patchSurfels.data[i].side == own; ++i) {

@@ -5,8 +5,7 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer Begins { uint data[]; } begins;
-readonly buffer Ends { uint data[]; } ends;
+readonly buffer Lists { uvec2 data[]; } lists;
 writeonly buffer Counts { uint data[]; } counts;
 layout(push_constant) uniform Push { uint voxels; } push;
 
@@ -15,9 +14,9 @@ void main() {
     if (voxel > push.voxels) return;
     uint sides = 0u;
     if (voxel < push.voxels) {
-        const uint begin = begins.data[voxel];
+        const uint begin = lists.data[voxel].x;
         // By insertion, which keeps the order of ids.
-        for (uint i = begin; i < ends.data[voxel]; ++i) {
+        for (uint i = begin; i < lists.data[voxel].y; ++i) {
             const PatchSurfel s = patchSurfels.data[i];
             if (s.side != COVERED_SIDE) sides = max(sides, s.side + 1u);
             uint to = i;

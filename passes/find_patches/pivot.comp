@@ -5,8 +5,7 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer Begins { uint data[]; } begins;
-readonly buffer Ends { uint data[]; } ends;
+readonly buffer Lists { uvec2 data[]; } lists;
 writeonly buffer Pivots { uint data[]; } pivots;
 buffer Left { uint count; } left;  // Voxels that have such surfels.
 layout(push_constant) uniform Push {
@@ -17,7 +16,7 @@ layout(push_constant) uniform Push {
 void main() {
     const uint voxel = linearIndex();
     if (voxel >= push.voxels) return;
-    for (uint i = begins.data[voxel]; i < ends.data[voxel]; ++i) {
+    for (uint i = lists.data[voxel].x; i < lists.data[voxel].y; ++i) {
         if (patchSurfels.data[i].side != NO_SIDE) continue;
         patchSurfels.data[i].side = push.round;
         pivots.data[voxel] = i;

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Radiance that each pixel's surface reflects of the irradiance that surfels around it hold.
+// Radiance that each pixel's surfaces reflect of the irradiance that surfels around them hold.
 //
 // Each surfel of the eight voxels around a point counts by the tent weights of these voxels, times
 //
@@ -8,18 +8,49 @@
 //
 // as the taps of filter_irradiance do: it helps as long as the noise that it averages out outweighs the bias that it brings.
 // noise: relative variance of a surfel's irradiance. bias²: surfel_bias.glsl. Surfels in a gap narrower than a voxel (covered) and
-// those with open space before them see different light: a point takes the mean of its own kind alone.
-#include "passes/gather_surfels/band.glsl"
+// those with open space before them see different light: a point takes the mean of its own kind alone. Where both kinds are near, a
+// ray tells which kind that is; resolve.comp then adds its light.
+#include "passes/gather_surfels/undecided.h"
 #include "shaders/scene/sampling.glsl"
+#include "shaders/surfels/open_space.glsl"
+#include "shaders/surfels/packed_surfel.glsl"
 #include "shaders/surfels/radiosity.glsl"
+#include "shaders/surfels/surfel_bias.glsl"
 #include "shaders/voxels/voxel_irradiance.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(scalar) readonly buffer Surfaces { PixelSurface data[]; } surfaces;
-layout(scalar) readonly buffer LightAt { LargeUints light; };
+uniform sampler2D position;
+uniform sampler2D normal;
+uniform sampler2D geometricNormal;
+uniform sampler2D albedo;
+readonly buffer Lists { uvec2 data[]; } lists;
+layout(scalar) readonly buffer LitAt { LitSurfels lit; };
 #if PROBED
-readonly buffer Covered { uint data[]; } covered;  // Of each surface: 0 where open space lies before it.
+buffer Count { uint value; } count;
+layout(scalar) writeonly buffer Surfaces { Undecided data[]; } surfaces;
+layout(scalar) writeonly buffer Probes { Ray data[]; } probes;  // Of each undecided surface.
+writeonly buffer First { uint data[]; } first;                  // The first undecided surface of each pixel.
 #endif
 layout(rgba32f) writeonly uniform image2D result;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    ivec2 extent;  // Pixels of the band.
+    int firstRow;
+    float noise;  // Relative variance of a surfel's irradiance.
+} push;
+
+// SAMPLES, texels of the g-buffer along each side of a pixel, is defined by gather_surfels.cpp. A pixel has no more surfaces than texels.
+#define SURFACES (SAMPLES * SAMPLES)
+
+const float NEAR = 0.25;  // Voxels. Chosen; docs/radiosity.md has what others bring.
+
+// Texels of a pixel that lie close together and look the same way: one lookup serves them all.
+struct PixelSurface {
+    vec3 position;         // Mean, m.
+    vec3 normal;           // Unit length; shading normal of the first texel.
+    vec3 geometricNormal;  // Unit length, of the first texel.
+    vec3 albedo;           // Sum over its texels over the number of the pixel's.
+};
 
 // Of surfels of one kind.
 struct Mean {
@@ -27,45 +58,95 @@ struct Mean {
     float weights;
 };
 
-vec3 irradianceAt(vec3 p, vec3 n, vec3 ng, uint kind) {
-    const Eight eight = eightAround(p);
-    Mean own = Mean(vec3(0.0), 0.0), other = own;
+// Adds up the surfels around a surface, by kind.
+void lookUp(PixelSurface at, out Mean open, out Mean covered) {
+    const vec3 center = (at.position - push.grid.origin) / push.grid.voxelSize - 0.5, part = fract(center);
+    const ivec3 first = ivec3(floor(center));
+    LitSurfels surfels = lit;  // The address is read once: no compiler takes it out of the loop.
+    open = covered = Mean(vec3(0.0), 0.0);
     for (int v = 0; v < 8; ++v) {
         const ivec3 far = ivec3(v & 1, (v >> 1) & 1, v >> 2);
-        const vec3 along = mix(1.0 - eight.part, eight.part, vec3(far));
-        const uint number = voxelNumber(push.grid, eight.first + far);
+        const vec3 along = mix(1.0 - part, part, vec3(far));
+        const uint number = voxelNumber(push.grid, first + far);
         if (number == NO_VOXEL) continue;
         const float tent = along.x * along.y * along.z;
-        const uint end = ends.data[number];
-        for (uint i = begins.data[number]; i < end; ++i) {
-            const SortedSurfel s = sorted.data[i];
-            if (dot(s.normal, ng) <= 0.0) continue;
-            const float bias = planeBias(p, ng, s.position, s.normal) + normalBias(n, s.normal);
+        const uvec2 slots = lists.data[number];
+        const vec3 inVoxel = part + 0.5 - vec3(far);
+        for (uint i = slots.x; i < slots.y; ++i) {
+            const uvec3 s = surfels.data[i];
+            const vec3 n = fromOctahedral(s.y);
+            if (dot(n, at.geometricNormal) <= 0.0) continue;
+            const float bias = planeBias(inVoxel, at.geometricNormal, placeInVoxel(s.x), n) + normalBias(at.normal, n);
             const float weight = tent * push.noise / (push.noise + bias);
-            const vec3 weighted = weight * unpackRadiosity(light.data[i]);
-            if ((s.id & VOXRAY_COVERED) == kind)
-                own = Mean(own.sum + weighted, own.weights + weight);
+            const vec3 weighted = weight * unpackRadiosity(s.z);
+            if (isCoveredSurfel(s.x))
+                covered = Mean(covered.sum + weighted, covered.weights + weight);
             else
-                other = Mean(other.sum + weighted, other.weights + weight);
+                open = Mean(open.sum + weighted, open.weights + weight);
         }
     }
-    if (own.weights > 0.0) return own.sum / own.weights;
-    return other.weights > 0.0 ? other.sum / other.weights : voxelIrradiance(push.grid, p, ng, 1.0, false);
 }
 
 void main() {
-    const ivec2 inBand = ivec2(gl_GlobalInvocationID.xy);
+    const ivec2 inBand = ivec2(gl_GlobalInvocationID.xy), pixel = inBand + ivec2(0, push.firstRow);
     if (any(greaterThanEqual(inBand, push.extent))) return;
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < SURFACES; ++i) {
-        const int at = surfaceIndex(inBand, i);
-        const PixelSurface s = surfaces.data[at];
-        if (s.albedo == vec3(0.0)) break;
-        uint kind = 0u;
-#if PROBED
-        if (covered.data[at] != 0u) kind = VOXRAY_COVERED;
-#endif
-        sum += s.albedo / PI * irradianceAt(s.position, s.normal, s.geometricNormal, kind);
+
+    // Constant bounds: loops over texels can be unrolled, and these arrays be registers.
+    vec3 positions[SURFACES], normals[SURFACES], albedos[SURFACES];
+    bool isLeft[SURFACES];
+    for (int t = 0; t < SURFACES; ++t) {
+        const ivec2 texel = pixel * SAMPLES + ivec2(t % SAMPLES, t / SAMPLES);
+        const vec4 p = texelFetch(position, texel, 0);
+        positions[t] = p.xyz;
+        normals[t] = normalize(texelFetch(normal, texel, 0).xyz);
+        albedos[t] = texelFetch(albedo, texel, 0).rgb;
+        isLeft[t] = p.w > 0.0 && albedos[t] != vec3(0.0);
     }
-    imageStore(result, inBand + ivec2(0, push.firstRow), vec4(sum, 1.0));
+
+    // Each turn takes the first texel that is left, with those that lie so near that light can't be told apart: pixels side by side,
+    // whose texels belong together in other ways, look up at the same time.
+    vec3 sum = vec3(0.0);
+    uint undecided = VOXRAY_NO_UNDECIDED;
+    for (int turn = 0; turn < SURFACES; ++turn) {
+        int own = SURFACES;
+        vec3 from = vec3(0.0), n = vec3(0.0);
+        for (int t = SURFACES - 1; t >= 0; --t)
+            if (isLeft[t]) own = t, from = positions[t], n = normals[t];
+        if (own == SURFACES) break;
+        const vec3 ng = normalize(texelFetch(geometricNormal, pixel * SAMPLES + ivec2(own % SAMPLES, own / SAMPLES), 0).xyz);
+        PixelSurface surface = PixelSurface(vec3(0.0), n, ng, vec3(0.0));
+        float texels = 0.0;
+        for (int t = 0; t < SURFACES; ++t) {
+            const vec3 between = positions[t] - from;
+            if (!isLeft[t] || length(between) >= NEAR * push.grid.voxelSize) continue;
+            if (t != own && planeBias(vec3(0.0), ng, between, ng) + normalBias(n, normals[t]) >= push.noise) continue;
+            isLeft[t] = false;
+            surface.position += positions[t];
+            surface.albedo += albedos[t];
+            texels += 1.0;
+        }
+        surface.position /= texels;
+        const vec3 reflected = surface.albedo / (float(SURFACES) * PI);
+
+        Mean open, covered;
+        lookUp(surface, open, covered);
+#if PROBED
+        if (open.weights > 0.0 && covered.weights > 0.0) {
+            // The ray starts on the surface, where the mean of its texels need not lie.
+            const uint at = atomicAdd(count.value, 1u);
+            surfaces.data[at] = Undecided(reflected * open.sum / open.weights, reflected * covered.sum / covered.weights, undecided);
+            probes.data[at] = openSpaceRay(from, ng, push.grid.voxelSize);
+            undecided = at;
+            continue;
+        }
+#endif
+        if (open.weights + covered.weights > 0.0)
+            sum += reflected * (open.sum + covered.sum) / (open.weights + covered.weights);
+        else
+            sum += reflected * voxelIrradiance(push.grid, surface.position, ng, 1.0, false);
+    }
+    imageStore(result, pixel, vec4(sum, 1.0));
+#if PROBED
+    first.data[inBand.y * push.extent.x + inBand.x] = undecided;
+#endif
 }

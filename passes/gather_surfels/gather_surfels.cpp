@@ -3,13 +3,13 @@
 #include <algorithm>
 
 #include "passes/common/compute/dispatch.h"
-#include "passes/gather_surfels/pixel_surface.h"
+#include "passes/gather_surfels/undecided.h"
 
 namespace voxray {
 namespace {
 
-/// Surfaces in pixels that are kept at a time, unless a row has more: scratch memory does not grow with the
-/// image.
+/// Surfaces in pixels whose kind is told at a time, unless a row has more: scratch memory does not grow with
+/// the image.
 constexpr uint32_t kBandSurfaces = 1u << 19;
 
 struct GatherPush {
@@ -17,6 +17,11 @@ struct GatherPush {
     glm::ivec2 extent;
     uint32_t firstRow;
     float noise;
+};
+
+struct ResolvePush {
+    glm::ivec2 extent;
+    uint32_t firstRow;
 };
 
 }  // namespace
@@ -35,10 +40,13 @@ void GatherSurfels::plan(PassPlan& plan) {
     probed_ = plan.get(surfels_).coveredSides;
     samples_ = plan.get(gbuffer_).samples;
     const uint32_t perPixel = samples_ * samples_, width = plan.frame.width;
-    bandRows_ = std::clamp(kBandSurfaces / (width * perPixel), 1u, plan.frame.height);
-    const uint64_t surfaces = uint64_t(width) * bandRows_ * perPixel;
-    plan.scratchBuffer(surfaces_, "surfaces in pixels", surfaces * sizeof(gpu::PixelSurface));
+    bandRows_ = plan.frame.height;
     if (probed_) {
+        bandRows_ = std::clamp(kBandSurfaces / (width * perPixel), 1u, plan.frame.height);
+        const uint64_t surfaces = uint64_t(width) * bandRows_ * perPixel;
+        plan.scratchBuffer(count_, "number of undecided surfaces", sizeof(uint32_t));
+        plan.scratchBuffer(first_, "undecided surfaces of pixels", width * bandRows_ * sizeof(uint32_t));
+        plan.scratchBuffer(undecided_, "undecided surfaces", surfaces * sizeof(gpu::Undecided));
         plan.scratchBuffer(probes_, "rays that tell covered surfaces", surfaces * sizeof(Ray));
         plan.scratchBuffer(covered_, "covered surfaces", surfaces * sizeof(uint32_t));
     }
@@ -51,8 +59,8 @@ void GatherSurfels::prepare(PassSetup& setup) {
                                   setup.compiler.compile(file, {{"SAMPLES", std::to_string(samples_)},
                                                                 {"PROBED", probed_ ? "1" : "0"}}));
     };
-    findSurfaces_ = program("passes/gather_surfels/surfaces.comp");
     gather_ = program("passes/gather_surfels/gather.comp");
+    if (probed_) resolve_ = program("passes/gather_surfels/resolve.comp");
     sampler_ = texelSampler(setup.device);
 }
 
@@ -61,36 +69,37 @@ void GatherSurfels::record(PassContext& context) {
     const SurfaceVoxels& voxels = context.get(voxels_);
     const VoxelIrradiance& irradiance = context.get(irradiance_);
     const SurfelsByVoxel& surfels = context.get(surfels_);
-    const std::vector<Binding> bindings = voxels.bindings(
-        {{"begins", surfels.begins}, {"ends", surfels.ends}, {"SortedAt", surfels.sorted.at()}});
-    std::vector<Binding> find{{"position", gbuffer.position, sampler_},
-                              {"normal", gbuffer.normal, sampler_},
-                              {"geometricNormal", gbuffer.geometricNormal, sampler_},
-                              {"albedo", gbuffer.albedo, sampler_},
-                              {"surfaces", surfaces_}};
-    std::vector<Binding> gather{{"surfaces", surfaces_},
-                                {"VoxelFluxAt", irradiance.indirect.at()},
-                                {"voxelArea", irradiance.area},
-                                {"LightAt", context.get(light_).indirect.at()},
-                                {"result", context.get(indirect_).image}};
-    gather.insert(gather.end(), bindings.begin(), bindings.end());
-    if (probed_) {
-        find.push_back({"probes", probes_});
-        find.insert(find.end(), bindings.begin(), bindings.end());
-        gather.push_back({"covered", covered_});
-    }
+    const Image& result = context.get(indirect_).image;
+    std::vector<Binding> gather = voxels.bindings({{"position", gbuffer.position, sampler_},
+                                                   {"normal", gbuffer.normal, sampler_},
+                                                   {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                                                   {"albedo", gbuffer.albedo, sampler_},
+                                                   {"lists", surfels.lists},
+                                                   {"VoxelFluxAt", irradiance.indirect.at()},
+                                                   {"voxelArea", irradiance.area},
+                                                   {"LitAt", context.get(light_).lit.at()},
+                                                   {"result", result}});
+    if (probed_)
+        gather.insert(gather.end(),
+                      {{"count", count_}, {"surfaces", undecided_}, {"probes", probes_}, {"first", first_}});
 
     const uint32_t width = context.frame.width;
     for (uint32_t row = 0; row < context.frame.height; row += bandRows_) {
         const uint32_t rows = std::min(bandRows_, context.frame.height - row);
         const GatherPush push{voxels.grid, glm::uvec2(width, rows), row,
                               context.get(light_).relativeVariance};
-        context.stream.dispatch(findSurfaces_, find, push, pixelGroups(width, rows));
-        // Which surfaces lie in gaps narrower than a voxel.
-        if (probed_)
-            context.tracer.occluded(context.stream, probes_, covered_, width * rows * samples_ * samples_,
-                                    Coherence::Coherent);
+        if (probed_) context.stream.fill(count_, 0);
         context.stream.dispatch(gather_, gather, push, pixelGroups(width, rows));
+        if (!probed_) continue;
+
+        // Which of the surfaces that surfels of both kinds are near lie in gaps narrower than a voxel.
+        const uint32_t undecided = context.stream.readAs<uint32_t>(count_, 1)[0];
+        if (undecided == 0) continue;
+        context.tracer.occluded(context.stream, probes_, covered_, undecided, Coherence::Coherent);
+        context.stream.dispatch(
+            resolve_,
+            {{"surfaces", undecided_}, {"covered", covered_}, {"first", first_}, {"result", result}},
+            ResolvePush{push.extent, row}, pixelGroups(width, rows));
     }
 }
 

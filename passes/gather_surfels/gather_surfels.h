@@ -38,8 +38,9 @@ class GatherSurfels final : public Pass {
     Port<FrameImage> indirect_;
     bool probed_ = false;  ///< Whether covered surfaces have surfels of their own.
     uint32_t samples_ = 1, bandRows_ = 1;
-    Program findSurfaces_, gather_;
-    Buffer surfaces_, probes_, covered_;  ///< Scratch, of each surface in a band's pixels.
+    Program gather_, resolve_;
+    Buffer count_, first_;                 ///< Scratch: of undecided surfaces, in all and by pixel of a band.
+    Buffer undecided_, probes_, covered_;  ///< Scratch, of each undecided surface.
     Sampler sampler_;
 };
 

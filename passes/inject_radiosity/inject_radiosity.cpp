@@ -9,7 +9,8 @@
 namespace voxray {
 namespace {
 
-constexpr uint64_t kIrradianceBytes = 4 * sizeof(float), kRadiosityBytes = sizeof(uint32_t);
+constexpr uint64_t kIrradianceBytes = 4 * sizeof(float), kRadiosityBytes = sizeof(uint32_t),
+                   kLitBytes = 3 * sizeof(uint32_t);
 
 struct ChunkPush {
     uint32_t count;
@@ -42,8 +43,7 @@ void InjectRadiosity::plan(PassPlan& plan) {
     // A ray's is about 1.
     plan.get(surfelIrradiance_).relativeVariance = 1.0f / float(plan.get(links_).raysPerSurfel);
     if (plan.get(surfelIrradiance_).isRead)
-        plan.reserve("indirect irradiance of surfels (estimated)",
-                     plan.get(surfels_).maxCount * kRadiosityBytes);
+        plan.reserve("indirect irradiance of surfels (estimated)", plan.get(surfels_).maxCount * kLitBytes);
     plan.reserveScratch("light of surfels (estimated)",
                         plan.get(surfels_).maxCount * 2 * (kIrradianceBytes + kRadiosityBytes));
 }
@@ -121,16 +121,17 @@ void InjectRadiosity::bounce(PassContext& context, uint32_t number, const std::v
 void InjectRadiosity::keep(PassContext& context, const std::vector<ChunkLight>& light) {
     const SurfelsByVoxel& byVoxel = context.get(byVoxel_);
     SurfelIrradiance& kept = context.get(surfelIrradiance_);
-    kept.indirect = {};
-    kept.indirect = LargeBuffer(context.device, "indirect irradiance of surfels",
-                                std::max(byVoxel.slotCount, 1u) * kRadiosityBytes);
+    kept.lit = {};
+    kept.lit = LargeBuffer(context.device, "indirect irradiance of surfels",
+                           std::max(byVoxel.slotCount, 1u) * kLitBytes);
     const std::vector<Surfels::Chunk>& chunks = context.get(surfels_).chunks;
     uint32_t first = 0;
     for (size_t i = 0; i < chunks.size(); ++i) {
         context.stream.dispatch(keep_,
                                 {{"indirect", light[i].indirect},
                                  {"SlotsAt", byVoxel.slots.at()},
-                                 {"KeptAt", kept.indirect.at()}},
+                                 {"PackedAt", byVoxel.packed.at()},
+                                 {"LitAt", kept.lit.at()}},
                                 ChunkPush{chunks[i].count, first}, linearGroups(chunks[i].count));
         first += chunks[i].count;
     }

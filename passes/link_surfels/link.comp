@@ -4,7 +4,7 @@
 // Links each ray to the surfel that stands for the place where it hit.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"
-#include "shaders/surfels/sorted_surfels.h"
+#include "shaders/surfels/sorted_surfels.glsl"
 #include "shaders/surfels/surfel_bias.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/voxels/voxels.glsl"
@@ -13,10 +13,8 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 readonly buffer Covered { uint data[]; } covered;  // Of the hit: 0 where open space lies before it, as far as a voxel.
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SortedSurfels { SortedSurfel data[]; };
-layout(scalar) readonly buffer SortedAt { SortedSurfels sorted; };
-readonly buffer Begins { uint data[]; } begins;
-readonly buffer Ends { uint data[]; } ends;
+layout(scalar) readonly buffer SortedAt { SortedSurfelWords sorted; };
+readonly buffer Lists { uvec2 data[]; } lists;
 layout(scalar) readonly buffer LinksAt { LargeUints links; };
 buffer Unlinked { uint value; } unlinked;
 layout(push_constant, scalar) uniform Push {
@@ -43,8 +41,10 @@ const float OTHER_KIND = 2.0;
 void visit(ivec3 voxel, vec3 position, vec3 normal, uint kind, inout Nearest nearest) {
     const uint number = voxelNumber(push.grid, voxel);
     if (number == NO_VOXEL) return;
-    for (uint i = begins.data[number]; i < ends.data[number]; ++i) {
-        const SortedSurfel s = sorted.data[i];
+    const uvec2 slots = lists.data[number];
+    SortedSurfelWords words = sorted;  // The address is read once: no compiler takes it out of the loop.
+    for (uint i = slots.x; i < slots.y; ++i) {
+        const SortedSurfel s = sortedSurfel(words, i);
         if (dot(s.normal, normal) <= 0.0) continue;
         const vec3 away = s.position - position;
         const float d = dot(away, away) / (push.grid.voxelSize * push.grid.voxelSize) + surfelBias(position, normal, s.position, s.normal) +

@@ -11,6 +11,12 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kBatchRays = 1u << 20;
+constexpr uint64_t kPackedSurfelBytes = 2 * sizeof(uint32_t);
+
+struct PackPush {
+    gpu::VoxelGrid grid;
+    uint32_t voxels;
+};
 
 struct EmitPush {
     uint32_t firstSurfel;
@@ -45,6 +51,7 @@ void LinkSurfels::plan(PassPlan& plan) {
     const uint64_t surfels = plan.get(surfels_).maxCount, voxels = plan.get(voxels_).voxelCount;
     plan.get(links_).raysPerSurfel = params_.raysPerSurfel;
     plan.reserve("surfel links (estimated)", surfels * params_.raysPerSurfel * sizeof(uint32_t));
+    plan.reserve("packed surfels (estimated)", surfels * kPackedSurfelBytes);
     plan.scratchBuffer(rays_, "link rays", uint64_t(kBatchRays) * sizeof(Ray));
     plan.scratchBuffer(hits_, "link hits", uint64_t(kBatchRays) * sizeof(Hit));
     plan.scratchBuffer(probes_, "rays that tell covered hits", uint64_t(kBatchRays) * sizeof(Ray));
@@ -59,6 +66,7 @@ void LinkSurfels::prepare(PassSetup& setup) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file));
     };
     sort_.prepare(setup);
+    pack_ = program("passes/link_surfels/pack.comp");
     emit_ = program("passes/link_surfels/emit.comp");
     probe_ = program("passes/link_surfels/probe.comp");
     link_ = program("passes/link_surfels/link.comp");
@@ -84,6 +92,7 @@ void LinkSurfels::record(PassContext& context) {
         LargeBuffer(context.device, "surfel links", count * params_.raysPerSurfel * sizeof(uint32_t));
 
     sort_.run(context.stream, surfels, context.get(voxels_).voxelCount, context.get(byVoxel_));
+    pack(context);
     context.stream.fill(unlinked_, 0);
     uint32_t first = 0;
     for (const Surfels::Chunk& chunk : surfels.chunks) {
@@ -94,6 +103,19 @@ void LinkSurfels::record(PassContext& context) {
     context.report("links", double(count) * params_.raysPerSurfel);
     context.report("hits without surfel, % of rays",
                    100.0 * unlinked / (double(count) * params_.raysPerSurfel));
+}
+
+void LinkSurfels::pack(PassContext& context) const {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    SurfelsByVoxel& byVoxel = context.get(byVoxel_);
+    byVoxel.packed = {};
+    byVoxel.packed =
+        LargeBuffer(context.device, "packed surfels", std::max(byVoxel.slotCount, 1u) * kPackedSurfelBytes);
+    context.stream.dispatch(
+        pack_,
+        voxels.bindings(
+            {{"SortedAt", byVoxel.sorted.at()}, {"PackedAt", byVoxel.packed.at()}, {"lists", byVoxel.lists}}),
+        PackPush{voxels.grid, voxels.voxelCount}, linearGroups(voxels.voxelCount));
 }
 
 void LinkSurfels::link(PassContext& context, const Surfels::Chunk& chunk, uint32_t first,
@@ -120,8 +142,7 @@ void LinkSurfels::link(PassContext& context, const Surfels::Chunk& chunk, uint32
                                                                         {"hits", hits_},
                                                                         {"covered", covered_},
                                                                         {"SortedAt", byVoxel.sorted.at()},
-                                                                        {"begins", byVoxel.begins},
-                                                                        {"ends", byVoxel.ends},
+                                                                        {"lists", byVoxel.lists},
                                                                         {"LinksAt", links.links.at()},
                                                                         {"unlinked", unlinked_}})),
                                 LinkPush{voxels.grid, first + begin, rays, perSurfel, links.surfelCount},

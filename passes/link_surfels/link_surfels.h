@@ -34,13 +34,16 @@ class LinkSurfels final : public Pass {
     /// Traces the rays of a chunk, whose first surfel has number `first`, and links them.
     void link(PassContext& context, const Surfels::Chunk& chunk, uint32_t first, SurfelLinks& links) const;
 
+    /// What lookups read of the surfels that are sorted by voxel.
+    void pack(PassContext& context) const;
+
     Params params_;
     Port<const SurfaceVoxels> voxels_;
     Port<const Surfels> surfels_;
     Port<SurfelLinks> links_;
     Port<SurfelsByVoxel> byVoxel_;
     SurfelSort sort_;
-    Program emit_, probe_, link_;
+    Program pack_, emit_, probe_, link_;
     Buffer rays_, hits_, probes_, covered_, unlinked_;  ///< Scratch, of a batch of rays.
 };
 

@@ -11,8 +11,9 @@
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
+#include "shaders/surfels/packed_surfel.glsl"
 #include "shaders/surfels/radiosity.glsl"
-#include "shaders/surfels/sorted_surfels.h"
+#include "shaders/surfels/sorted_surfels.glsl"
 #include "shaders/surfels/surfel_bias.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
@@ -24,13 +25,11 @@ struct Surroundings {
     float ofMean;    // Variance of the mean.
 };
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SortedSurfels { SortedSurfel data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer AllSurroundings { Surroundings data[]; };
-layout(scalar) readonly buffer SortedAt { SortedSurfels sorted; };
-layout(scalar) readonly buffer LightAt { LargeUints light; };
+layout(scalar) readonly buffer SortedAt { SortedSurfelWords sorted; };
+layout(scalar) readonly buffer LitAt { LitSurfels lit; };
 layout(scalar) readonly buffer SurroundingsAt { AllSurroundings surroundings; };
-readonly buffer Begins { uint data[]; } begins;
-readonly buffer Ends { uint data[]; } ends;
+readonly buffer Lists { uvec2 data[]; } lists;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint count;
@@ -40,15 +39,16 @@ layout(push_constant, scalar) uniform Push {
 void visit(uint slot, float bias, float kernel);
 
 void around(uint slot) {
-    const SortedSurfel own = sorted.data[slot];
+    SortedSurfelWords words = sorted;  // The address is read once: no compiler takes it out of the loops.
+    const SortedSurfel own = sortedSurfel(words, slot);
     const ivec3 voxel = voxelAt(push.grid, own.position);
     const float squaredSize = push.grid.voxelSize * push.grid.voxelSize;
     for (int i = 0; i < 27; ++i) {
         const uint number = voxelNumber(push.grid, voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1);
         if (number == NO_VOXEL) continue;
-        const uint end = ends.data[number];
-        for (uint j = begins.data[number]; j < end; ++j) {
-            const SortedSurfel s = sorted.data[j];
+        const uvec2 slots = lists.data[number];
+        for (uint j = slots.x; j < slots.y; ++j) {
+            const SortedSurfel s = sortedSurfel(words, j);
             const vec3 away = s.position - own.position;
             const float squared = dot(away, away);
             if (squared >= squaredSize || dot(s.normal, own.normal) <= 0.0) continue;

@@ -8,7 +8,7 @@
 // bias²: what geometry allows the two to differ by, and what the means of their surroundings do differ by beyond their noise.
 #include "passes/smooth_surfels/around.glsl"
 
-layout(scalar) readonly buffer ResultAt { LargeUints result; };
+layout(scalar) readonly buffer ResultAt { LitSurfels result; };
 
 Surroundings own;
 vec3 sum = vec3(0.0);
@@ -20,7 +20,7 @@ void visit(uint slot, float bias, float kernel) {
     const float apart = own.mean - other.mean;
     const float bias2 = bias * mean_ * mean_ + max(apart * apart - own.ofMean - other.ofMean, 0.0);
     const float weight = kernel * (bias2 > 0.0 ? noise / max(noise + bias2, 1e-30) : 1.0);
-    sum += weight * unpackRadiosity(light.data[slot]);
+    sum += weight * unpackRadiosity(lit.data[slot].z);
     weights += weight;
 }
 
@@ -29,5 +29,5 @@ void main() {
     if (slot >= push.count) return;
     own = surroundings.data[slot];
     around(slot);
-    result.data[slot] = packRadiosity(sum / weights);
+    result.data[slot] = uvec3(lit.data[slot].xy, packRadiosity(sum / weights));
 }

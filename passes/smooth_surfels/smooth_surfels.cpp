@@ -8,7 +8,7 @@
 namespace voxray {
 namespace {
 
-constexpr uint64_t kSurroundingsBytes = 3 * sizeof(float), kLightBytes = sizeof(uint32_t);
+constexpr uint64_t kSurroundingsBytes = 3 * sizeof(float), kLitBytes = 3 * sizeof(uint32_t);
 
 struct SmoothPush {
     gpu::VoxelGrid grid;
@@ -28,8 +28,8 @@ void SmoothSurfels::declare(PassBuilder& builder) {
 void SmoothSurfels::plan(PassPlan& plan) {
     const uint64_t slots = plan.get(surfels_).maxCount;
     plan.get(smooth_).relativeVariance = plan.get(light_).relativeVariance;
-    plan.reserve("smooth irradiance of surfels (estimated)", slots * kLightBytes);
-    plan.reserveScratch("surroundings of surfels (estimated)", slots * (kSurroundingsBytes + kLightBytes));
+    plan.reserve("smooth irradiance of surfels (estimated)", slots * kLitBytes);
+    plan.reserveScratch("surroundings of surfels (estimated)", slots * (kSurroundingsBytes + kLitBytes));
 }
 
 void SmoothSurfels::prepare(PassSetup& setup) {
@@ -44,22 +44,21 @@ void SmoothSurfels::record(PassContext& context) {
     const SurfelsByVoxel& surfels = context.get(surfels_);
     const uint32_t count = surfels.slotCount;
     const uint64_t slots = std::max(count, 1u);
-    LargeBuffer& result = context.get(smooth_).indirect;
+    LargeBuffer& result = context.get(smooth_).lit;
     result = {};
-    result = LargeBuffer(context.device, "smooth irradiance of surfels", slots * kLightBytes);
-    LargeBuffer other(context.device, "irradiance one step before", slots * kLightBytes);
+    result = LargeBuffer(context.device, "smooth irradiance of surfels", slots * kLitBytes);
+    LargeBuffer other(context.device, "irradiance one step before", slots * kLitBytes);
     const LargeBuffer surroundings(context.device, "surroundings of surfels", slots * kSurroundingsBytes);
 
     const SurfaceVoxels& voxels = context.get(voxels_);
     const SmoothPush push{voxels.grid, count, context.get(light_).relativeVariance};
-    const LargeBuffer* from = &context.get(light_).indirect;
+    const LargeBuffer* from = &context.get(light_).lit;
     for (uint32_t i = 0; i < params_.iterations; ++i) {
         // The last iteration writes the result.
         LargeBuffer& to = (params_.iterations - i) % 2 == 1 ? result : other;
         std::vector<Binding> bindings = voxels.bindings({{"SortedAt", surfels.sorted.at()},
-                                                         {"begins", surfels.begins},
-                                                         {"ends", surfels.ends},
-                                                         {"LightAt", from->at()},
+                                                         {"lists", surfels.lists},
+                                                         {"LitAt", from->at()},
                                                          {"SurroundingsAt", surroundings.at()}});
         context.stream.dispatch(surroundings_, bindings, push, linearGroups(count));
         bindings.push_back({"ResultAt", to.at()});

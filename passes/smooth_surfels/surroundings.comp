@@ -6,7 +6,7 @@
 float weights = 0.0, squaredWeights = 0.0, sum = 0.0, squares = 0.0;
 
 void visit(uint slot, float bias, float kernel) {
-    const float weight = kernel * push.noise / (push.noise + bias), value = luminance(unpackRadiosity(light.data[slot]));
+    const float weight = kernel * push.noise / (push.noise + bias), value = luminance(unpackRadiosity(lit.data[slot].z));
     weights += weight;
     squaredWeights += weight * weight;
     sum += weight * value;

@@ -7,9 +7,9 @@
 
 #include "shaders/scene/scene_types.h"
 
-layout(scalar) readonly buffer ScenePositions { float data[]; } scenePositions;
+layout(scalar) readonly buffer ScenePositions { vec3 data[]; } scenePositions;
 layout(scalar) readonly buffer SceneAttributes { GpuVertexAttributes data[]; } sceneAttributes;
-layout(scalar) readonly buffer SceneTriangles { uint data[]; } sceneTriangles;
+layout(scalar) readonly buffer SceneTriangles { uvec3 data[]; } sceneTriangles;
 layout(scalar) readonly buffer SceneTriangleMaterials { uint data[]; } sceneTriangleMaterials;
 layout(scalar) readonly buffer SceneMaterials { GpuMaterial data[]; } sceneMaterials;
 layout(scalar) readonly buffer SceneLights { GpuLight data[]; } sceneLights;
@@ -17,15 +17,9 @@ layout(scalar) readonly buffer SceneEmitters { GpuEmitter data[]; } sceneEmitter
 uniform sampler2D sceneEnvironment;
 layout(set = 1) uniform sampler2D sceneTextures[];
 
-uvec3 triangleVertices(uint triangle) {
-    return uvec3(sceneTriangles.data[3 * triangle], sceneTriangles.data[3 * triangle + 1],
-                 sceneTriangles.data[3 * triangle + 2]);
-}
+uvec3 triangleVertices(uint triangle) { return sceneTriangles.data[triangle]; }
 
-vec3 vertexPosition(uint vertex) {
-    return vec3(scenePositions.data[3 * vertex], scenePositions.data[3 * vertex + 1],
-                scenePositions.data[3 * vertex + 2]);
-}
+vec3 vertexPosition(uint vertex) { return scenePositions.data[vertex]; }
 
 // A point on a triangle with everything that its material is looked up by.
 struct SurfacePoint {

@@ -220,17 +220,27 @@ double meanOfSurfels(int iterations) {
                    "link_surfels, rays_per_surfel: 8", "inject_radiosity, bounces: 3",
                    iterations > 0 ? "smooth_surfels, iterations: " + std::to_string(iterations) : ""}));
     double sum = 0;
-    const std::vector<uint32_t> words =
-        chain.read<uint32_t>(chain.graph().resource<SurfelIrradiance>("surfel_irradiance")->indirect);
-    for (const uint32_t word : words)  // Green; packed as shaders/surfels/radiosity.glsl has it.
-        sum += std::ldexp(double(word >> 8 & 255u) / 255.0, int(word >> 24) - 128);
-    return sum / double(words.size());
+    const std::vector<glm::uvec3> surfels =
+        chain.read<glm::uvec3>(chain.graph().resource<SurfelIrradiance>("surfel_irradiance")->lit);
+    for (const glm::uvec3 s : surfels)  // Green; packed as shaders/surfels/radiosity.glsl has it.
+        sum += std::ldexp(double(s.z >> 8 & 255u) / 255.0, int(s.z >> 24) - 128);
+    return sum / double(surfels.size());
 }
 
 TEST(Radiosity, SmoothSurfelsKeepEnergy) {
     const double measured = meanOfSurfels(0);
     for (const int iterations : {1, 2, 5})
         EXPECT_NEAR(meanOfSurfels(iterations) / measured, 1.0, 0.01) << iterations;
+}
+
+// An image of furniture, some of it nearer to the wall than a voxel, looked up in surfels on all sides.
+ImageF furniture(const std::string& samples, uint32_t width, uint32_t height) {
+    return Chain("clutter", "{}",
+                 graphYaml({"gbuffer, samples_per_pixel_edge: " + samples, "voxelize, resolution: 24",
+                            "place_surfels, sides: all", "link_surfels, rays_per_surfel: 16",
+                            "inject_radiosity, bounces: 2", "gather_surfels"}),
+                 width, height)
+        .image("indirect");
 }
 
 TEST(Radiosity, TwoRunsAreIdentical) {
@@ -241,6 +251,19 @@ TEST(Radiosity, TwoRunsAreIdentical) {
             .image("indirect");
     };
     EXPECT_EQ(image().data, image().data);
+    EXPECT_EQ(furniture("2", 64, 36).data, furniture("2", 64, 36).data);
+}
+
+// Which surfaces lie in narrow gaps is told for 2^19 of them at a time: the larger image takes two turns, the
+// smaller one does not.
+TEST(Radiosity, BandsOfRowsMakeOneImage) {
+    constexpr uint32_t kWidth = 96, kHeight = 120;
+    const auto many = furniture("8", kWidth, kHeight), few = furniture("2", kWidth, kHeight);
+    for (uint32_t row = 0; row < kHeight; ++row) {
+        double ofMany = 0, ofFew = 0;
+        for (uint32_t x = 0; x < kWidth; ++x) ofMany += many.pixel(x, row)[1], ofFew += few.pixel(x, row)[1];
+        EXPECT_NEAR(ofMany / ofFew, 1.0, 0.05) << row;
+    }
 }
 
 }  // namespace

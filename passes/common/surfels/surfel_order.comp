@@ -14,12 +14,14 @@ layout(scalar) readonly buffer SortedAt { SortedSurfels sorted; };
 layout(scalar) readonly buffer SlotsAt { LargeUints slots; };
 readonly buffer Begins { uint data[]; } begins;
 readonly buffer Ends { uint data[]; } ends;
+writeonly buffer Lists { uvec2 data[]; } lists;
 layout(push_constant) uniform Push { uint voxels; } push;
 
 void main() {
     const uint voxel = linearIndex();
     if (voxel >= push.voxels) return;
     const uint begin = begins.data[voxel], end = ends.data[voxel];
+    lists.data[voxel] = uvec2(begin, end);
     // By insertion: lists are short.
     for (uint i = begin; i < end; ++i) {
         const SortedSurfel s = sorted.data[i];

@@ -8,6 +8,8 @@
 namespace voxray {
 namespace {
 
+constexpr uint64_t kListBytes = 2 * sizeof(uint32_t);
+
 struct SortPush {
     uint32_t count;
     uint32_t firstNumber;
@@ -17,10 +19,10 @@ struct SortPush {
 
 void SurfelSort::plan(PassPlan& plan, const Surfels& surfels, uint64_t voxels, SurfelsByVoxel& lists) {
     lists.maxCount = surfels.maxCount;
-    plan.reserve(
-        "surfels by voxel (estimated)",
-        surfels.maxCount * (sizeof(gpu::SortedSurfel) + sizeof(uint32_t)) + 2 * voxels * sizeof(uint32_t));
-    plan.reserveScratch("counts of surfels (estimated)", PrefixSum::scratchBytes(uint32_t(voxels)));
+    plan.reserve("surfels by voxel (estimated)",
+                 surfels.maxCount * (sizeof(gpu::SortedSurfel) + sizeof(uint32_t)) + kListBytes * voxels);
+    plan.reserveScratch("counts of surfels (estimated)",
+                        2 * voxels * sizeof(uint32_t) + PrefixSum::scratchBytes(uint32_t(voxels)));
 }
 
 void SurfelSort::prepare(PassSetup& setup) {
@@ -36,32 +38,36 @@ void SurfelSort::prepare(PassSetup& setup) {
 void SurfelSort::run(CommandStream& stream, const Surfels& surfels, uint32_t voxels,
                      SurfelsByVoxel& to) const {
     Device& device = stream.device();
-    to.begins = {}, to.ends = {}, to.sorted = {}, to.slots = {};
-    to.begins = Buffer(device, "first surfel of each voxel", voxels * sizeof(uint32_t));
-    to.ends = Buffer(device, "last surfel of each voxel", voxels * sizeof(uint32_t));
-    stream.fill(to.begins, 0);
+    to.lists = {}, to.sorted = {}, to.slots = {};
+    to.lists = Buffer(device, "lists of surfels by voxel", voxels * kListBytes);
+    const Buffer begins(device, "first surfel of each voxel", voxels * sizeof(uint32_t));
+    const Buffer ends(device, "last surfel of each voxel", voxels * sizeof(uint32_t));
+    stream.fill(begins, 0);
     uint32_t count = 0;
     for (const Surfels::Chunk& chunk : surfels.chunks) {
-        stream.dispatch(count_, {{"surfels", chunk.surfels}, {"counts", to.begins}}, chunk.count,
+        stream.dispatch(count_, {{"surfels", chunk.surfels}, {"counts", begins}}, chunk.count,
                         linearGroups(chunk.count));
         count += chunk.count;
     }
-    to.slotCount = prefixSum_->run(stream, to.begins, to.begins, voxels);
-    stream.copy(to.begins, to.ends, voxels * sizeof(uint32_t));
+    to.slotCount = prefixSum_->run(stream, begins, begins, voxels);
+    stream.copy(begins, ends, voxels * sizeof(uint32_t));
     to.sorted =
         LargeBuffer(device, "surfels by voxel", std::max(to.slotCount, 1u) * sizeof(gpu::SortedSurfel));
     to.slots = LargeBuffer(device, "slots of surfels", std::max(count, 1u) * sizeof(uint32_t));
     stream.fill(to.slots, SurfelLinks::kNone);
     uint32_t first = 0;
     for (const Surfels::Chunk& chunk : surfels.chunks) {
-        stream.dispatch(sort_, {{"surfels", chunk.surfels}, {"SortedAt", to.sorted.at()}, {"ends", to.ends}},
+        stream.dispatch(sort_, {{"surfels", chunk.surfels}, {"SortedAt", to.sorted.at()}, {"ends", ends}},
                         SortPush{chunk.count, first}, linearGroups(chunk.count));
         first += chunk.count;
     }
-    stream.dispatch(
-        order_,
-        {{"SortedAt", to.sorted.at()}, {"SlotsAt", to.slots.at()}, {"begins", to.begins}, {"ends", to.ends}},
-        voxels, linearGroups(voxels));
+    stream.dispatch(order_,
+                    {{"SortedAt", to.sorted.at()},
+                     {"SlotsAt", to.slots.at()},
+                     {"begins", begins},
+                     {"ends", ends},
+                     {"lists", to.lists}},
+                    voxels, linearGroups(voxels));
     stream.finish();
 }
 
