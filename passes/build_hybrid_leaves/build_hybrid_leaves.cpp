@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.h"
-#include "passes/build_hybrid_leaves/cell_sums.h"
+#include "passes/build_hybrid_leaves/cell_size.h"
 #include "passes/build_hybrid_leaves/leaf_counts.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/triangle_walk/walk_types.h"
@@ -24,6 +23,11 @@ struct Header {
 struct LeavesPush {
     uint32_t leaves;
     uint32_t capacity;
+};
+
+struct CoarsenPush {
+    uint32_t grids;
+    uint32_t cellsPerGrid;
 };
 
 struct CornersPush {
@@ -56,32 +60,8 @@ std::vector<uint32_t> maskedTriangles(const SceneState& state) {
     return found;
 }
 
-/// What cells take and what is summed of them: more where surfaces emit light or have specular lobes.
-struct CellSize {
-    uint32_t words, sums;
-    float largestEmission;
-};
-
-CellSize cellSize(const Scene& scene) {
-    float largest = 0;
-    bool isBright = false;
-    for (const Material& material : scene.materials) {
-        for (int c = 0; c < 3; ++c) largest = std::max(largest, material.emission[c]);
-        isBright |= material.metallic > 0 || material.specular > 0;
-    }
-    return isBright || largest > 0 ? CellSize{BRIGHT_CELL_WORDS, BRIGHT_SUM_UINTS, largest}
-                                   : CellSize{GRID_CELL_WORDS, SUM_UINTS, 0};
-}
-
-uint32_t wordsPerGrid(uint32_t m) {
-    return (m * m * m + 31) / 32;
-}
-
-/// Units of area for a cell's face in 31 bits, for a cell of so many triangles: each is at most sqrt(2) faces
-/// large there and counts at least one unit. At most 2^20: an area of a millionth of a face still counts.
-float unitsPerFace(uint32_t triangles) {
-    const double room = std::ldexp(1.0, 31) / std::max(triangles, 1u) - 1;
-    return float(std::exp2(std::clamp(std::floor(std::log2(std::max(room, 1.0) / 1.5)), 0.0, 20.0)));
+uint32_t wordsPerGrid(uint32_t m, uint32_t levels) {
+    return (gridCells(m, 0, levels) + 31) / 32;
 }
 
 /// Which voxels are leaves, and `more`.
@@ -101,6 +81,11 @@ void require(uint64_t count, uint64_t limit, const char* what) {
 
 }  // namespace
 
+uint32_t BuildHybridLeaves::gridLevels() const {
+    const bool hasAll = params_.write == CellWrite::Average && params_.gridLevels == GridLevels::Footprint;
+    return hasAll ? allGridLevels(params_.grid) : 1;
+}
+
 void BuildHybridLeaves::declare(PassBuilder& builder) {
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels: the leaves");
     leaves_ = builder.write<HybridLeaves>("hybrid_leaves", "what each leaf holds");
@@ -116,12 +101,14 @@ void BuildHybridLeaves::plan(PassPlan& plan) {
     const std::string key = fmt::format("triangles of leaves {}", grid.voxelSize);
     const LeafCounts counts = plan.ofScene(key, [&] { return countLeaves(geometry, grid); });
     const uint64_t items = counts.items(params_.primitives);
-    const uint64_t grids = counts.grids(params_.primitives), gridWords = grids * wordsPerGrid(params_.grid);
+    const uint64_t grids = counts.grids(params_.primitives);
+    const uint64_t gridWords = grids * wordsPerGrid(params_.grid, gridLevels());
     require(items, kMaxListItems, "items of lists");
     require(gridWords, kMaxBoundBytes / sizeof(uint32_t) + 1, "words of grids");
     const uint64_t cells = plan.ofScene(
-        fmt::format("cells {} {} {}", key, params_.primitives, params_.grid),
-        [&] { return countGridCells(geometry, grid, counts, params_.primitives, params_.grid); });
+        fmt::format("cells {} {} {} {}", key, params_.primitives, params_.grid, gridLevels()), [&] {
+            return countGridCells(geometry, grid, counts, params_.primitives, params_.grid, gridLevels());
+        });
     require(cells, kMaxCells, "cells of grids");
 
     plan.buffer(plan.get(leaves_).header, "hybrid leaves' header", sizeof(Header));
@@ -169,6 +156,7 @@ void BuildHybridLeaves::prepare(PassSetup& setup) {
     number_ = program("passes/build_hybrid_leaves/number_leaves.comp");
     sort_ = program("passes/build_hybrid_leaves/sort_lists.comp");
     resolve_ = program("passes/build_hybrid_leaves/resolve_cells.comp");
+    coarsen_ = program("passes/build_hybrid_leaves/coarsen_cells.comp");
     enclose_ = program("passes/build_hybrid_leaves/enclose_cells.comp");
     sum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
     sumBits_.emplace(setup.device, setup.compiler, PrefixSum::Of::SetBits);
@@ -289,8 +277,9 @@ void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& vox
     leaves.primitives =
         Buffer(context.device, "lists of triangles", wordBytes(uint64_t(itemCount_) * LIST_ITEM_WORDS));
     const CellSize size = cellSize(*context.frame.scene->scene);
-    leaves.shape = {push.leaves, push.capacity,       params_.grid, wordsPerGrid(params_.grid),
-                    size.words,  size.largestEmission};
+    const uint32_t gridWords = wordsPerGrid(params_.grid, gridLevels());
+    leaves.shape = {push.leaves, push.capacity, params_.grid,        gridLevels(),
+                    gridWords,   size.words,    size.largestEmission};
     writeHeader(context, leaves);
     copyCorners(context, leaves);
 
@@ -367,9 +356,12 @@ void BuildHybridLeaves::fillGrids(PassContext& context, HybridLeaves& leaves) {
         writing.push_back({"CellSumsAt", sums.at()});
     }
     forPairs(write_, writing);
-    if (sums)
-        stream.dispatch(resolve_, {{"CellSumsAt", sums.at()}, {"hybridLeaves", leaves.header}},
-                        leaves.cellCount, linearGroups(leaves.cellCount));
+    if (sums) {
+        const std::vector<Binding> means{{"CellSumsAt", sums.at()}, {"hybridLeaves", leaves.header}};
+        stream.dispatch(resolve_, means, leaves.cellCount, linearGroups(leaves.cellCount));
+        const CoarsenPush coarser{leaves.gridCount, gridCells(params_.grid, 1, gridLevels())};
+        stream.dispatch(coarsen_, means, coarser, linearGroups(coarser.grids * coarser.cellsPerGrid));
+    }
     forPairs(enclose_, bindings);
     if (isUpdate()) kept_->cells(stream, leaves);
     stream.finish();

@@ -31,6 +31,14 @@ struct EnumNames<CellWrite> {
                                       std::pair{CellWrite::None, "none"}};
 };
 
+/// Which levels of cells grids have.
+enum class GridLevels { Finest, Footprint };
+template <>
+struct EnumNames<GridLevels> {
+    static constexpr std::array names{std::pair{GridLevels::Finest, "finest"},
+                                      std::pair{GridLevels::Footprint, "footprint"}};
+};
+
 /// Fills the leaves of the octree over surface voxels with lists of triangles, or with grids of finer voxels.
 class BuildHybridLeaves final : public Pass {
  public:
@@ -48,6 +56,7 @@ class BuildHybridLeaves final : public Pass {
         uint32_t grid = 16;
         LeafLists lists = LeafLists::Exact;
         CellWrite write = CellWrite::Average;
+        GridLevels gridLevels = GridLevels::Finest;
         static constexpr auto schema() {
             return std::tuple{
                 field("primitives", &Params::primitives,
@@ -65,7 +74,13 @@ class BuildHybridLeaves final : public Pass {
                 field(
                     "write", &Params::write,
                     "average: a cell is the mean of its surfaces, weighted by area. none: the last one that "
-                    "is written, which changes from run to run (Seok 2021, section 3.2).")};
+                    "is written, which changes from run to run (Seok 2021, section 3.2)."),
+                field("grid_levels", &Params::gridLevels,
+                      "finest: every ray meets cells of 1/m of the leaf's edge. footprint: grids also have "
+                      "cells of twice "
+                      "the edge, and so on up to half the leaf; a ray meets the largest that are not wider "
+                      "than it is.")
+                    .onlyWith(oneOf(&Params::write, {CellWrite::Average}))};
         }
     };
 
@@ -95,12 +110,15 @@ class BuildHybridLeaves final : public Pass {
     void fillGrids(PassContext& context, HybridLeaves& leaves);
     void writeHeader(PassContext& context, HybridLeaves& leaves) const;
 
+    /// Levels of each grid.
+    uint32_t gridLevels() const;
+
     Params params_;
     Port<const SurfaceVoxels> voxels_;
     Port<HybridLeaves> leaves_;
     std::unique_ptr<TriangleWalk> walk_;
     Program markLeaves_, count_, size_, number_, fill_, copyCorners_, sort_, mark_, write_, resolve_,
-        enclose_;
+        coarsen_, enclose_;
     std::optional<PrefixSum> sum_, sumBits_;
     std::optional<KeptLeaves> kept_;  ///< Where surfaces move.
     RegionMerge merge_;

@@ -24,7 +24,7 @@ vec3 fromCellCenter(TriangleFragment cell, vec3 permuted) {
 // False where the alpha mask cuts all of it away. Area and centroid are as in clipFragment(); sub-samples, which cost most there, are
 // taken of masked triangles alone.
 bool cellSurface(TriangleFragment cell, out CellSurface s) {
-    s.number = gridCellNumber(gridBit(cellGrid, cell.voxel));
+    s.number = gridCellNumber(gridBit(gridLevel(cellGrid, 0u), cell.voxel));
     if (s.number == NO_CELL) return false;
     const GridTriangle t = cell.permutedTriangle;
     vec2 center;

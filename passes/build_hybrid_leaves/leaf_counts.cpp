@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "passes/common/hybrid_leaves/hybrid_leaves.h"
 #include "passes/common/voxels/triangle_voxels.h"
-#include "shaders/hybrid_leaves/hybrid_types.h"
 
 namespace voxray {
 namespace {
@@ -60,11 +60,11 @@ LeafCounts countLeaves(const Geometry& geometry, const gpu::VoxelGrid& grid) {
 }
 
 uint64_t countGridCells(const Geometry& geometry, const gpu::VoxelGrid& grid, const LeafCounts& counts,
-                        uint32_t capacity, uint32_t m) {
+                        uint32_t capacity, uint32_t m, uint32_t levels) {
     std::vector<uint32_t> grids;
     for (size_t i = 0; i < counts.voxels.size(); ++i)
         if (counts.triangles[i] > capacity) grids.push_back(counts.voxels[i]);
-    const size_t cellsOfGrid = size_t(m) * m * m;
+    const size_t cellsOfGrid = gridCells(m, 0, levels);
     const auto countOf = [&](bool moving) {
         const std::vector<uint32_t> weight = weights(geometry);
         std::vector<bool> marked(grids.size() * cellsOfGrid);
@@ -77,8 +77,13 @@ uint64_t countGridCells(const Geometry& geometry, const gpu::VoxelGrid& grid, co
                 const size_t first = size_t(found - grids.begin()) * cellsOfGrid;
                 std::array<glm::dvec3, 3> inCells;
                 for (size_t k = 0; k < 3; ++k) inCells[k] = (corners[k] - glm::dvec3(voxel)) * double(m);
-                visitVoxels(glm::uvec3(m), inCells, kMargin, [&](glm::ivec3 cell) {
-                    marked[first + size_t(cell.x) + m * (size_t(cell.y) + m * size_t(cell.z))] = true;
+                visitVoxels(glm::uvec3(m), inCells, kMargin, [&](glm::ivec3 finest) {
+                    for (uint32_t level = 0; level < levels; ++level) {
+                        const glm::uvec3 cell = glm::uvec3(finest) >> level;
+                        const size_t edge = GRID_EDGE(m, level);
+                        marked[first + gridCells(m, 0, level) + cell.x + edge * (cell.y + edge * cell.z)] =
+                            true;
+                    }
                 });
             });
         }

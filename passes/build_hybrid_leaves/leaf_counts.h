@@ -24,9 +24,9 @@ struct LeafCounts {
 };
 LeafCounts countLeaves(const Geometry& geometry, const gpu::VoxelGrid& grid);
 
-/// Cells that are not empty in the grids, m³ cells each, of the leaves that hold more than `capacity`
-/// triangles: an upper bound likewise. Takes a bit for each cell.
+/// Cells that are not empty in the grids of the leaves that hold more than `capacity` triangles, m³ cells
+/// each and their first `levels` levels: an upper bound likewise. Takes a bit for each cell.
 uint64_t countGridCells(const Geometry& geometry, const gpu::VoxelGrid& grid, const LeafCounts& counts,
-                        uint32_t capacity, uint32_t m);
+                        uint32_t capacity, uint32_t m, uint32_t levels);
 
 }  // namespace voxray

@@ -6,7 +6,6 @@
 #include "shaders/scene/lobe_ray.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const bool kWidens = false;  // Else rays through hybrid leaves stay rays, however wide.
 
 uniform sampler2D position;
 uniform sampler2D normal;
@@ -66,6 +65,6 @@ void main() {
     paths.data[i] = MirrorPath(throughput, slot, texelSpread * length(away), spread, isMirror(s) ? 1u : 0u);
     rays.data[i] = isLost ? kNoRay : Ray(p + side * surfaceOffset(p), 0.0, ray.direction, 1.0e30);
 #ifdef HYBRID
-    starts.data[i] = kWidens ? RayStart(side, paths.data[i].width, paths.data[i].spread) : RayStart(side, 0.0, 0.0);
+    starts.data[i] = RayStart(side, paths.data[i].width, paths.data[i].spread);
 #endif
 }

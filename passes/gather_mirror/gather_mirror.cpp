@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
@@ -29,7 +30,6 @@ struct ShadePush {
     uint32_t count;
     uint32_t depth;
     uint32_t isLast;
-    float cellSize;
 };
 
 /// As in shade.comp.
@@ -122,8 +122,8 @@ void GatherMirror::prepare(PassSetup& setup) {
     };
     if (hybrid_) hybrid_->prepare(setup.device, setup.compiler);
     mark_ = program("passes/gather_mirror/mark.comp", {});
-    begin_ = program("passes/gather_mirror/begin.comp", {{0, widens()}});
-    shade_ = program("passes/gather_mirror/shade.comp", {{0, shadowRays()}, {1, widens()}});
+    begin_ = program("passes/gather_mirror/begin.comp", {});
+    shade_ = program("passes/gather_mirror/shade.comp", {{0, shadowRays()}});
     if (widens())
         wide_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/gather_mirror/wide.comp",
                                                                         setup.get(radiance_).defines()));
@@ -163,7 +163,11 @@ void GatherMirror::record(PassContext& context) {
     const uint32_t perBatch = batchPixels(frame, samples, params_.rays);
     gpu::MirrorBatch batch = firstBatch(frame, samples, context.frameIndex);
     triangleHits_ = cellHits_ = wideRays_ = misses_ = 0;
-    if (hybrid_) hybrid_->begin(context.stream, context.scene, context.get(voxels_), context.get(leaves_));
+    if (hybrid_) {
+        const SurfaceVoxels& voxels = context.get(voxels_);
+        const float widest = widens() ? voxels.grid.voxelSize : std::numeric_limits<float>::infinity();
+        hybrid_->begin(context.stream, context.scene, voxels, context.get(leaves_), widest);
+    }
     for (uint32_t first = 0; first < pixels; first += perBatch) {
         batch.firstPixel = first;
         batch.pixels = std::min(perBatch, pixels - first);
@@ -255,15 +259,12 @@ uint32_t GatherMirror::end(PassContext& context, const gpu::MirrorBatch& batch, 
                                                             {"light", light_},
                                                             {"counts", counts_}});
     const SurfaceVoxels& voxels = context.get(voxels_);
-    float cellSize = 0;
     if (hybrid_) {
-        const HybridLeaves& leaves = context.get(leaves_);
-        for (const Binding& binding : leaves.bindings()) bindings.push_back(binding);
+        for (const Binding& binding : context.get(leaves_).bindings()) bindings.push_back(binding);
         bindings.emplace_back("nextStarts", starts_[(depth + 1) % 2]);
-        cellSize = voxels.grid.voxelSize / float(std::max(leaves.shape.gridResolution, 1u));
     }
     const uint32_t isLast = depth + 1 == params_.bounces ? 1 : 0;
-    stream.dispatch(shade_, voxels.bindings(bindings), ShadePush{batch, count, depth, isLast, cellSize},
+    stream.dispatch(shade_, voxels.bindings(bindings), ShadePush{batch, count, depth, isLast},
                     linearGroups(count));
     const Counts counts = stream.readAs<Counts>(counts_, 1)[0];
     triangleHits_ += counts.triangles;

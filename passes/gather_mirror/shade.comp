@@ -10,7 +10,6 @@
 #include "shaders/voxels/face_irradiance.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kShadowRays = false;  // Voxels hold indirect light alone; direct light is measured.
-layout(constant_id = 1) const bool kWidens = false;      // As in begin.comp.
 
 layout(scalar) readonly buffer Grid { VoxelGrid data; } grid;
 layout(scalar) readonly buffer Paths { MirrorPath data[]; } paths;
@@ -31,7 +30,6 @@ layout(push_constant, scalar) uniform Push {
     uint count;
     uint depth;   // Reflections before these rays, less one.
     uint isLast;  // 1: mirrors send nothing on.
-    float cellSize;  // m: edge of a grid's cells.
 } push;
 
 // Emitted light by one reflection is direct light, as in the reference.
@@ -74,7 +72,7 @@ void main() {
         atomicAdd(counts.cells, 1u);
         noteEnd(path, ENDS_ON_CELL);
         surfaceOfCell(hit, ray, at);
-        clearance = push.cellSize;
+        clearance = hit.u;  // The cell's edge.
     } else
 #endif
     {
@@ -108,6 +106,6 @@ void main() {
     nextPaths.data[next] = MirrorPath(throughput, path.slot, width, spread, 1u);
     nextRays.data[next] = Ray(at.position + at.faceNormal * surfaceOffset(at.position), 0.0, on.direction, 1.0e30);
 #ifdef HYBRID
-    nextStarts.data[next] = kWidens ? RayStart(at.faceNormal, width, spread) : RayStart(at.faceNormal, 0.0, 0.0);
+    nextStarts.data[next] = RayStart(at.faceNormal, width, spread);
 #endif
 }

@@ -30,16 +30,17 @@ void storeGridCell(uint number, GridCell c) {
     hybridLeaves.cells.data[at + 2u] = distance_ | reach << 24;
 }
 
-GridCell gridCell(uint number) {
-    const uint at = number * hybridLeaves.shape.cellWords, albedo = hybridLeaves.cells.data[at + 1u];
-    const uint rest = hybridLeaves.cells.data[at + 2u];
+// The cell whose first word is `at`.
+GridCell gridCellAt(LargeUints cells, uint at) {
+    const uint albedo = cells.data[at + 1u], rest = cells.data[at + 2u];
     GridCell c;
-    c.normal = fromOctahedral(hybridLeaves.cells.data[at]);
+    c.normal = fromOctahedral(cells.data[at]);
     c.distance_ = (float(rest & DISTANCE_UNITS) / float(DISTANCE_UNITS) - 0.5) * CELL_DIAGONALS;
     c.albedo = vec3(albedo & 2047u, albedo >> 11 & 2047u, albedo >> 22) / vec3(2047.0, 2047.0, 1023.0);
     c.reach = float(rest >> 24) / 255.0 * CELL_DIAGONALS;
     return c;
 }
+GridCell gridCell(uint number) { return gridCellAt(hybridLeaves.cells, number * hybridLeaves.shape.cellWords); }
 
 // Lets a cell reach as far as `reach` from its plane: rounded up, and a unit more, since the normal and walks are
 // rounded, too.

@@ -23,10 +23,13 @@
 #define LEAF_BOX_STEPS 32
 #define LEAF_BOX_MARGIN 0.015625
 
-// Hit::triangle of a ray through hybrid leaves: a triangle's number; or, with this bit, the number of a grid's cell; or NO_HIT; or
-// this, where the ray has become wider than a voxel, at Hit::t.
+// Hit::triangle of a ray through hybrid leaves: a triangle's number; or, with this bit, the number of a grid's cell, whose edge in m
+// is Hit::u; or NO_HIT; or HIT_IS_WIDE, where the ray has become wider than it may, at Hit::t.
 #define HIT_IS_CELL 0x80000000u
 #define HIT_IS_WIDE 0xfffffffeu
+
+// A grid has levels of cells: the finest with m cells along an edge, each other one with half as many, rounded up, of twice the edge.
+#define GRID_EDGE(m, level) (((m) + (1u << (level)) - 1u) >> (level))
 
 // Words of a grid's cell: its plane and its albedo; then, where the scene has such surfaces, what they emit and their specular lobe.
 #define GRID_CELL_WORDS 3u
@@ -38,8 +41,9 @@ VOXRAY_SHARED_BEGIN
 struct HybridShape {
     uint leaves;          // As many as surface voxels, and in their order.
     uint capacity;        // Triangles of a list, at most.
-    uint gridResolution;  // Cells along an edge of a leaf's grid; 0 where no leaf has one.
-    uint wordsPerGrid;    // Bits of a grid's cells, in words.
+    uint gridResolution;  // Cells along an edge of a leaf's grid.
+    uint gridLevels;      // Of cells; 1: the finest alone.
+    uint wordsPerGrid;    // Bits of a grid's cells of all levels, in words.
     uint cellWords;       // GRID_CELL_WORDS or BRIGHT_CELL_WORDS.
     float largestEmission;  // W/(m² sr): the largest channel that any surface emits.
 };

@@ -54,11 +54,19 @@ void meetList(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float begin,
 // The closest of the cells of a leaf's grid on the part [begin, end] of a ray (Amanatides and Woo 1987; Seok 2021, figure 15). A ray
 // meets a cell where it passes between the two planes that enclose the cell's surfaces, at the plane half way or as near to it as it
 // comes within the cell. So a flat surface is as thin as it is, no surface is missed, and rays past an edge go on. Cells are passed
-// over where they hold the surface that the ray leaves.
+// over where they hold the surface that the ray leaves. They are of the coarsest level whose cells are not wider than the ray where
+// it comes to the grid; of the finest for a narrower ray.
 void meetGrid(VoxelGrid g, vec3 origin, vec3 direction, float begin, float end, ivec3 voxel, uint grid, RayStart start,
               inout Hit best) {
-    const int m = int(hybridLeaves.shape.gridResolution);
-    const float width = g.voxelSize / float(m);
+    // Read once: no compiler takes them out of the loop
+    LargeUints bits = hybridLeaves.gridBits, ranks = hybridLeaves.gridRanks, cells = hybridLeaves.cells;
+    const uint cellWords = hybridLeaves.shape.cellWords;
+
+    const float finest = g.voxelSize / float(hybridLeaves.shape.gridResolution), ray = abs(start.width + start.spread * begin);
+    const uint doublings = min(uint(log2(max(ray / finest, 1.0))), hybridLeaves.shape.gridLevels - 1u);
+    const GridLevel level = gridLevel(grid, doublings);
+    const int edge = int(level.edge);
+    const float width = finest * float(1u << doublings);
     const vec3 from = (origin - (g.origin + vec3(voxel) * g.voxelSize)) / width, way = direction / width;
     const bvec3 isDown = lessThan(way, vec3(0.0)), isLevel = equal(way, vec3(0.0));
     const ivec3 next = mix(ivec3(1), ivec3(-1), isDown);
@@ -67,38 +75,38 @@ void meetGrid(VoxelGrid g, vec3 origin, vec3 direction, float begin, float end, 
     // a voxel
     const float widest = width * (1.0 + VOXEL_MARGIN) + g.voxelSize * 4.0 / float(MARCH_UNITS);
     const float rise = dot(start.normal, direction), reach = dot(abs(start.normal), vec3(1.0)) * widest;
-    ivec3 cell = clamp(ivec3(floor(from + begin * way)), ivec3(0), ivec3(m - 1));
+    ivec3 cell = clamp(ivec3(floor(from + begin * way)), ivec3(0), ivec3(edge - 1));
     float enters = begin;
-    for (int i = 0; i < 3 * m && enters <= min(end, best.t); ++i) {
+    for (int i = 0; i < 3 * edge && enters <= min(end, best.t); ++i) {
         const vec3 planes = vec3(cell) + mix(vec3(1.0), vec3(0.0), isDown);
         const vec3 parts = mix((planes - from) / way, vec3(1.0e30), isLevel);
         const float leaves = min(parts.x, min(parts.y, parts.z));
         ++marchSteps;
         ++marchVisits;
-        const uint number = gridCellNumber(gridBit(grid, cell));
+        const uint number = gridCellNumber(bits, ranks, gridBit(level, cell));
         const bool isOwn = start.normal != vec3(0.0) && enters * rise < reach;
         if (number != NO_CELL && !isOwn) {
-            const GridCell c = gridCell(number);
+            const GridCell c = gridCellAt(cells, number * cellWords);
             const float slope = dot(c.normal, way);
             const float onPlane = (c.distance_ - dot(c.normal, from - (vec3(cell) + 0.5))) / slope;
             const float t = slope == 0.0 ? enters : clamp(onPlane, enters, max(leaves, enters));
             const float height = dot(c.normal, from + t * way - (vec3(cell) + 0.5)) - c.distance_;
             // A triangle of another leaf that the ray meets within the cell is closer to the truth.
             const bool isTriangle = best.triangle < HIT_IS_CELL && best.t <= leaves;
-            if (t < best.t && abs(height) <= c.reach && !isTriangle) best = Hit(t, HIT_IS_CELL | number, 0.0, 0.0);
+            if (t < best.t && abs(height) <= c.reach && !isTriangle) best = Hit(t, HIT_IS_CELL | number, width, 0.0);
         }
         const int axis = parts.x <= parts.y && parts.x <= parts.z ? 0 : parts.y <= parts.z ? 1 : 2;
         cell[axis] += next[axis];
-        if (cell[axis] < 0 || cell[axis] >= m) return;
+        if (cell[axis] < 0 || cell[axis] >= edge) return;
         enters = max(enters, leaves);
     }
 }
 
 // The closest surface on a ray from `origin` (m) between tMin and tMax, which may be infinite; t counts in multiples of `direction`.
 // Hit::triangle tells what it is (shaders/hybrid_leaves/hybrid_types.h), Hit::t is tMax where it is NO_HIT. `start`: what the ray
-// leaves behind, RayStart(vec3(0.0), 0.0, 0.0) for a bare ray. Where the ray has become wider than a voxel and has met nothing,
+// leaves behind, RayStart(vec3(0.0), 0.0, 0.0) for a bare ray. Where the ray has become wider than `widest` (m) and has met nothing,
 // HIT_IS_WIDE: from there on cones go on through the octree's levels (section 4: "when the cone is large").
-Hit hybridClosest(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float tMax, RayStart start) {
+Hit hybridClosest(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float tMax, RayStart start, float widest) {
     Hit best = Hit(tMax, NO_HIT, 0.0, 0.0);
     float from = tMin, to = tMax;
     VoxelSegment s;
@@ -113,7 +121,7 @@ Hit hybridClosest(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float tM
         const vec3 entries = mix(partsTo(s, unitsTo(s, at)), vec3(0.0), equal(s.run, vec3(0.0)));
         const float enters = from + clamp(max(entries.x, max(entries.y, entries.z)), 0.0, 1.0) * (to - from);
         if (best.t < enters - rounding) break;
-        if (start.width + start.spread * enters > g.voxelSize) {
+        if (start.width + start.spread * enters > widest) {
             best = Hit(enters, HIT_IS_WIDE, 0.0, 0.0);
             break;
         }

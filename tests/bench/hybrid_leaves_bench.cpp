@@ -47,6 +47,26 @@ std::vector<Ray> mirrorRays(CommandStream& stream, RayTracer& tracer, const Scen
     return reflected;
 }
 
+/// Rays by the octant of their direction, then along a Morton curve by their origin.
+std::vector<Ray> sorted(const std::vector<Ray>& rays, const Geometry& geometry) {
+    const glm::vec3 scale = 1023.0f / (geometry.boundsMax - geometry.boundsMin);
+    std::vector<std::pair<uint64_t, size_t>> keys;
+    for (size_t i = 0; i < rays.size(); ++i) {
+        const glm::uvec3 cell(
+            glm::clamp((rays[i].origin - geometry.boundsMin) * scale, glm::vec3(0), glm::vec3(1023)));
+        uint64_t key = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            key |= uint64_t(rays[i].direction[axis] < 0) << (30 + axis);
+            for (int bit = 0; bit < 10; ++bit) key |= uint64_t(cell[axis] >> bit & 1u) << (3 * bit + axis);
+        }
+        keys.emplace_back(key, i);
+    }
+    std::ranges::sort(keys);
+    std::vector<Ray> result;
+    for (const auto& [key, i] : keys) result.push_back(rays[i]);
+    return result;
+}
+
 /// The scene of a config in configs/papers/seok2021/ at 256³; `more`: passes after voxelization. One is kept
 /// at a time.
 test::Chain& mirrorScene(const std::string& config, const std::string& more) {
@@ -72,10 +92,10 @@ test::Chain& mirrorScene(const std::string& config, const std::string& more) {
     return *chains[more];
 }
 
-/// Reflected rays through a scene's leaves by both walks, and by the ray tracers, one after another in each
-/// iteration: rays a second of CPU time; steps, visits and tests of triangles a ray; the rays that meet a
-/// cell; those that meet another triangle than Embree's, of those that meet a triangle; memory by kind, and
-/// the build's time.
+/// Reflected rays through a scene's leaves by both walks, by `hierarchical` also sorted on the host (which is
+/// not counted), and by the ray tracers, one after another in each iteration: rays a second of CPU time;
+/// steps, visits and tests of triangles a ray; the rays that meet a cell; those that meet another triangle
+/// than Embree's, of those that meet a triangle; memory by kind, and the build's time.
 void hybridLeaves(benchmark::State& state, const std::string& config) {
     test::Chain& without = mirrorScene(config, "");
     test::Chain& chain =
@@ -121,22 +141,31 @@ void hybridLeaves(benchmark::State& state, const std::string& config) {
                              makeRayTracer(TracerKind::RayQuery, test::device(), compiler, chain.state()));
 
     const Buffer in(test::device(), "rays", rays.size() * sizeof(Ray));
+    const Buffer inSorted(test::device(), "sorted rays", in.bytes());
     const Buffer out(test::device(), "hits", rays.size() * sizeof(Hit));
     stream.upload(in, rays);
-    std::vector<double> seconds(tracers.size(), 0);
-    for (size_t i = 0; i < tracers.size(); ++i)
-        tracers[i].second->closestHit(stream, in, out, uint32_t(rays.size()));
+    stream.upload(inSorted, sorted(rays, chain.state().geometry));
+    struct Measured {
+        std::string name;
+        RayTracer* tracer;
+        const Buffer* rays;
+        double seconds = 0;
+    };
+    std::vector<Measured> all;
+    for (const auto& [name, tracer] : tracers) all.push_back({name, tracer.get(), &in});
+    all.push_back({"hierarchical_sorted", tracers[0].second.get(), &inSorted});
+    for (Measured& m : all) m.tracer->closestHit(stream, *m.rays, out, uint32_t(rays.size()));
     stream.finish();
     for (auto _ : state)
-        for (size_t i = 0; i < tracers.size(); ++i) {
+        for (Measured& m : all) {
             const double begin = cpuSeconds();
-            tracers[i].second->closestHit(stream, in, out, uint32_t(rays.size()));
+            m.tracer->closestHit(stream, *m.rays, out, uint32_t(rays.size()));
             stream.finish();
-            seconds[i] += cpuSeconds() - begin;
+            m.seconds += cpuSeconds() - begin;
         }
-    for (size_t i = 0; i < tracers.size(); ++i)
-        state.counters[tracers[i].first + "_Mrays_s"] = double(state.iterations()) * count / 1e6 / seconds[i];
-    state.counters["hierarchical_over_voxel_by_voxel"] = seconds[1] / seconds[0];
+    for (const Measured& m : all)
+        state.counters[m.name + "_Mrays_s"] = double(state.iterations()) * count / 1e6 / m.seconds;
+    state.counters["hierarchical_over_voxel_by_voxel"] = all[1].seconds / all[0].seconds;
     const auto build = [](test::Chain& built) {
         const double begin = cpuSeconds();
         built.rebuild();

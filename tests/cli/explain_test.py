@@ -74,8 +74,8 @@ class Usage(CommandTest):
             self.assertIn(f"explained-{name}", listed)
 
     def test_what_has_no_counterpart_is_refused(self):
-        self.write("room.yaml", CONFIG.replace("  - {pass: gather_rays, id: indirect}", "  - {pass: gather_rays, id: indirect}\n  - {pass: gather_mirror}"))
-        self.assertIn("room.yaml:15: 'gather_mirror' has no exact counterpart", self.expect(2, "explain", "room.yaml").stderr)
+        self.write("room.yaml", CONFIG.replace("  - {pass: gather_rays, id: indirect}", "  - {pass: gather_rays, id: indirect}\n  - {pass: accumulate}"))
+        self.assertIn("room.yaml:15: 'accumulate' has no exact counterpart", self.expect(2, "explain", "room.yaml").stderr)
         self.assertIn("did you mean 'explain'", self.expect(2, "explian", "room.yaml").stderr)
 
 

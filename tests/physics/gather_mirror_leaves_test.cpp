@@ -88,6 +88,26 @@ TEST(GatherMirror, WideRaysGoOnAsCones) {
     EXPECT_GT(wide, triangles);
 }
 
+TEST(GatherMirror, WideRaysMeetCoarserCells) {
+    // What a glossy wall shows in grids: the same light by cells as wide as its rays as by the finest.
+    const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}, 0.3f));
+    Chain reference(state, graphYaml({"path_trace, spp: 512, bounces: 1"}), 32, 32, 1);
+    const ImageF expected = reference.image("indirect");
+    std::vector<ImageF> images;
+    for (const std::string levels : {"finest", "footprint"}) {
+        Chain chain(state,
+                    roomGraph("max_roughness: 1, rays: 4, bounces: 1, walk: hierarchical",
+                              {"build_hybrid_leaves, primitives: 1, grid: 16, grid_levels: " + levels}, "16"),
+                    32, 32, 1);
+        const auto [difference, ratio] = errorAt(chain, "indirect", expected, -0.999f);
+        std::printf("%s: %.4f, ratio %.4f\n", levels.c_str(), difference, ratio);
+        EXPECT_NEAR(ratio, 1.0, 0.05) << levels;
+        EXPECT_LT(difference, 0.2) << levels;  // Noise of four rays.
+        images.push_back(chain.image("indirect"));
+    }
+    EXPECT_NE(images[0].data, images[1].data);
+}
+
 TEST(GatherMirror, TellsWhatRaysEndedOn) {
     // Parts of a pixel's rays, one a pixel here: their sums are what values.csv counts.
     Chain chain(wallRoom(metal({0.9f, 0.5f, 0.2f})),

@@ -143,6 +143,65 @@ TEST(GatherMirror, ShowsTheBuiltInMirrorsAsTheReferenceDoes) {
     }
 }
 
+/// wallRoom with a lamp behind the camera in place of the point light.
+State lampRoom(const Material& wall) {
+    SceneBuilder b("lamp");
+    const uint32_t white = b.lambert("white", glm::vec3(0.7f)), red = b.lambert("red", {0.7f, 0.2f, 0.1f});
+    b.room({-1, 0, -1}, {1, 2, 1}, {red, white, white, white, b.material(wall), white});
+    b.box("box", {0.3f, 0, 0}, {0.5f, 0.7f, 0.5f}, 0.3f, red);
+    b.quad("lamp", {-0.9f, 1.3f, 0.99f}, {0, 0.6f, 0}, {1.8f, 0, 0},
+           b.lambert("lamp", glm::vec3(0.7f), {10, 8, 5}));
+    b.camera({-0.2f, 1, 0.9f}, {0, 0.9f, -1}, 70);
+    return evaluated(b);
+}
+
+/// What the built-in mirror shows of the lamp at the ceiling, from near.
+State lampInMirrorRoom() {
+    auto state = std::make_shared<SceneState>(
+        evaluate(makeBuiltinScene("mirror_room", parseYaml("{count: 3}", "scene")), 0.0));
+    SceneBuilder b("view");
+    b.camera({0, 1.2f, 1.9f}, {0, 2.49f, -4}, 12);
+    state->cameras = evaluate(b.finish(), 0.0).cameras;
+    return state;
+}
+
+TEST(GatherMirror, DirectAndFinalLightAreTheReferences) {
+    // Who brings what (docs/mirrors.md): a lamp in a perfect mirror, and on a glossy wall, is direct light.
+    // No lamp is in the camera's view.
+    struct View {
+        const char* name;
+        State state;
+        float wall;  ///< Surfaces at a lower z are the mirror.
+        std::string mirror;
+    };
+    const glm::vec3 gold(0.9f, 0.8f, 0.6f);
+    for (const View& view :
+         {View{"mirror_room", lampInMirrorRoom(), -1.999f, "rays: 1"},
+          View{"mirror", lampRoom(metal(gold)), -0.999f, "rays: 1"},
+          View{"glossy", lampRoom(metal(gold, 0.3f)), -0.999f, "max_roughness: 1, rays: 4"}}) {
+        Chain reference(view.state, graphYaml({"path_trace, spp: 1024, bounces: 1"}), 32, 32, 1);
+        Chain chain(view.state,
+                    graphYaml({"gbuffer, samples_per_pixel_edge: 8", "voxelize, resolution: 16",
+                               "inject_light_rays, bounces: 0", "direct_shadow_rays, light_samples: 16",
+                               "gather_mirror, bounces: 1, light_samples: 16, " + view.mirror, "composite"}),
+                    32, 32, 1);
+        const ImageF whole = reference.image("final"), indirect = reference.image("indirect");
+        ImageF direct = whole;
+        for (size_t i = 0; i < direct.data.size(); ++i) direct.data[i] -= indirect.data[i];
+        const auto check = [&](const char* port, const ImageF& expected, float depth, double noise) {
+            const auto [difference, ratio] = errorAt(chain, port, expected, depth);
+            std::printf("%s, %s up to %g: %.4f, ratio %.4f\n", view.name, port, double(depth), difference,
+                        ratio);
+            EXPECT_NEAR(ratio, 1.0, 0.02) << view.name << " " << port;
+            EXPECT_LT(difference, noise) << view.name << " " << port;
+        };
+        check("direct", direct, view.wall, 0.05);
+        check("direct", direct, 1e9f, 0.05);
+        check("indirect", indirect, view.wall, 0.1);  // Walls next to the lamp are noisy in both.
+        check("final", whole, view.wall, 0.05);
+    }
+}
+
 TEST(GatherMirror, VarnishTakesFromTheDiffuseLobe) {
     // A mirror over a red wall: what the mirror reflects is missing below it.
     Material varnish = metal({0.8f, 0.2f, 0.1f});

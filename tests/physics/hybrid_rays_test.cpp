@@ -167,7 +167,7 @@ TEST(HybridRays, RaysWiderThanAVoxelEnd) {
     const std::vector<Hit> bare = hybrid.closest(HybridWalk::Hierarchical, rays);
     const float spread = 0.1f, voxel = hybrid.voxels().grid.voxelSize;
     const std::vector<Hit> wide =
-        hybrid.closest(HybridWalk::Hierarchical, rays, gpu::RayStart{glm::vec3(0), 0, spread});
+        hybrid.closest(HybridWalk::Hierarchical, rays, gpu::RayStart{glm::vec3(0), 0, spread}, voxel);
     size_t ended = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
         if (wide[i].triangle != HIT_IS_WIDE) {

@@ -42,12 +42,12 @@ class Hybrid {
     const HybridLeaves& leaves() const { return *chain_.graph().resource<HybridLeaves>("hybrid_leaves"); }
     Chain& chain() { return chain_; }
 
-    /// @param start what all rays leave behind.
+    /// @param start what all rays leave behind. @param widest m, beyond which rays end.
     std::vector<Hit> closest(HybridWalk walk, const std::vector<Ray>& rays,
-                             const std::optional<gpu::RayStart>& start = {}) {
+                             const std::optional<gpu::RayStart>& start = {}, float widest = kInfinity) {
         HybridTracer tracer(walk);
         prepare(tracer, voxels(), compiler_);
-        tracer.begin(stream_, scene_, voxels(), leaves());
+        tracer.begin(stream_, scene_, voxels(), leaves(), widest);
         const std::vector<Hit> hits = start ? closestFrom(tracer, rays, *start) : closest(tracer, rays);
         counts = stream_.readAs<uint64_t>(tracer.counts(), 2);
         tests = stream_.readAs<uint64_t>(tracer.testCounts(), 1)[0];
@@ -121,6 +121,26 @@ inline double differing(const std::vector<Hit>& expected, const std::vector<Hit>
 
 inline bool isCell(const Hit& hit) {
     return hit.triangle != Hit::kMiss && hit.triangle >= HIT_IS_CELL;
+}
+
+/// What a grid's cell holds.
+struct CellValue {
+    glm::vec3 normal, albedo;
+};
+
+/// As in shaders/hybrid_leaves/grid_cell.glsl.
+inline CellValue unpackCell(const uint32_t* words) {
+    const auto snorm = [](uint32_t bits) { return std::max(float(int16_t(bits)) / 32767.0f, -1.0f); };
+    glm::vec3 n(snorm(words[0] & 0xffffu), snorm(words[0] >> 16), 0);
+    n.z = 1 - std::abs(n.x) - std::abs(n.y);
+    if (n.z < 0) {
+        const glm::vec2 folded = 1.0f - glm::abs(glm::vec2(n.y, n.x));
+        n.x = n.x >= 0 ? folded.x : -folded.x;
+        n.y = n.y >= 0 ? folded.y : -folded.y;
+    }
+    const uint32_t a = words[1];
+    return {glm::normalize(n), glm::vec3(float(a & 2047u), float(a >> 11 & 2047u), float(a >> 22)) /
+                                   glm::vec3(2047, 2047, 1023)};
 }
 
 /// A soup of triangles with alpha masks and degenerate triangles, every third one twice, and two that are no

@@ -49,6 +49,8 @@ const Case kCases[] = {
      "{lights: point}", 1.3},  // Planned for the fullest places of the scene, wherever the camera goes.
     {"lists", graphYaml({"voxelize, resolution: 48", "build_hybrid_leaves"})},
     {"grids", graphYaml({"voxelize, resolution: 48", "build_hybrid_leaves, primitives: 1, grid: 6"})},
+    {"levels of grids", graphYaml({"voxelize, resolution: 48",
+                                   "build_hybrid_leaves, primitives: 1, grid: 7, grid_levels: footprint"})},
     {"path_trace", graphYaml({"path_trace, spp: 1, bounces: 0"})},
     {"accumulate",
      graphYaml({"gbuffer, samples_per_pixel_edge: 2", "path_trace, spp: 1, bounces: 1", "accumulate"})},

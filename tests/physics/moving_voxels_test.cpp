@@ -69,21 +69,25 @@ void followWalk(const std::string& graph, size_t stride, const Compare& compare)
 }
 
 TEST(MovingVoxels, HybridLeavesAreThoseThatAreRebuilt) {
-    const std::string graph =
-        graphYaml({"voxelize, resolution: 24", "build_hybrid_leaves, primitives: 6, grid: 4"});
-    followWalk(graph, 2, [](Chain& moved, Chain& made) {
-        const auto& a = *moved.graph().resource<HybridLeaves>("hybrid_leaves");
-        const auto& b = *made.graph().resource<HybridLeaves>("hybrid_leaves");
-        EXPECT_GT(a.gridCount, 0u);
-        // Those near the spheres alone are built again.
-        EXPECT_GT(reported(moved.updateSamples[1], "leaves built again"), 0);
-        EXPECT_LT(reported(moved.updateSamples[1], "leaves built again"), a.shape.leaves / 2);
-        for (Buffer HybridLeaves::*buffer :
-             {&HybridLeaves::words, &HybridLeaves::primitives, &HybridLeaves::corners,
-              &HybridLeaves::gridBits, &HybridLeaves::gridRanks, &HybridLeaves::cells})
-            EXPECT_TRUE(sameBits(moved.read<uint32_t>(a.*buffer), made.read<uint32_t>(b.*buffer)))
-                << (a.*buffer).name();
-    });
+    for (const std::string levels : {"finest", "footprint"}) {
+        SCOPED_TRACE(levels);
+        const std::string graph =
+            graphYaml({"voxelize, resolution: 24",
+                       "build_hybrid_leaves, primitives: 6, grid: 4, grid_levels: " + levels});
+        followWalk(graph, 2, [](Chain& moved, Chain& made) {
+            const auto& a = *moved.graph().resource<HybridLeaves>("hybrid_leaves");
+            const auto& b = *made.graph().resource<HybridLeaves>("hybrid_leaves");
+            EXPECT_GT(a.gridCount, 0u);
+            // Those near the spheres alone are built again.
+            EXPECT_GT(reported(moved.updateSamples[1], "leaves built again"), 0);
+            EXPECT_LT(reported(moved.updateSamples[1], "leaves built again"), a.shape.leaves / 2);
+            for (Buffer HybridLeaves::*buffer :
+                 {&HybridLeaves::words, &HybridLeaves::primitives, &HybridLeaves::corners,
+                  &HybridLeaves::gridBits, &HybridLeaves::gridRanks, &HybridLeaves::cells})
+                EXPECT_TRUE(sameBits(moved.read<uint32_t>(a.*buffer), made.read<uint32_t>(b.*buffer)))
+                    << (a.*buffer).name();
+        });
+    }
 }
 
 TEST(MovingVoxels, AreThoseThatAreRebuilt) {

@@ -110,6 +110,19 @@ TEST(Counterparts, OtherMethods) {
     }
 }
 
+TEST(Counterparts, RaysThroughHybridLeavesGiveWayToTheRayTracer) {
+    const std::string passes = std::string(kLightRays) + "{pass: filter_voxels}, {pass: gather_irradiance}, ";
+    const SwapPlan plan = planOf(configOf(passes + "{pass: build_hybrid_leaves}, {pass: gather_mirror, walk: "
+                                                   "hierarchical, wide_rays: cones}"));
+    EXPECT_EQ(stagesOf(plan), (Names{"injection", "gather", "voxelization", "visibility", "upsampling"}));
+    EXPECT_EQ(plan.stages[1].changes,
+              (Names{"gather_mirror.rays 1 → 64", "gather_mirror.light_samples 1 → 16"}));
+    EXPECT_EQ(plan.stages[3].needs, Names{"gather"});
+    const Names& changes = plan.stages[3].changes;
+    EXPECT_EQ(std::ranges::count(changes, "without build_hybrid_leaves"), 1);
+    EXPECT_EQ(std::ranges::count(changes, "gather_mirror.walk hierarchical → exact"), 1);
+}
+
 TEST(Counterparts, WhatIsAsFineAlreadyIsNoStage) {
     EXPECT_EQ(stagesOf(planOf(
                   configOf("{pass: voxelize, resolution: 512}, {pass: inject_light_rays, rays_per_light: "
@@ -129,8 +142,8 @@ TEST(Counterparts, WhatCannotBeExplainedIsRefused) {
         return errorOf<UsageError>([&] { planOf(config); });
     };
     const std::string voxels = kLightRays;
-    EXPECT_CONTAINS(message(configOf(voxels + "{pass: gather_irradiance}, {pass: gather_mirror}")),
-                    "x.yaml:3: 'gather_mirror' has no exact counterpart");
+    EXPECT_CONTAINS(message(configOf(voxels + kRays + ", {pass: accumulate}")),
+                    "x.yaml:3: 'accumulate' has no exact counterpart");
     EXPECT_CONTAINS(message(configOf(voxels + "{pass: gather_irradiance}", "")), "there is no 'reference'");
     EXPECT_CONTAINS(message("name: x\nscene: {builtin: cornell}\ngraph: [{pass: path_trace, spp: 5000}]\n" +
                             std::string(kReference)),

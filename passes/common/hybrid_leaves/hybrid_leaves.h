@@ -8,6 +8,21 @@
 
 namespace voxray {
 
+/// Levels of cells that a grid of m³ has where it has all: the coarsest has 2 along an edge.
+inline uint32_t allGridLevels(uint32_t m) {
+    uint32_t levels = 1;
+    while (GRID_EDGE(m, levels) >= 2) ++levels;
+    return levels;
+}
+
+/// Cells of a grid of m³, full ones and empty ones, from level `first` up to, but without, `end`.
+inline uint32_t gridCells(uint32_t m, uint32_t first, uint32_t end) {
+    uint32_t cells = 0;
+    for (uint32_t level = first; level < end; ++level)
+        cells += GRID_EDGE(m, level) * GRID_EDGE(m, level) * GRID_EDGE(m, level);
+    return cells;
+}
+
 /// What the leaves of the octree over surface voxels hold: lists of triangles, or grids of finer voxels,
 /// cells, where triangles are many (Seok 2021, section 3.1). Leaves are numbered as voxels() are; the
 /// octree's structure is its users' (VoxelMarch). GLSL access: shaders/hybrid_leaves/hybrid_leaves.glsl.
@@ -17,7 +32,7 @@ struct HybridLeaves : Resource {
     uint32_t gridCount = 0;
     uint32_t emptyCount = 0;      ///< Leaves that hold nothing.
     uint32_t primitiveCount = 0;  ///< Triangles of all lists.
-    uint32_t cellCount = 0;       ///< Of all grids, those that are not empty.
+    uint32_t cellCount = 0;       ///< Of all levels of all grids, those that are not empty.
     Buffer header;                ///< Addresses of the arrays, and `shape`.
     Buffer words;                 ///< A word a leaf.
     Buffer primitives;            ///< Items, list by list (LIST_ITEMS()); at least one word.

@@ -19,6 +19,7 @@ layout(push_constant, scalar) uniform Push {
     uint64_t starts;  // 0: bare rays.
     uint64_t hits;    // Words, where rays are asked for occlusion.
     VoxelGrid grid;
+    float widest;  // m: rays that are wider end.
     uint firstRay;
     uint endRay;
 } push;
@@ -36,7 +37,7 @@ void main() {
     RayStart start = RayStart(vec3(0.0), 0.0, 0.0);
     if (push.starts != 0ul) start = StartStream(push.starts).data[i];
     Hit hit = Hit(ray.tMax, NO_HIT, 0.0, 0.0);
-    if (isTraceable(ray)) hit = hybridClosest(push.grid, ray.origin, ray.direction, ray.tMin, ray.tMax, start);
+    if (isTraceable(ray)) hit = hybridClosest(push.grid, ray.origin, ray.direction, ray.tMin, ray.tMax, start, push.widest);
     if (kOccluded) {
         WordStream(push.hits).data[i] = hit.triangle == NO_HIT ? 0u : 1u;
     } else {

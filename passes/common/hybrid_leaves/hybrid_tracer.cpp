@@ -13,6 +13,7 @@ constexpr uint32_t kRaysPerLaunch = 1u << 26;
 struct HybridPush {
     VkDeviceAddress rays, starts, hits;
     gpu::VoxelGrid grid;
+    float widest;
     uint32_t firstRay, endRay;
 };
 
@@ -35,12 +36,13 @@ void HybridTracer::prepare(Device& device, const ShaderCompiler& compiler) {
 }
 
 void HybridTracer::begin(CommandStream& stream, const GpuScene& scene, const SurfaceVoxels& voxels,
-                         const HybridLeaves& leaves) {
+                         const HybridLeaves& leaves, float widest) {
     march_.begin(stream, leaves.voxels(voxels));
     stream.fill(testCounts_, 0);
     scene_ = &scene;
     leaves_ = &leaves;
     grid_ = voxels.grid;
+    widest_ = widest;
 }
 
 void HybridTracer::closestFrom(CommandStream& stream, const Buffer& rays, const Buffer& starts,
@@ -66,7 +68,7 @@ void HybridTracer::dispatch(CommandStream& stream, const Program& program, VkDev
         bindings.insert(bindings.end(), more.begin(), more.end());
     for (uint32_t first = 0; first < count;) {
         const uint32_t end = first + std::min(kRaysPerLaunch, count - first);
-        stream.dispatch(program, bindings, HybridPush{rays, starts, results, grid_, first, end},
+        stream.dispatch(program, bindings, HybridPush{rays, starts, results, grid_, widest_, first, end},
                         linearGroups(end - first));
         first = end;
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "passes/common/hybrid_leaves/hybrid_leaves.h"
 #include "passes/common/voxel_march/voxel_march.h"
 #include "trace/gpu_scene.h"
@@ -31,9 +33,10 @@ class HybridTracer final : public RayTracer {
     void prepare(Device& device, const ShaderCompiler& compiler);
     std::string_view name() const override { return "hybrid"; }
     /// Takes over voxels and leaves, before the first rays and where either has changed, and sets the counts
-    /// to 0. All must outlive the walks. Waits for the device where it builds the octree.
+    /// to 0. All must outlive the walks. Waits for the device where it builds the octree. @param widest m:
+    /// rays end where they have become wider (HIT_IS_WIDE).
     void begin(CommandStream& stream, const GpuScene& scene, const SurfaceVoxels& voxels,
-               const HybridLeaves& leaves);
+               const HybridLeaves& leaves, float widest = std::numeric_limits<float>::infinity());
     /// closestHit() for rays that leave surfaces or widen. @param starts a RayStart
     /// (shaders/hybrid_leaves/hybrid_types.h) for each ray.
     void closestFrom(CommandStream& stream, const Buffer& rays, const Buffer& starts, const Buffer& hits,
@@ -61,6 +64,7 @@ class HybridTracer final : public RayTracer {
     const GpuScene* scene_ = nullptr;
     const HybridLeaves* leaves_ = nullptr;
     gpu::VoxelGrid grid_{};
+    float widest_ = 0;
     const Buffer* starts_ = nullptr;
     Buffer testCounts_;
 };
