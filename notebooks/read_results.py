@@ -41,7 +41,7 @@ for warning in results.warnings:
 
 # %% [markdown]
 # ## Where a frame's time goes
-# A row a variant, a column a pass, in milliseconds.
+# One row for each variant, one column for each pass, in milliseconds.
 
 # %%
 frame = results.passes[results.passes["phase"] == "frame"]

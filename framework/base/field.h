@@ -60,6 +60,13 @@ struct Field {
     std::vector<T> allowed = {};
     std::tuple<Conditions...> conditions = {};
     bool isVector = false;
+    bool isLessNoise = false;
+
+    /// The same parameter: a number of rays, points or samples, of which more are less noise.
+    constexpr Field lessNoise() && {
+        isLessNoise = true;
+        return std::move(*this);
+    }
 
     /// The same parameter, a place or a direction: one number does not stand for all three.
     constexpr Field asVector() && {
@@ -72,7 +79,8 @@ struct Field {
     /// conditions holds it is an error (idleParams()); the pass takes no notice of it there.
     template <typename... Others>
     constexpr Field<Owner, T, Others...> onlyWith(Others... others) && {
-        return {name, member, help, min, max, ranged, std::move(allowed), {std::move(others)...}, isVector};
+        return {name,     member,     help, min, max, ranged, std::move(allowed), {std::move(others)...},
+                isVector, isLessNoise};
     }
 };
 

@@ -19,10 +19,11 @@ namespace voxray {
 struct ParameterDoc {
     std::string name;
     std::string type;      ///< "boolean", "integer", "number", "string", "choice", "rgb", "vector"
-    std::string help;      ///< With what it has an effect with alone.
+    std::string help;      ///< With what it has an effect with alone, and whether it lowers noise.
     std::string defaults;  ///< Default as YAML text.
     std::string min, max;  ///< Empty where there is no range.
     std::vector<std::string> choices;  ///< The only values; empty: any of the type and range.
+    bool isLessNoise = false;          ///< Larger values lower the pass's noise.
 };
 
 namespace schema_detail {
@@ -134,6 +135,8 @@ std::vector<ParameterDoc> describeParams() {
         doc.name = f.name;
         doc.type = f.isVector ? "vector" : schema_detail::typeName<T>();
         doc.help = f.help;
+        doc.isLessNoise = f.isLessNoise;
+        if (f.isLessNoise) doc.help += " Larger: less noise.";
         if (const std::string needs = conditionsText<P>(f); !needs.empty())
             doc.help += " Only with " + needs + ".";
         doc.defaults = schema_detail::textOf(defaults.*(f.member));

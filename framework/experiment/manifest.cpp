@@ -134,6 +134,7 @@ std::string manifestJson(const ManifestData& data) {
                          {"device", data.requestedDevice.empty() ? "best" : data.requestedDevice}};
     json["variants"] = Json::object();
     for (const auto& [name, graph] : data.graphs) json["variants"][name] = Json::parse(graph.json());
+    json["noise_parameters"] = data.noiseParameters;
     json["warnings"] = data.warnings;
     json["notes"] = data.notes;
     json["versions"] = {{"voxray", data.version}, {"driver", data.device.driver}, {"compiler", __VERSION__}};

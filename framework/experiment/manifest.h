@@ -29,7 +29,9 @@ struct ReferenceRecord {
 struct ManifestData {
     const Experiment* experiment = nullptr;
     std::vector<std::pair<std::string, Value>>
-        graphs;           ///< Variant -> its passes with every default filled in.
+        graphs;  ///< Variant -> its passes with every default filled in.
+    /// Image ("final", "indirect") -> variant -> what lowers its noise there (noiseParameters()).
+    std::map<std::string, std::map<std::string, std::vector<std::string>>> noiseParameters;
     Value referencePass;  ///< With every default filled in; null: none.
     DeviceInfo device;
     std::string requestedDevice;  ///< Empty: the best.

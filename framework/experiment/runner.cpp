@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "base/one_line.h"
 #include "experiment/manifest.h"
+#include "experiment/noise_parameters.h"
 #include "experiment/progress.h"
 #include "experiment/report_process.h"
 #include "experiment/results_folder.h"
@@ -135,6 +136,8 @@ void Run::openSession() {
     manifest_.experiment = &experiment_;
     for (const WiredVariant& variant : variants_) {
         manifest_.graphs.emplace_back(variant.name, variant.resolved);
+        for (const char* image : {"final", "indirect"})
+            manifest_.noiseParameters[image][variant.name] = noiseParameters(variant, registry_, image);
         manifest_.referenceHashes[variant.name] = session_->referenceHashOf(wired_, variant.setup);
     }
     for (const auto& [id, count] : variantsWithout(wired_))

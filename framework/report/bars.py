@@ -29,7 +29,7 @@ class Bar:
 
 @dataclass(frozen=True)
 class BarGroup:
-    """Bars on one scale, one a variant."""
+    """Bars on one scale, one for each variant."""
 
     heading: str
     bars: list[Bar]
@@ -43,7 +43,7 @@ def bar_groups(results: Results, colors: dict[str, str], names: Names, anchors: 
     groups = []
     for heading, phase, column, part, write in (
             ("Time of a frame", "frame", "frame_ms_median", "ms_median", milliseconds),
-            ("Time of the build, once a scene or light", "build", "build_ms", "ms_median", milliseconds),
+            ("Time of the build, once for each scene or light", "build", "build_ms", "ms_median", milliseconds),
             ("Device memory that the passes keep", None, "memory_bytes", "memory_bytes", text.size)):
         rows = results.ok[results.ok[column].fillna(0) > 0]
         split = {row["variant"]: _by_pass(results, row, phase, column, part) for _, row in rows.iterrows()}

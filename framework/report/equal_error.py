@@ -62,7 +62,7 @@ def sentences(results: Results, light: str, metric: Metric, families: list[Famil
     if reached.bound:
         more, who, short = "more than ", "path tracing", " (all its variants have a higher error)"
     build = rows.loc[name, "build_ms"]
-    apart = f". Its build, once a scene or light, takes {text.figures(build)} ms more" if build > 0 else ""
+    apart = f". Its build, once for each scene or light, takes {text.figures(build)} ms more" if build > 0 else ""
     return [f"At equal {metric.label} of the {light} light: a frame of {names.full(name)} takes {text.figures(ms)} ms, "
             f"{who} {more}{text.figures(reached.milliseconds)} ms: {more}"
             f"{text.figures(best_factor, 2)} times as long{short}{_range(rows.loc[name], column, ms, curves)}{apart}."]

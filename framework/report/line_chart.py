@@ -14,7 +14,7 @@ from report.svg import STAND_INS, drawing, to_svg
 
 def line_chart(rows: pd.DataFrame, column: str, caption: str, styles: dict[str, Style], names: Names,
                chart_id: str) -> str:
-    """A line a variant over frames. `rows` has the columns variant, frame and `column`."""
+    """One line for each variant, over frames. `rows` has the columns variant, frame and `column`."""
     with drawing():
         figure = Figure(figsize=(5.0, 3.7), dpi=72)  # matplotlib's SVG has 72 units an inch
         axes = figure.add_axes((0.16, 0.13, 0.80, 0.85))

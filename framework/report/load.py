@@ -50,12 +50,12 @@ _PASS_NUMBERS = ("ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory
 class Results:
     """A run's results.
 
-    variants: a row a variant, columns as in results.csv; costs and scores are floats (NaN where absent),
+    variants: one row for each variant, columns as in results.csv; costs and scores are floats (NaN where absent),
         everything else text as written. Ordered as the run wrote them.
-    passes: a row a variant, pass and phase, as in passes.csv, and the `kind` of the pass that has this id in the variant's
-        graph; may be empty.
-    frames: a row a variant and compared frame, as in frames.csv, scores in columns; may be empty.
-    values: a row a variant, pass, name and frame, as in values.csv: what passes reported; frame is NaN in the
+    passes: one row for each variant, pass and phase, as in passes.csv, and the `kind` of the pass that has this id in
+        the variant's graph; may be empty.
+    frames: one row for each variant and compared frame, as in frames.csv, scores in columns; may be empty.
+    values: one row for each variant, pass, name and frame, as in values.csv: what passes reported; frame is NaN in the
         build; may be empty.
     manifest: the run's manifest.json, {} where it is absent or broken.
     metrics: the manifest's list, in the order in which tables show them; the first three are charted.

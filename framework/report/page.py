@@ -20,7 +20,8 @@ _HERE = Path(__file__).parent
 _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's row numbers
 _MAX_NAMED_POINTS = 12
 # Of the manifest:
-_SHOWN_ELSEWHERE = ("config", "metrics", "seed_metrics", "temporal_metrics", "warnings", "baselines", "reference", "references", "variants")
+_SHOWN_ELSEWHERE = ("config", "metrics", "seed_metrics", "temporal_metrics", "warnings", "baselines", "reference", "references", "variants",
+                    "noise_parameters")
 
 
 @dataclass(frozen=True)

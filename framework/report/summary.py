@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from report import equal_error, text
+from report import equal_error, noise, text
 from report.load import LIGHTS, Results
 from report.names import Family, Names
 from report.ranking import beaten_by, score_marks
@@ -24,7 +24,7 @@ def summary(results: Results, light: str, families: list[Family], names: Names) 
     if metric:
         sentences += _lowest_error(results, light, metric, names)
         sentences += equal_error.sentences(results, light, metric, families, names)
-        sentences += _mostly_noise(results, light, names)
+        sentences += noise.sentences(results, light, names)
     sentences += _fastest(results, light, names)
     return sentences + _worse_than_nothing(results, light, names)
 
@@ -48,19 +48,6 @@ def _lowest_error(results: Results, light: str, metric, names: Names) -> list[st
                      f"{f', now {spp}' if spp else ''}).")
     found[0] += explained
     return found
-
-
-def _mostly_noise(results: Results, light: str, names: Names) -> list[str]:
-    """Which variants' nRMSE is noise for the larger part, where the run rendered a second seed."""
-    if len(results.seed_metrics) < 2:
-        return []
-    bias, noise = (results.ok.set_index("variant")[LIGHTS[light] + metric.key] for metric in results.seed_metrics[:2])
-    noisy = [name for name in bias.index if noise[name] > bias[name]]
-    if not noisy:
-        return ["Bias is the larger part of every variant's error: more rays don't lower it."] if bias.notna().any() else []
-    rest = "; of the others it is bias, which more rays don't lower" if len(noisy) < int(bias.notna().sum()) else ""
-    return [f"Noise is the larger part of the error of {names.listed(noisy)}{rest}. ./voxray passes PASS says which "
-            "parameter makes a pass less noisy."]
 
 
 def _fastest(results: Results, light: str, names: Names) -> list[str]:

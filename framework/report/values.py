@@ -15,7 +15,7 @@ from report.style import Style
 
 @dataclass(frozen=True)
 class ValueTable:
-    """A row a variant, its number and name first; cells are in the order of `headings`."""
+    """One row for each variant, its number and name first; cells are in the order of `headings`."""
 
     headings: list[str]
     rows: list[tuple[str, str, list[str]]]
@@ -36,7 +36,7 @@ def value_table(results: Results, names: Names) -> ValueTable | None:
 
 
 def value_charts(results: Results, styles: dict[str, Style], names: Names) -> list[str]:
-    """A chart for each value that some variant reported in several frames: a line a variant, over frames."""
+    """A chart for each value that some variant reported in several frames: one line for each variant."""
     series = results.values[results.values["frame"].notna()]
     charts = []
     for i, (part, name) in enumerate(_keys(series)):

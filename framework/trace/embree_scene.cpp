@@ -1,17 +1,14 @@
 #include "trace/embree_scene.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstring>
 #include <limits>
-#include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "trace/texture_lookup.h"
+#include "trace/embree_bvh.h"
 
 namespace voxray {
 
@@ -22,26 +19,6 @@ constexpr float kLargest = 1.8e18f;
 constexpr size_t kStreamGrain = 4096;
 /// Rays of a packet: as wide as AVX2. 16 are 8 % faster where there is AVX-512.
 constexpr uint32_t kPacket = EmbreeScene::kPacketRays;
-
-/// Triangles that share how they are intersected. Embree's primitive i is the scene's triangle ids[i].
-struct TriangleGroup {
-    std::vector<uint32_t> ids;
-    std::vector<uint32_t> skipped;  ///< By primitive: the scene's vertices before its own that Embree lacks.
-    const SceneState* state = nullptr;
-};
-
-/// A BVH over the triangles that stay, with all of the scene's vertices, or over those that move, with
-/// theirs.
-struct Part {
-    RTCScene scene = nullptr;
-    TriangleGroup opaque, masked;       ///< Embree's geometries 0 and 1.
-    std::vector<InstanceRange> moving;  ///< Whose vertices there are; none: all.
-    bool sameNumbers = false;           ///< Embree's primitive numbers are the scene's.
-
-    uint32_t triangleOf(const RTCHit& hit) const {
-        return sameNumbers ? hit.primID : (hit.geomID == 0 ? opaque : masked).ids[hit.primID];
-    }
-};
 
 /// Half of a ray: origin and tMin, or direction and tMax.
 using Float4 = float __attribute__((vector_size(16)));
@@ -102,128 +79,9 @@ struct Packet {
     }
 };
 
-/// Embree's callback for hits on alpha-masked triangles: drops those that are cut away.
-void dropCutAway(const RTCFilterFunctionNArguments* args) {
-    const auto& group = *static_cast<const TriangleGroup*>(args->geometryUserPtr);
-    for (unsigned i = 0; i < args->N; ++i) {
-        if (args->valid[i] == 0) continue;
-        const uint32_t triangle = group.ids[RTCHitN_primID(args->hit, args->N, i)];
-        if (isCutAway(*group.state, triangle, RTCHitN_u(args->hit, args->N, i),
-                      RTCHitN_v(args->hit, args->N, i)))
-            args->valid[i] = 0;
-    }
-}
-
-void throwEmbreeError(const char* reason) {
-    throw Error("Embree can't build the scene: {}", reason);
-}
-
 }  // namespace
 
-struct EmbreeScene::Impl {
-    RTCDevice device = nullptr;
-    Part still, moving;  ///< `moving` has a scene only where something moves.
-    std::atomic<ptrdiff_t> bytes{0};
-
-    ~Impl() {
-        for (const Part* part : {&still, &moving})
-            if (part->scene) rtcReleaseScene(part->scene);
-        if (device) rtcReleaseDevice(device);
-    }
-
-    /// Sorts the triangles into parts that stay and move, and those into opaque and alpha-masked ones.
-    void sort(const SceneState& state) {
-        const Geometry& geometry = state.geometry;
-        for (Part* part : {&still, &moving}) part->opaque.state = part->masked.state = &state;
-        const auto add = [&](Part& part, uint32_t triangle) -> TriangleGroup& {
-            const Material& material = state.scene->materials[geometry.triangleMaterials[triangle]];
-            TriangleGroup& group = material.alphaMode == AlphaMode::Mask ? part.masked : part.opaque;
-            group.ids.push_back(triangle);
-            return group;
-        };
-        uint32_t next = 0, vertices = 0;
-        moving.moving = movingRuns(geometry);
-        for (const InstanceRange& range : moving.moving) {
-            for (; next < range.firstTriangle; ++next) add(still, next);
-            for (; next < range.firstTriangle + range.triangleCount; ++next)
-                add(moving, next).skipped.push_back(range.firstVertex - vertices);
-            vertices += range.vertexCount;
-        }
-        for (; next < geometry.triangles.size(); ++next) add(still, next);
-        still.sameNumbers = still.opaque.ids.size() == geometry.triangles.size();
-    }
-
-    /// Adds the group's triangles to a part as geometry number `geomId`.
-    void attach(const Part& part, TriangleGroup& group, unsigned geomId, RTCBuildQuality quality) {
-        if (group.ids.empty()) return;
-        size_t vertices = part.moving.empty() ? group.state->geometry.positions.size() : 0;
-        for (const InstanceRange& range : part.moving) vertices += range.vertexCount;
-        RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-
-        // Embree reads 16 bytes at each vertex: its own buffers have the padding that a std::vector lacks.
-        if (!rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
-                                     vertices) ||
-            !rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3),
-                                     group.ids.size())) {
-            rtcReleaseGeometry(mesh);
-            throwEmbreeError("out of memory");
-        }
-
-        // Alpha masks hold for every kind of ray.
-        if (geomId == 1) {
-            rtcSetGeometryUserData(mesh, &group);
-            rtcSetGeometryIntersectFilterFunction(mesh, dropCutAway);
-            rtcSetGeometryOccludedFilterFunction(mesh, dropCutAway);
-        }
-        rtcSetGeometryBuildQuality(mesh, quality);
-        rtcAttachGeometryByID(part.scene, mesh, geomId);
-        rtcReleaseGeometry(mesh);
-        fill(part, group, geomId);
-    }
-
-    /// Copies the group's vertices and corners as they are now.
-    void fill(const Part& part, const TriangleGroup& group, unsigned geomId) {
-        if (group.ids.empty()) return;
-        const Geometry& geometry = group.state->geometry;
-        RTCGeometry mesh = rtcGetGeometry(part.scene, geomId);
-        auto* positions = static_cast<glm::vec3*>(rtcGetGeometryBufferData(mesh, RTC_BUFFER_TYPE_VERTEX, 0));
-        auto* corners = static_cast<glm::uvec3*>(rtcGetGeometryBufferData(mesh, RTC_BUFFER_TYPE_INDEX, 0));
-        if (part.moving.empty()) std::copy(geometry.positions.begin(), geometry.positions.end(), positions);
-        for (const InstanceRange& range : part.moving)
-            positions =
-                std::copy_n(geometry.positions.begin() + range.firstVertex, range.vertexCount, positions);
-        for (size_t i = 0; i < group.ids.size(); ++i)
-            corners[i] = geometry.triangles[group.ids[i]] - (group.skipped.empty() ? 0 : group.skipped[i]);
-        rtcUpdateGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0);
-        rtcUpdateGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0);
-        rtcCommitGeometry(mesh);
-    }
-
-    void build(Part& part, RTCBuildQuality quality) {
-        part.scene = rtcNewScene(device);
-        rtcSetSceneFlags(part.scene, RTC_SCENE_FLAG_ROBUST);
-        rtcSetSceneBuildQuality(part.scene, quality);
-        attach(part, part.opaque, 0, quality);
-        attach(part, part.masked, 1, quality);
-        commit(part);
-    }
-
-    void commit(const Part& part) {
-        rtcCommitScene(part.scene);
-        switch (rtcGetDeviceError(device)) {
-            case RTC_ERROR_NONE:
-                break;
-            case RTC_ERROR_OUT_OF_MEMORY:
-                throwEmbreeError("out of memory");
-                break;
-            case RTC_ERROR_UNSUPPORTED_CPU:
-                throwEmbreeError("this processor lacks SSE2");
-                break;
-            default:
-                throwEmbreeError("the triangles were refused");
-        }
-    }
-
+struct EmbreeScene::Impl : EmbreeBvh {
     Hit intersect(const Ray& ray, RTCIntersectContext& context) const {
         Hit hit{ray.tMax, Hit::kMiss, 0.0f, 0.0f};
         if (!(ray.tMax >= ray.tMin)) return hit;
@@ -313,30 +171,15 @@ struct EmbreeScene::Impl {
 };
 
 EmbreeScene::EmbreeScene(const SceneState& state, RaysToCome rays) : impl_(std::make_unique<Impl>()) {
-    impl_->device = rtcNewDevice(nullptr);
-    if (!impl_->device) throwEmbreeError("no device");
-    rtcSetDeviceMemoryMonitorFunction(
-        impl_->device,
-        [](void* impl, ssize_t change, bool) {
-            static_cast<Impl*>(impl)->bytes += change;
-            return true;
-        },
-        impl_.get());
-
     // What moves is rebuilt in each frame: in less time, and no worse for its few triangles.
-    impl_->sort(state);
-    const bool many = rays == RaysToCome::Many;
-    impl_->build(impl_->still, many ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_LOW);
-    if (!impl_->moving.moving.empty())
-        impl_->build(impl_->moving, many ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_LOW);
+    if (rays == RaysToCome::Many)
+        impl_->build(state, RTC_BUILD_QUALITY_HIGH, RTC_BUILD_QUALITY_MEDIUM);
+    else
+        impl_->build(state, RTC_BUILD_QUALITY_LOW, RTC_BUILD_QUALITY_LOW);
 }
 
 void EmbreeScene::update() {
-    const Part& moving = impl_->moving;
-    if (!moving.scene) return;
-    impl_->fill(moving, moving.opaque, 0);
-    impl_->fill(moving, moving.masked, 1);
-    impl_->commit(moving);
+    impl_->update();
 }
 
 EmbreeScene::~EmbreeScene() = default;

@@ -13,8 +13,8 @@ namespace voxray {
 enum class RaysToCome { Many, Few };
 
 /// A scene's triangles in an Embree BVH, and a second one of those that move, with alpha masks honoured on
-/// every ray. The only user of Embree's headers is the .cpp. Rays may come from any thread, but not during an
-/// update.
+/// every ray. Embree's headers stay out of this one (embree_bvh.h). Rays may come from any thread, but not
+/// during an update.
 class EmbreeScene {
  public:
     /// `state` must outlive this object. @throws Error where Embree refuses (out of memory).

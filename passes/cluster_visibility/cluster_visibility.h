@@ -47,7 +47,7 @@ class FindClusterVisibility final : public Pass {
         FaceHemisphere hemisphere = FaceHemisphere::Surface;
         static constexpr auto schema() {
             return std::tuple{
-                field("rays", &Params::rays, "From each patch.", 1u, SEEN_MAX_RAYS),
+                field("rays", &Params::rays, "From each patch.", 1u, SEEN_MAX_RAYS).lessNoise(),
                 field(
                     "near_distance", &Params::nearDistance,
                     "What is nearer than this many voxels is seen by its voxels, and what is farther by its "

@@ -36,7 +36,8 @@ class DirectShadowRays final : public Pass {
                       "Shadow rays for each g-buffer texel to all emissive surfaces together, and as many to "
                       "the "
                       "environment.",
-                      1u, 4096u),
+                      1u, 4096u)
+                    .lessNoise(),
                 field("visibility", &Params::visibility,
                       "What shadow rays meet. exact: the scene's triangles. voxels: those of the port "
                       "`voxels`, "

@@ -83,7 +83,8 @@ class GatherMirror final : public Pass {
                       0.0f, 1.0f),
                 field("rays", &Params::rays,
                       "Rays of each g-buffer texel whose surface is no perfect mirror; a mirror sends one.",
-                      1u, 64u),
+                      1u, 64u)
+                    .lessNoise(),
                 field("bounces", &Params::bounces,
                       "Mirrors that light meets one after another, at most, the one that the camera sees "
                       "among them; what the last one shows of further mirrors is black.",
@@ -106,6 +107,7 @@ class GatherMirror final : public Pass {
                 field("light_samples", &Params::lightSamples,
                       "Shadow rays to the emissive surfaces, and to the environment, from each ray's end.",
                       1u, 256u)
+                    .lessNoise()
                     .onlyWith(oneOf(&Params::directAtHits, {MirrorDirect::ShadowRays}))};
         }
     };

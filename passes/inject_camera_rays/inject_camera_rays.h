@@ -27,7 +27,8 @@ class InjectCameraRays final : public Pass {
             return std::tuple_cat(
                 WriteParams::schema(),
                 std::tuple{
-                    field("rays_per_image", &Params::raysPerImage, "Rays from the camera.", 1u, 1u << 26),
+                    field("rays_per_image", &Params::raysPerImage, "Rays from the camera.", 1u, 1u << 26)
+                        .lessNoise(),
                     field("bounces", &Params::bounces,
                           "Bounces of light; Russian roulette by albedo ends paths early.", 0u, 32u),
                     field("light_samples", &Params::lightSamples,

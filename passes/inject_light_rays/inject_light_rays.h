@@ -26,7 +26,8 @@ class InjectLightRays final : public Pass {
                 std::tuple{field("rays_per_light", &Params::raysPerLight,
                                  "Rays that each punctual light sends; all emissive surfaces together count "
                                  "as one light, the environment as another.",
-                                 1u, 1u << 26)},
+                                 1u, 1u << 26)
+                               .lessNoise()},
                 LightPathParams::schema());
         }
     };

@@ -16,13 +16,15 @@ class InjectRsm final : public Pass {
         "texel sees; then rays bounce. Point lights take a cube of six views, spots one (wider than 90° "
         "across: the cube), directional lights one over the scene's bounding sphere. No emissive surfaces "
         "and no environment: they have no single viewpoint. Biased by: voxel size; rsm_resolution (texels "
-        "larger than voxels leave gaps). Noisy by: bounces alone. Leaves unlit: what lies nearer to a light "
+        "larger than voxels leave gaps). Noisy by: bounces alone, of rays from each texel (rsm_resolution). "
+        "Leaves unlit: what lies nearer to a light "
         "than 0.0001 of the scene's extent. Source: Dachsbacher and Stamminger 2005.";
     struct Params : LightPathParams {
         uint32_t rsmResolution = 768;
         static constexpr auto schema() {
             return std::tuple_cat(std::tuple{field("rsm_resolution", &Params::rsmResolution,
-                                                   "Texels along an edge of each view.", 1u, 4096u)},
+                                                   "Texels along an edge of each view.", 1u, 4096u)
+                                                 .lessNoise()},
                                   LightPathParams::schema());
         }
     };

@@ -20,7 +20,8 @@ class LinkSurfels final : public Pass {
         uint32_t raysPerSurfel = 64;
         static constexpr auto schema() {
             return std::tuple{field("rays_per_surfel", &Params::raysPerSurfel,
-                                    "Rays from each surfel; 4 bytes each.", 1u, 4096u)};
+                                    "Rays from each surfel; 4 bytes each.", 1u, 4096u)
+                                  .lessNoise()};
         }
     };
 

@@ -33,7 +33,7 @@ class PathTracePass final : public Pass {
         PathLight light = PathLight::All;
         static constexpr auto schema() {
             return std::tuple{
-                field("spp", &Params::spp, "Samples a pixel.", 1u, 1u << 20),
+                field("spp", &Params::spp, "Samples a pixel.", 1u, 1u << 20).lessNoise(),
                 field(
                     "bounces", &Params::bounces,
                     "Scattering events after direct light at the first hit; 0 is emission and direct light.",

@@ -34,7 +34,8 @@ class PlaceSurfels final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("points_per_voxel", &Params::pointsPerVoxel,
-                      "Points for each surface voxel, on average.", 1u, 256u),
+                      "Points for each surface voxel, on average.", 1u, 256u)
+                    .lessNoise(),
                 field("sides", &Params::sides,
                       "open: sides with open space before them, as far as a voxel. all: covered "
                       "ones, too, which gather_surfels and links read: inside of gaps narrower "

@@ -53,7 +53,8 @@ class SampleVpls final : public Pass {
                 field("vpls_per_bounce", &Params::vplsPerBounce,
                       "Paths of light. Each leaves a virtual point light at each of its hits, until Russian "
                       "roulette by albedo ends it. Each light sends at least one.",
-                      1u, 1u << 24),
+                      1u, 1u << 24)
+                    .lessNoise(),
                 field("bounces", &Params::bounces, "Bounces of light: hits of a path that count.", 1u, 16u),
                 field("first", &Params::first,
                       "Where paths begin. light_rays: where rays from lights of every kind hit, which carry "

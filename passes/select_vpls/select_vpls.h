@@ -24,9 +24,11 @@ class SelectVpls final : public Pass {
         float bound = 1;
         static constexpr auto schema() {
             return std::tuple{
-                field("count", &Params::count, "Virtual point lights that stay, at most.", 1u, 1u << 20),
+                field("count", &Params::count, "Virtual point lights that stay, at most.", 1u, 1u << 20)
+                    .lessNoise(),
                 field("points", &Params::points,
-                      "Texels that each virtual light is tried on, others for each.", 1u, 1024u),
+                      "Texels that each virtual light is tried on, others for each.", 1u, 1024u)
+                    .lessNoise(),
                 field(
                     "unseen", &Params::unseen,
                     "Fraction of 'count' that goes by flux alone, to virtual lights that these texels don't "

@@ -13,7 +13,8 @@ class TraceGatherRays final : public Pass {
     static constexpr const char* kName = "trace_gather_rays";
     static constexpr const char* kHelp =
         "Traces rays from what the camera sees, distributed by cosine, for gather_rays to shade. Exact "
-        "geometry; noisy by rays. Where a block has fewer rays than texels, filter_irradiance fills the "
+        "geometry; noisy by: rays_per_block. Where a block has fewer rays than texels, filter_irradiance "
+        "fills the "
         "texels "
         "without any.";
     struct Params {
@@ -21,7 +22,7 @@ class TraceGatherRays final : public Pass {
         uint32_t block = 1;
         static constexpr auto schema() {
             return std::tuple{
-                field("rays_per_block", &Params::raysPerBlock, "Rays of each block.", 1u, 65536u),
+                field("rays_per_block", &Params::raysPerBlock, "Rays of each block.", 1u, 65536u).lessNoise(),
                 field("block", &Params::block, "Texels of the G-buffer along a block's edge.",
                       powersOfTwo(1, 8))};
         }

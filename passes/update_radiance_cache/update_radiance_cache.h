@@ -45,7 +45,8 @@ class UpdateRadianceCache final : public Pass {
                     "once: the cache is built before the frames, from where the camera is then. each_frame: "
                     "it is made again in each frame, or goes on where history_frames is more than 1."),
                 field("rays_per_image", &Params::raysPerImage, "Paths from the camera in an update.", 1u,
-                      1u << 24),
+                      1u << 24)
+                    .lessNoise(),
                 field("bounces", &Params::bounces,
                       "Bounces of light; Russian roulette by albedo ends paths early.", 0u, 32u),
                 field("light_samples", &Params::lightSamples,

@@ -76,8 +76,12 @@ class Results(Run):
         self.assertEqual(manifest["sweep_keys"], ["voxelize.resolution"])
         self.assertEqual(set(manifest["baselines"]), {"black", "constant"})
         self.assertIn("tracer", manifest["auto"])
+        self.assertEqual(manifest["noise_parameters"], {
+            "indirect": dict.fromkeys(VARIANTS, ["inject.rays_per_light"]),
+            "final": dict.fromkeys(VARIANTS, ["inject.rays_per_light", "direct_shadow_rays.light_samples"])})
         page = self.bytes("out", "report.html").decode()
         self.assertIn("resolution-16", page)
+        self.assertIn("Bias and noise are not told apart: set measure.second_seed: true.", page)
         self.assertNotRegex(page, r"(src|href)=[\"']https?:")
 
     def test_two_runs_are_bit_identical(self):
@@ -175,12 +179,12 @@ class Resume(Run):
         process = self.start_until(lambda: os.path.exists(self.marker("resolution-8")),
                                    "run", "slow.yaml", "--out", "out")
         process.send_signal(number)
-        _, errors = process.communicate(timeout=60)
+        said, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, status, errors)
         finished = self.times()
         self.assertTrue(finished)
         self.assertNotIn("resolution-24", finished, "the run was over before it was interrupted")
-        return finished
+        return finished, said
 
     def finish(self, finished):
         self.expect(0, "run", "slow.yaml", "--out", "out", "--resume")
@@ -190,8 +194,9 @@ class Resume(Run):
         self.check_whole()
 
     def test_ctrl_c(self):
-        finished = self.interrupt(signal.SIGINT, 130)
+        finished, said = self.interrupt(signal.SIGINT, 130)
         self.check_whole()
+        self.assertIn(f"{len(finished)} of 4 variants done\n", said)
         self.assertTrue(os.path.exists(self.path("out", "report.html")), "a report of what was finished")
         self.finish(finished)
 
@@ -224,7 +229,7 @@ class Resume(Run):
         self.check_whole()
 
     def test_kill(self):
-        finished = self.interrupt(signal.SIGKILL, -signal.SIGKILL)
+        finished, _ = self.interrupt(signal.SIGKILL, -signal.SIGKILL)
         # A killed process can't take its temporary file along; the next run does
         self.write("out/.results.1.tmp.csv", "variant,sta")
         self.finish(finished)

@@ -132,7 +132,7 @@ class Layers(Tree):
         self.refused("framework/image/x.cpp", "<gtest/gtest.h>")
         self.refused("framework/trace/x.cpp", "<benchmark/benchmark.h>")
         self.allowed("framework/scene/x.cpp", "<tiny_gltf.h>")
-        self.allowed("framework/trace/embree_scene.cpp", "<embree3/rtcore.h>")
+        self.allowed("framework/trace/embree_bvh.h", "<embree3/rtcore.h>")
         self.allowed("tests/bench/x.cpp", "<embree3/rtcore.h>")
         self.allowed("framework/vulkan/x.cpp", "<vulkan/vulkan.h>")
 

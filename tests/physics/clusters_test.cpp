@@ -1,17 +1,15 @@
-// Clusters of voxels: how voxels are grouped, what faces see of them, and light that is gathered from them.
+// Clusters of voxels: how voxels are grouped, and what faces see of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "passes/common/clusters/cluster_light.h"
 #include "passes/common/clusters/cluster_visibility.h"
 #include "passes/common/clusters/voxel_clusters.h"
-#include "passes/common/clusters/voxel_patches.h"
-#include "tests/physics/voxels_read.h"
+#include "tests/physics/cluster_graph.h"
 #include "tests/support/errors.h"
 
 namespace voxray::test {
@@ -128,165 +126,6 @@ TEST(ClusterVoxels, TakeAnyNumberOfVoxelsAndClusters) {
     const Clusters few = clustersOf("white_room", "{}", "target: 1");
     EXPECT_GE(few.clusters.size(), 6u);
     EXPECT_CONTAINS(errorOf([] { clustersOf("plane", "{}", "target: 0"); }), "target");
-}
-
-std::vector<std::string> clusterGraph(const std::string& inject, const std::string& cluster,
-                                      const std::string& visibility, const std::string& bounces,
-                                      const std::string& gather, const std::string& resolution = "24") {
-    return {"gbuffer",
-            "voxelize, resolution: " + resolution,
-            "place_surfels",
-            "inject_light_rays, " + inject,
-            "cluster_voxels, " + cluster,
-            "find_patches",
-            "cluster_visibility, " + visibility,
-            "inject_clusters, bounces: " + bounces,
-            "gather_clusters, " + gather,
-            "gather_irradiance"};
-}
-
-/// What all faces hold of indirect light, W, green.
-double indirectFlux(Chain& chain) {
-    const std::vector<float> flux =
-        readFlux(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->indirect);
-    double sum = 0;
-    for (size_t i = 1; i < flux.size(); i += 3) sum += flux[i];
-    return sum;
-}
-
-const std::string kDirect = "rays_per_light: 262144, bounces: 0";
-
-/// Sides that split the surfaces of a chain's voxels.
-std::vector<gpu::SurfaceSide> readSides(Chain& chain) {
-    return chain.read<gpu::SurfaceSide>(chain.graph().resource<VoxelPatches>("patches")->sides);
-}
-
-/// Calls f with the side of each patch and the number of its rays that met a target.
-template <class F>
-void forEachPatch(Chain& chain, F f) {
-    for (const ClusterVisibility::Chunk& chunk :
-         chain.graph().resource<ClusterVisibility>("cluster_visibility")->chunks) {
-        const auto faces = chain.read<uint32_t>(chunk.faces), first = chain.read<uint32_t>(chunk.first);
-        const auto seen = chain.read<uint32_t>(chunk.seen);
-        for (uint32_t i = 0; i < chunk.count; ++i) {
-            uint32_t rays = 0;
-            for (uint32_t k = first[i]; k < first[i + 1]; ++k) rays += gpu::seenRays(seen[k]);
-            f(faces[i] / 6, rays);
-        }
-    }
-}
-
-TEST(GatherClusters, KeepTheEnergyOfAFurnace) {
-    // Walls that emit e and reflect a: direct irradiance is pi e, and after n bounces between clusters and
-    // one of the gather pi e (a + ... + a^(n + 1)) is indirect. Rays of a closed box all meet a wall.
-    for (const auto& [near, direct] :
-         {std::pair<std::string, std::string>{"0", "injected"}, {"4", "injected"}, {"4", "shadow_rays"}})
-        for (const int bounces : {0, 4}) {
-            const double a = 0.7, expected = a * a * (1 - std::pow(a, bounces + 1)) / (1 - a);
-            Chain chain(
-                "furnace", "{shape: box, albedo: 0.7, emission: 1}",
-                graphYaml(clusterGraph(kDirect, "target: 200", "rays: 64, near_distance: " + near,
-                                       std::to_string(bounces) + ", direct: " + direct, "filter_passes: 0")));
-            // All that is seen from within the box, and nothing from without.
-            const auto sides = readSides(chain);
-            uint32_t inside = 0, outside = 0;
-            forEachPatch(chain, [&](uint32_t side, uint32_t rays) {
-                const glm::vec3 at = glm::abs(sides[side].raised);
-                const bool isInside = std::max({at.x, at.y, at.z}) < 1;
-                EXPECT_EQ(rays, isInside ? 64 : 0) << "side " << side;
-                ++(isInside ? inside : outside);
-            });
-            EXPECT_GT(inside, 1000);
-            EXPECT_GT(outside, 1000);
-            const double ratio = mean(chain.image("indirect")) / expected;
-            std::printf("near %s, %s, %d bounces: %.4f of the closed form\n", near.c_str(), direct.c_str(),
-                        bounces, ratio);
-            EXPECT_NEAR(ratio, 1, 0.01);
-        }
-}
-
-TEST(GatherClusters, KeepTheEnergyOfASphere) {
-    // Its walls are sheets at all angles to the voxels, whose dark outer faces must not be seen from within.
-    // About the axis of a face a hemisphere reaches behind a slanted sheet and loses light.
-    const auto ratio = [](const std::string& hemisphere) {
-        Chain chain("furnace", "{shape: sphere, albedo: 0.7, emission: 1}",
-                    graphYaml(clusterGraph(kDirect, "target: 200", "rays: 64, hemisphere: " + hemisphere, "1",
-                                           "filter_passes: 0")));
-        return mean(chain.image("indirect")) / (0.7 * (0.7 + 0.7 * 0.7));
-    };
-    const double surface = ratio("surface"), face = ratio("face");
-    std::printf("sphere: %.4f of the closed form, about faces' axes %.4f\n", surface, face);
-    EXPECT_NEAR(surface, 1, 0.01);
-    EXPECT_LT(face, 0.97);
-}
-
-TEST(GatherClusters, SendNoMoreFromSliversThanFromTheirClusters) {
-    // Irradiance is pi everywhere in a sphere that emits 1. Corners of voxels that it cuts off have next to
-    // no area, over which a few rays would be anything.
-    Chain chain("furnace", "{shape: sphere, albedo: 0.5, emission: 1}",
-                graphYaml(clusterGraph("rays_per_light: 1048576, bounces: 0", "target: 200", "rays: 1", "0",
-                                       "filter_passes: 0", "32")));
-    double brightest = 0;
-    for (const float radiosity :
-         chain.read<float>(chain.graph().resource<ClusterLight>("cluster_light")->sides))
-        brightest = std::max(brightest, double(radiosity) / (0.5 * kPi));
-    std::printf("brightest face: %.2f of the closed form\n", brightest);
-    EXPECT_GT(brightest, 1);
-    EXPECT_LT(brightest, 2);
-}
-
-TEST(GatherClusters, KeepTheFluxOfALamp) {
-    // A point light of I W/sr in a closed room: 4 pi I arrives, and a of it again with each bounce.
-    // Rays begin half a voxel off the walls, so that a room of n voxels seems to be one or two smaller.
-    for (const int resolution : {24, 48}) {
-        Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
-                    graphYaml(clusterGraph(kDirect, "target: 200", "rays: 64", "2", "filter_passes: 2",
-                                           std::to_string(resolution))));
-        const double ratio = indirectFlux(chain) / (4 * kPi * 2 * (0.5 + 0.25 + 0.125));
-        std::printf("%d voxels: %.4f of the flux\n", resolution, ratio);
-        EXPECT_NEAR(ratio, 1, 1.0 / resolution);
-    }
-}
-
-TEST(GatherClusters, AreLinearInLightAndTheSameTwice) {
-    const auto run = [](const std::string& intensity) {
-        Chain chain("white_room", "{intensity: " + intensity + "}",
-                    graphYaml(clusterGraph(kDirect, "target: 100", "rays: 32", "1", "filter_size: 3")));
-        return std::pair{
-            chain.read<uint32_t>(chain.graph().resource<VoxelIrradiance>("irradiance")->indirect),
-            indirectFlux(chain)};
-    };
-    const auto [words, flux] = run("2");
-    EXPECT_EQ(words, run("2").first);
-    EXPECT_NEAR(run("8").second / flux, 4, 1e-3);
-}
-
-TEST(GatherClusters, AgreeWithGatheringFromEveryVoxel) {
-    // Clusters average over their voxels; the sum of light stays.
-    const auto run = [](const std::string& near) {
-        Chain chain("cornell", "{lights: point}",
-                    graphYaml(clusterGraph(kDirect, "target: 400", "rays: 128, near_distance: " + near, "0",
-                                           "filter_passes: 0", "32")));
-        return mean(chain.image("indirect"));
-    };
-    const double voxels = run("10000");
-    const double clusters = run("0") / voxels, mixed = run("4") / voxels;
-    std::printf("clusters %.4f, near by voxels %.4f of every voxel\n", clusters, mixed);
-    EXPECT_NEAR(clusters, 1, 0.03);
-    EXPECT_NEAR(mixed, 1, 0.01);
-}
-
-TEST(GatherClusters, AgreeWithTheReferenceOnCornell) {
-    Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 512, bounces: 3"}));
-    const double expected = mean(reference.image("indirect"));
-    for (const std::string visibility : {"voxels", "exact", "bresenham"}) {
-        Chain chain("cornell", "{lights: point}",
-                    graphYaml(clusterGraph(kDirect, "target: 800", "rays: 128, visibility: " + visibility,
-                                           "2", "filter_passes: 2, filter_size: 3", "48")));
-        const double ratio = mean(chain.image("indirect")) / expected;
-        std::printf("%s: %.4f of the reference\n", visibility.c_str(), ratio);
-        EXPECT_NEAR(ratio, 1, 0.05) << visibility;
-    }
 }
 
 TEST(ClusterVisibility, CountsFormFactors) {

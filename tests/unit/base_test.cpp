@@ -38,6 +38,7 @@ struct Params {
             field("fruit", &Params::fruit, "Which one."),
             field("label", &Params::label, "Name."),
             field("edge", &Params::edge, "How long.", powersOfTwo(1, 8))
+                .lessNoise()
                 .onlyWith(oneOf(&Params::fruit, {Fruit::Apple}), noneOf(&Params::offset, {0, 1}))};
     }
 };
@@ -213,7 +214,10 @@ TEST(Schema, DescribesItself) {
     EXPECT_EQ(docs[7].type, "integer");
     EXPECT_EQ(docs[7].choices, (std::vector<std::string>{"1", "2", "4", "8"}));
     EXPECT_TRUE(docs[7].min.empty());
-    EXPECT_EQ(docs[7].help, "How long. Only with fruit: apple or offset other than 0 | 1.");
+    EXPECT_EQ(docs[7].help,
+              "How long. Larger: less noise. Only with fruit: apple or offset other than 0 | 1.");
+    EXPECT_TRUE(docs[7].isLessNoise);
+    EXPECT_FALSE(docs[1].isLessNoise);
 }
 
 TEST(Hasher, SeparatesTexts) {

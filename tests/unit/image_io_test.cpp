@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -277,6 +279,26 @@ TEST_F(ImageFiles, WhatCannotBeWrittenIsAnErrorAndLeavesNothing) {
     writeExr(file("not-a-folder"), ImageF(2, 2, 3));
     EXPECT_THROW(writeExr(file("not-a-folder") / "a.exr", ImageF(2, 2, 3)), Error);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(ImageFiles, AFullDiskIsNamedWithTheSpaceThere) {
+    // No file may grow beyond 2 KiB: the image fails while it is written
+    rlimit before;
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{2048, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    const std::string message = errorOf([&] { writeExr(file("a.exr"), gradient(64, 64, 3)); });
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+
+    EXPECT_EQ(message.find(file("a.exr").string() + ": "), 0u) << message;
+    const uint64_t free = fs::space(folder_).available >> 20;
+    const size_t at = message.rfind("; ");
+    ASSERT_NE(at, std::string::npos) << message;
+    EXPECT_CONTAINS(message, " MiB are free there");
+    EXPECT_NEAR(std::stod(message.substr(at + 2)), double(free), 0.1 * double(free) + 64) << message;
+    EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 TEST_F(ImageFiles, ExrCarriesNoTimeOfDay) {

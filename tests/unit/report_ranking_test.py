@@ -117,9 +117,9 @@ class Comparing(ReportTest):
         self.assertEqual([family.name for family in families], ["lookup", "paths", "filtered paths"])
         # 0.3 takes raw paths 10 / 0.3² = 111 ms and filtered ones 20 (0.5 / 0.3)⁴ = 154 ms.
         self.assertIn("At equal nRMSE of the total light: a frame of 1 (lookup) takes 10.0 ms, one of paths 111 ms: "
-                      "11 times as long. Its build, once a scene or light, takes 20.0 ms more.", self.summary(results))
+                      "11 times as long. Its build, once for each scene or light, takes 20.0 ms more.", self.summary(results))
         # None reaches 0.2: the slowest of both families are not enough. All have less than 2.
-        for error, expected in ((0.2, "path tracing more than 160 ms: more than 16 times as long (all its variants have a higher error). Its build, once a scene or light, takes 20.0 ms more."), (2.0, None)):
+        for error, expected in ((0.2, "path tracing more than 160 ms: more than 16 times as long (all its variants have a higher error). Its build, once for each scene or light, takes 20.0 ms more."), (2.0, None)):
             rows[0] |= {"nrmse": error}
             said = [s for s in self.summary(self.results(rows, sweep_keys=["method"], variants=graphs)) if "equal" in s]
             self.assertEqual([s.endswith(expected) for s in said], [True] if expected else [])

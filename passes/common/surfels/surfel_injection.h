@@ -18,6 +18,7 @@ struct SurfelParams : WriteParams {
             WriteParams::schema(),
             std::tuple{
                 field("paths_per_point", &SurfelParams::pathsPerPoint, "Paths from each point.", 1u, 1024u)
+                    .lessNoise()
                     .onlyWith(noneOf(&SurfelParams::bounces, {0u})),
                 field("bounces", &SurfelParams::bounces,
                       "Bounces of light; Russian roulette by albedo ends paths early.", 0u, 32u)});

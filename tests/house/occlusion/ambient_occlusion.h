@@ -23,7 +23,7 @@ class AmbientOcclusion final : public Pass {
         glm::vec3 ambient{1.0f};
         static constexpr auto schema() {
             return std::tuple{
-                field("rays", &Params::rays, "Rays from each texel of the g-buffer.", 1u, 4096u),
+                field("rays", &Params::rays, "Rays from each texel of the g-buffer.", 1u, 4096u).lessNoise(),
                 field("radius", &Params::radius, "How far rays reach, m.", 1e-3f, 1e6f),
                 field("ambient", &Params::ambient, "Radiance, W/(m² sr).", glm::vec3(0.0f), glm::vec3(1e6f))};
         }

@@ -1,0 +1,62 @@
+"""What the page says of a method's own noise: whose error it dominates, and which parameters lower it."""
+
+from __future__ import annotations
+
+from report import text
+from report.load import LIGHTS, Results, section
+from report.names import Names
+
+_IMAGES = {"total": "final", "indirect": "indirect"}  # light -> image, as the manifest calls it
+
+
+def sentences(results: Results, light: str, names: Names) -> list[str]:
+    """Whether bias or noise is the larger part of each variant's nRMSE, which a second seed tells; without one,
+    that it is not told where a variant has a pass that is noisy. @param light "indirect" or "total"."""
+    finished = results.ok.set_index("variant")
+    if not len(finished):
+        return []
+    split = [finished[LIGHTS[light] + metric.key] for metric in results.seed_metrics[:2]]
+    if len(split) < 2 or not split[0].notna().any():
+        scores = finished[[LIGHTS[light] + metric.key for metric in results.metrics]]
+        is_noisy = scores.notna().any(axis=None) and any(
+            parameters_of(results, light, name) for name in finished.index)
+        return ["Bias and noise are not told apart: set measure.second_seed: true."] if is_noisy else []
+    bias, noise = split
+    noisy = [name for name in bias.index if noise[name] > bias[name]]
+    if not noisy:
+        return ["Bias is the larger part of every variant's error: more rays don't lower it."]
+    rest = "; of the others it is bias, which more rays don't lower" if len(noisy) < int(bias.notna().sum()) else ""
+    return [f"Noise is the larger part of the error of {names.listed(noisy)}{rest}. {_advice(results, light, noisy)}"]
+
+
+def parameters_of(results: Results, light: str, variant: str) -> list[str]:
+    """The parameters whose larger values lower a variant's noise, "<id>.<parameter>", as the manifest lists them."""
+    images = section(section(results.manifest, "noise_parameters"), _IMAGES[light])
+    listed = images.get(variant)
+    return [str(path) for path in listed] if isinstance(listed, list) else []
+
+
+def _advice(results: Results, light: str, noisy: list[str]) -> str:
+    values: dict[str, list] = {}
+    for variant in noisy:
+        for path in parameters_of(results, light, variant):
+            values.setdefault(path, []).append(_value(results, variant, path))
+    if not values:
+        return "./voxray passes PASS says what makes a pass noisy."
+    return f"It falls where these are larger: {', '.join(_with_values(*entry) for entry in values.items())}."
+
+
+def _value(results: Results, variant: str, path: str):
+    """A parameter's value in a variant's graph, None where the manifest does not tell."""
+    graph = section(results.manifest, "variants").get(variant)
+    owner, _, parameter = path.rpartition(".")
+    passes = [entry for entry in graph if isinstance(entry, dict)] if isinstance(graph, list) else []
+    return next((entry.get(parameter) for entry in passes if entry.get("id", entry.get("pass")) == owner), None)
+
+
+def _with_values(path: str, values: list) -> str:
+    numbers = sorted({value for value in values if isinstance(value, (int, float))})
+    if not numbers:
+        return path
+    ends = [text.plain(number) for number in (numbers[0], numbers[-1])]
+    return f"{path} (now {ends[0]})" if len(numbers) == 1 else f"{path} (now {ends[0]} to {ends[1]})"
