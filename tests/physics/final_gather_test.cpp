@@ -356,7 +356,7 @@ TEST(FinalGather, ReportsHowManyHitsAreOnUnlitFaces) {
                         "rays_per_block: 64", {"gather_rays, near_field_voxels: " + nearField}));
     };
     const auto unlit = [](const Chain& chain) {
-        return reported(chain.frameSamples.back(), "hits on unlit faces, %") / 100;
+        return reported(chain.frameSamples.back(), "hits on unlit faces, % of rays") / 100;
     };
     Chain few = run("256", "0");
     std::printf("unlit: %.4f, light: %.4f\n", unlit(few), mean(few.image("indirect")) / 0.36);

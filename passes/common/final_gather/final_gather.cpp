@@ -17,7 +17,7 @@ struct ShadePush {
 
 /// As in hit.glsl.
 struct Counts {
-    uint32_t surfels, lookups, unlit;
+    uint32_t surfels, unlit;
 };
 
 struct ReflectPush {
@@ -113,9 +113,9 @@ void FinalGather::prepare(PassSetup& setup) {
 }
 
 void FinalGather::record(PassContext& context, const std::vector<Binding>& stored) {
-    lookups_ = unlit_ = 0;
+    traced_ = unlit_ = 0;
     for (uint32_t b = 0; b < context.get(hits_).batches.size(); ++b) gather(context, stored, b);
-    context.report(settings_.unlit, lookups_ > 0 ? 100 * unlit_ / lookups_ : 0);
+    context.report(settings_.unlit, traced_ > 0 ? 100 * unlit_ / traced_ : 0);
     if (const FrameImage& indirect = context.get(indirect_); indirect.isRead)
         resolve_.record(context, context.get(gbuffer_), context.get(noisy_).irradiance, indirect.image);
 }
@@ -131,6 +131,7 @@ void FinalGather::gather(PassContext& context, const std::vector<Binding>& store
     // Shade the hits with the irradiance that is stored there, and measure light where none is to be had.
     std::vector<Binding> shading = endBindings(context, stored, hits.batches[batch], surfels_[0]);
     shading.push_back({"position", gbuffer.position, sampler_});
+    traced_ += rays;
     stream.fill(counts_, 0);
     stream.dispatch(shade_, shading, ShadePush{hits.layout, firstBlock, rays, settings_.nearFieldCells},
                     linearGroups(rays));
@@ -156,7 +157,6 @@ std::vector<Binding> FinalGather::endBindings(PassContext& context, const std::v
 
 uint32_t FinalGather::takeCounts(CommandStream& stream) {
     const Counts counts = stream.readAs<Counts>(counts_, 1)[0];
-    lookups_ += counts.lookups;
     unlit_ += counts.unlit;
     return counts.surfels;
 }
@@ -179,6 +179,7 @@ void FinalGather::follow(PassContext& context, const std::vector<Binding>& store
 
         // Where those end.
         context.tracer.closestHit(stream, rays_, nextHits_, surfels);
+        traced_ += surfels;
         stream.fill(counts_, 0);
         std::vector<Binding> ends = endBindings(context, stored, nextHits_, to);
         ends.insert(ends.end(), {{"from", from}, {"rays", rays_}});

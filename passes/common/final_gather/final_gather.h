@@ -16,8 +16,8 @@ namespace voxray {
 /// A final gather: what the surfaces at the hits of trace_gather_rays reflect of light that is stored there,
 /// and measured light where none is or where the hit is too near. Where light is stored is the user's: two
 /// shaders in its folder, shade.comp and go_on.comp, include final_gather/shade.glsl and
-/// final_gather/go_on.glsl and define storedLight() (final_gather/hit.glsl). Reports how many hits no
-/// light is stored for, in percent of those that are far enough off to look it up.
+/// final_gather/go_on.glsl and define storedLight() (final_gather/hit.glsl). Reports how many hits
+/// that are far enough off to read stored light find none, in percent of the rays.
 class FinalGather {
  public:
     struct Settings {
@@ -27,8 +27,9 @@ class FinalGather {
         uint32_t lightSamples = 1;  ///< Of the emissive surfaces and of the environment, at each such hit.
         float nearFieldCells = 0;   ///< Rays shorter than this go on; 0: no ray does.
         uint32_t maxSteps = 3;      ///< That a ray goes on, at most.
-        std::optional<uint32_t> storedBounces = {};    ///< Resource::lightBounces of the stored light.
-        std::string unlit = "hits on unlit faces, %";  ///< What hits are called that no light is stored for.
+        std::optional<uint32_t> storedBounces = {};  ///< Resource::lightBounces of the stored light.
+        std::string unlit =
+            "hits on unlit faces, % of rays";  ///< What hits are called that no light is stored for.
     };
 
     void declare(PassBuilder& builder);
@@ -58,7 +59,7 @@ class FinalGather {
     Sampler sampler_;
     Buffer light_;   ///< What the rays of a batch bring.
     Buffer counts_;  ///< Of one dispatch.
-    double lookups_ = 0, unlit_ = 0;
+    double traced_ = 0, unlit_ = 0;
 
     // Where direct light is measured at hits, and rays go on from there.
     std::vector<LightSource> sources_;

@@ -23,8 +23,7 @@ layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
 layout(scalar) writeonly buffer GoesOn { uvec2 data[]; } goesOn;
 buffer Counts {
     uint surfels;
-    uint lookups;  // Hits that stored light is looked up for.
-    uint unlit;    // Those of them for which none is stored.
+    uint unlit;  // Hits far enough off to read what is stored there, where nothing is.
 } counts;
 
 // The end of ray i, which comes from `from` and brings `throughput` of what the surface at its hit reflects. A cell cannot tell
@@ -45,10 +44,7 @@ void endRay(uint i, Hit hit, vec3 from, vec3 throughput, uint id, float nearFiel
     at.reflectance *= throughput;
     const StoredLight stored = storedLight(at.position, faceNormal);
     const bool isNear = hit.t < nearField * stored.cellSize;
-    if (!isNear) {
-        atomicAdd(counts.lookups, 1u);
-        if (!stored.known) atomicAdd(counts.unlit, 1u);
-    }
+    if (!isNear && !stored.known) atomicAdd(counts.unlit, 1u);
     const bool isOnWay = isNear || (nearField > 0.0 && !stored.known);
     if (!isOnWay) light.data[i].rgb += at.reflectance * stored.irradiance;
 #ifndef SHADOW_RAYS
