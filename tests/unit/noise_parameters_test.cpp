@@ -57,7 +57,8 @@ TEST(NoiseParameters, StandInTheHelpOfTheirPass) {
     const std::set<std::string> more{"gather_cones.near_field_voxels", "inject_rsm.bounces"};
     const std::regex sentence("[Nn]oisy by[^.]*\\.");
     size_t marked = 0;
-    for (const PassKind& kind : allPasses().kinds()) {
+    const Registry registry = allPasses();
+    for (const PassKind& kind : registry.kinds()) {
         std::smatch found;
         const std::string said = std::regex_search(kind.help, found, sentence) ? found.str() : "";
         for (const ParameterDoc& parameter : kind.parameters) {
