@@ -1,31 +1,34 @@
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
+#include <string>
 #include <vector>
 
+#include "config/config.h"
+#include "config/sweep.h"
+#include "experiment/scene_setup.h"
 #include "passes/path_trace/path_tracer.h"
 #include "scene/load.h"
+#include "tests/support/places.h"
 
 namespace voxray {
 namespace {
+
+constexpr uint32_t kSpp = 32;
 
 /// CPU time of all threads: what a busy machine doesn't stretch.
 double processSeconds() {
     return double(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// Renders `cornell`, a seed an iteration. Writes speed and the variance of one sample (mean over pixels and
-/// channels of the spread between seeds, times spp), which cycles_compare.py reads:
-///     bench_trace --benchmark_filter=pathTraceCornell --benchmark_out=ours.json --benchmark_out_format=json
-/// Where $VOXRAY_EXPORT is set, the scene is written there as .glb.
-void pathTraceCornell(benchmark::State& state) {
-    const SceneState scene = evaluate(makeBuiltinScene("cornell", Value()), 0.0);
-    if (const char* path = std::getenv("VOXRAY_EXPORT")) exportGlb(scene, path);
+/// Renders a scene through its first camera, a seed an iteration. Writes speed and the variance of one sample
+/// (mean over pixels and channels of the spread between seeds, times spp), and what was rendered.
+void renderSeeds(benchmark::State& state, const SceneState& scene, PathTraceOptions options) {
     const EmbreeScene tracer(scene);
-    PathTraceOptions options{
-        .width = 512, .height = 512, .spp = 32, .bounces = uint32_t(state.range(0)), .seed = 0};
-    std::vector<double> sum(size_t(512) * 512 * 3), squares(sum.size());
+    std::vector<double> sum(size_t(options.width) * options.height * 3), squares(sum.size());
     double samples = 0, rays = 0, mean = 0;
     double spent = 0;
     for (auto _ : state) {
@@ -52,11 +55,61 @@ void pathTraceCornell(benchmark::State& state) {
     state.counters["rays_per_sample"] = rays / samples;
     state.counters["sample_variance"] = spread / double(sum.size()) * options.spp;
     state.counters["mean"] = mean / seeds / double(sum.size());
+    state.counters["width"] = options.width;
+    state.counters["height"] = options.height;
+    state.counters["bounces"] = options.bounces;
+    state.counters["spp"] = options.spp;
 }
+
+void pathTraceCornell(benchmark::State& state) {
+    renderSeeds(state, evaluate(makeBuiltinScene("cornell", Value()), 0.0),
+                {.width = 512, .height = 512, .spp = kSpp, .bounces = uint32_t(state.range(0))});
+}
+
+/// A scene of configs/bench/rivals_lookup.yaml, with the config's image and its reference's bounces. Where
+/// $VOXRAY_EXPORT names a folder, the scene is written there as .glb, for cycles_compare.py.
+void pathTraceRival(benchmark::State& state, const std::string& scene) {
+    try {
+        const std::filesystem::path file = test::sourceRoot() / "configs/bench/rivals_lookup.yaml";
+        const Experiment config = loadExperiment(file);
+        const Value& axis = *config.sweep.find("scene");
+        const std::vector<std::string> labels = sweepLabels(axis);
+        const auto place = std::find(labels.begin(), labels.end(), scene);
+        if (place == labels.end()) throw Error("{} has no scene '{}'", file.string(), scene);
+        const Value chosen = sweepValues(axis)[size_t(place - labels.begin())];
+        SceneLoader loader(sceneFolders({}, test::sourceRoot(), file));
+        const SceneState prepared = loader.prepare(readSceneSettings(chosen)).state;
+
+        const std::string name = std::filesystem::path(scene).stem();
+        if (const char* folder = std::getenv("VOXRAY_EXPORT"))
+            exportGlb(prepared, std::filesystem::path(folder) / (name + ".glb"));
+        state.SetLabel(name);
+        const ImageSettings& image = config.setup.image;
+        const int64_t bounces = config.reference.find("bounces")->asInteger("reference.bounces");
+        renderSeeds(
+            state, prepared,
+            {.width = image.width, .height = image.height, .spp = kSpp, .bounces = uint32_t(bounces)});
+    } catch (const Error& error) {
+        state.SkipWithError(error.what());
+    }
+}
+
 BENCHMARK(pathTraceCornell)
     ->Arg(0)
     ->Arg(8)
     ->Arg(64)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(4);
+BENCHMARK_CAPTURE(pathTraceRival, cornell, "cornell")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(4);
+BENCHMARK_CAPTURE(pathTraceRival, sponza, "sponza.glb")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(4);
+BENCHMARK_CAPTURE(pathTraceRival, dining_room, "dining-room.glb")
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()
     ->Iterations(4);
