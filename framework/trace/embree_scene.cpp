@@ -1,6 +1,7 @@
 #include "trace/embree_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstring>
@@ -19,6 +20,9 @@ constexpr float kLargest = 1.8e18f;
 constexpr size_t kStreamGrain = 4096;
 /// Rays of a packet: as wide as AVX2. 16 are 8 % faster where there is AVX-512.
 constexpr uint32_t kPacket = EmbreeScene::kPacketRays;
+
+/// Rays of an incoherent stream that take each step together.
+constexpr size_t kBlock = 64;
 
 /// Half of a ray: origin and tMin, or direction and tMax.
 using Float4 = float __attribute__((vector_size(16)));
@@ -42,6 +46,10 @@ bool isTraceable(const Ray& ray) {
     int64_t halves[2];
     std::memcpy(halves, &isWithin, sizeof(halves));
     return (halves[0] & halves[1]) == -1;
+}
+
+bool isActive(const Ray& ray) {
+    return ray.tMax >= ray.tMin;
 }
 
 /// In stores as wide as Embree's loads, which would wait for narrower ones.
@@ -106,6 +114,41 @@ struct EmbreeScene::Impl : EmbreeBvh {
         return query.tfar < 0.0f;
     }
 
+    /// Up to kBlock rays, one by one. Each step is taken by all rays before the next: so Embree's loads don't
+    /// wait for stores, nor these for its last branches.
+    void intersectEach(std::span<const Ray> rays, std::span<Hit> hits, RTCIntersectContext& context) const {
+        std::array<RTCRayHit, kBlock> queries;
+        for (size_t i = 0; i < rays.size(); ++i) {
+            toEmbree(rays[i], queries[i].ray);
+            hits[i] = {rays[i].tMax, Hit::kMiss, 0.0f, 0.0f};
+        }
+        for (const Part* part : {&still, &moving}) {
+            if (!part->scene) break;
+            for (size_t i = 0; i < rays.size(); ++i) queries[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            for (size_t i = 0; i < rays.size(); ++i)
+                if (isActive(rays[i])) rtcIntersect1(part->scene, &context, &queries[i]);
+            for (size_t i = 0; i < rays.size(); ++i) {
+                const RTCRayHit& found = queries[i];
+                if (found.hit.geomID != RTC_INVALID_GEOMETRY_ID)
+                    hits[i] = {found.ray.tfar, part->triangleOf(found.hit), found.hit.u, found.hit.v};
+            }
+        }
+    }
+
+    void isEachOccluded(std::span<const Ray> rays, std::span<uint32_t> results,
+                        RTCIntersectContext& context) const {
+        std::array<RTCRay, kBlock> queries;
+        for (size_t i = 0; i < rays.size(); ++i) toEmbree(rays[i], queries[i]);
+        for (size_t i = 0; i < rays.size(); ++i)
+            if (isActive(rays[i])) rtcOccluded1(still.scene, &context, &queries[i]);
+        if (moving.scene)
+            for (size_t i = 0; i < rays.size(); ++i)
+                if (isActive(rays[i]) && queries[i].tfar >= 0.0f)
+                    rtcOccluded1(moving.scene, &context, &queries[i]);
+        for (size_t i = 0; i < rays.size(); ++i)
+            results[i] = isActive(rays[i]) && queries[i].tfar < 0.0f ? 1u : 0u;
+    }
+
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, RTCIntersectContext& context) const {
         Packet packet(rays);
         RTCRayHit8& query = packet.query;
@@ -147,7 +190,7 @@ struct EmbreeScene::Impl : EmbreeBvh {
         parallelRanges(packets, kStreamGrain / kSize, [&](size_t begin, size_t end) {
             RTCIntersectContext context;
             rtcInitIntersectContext(&context);
-            if (kSize > 1) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+            if (kSize == kPacket) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
             const size_t last = std::min(end * kSize, rays.size());
             for (size_t first = begin * kSize; first < last; first += kSize) {
                 const size_t count = std::min(kSize, last - first);
@@ -219,8 +262,8 @@ void EmbreeScene::closestHit(std::span<const Ray> rays, std::span<Hit> hits, Coh
             impl_->intersect(rays.subspan(first, count), hits.subspan(first, count), context);
         });
     else
-        impl_->forEachPacket<1>(rays, [&](size_t i, size_t, RTCIntersectContext& context) {
-            hits[i] = impl_->intersect(rays[i], context);
+        impl_->forEachPacket<kBlock>(rays, [&](size_t first, size_t count, RTCIntersectContext& context) {
+            impl_->intersectEach(rays.subspan(first, count), hits.subspan(first, count), context);
         });
 }
 
@@ -233,8 +276,8 @@ void EmbreeScene::occluded(std::span<const Ray> rays, std::span<uint32_t> result
             impl_->areOccluded(rays.subspan(first, count), results.subspan(first, count), context);
         });
     else
-        impl_->forEachPacket<1>(rays, [&](size_t i, size_t, RTCIntersectContext& context) {
-            results[i] = impl_->isOccluded(rays[i], context) ? 1u : 0u;
+        impl_->forEachPacket<kBlock>(rays, [&](size_t first, size_t count, RTCIntersectContext& context) {
+            impl_->isEachOccluded(rays.subspan(first, count), results.subspan(first, count), context);
         });
 }
 
