@@ -18,11 +18,10 @@ namespace {
 /// Embree's own bound on coordinates (its FLT_LARGE): Debian's build aborts on rays beyond it.
 constexpr float kLargest = 1.8e18f;
 constexpr size_t kStreamGrain = 4096;
-/// Rays of a packet: as wide as AVX2. 16 are 8 % faster where there is AVX-512.
-constexpr uint32_t kPacket = EmbreeScene::kPacketRays;
-
 /// Rays of an incoherent stream that take each step together.
 constexpr size_t kBlock = 64;
+/// Rays of a packet: as wide as AVX2. 16 are 8 % faster where there is AVX-512.
+constexpr uint32_t kPacket = EmbreeScene::kPacketRays;
 
 /// Half of a ray: origin and tMin, or direction and tMax.
 using Float4 = float __attribute__((vector_size(16)));
@@ -114,8 +113,8 @@ struct EmbreeScene::Impl : EmbreeBvh {
         return query.tfar < 0.0f;
     }
 
-    /// Up to kBlock rays, one by one. Each step is taken by all rays before the next: so Embree's loads don't
-    /// wait for stores, nor these for its last branches.
+    /// Up to kBlock rays that don't lie together. Each step for all of them before the next takes less time
+    /// than all steps for one ray after another.
     void intersectEach(std::span<const Ray> rays, std::span<Hit> hits, RTCIntersectContext& context) const {
         std::array<RTCRayHit, kBlock> queries;
         for (size_t i = 0; i < rays.size(); ++i) {
