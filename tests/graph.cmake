@@ -1,6 +1,6 @@
 # Tests of the graph, of the passes and of what they share with shaders.
 voxray_tests(graph
-  SOURCES unit/graph_memory_test.cpp unit/graph_wiring_test.cpp
+  SOURCES unit/graph_memory_test.cpp unit/graph_basis_test.cpp unit/graph_wiring_test.cpp
   DEPENDS voxray_experiment)
 voxray_tests(chain SHARDS 12
   SOURCES gpu/compute_test.cpp gpu/shared_structs_test.cpp physics/accumulate_test.cpp physics/awkward_views_test.cpp physics/camera_rays_test.cpp

@@ -43,6 +43,11 @@ struct Resource {
     /// path_trace counts them; nullopt where it carries no indirect light or has no such bound. Of stored
     /// light those before it arrives where it is stored. Set in plan().
     std::optional<uint32_t> lightBounces;
+    /// Name of the input by which its elements are numbered, such as "voxels"; empty: none. Who reads both
+    /// must read the same one as the pass that wrote this.
+    virtual std::string basisPort() const { return {}; }
+    /// What its elements are numbered by; null where its writer reads no such input. Set by the graph.
+    const Resource* basis = nullptr;
     /// Float images and float buffers that are checked for NaN and infinity after the producing pass ran.
     virtual std::vector<const Image*> checkedImages() const { return {}; }
     virtual std::vector<const Buffer*> checkedBuffers() const { return {}; }

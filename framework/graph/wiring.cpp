@@ -6,6 +6,8 @@
 #include <optional>
 #include <set>
 
+#include "graph/basis.h"
+
 namespace voxray {
 namespace {
 
@@ -211,6 +213,7 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
 
     std::vector<GraphNode> inOrder;
     for (const size_t n : order) inOrder.push_back(std::move(nodes[n]));
+    bindBases(inOrder);
     return inOrder;
 }
 

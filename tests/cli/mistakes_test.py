@@ -56,6 +56,7 @@ MISTAKES = {
     "a light darker than black": ("intensity: [1, 1, 1]", "intensity: -1", 6, "-1 is out of range"),
     "a light that is no list": ("    - {point", "    {point", 5, "expected a list of lights"),
     "lights by a word": ("lights:\n    - {point: [0, 1.8, 0], intensity: [1, 1, 1]}", "lights: pointy", 5, "cornell.lights: unknown value 'pointy'; did you mean 'point'?"),
+    "voxels between light and its reader": ("  - {pass: gather_rays, id: gather}", "  - {pass: voxelize, id: finer, resolution: 32}\n  - {pass: gather_rays, id: gather}", 15, "write 'inputs: {voxels: voxelize}' here"),
     "the same id twice": ("id: gather}", "id: inject}", 14, "two passes have the id 'inject'"),
     "an input from a pass that isn't there": ("noisy_irradiance: gather", "noisy_irradiance: gathr", 15, "did you mean 'gather'?"),
     "an input that the pass lacks": ("{noisy_irradiance: gather}", "{noisy: gather}", 15, "did you mean 'noisy_irradiance'?"),

@@ -12,6 +12,8 @@ namespace voxray {
 /// sides of voxels by theirs, each with the number of rays that met it. Rays are distributed by the cosine,
 /// so rays over all rays is a form factor. GLSL: shaders/clusters/seen_types.h.
 struct ClusterVisibility : Resource {
+    std::string basisPort() const override { return "voxels"; }
+
     /// Faces one after another, and what they see.
     struct Chunk {
         Buffer faces;        ///< Numbers of faces: 6 * side + (+x -x +y -y +z -z), ascending.

@@ -8,6 +8,8 @@ namespace voxray {
 
 /// Surface voxels in groups that lie near each other and look the same way (cluster_voxels).
 struct VoxelClusters : Resource {
+    std::string basisPort() const override { return "voxels"; }
+
     uint32_t maxCount = 0;  ///< No more clusters than this; known from plan() on.
     uint32_t count = 0;     ///< Clusters; known once the pass has run.
     uint64_t version = 0;   ///< Another one whenever the clusters are.

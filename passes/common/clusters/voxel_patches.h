@@ -11,6 +11,8 @@ namespace voxray {
 /// Both sides of a wall that is thinner than a voxel are two. A side's six faces are its patches. Clusters
 /// are split likewise, into parts (find_patches).
 struct VoxelPatches : Resource {
+    std::string basisPort() const override { return "voxels"; }
+
     uint32_t sideCount = 0;
     uint32_t surfelCount = 0;
     uint32_t partCount = 0;

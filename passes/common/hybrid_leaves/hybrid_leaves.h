@@ -27,6 +27,8 @@ inline uint32_t gridCells(uint32_t m, uint32_t first, uint32_t end) {
 /// cells, where triangles are many (Seok 2021, section 3.1). Leaves are numbered as voxels() are; the
 /// octree's structure is its users' (VoxelMarch). GLSL access: shaders/hybrid_leaves/hybrid_leaves.glsl.
 struct HybridLeaves : Resource {
+    std::string basisPort() const override { return "voxels"; }
+
     gpu::HybridShape shape{};
     uint64_t version = 0;  ///< Another one whenever the content is.
     uint32_t gridCount = 0;

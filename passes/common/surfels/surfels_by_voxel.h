@@ -8,6 +8,8 @@ namespace voxray {
 
 /// The surfels that lie in each voxel. Surfels without a voxel are left out.
 struct SurfelsByVoxel : Resource {
+    std::string basisPort() const override { return "voxels"; }
+
     uint64_t maxCount = 0;      ///< Of slots: an upper bound, known from planning on.
     bool coveredSides = false;  ///< Whether covered sides have surfels; known from planning on.
     uint32_t slotCount = 0;
@@ -19,6 +21,8 @@ struct SurfelsByVoxel : Resource {
 
 /// Light that arrives at surfels, in the slots of SurfelsByVoxel.
 struct SurfelIrradiance : Resource {
+    std::string basisPort() const override { return "surfels_by_voxel"; }
+
     LargeBuffer
         lit;  ///< Surfel and its indirect irradiance, W/m² (LitSurfels, packed_surfel.glsl): 12 bytes.
     /// Of a surfel's irradiance, roughly, before smooth_surfels: known from planning on.
