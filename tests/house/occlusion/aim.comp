@@ -17,7 +17,7 @@ void main() {
     const vec4 p = texelFetch(position, texel, 0);
 
     // Inactive: no surface, or a normal map that points below it
-    Ray ray = Ray(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0);
+    Ray ray = kNoRay;
     if (p.w > 0.0) {
         const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
         const vec3 faceNormal = normalize(texelFetch(geometricNormal, texel, 0).xyz);
