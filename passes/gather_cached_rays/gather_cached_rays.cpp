@@ -17,6 +17,7 @@ void GatherCachedRays::plan(PassPlan& plan) {
     settings.lightSamples = params_.lightSamples;
     settings.nearFieldCells = params_.nearFieldCells;
     settings.maxSteps = kMaxSteps;
+    settings.unlit = "hits without a cell, %";
     settings.storedBounces = plan.get(cache_).lightBounces;
     gather_.plan(plan, settings);
 }

@@ -29,7 +29,8 @@ class GatherRays final : public Pass {
         "`direct_at_hits: shadow_rays` only indirect light is; hits near the pixel are measured by paths). "
         "Noisy by: rays_per_block; filter_irradiance "
         "lowers "
-        "that. Lambert surfaces only.";
+        "that. Lambert surfaces only. Reports the part of the hits, of those that it reads, on faces that no "
+        "injection lit.";
     struct Params {
         DirectAtHits directAtHits = DirectAtHits::Voxels;
         uint32_t lightSamples = 1;

@@ -346,6 +346,30 @@ TEST(FinalGather, RaysGoOnWhereNoLightWasInjected) {
     EXPECT_NEAR(ratio("0.001"), 1.0, 0.1);
 }
 
+TEST(FinalGather, ReportsHowManyHitsAreOnUnlitFaces) {
+    // In a furnace every lit face reflects 0.6, of which pixels reflect 0.6, and what reads an unlit one
+    // shows nothing: the image lacks just the part that is reported.
+    const auto run = [](const std::string& rays, const std::string& nearField) {
+        return Chain(
+            "furnace", "{shape: box, albedo: 0.6, emission: 1}",
+            gatherGraph("inject_camera_rays, rays_per_image: " + rays + ", bounces: 0, light_samples: 64",
+                        "rays_per_block: 64", {"gather_rays, near_field_voxels: " + nearField}));
+    };
+    const auto unlit = [](const Chain& chain) {
+        return reported(chain.frameSamples.back(), "hits on unlit faces, %") / 100;
+    };
+    Chain few = run("256", "0");
+    std::printf("unlit: %.4f, light: %.4f\n", unlit(few), mean(few.image("indirect")) / 0.36);
+    EXPECT_GT(unlit(few), 0.1);
+    EXPECT_NEAR(mean(few.image("indirect")) / 0.36, 1 - unlit(few), 0.02);
+    EXPECT_EQ(unlit(few), unlit(run("256", "0")));
+    EXPECT_LT(unlit(run("65536", "0")), 0.1 * unlit(few));
+
+    // With light on all faces there are none.
+    Chain lit("white_room", "{}", gatherGraph("inject_light_rays", "rays_per_block: 4"));
+    EXPECT_EQ(unlit(lit), 0);
+}
+
 TEST(FinalGather, GridOfOneVoxel) {
     // One voxel knows neither the walls' inner faces from their outer ones nor one point from another. Light
     // that is measured over all surfaces falls on twice the area that is lit: half the irradiance, and no

@@ -15,6 +15,11 @@ struct ShadePush {
     float nearField;
 };
 
+/// As in hit.glsl.
+struct Counts {
+    uint32_t surfels, lookups, unlit;
+};
+
 struct ReflectPush {
     uint32_t count;
     uint32_t seed;
@@ -75,7 +80,7 @@ void FinalGather::plan(PassPlan& plan, const Settings& settings) {
     plan.buffer(light_, "light of gather rays", batchRays(hits) * kLightBytes);
     plan.buffer(surfels_[0], "surfels at hits", batchRays(hits) * sizeof(gpu::Surfel));
     plan.buffer(goesOn_, "surfels whose rays go on", batchRays(hits) * 2 * sizeof(uint32_t));
-    plan.buffer(count_, "number of surfels", sizeof(uint32_t));
+    plan.buffer(counts_, "counts of hits", sizeof(Counts));
     if (measuresDirect()) {
         sources_ = lightSources(*plan.frame.scene);
         hitLight_.plan(plan, uint32_t(batchRays(hits)));
@@ -108,7 +113,9 @@ void FinalGather::prepare(PassSetup& setup) {
 }
 
 void FinalGather::record(PassContext& context, const std::vector<Binding>& stored) {
+    lookups_ = unlit_ = 0;
     for (uint32_t b = 0; b < context.get(hits_).batches.size(); ++b) gather(context, stored, b);
+    context.report(settings_.unlit, lookups_ > 0 ? 100 * unlit_ / lookups_ : 0);
     if (const FrameImage& indirect = context.get(indirect_); indirect.isRead)
         resolve_.record(context, context.get(gbuffer_), context.get(noisy_).irradiance, indirect.image);
 }
@@ -124,10 +131,10 @@ void FinalGather::gather(PassContext& context, const std::vector<Binding>& store
     // Shade the hits with the irradiance that is stored there, and measure light where none is to be had.
     std::vector<Binding> shading = endBindings(context, stored, hits.batches[batch], surfels_[0]);
     shading.push_back({"position", gbuffer.position, sampler_});
-    stream.fill(count_, 0);
+    stream.fill(counts_, 0);
     stream.dispatch(shade_, shading, ShadePush{hits.layout, firstBlock, rays, settings_.nearFieldCells},
                     linearGroups(rays));
-    if (measuresDirect()) follow(context, stored);
+    follow(context, stored);
 
     // Add up what the rays of each texel and of each block bring.
     const NoisyIrradiance& noisy = context.get(noisy_);
@@ -142,15 +149,22 @@ void FinalGather::gather(PassContext& context, const std::vector<Binding>& store
 std::vector<Binding> FinalGather::endBindings(PassContext& context, const std::vector<Binding>& stored,
                                               const Buffer& hits, const Buffer& surfels) const {
     std::vector<Binding> all = context.scene.bindings(
-        {{"hits", hits}, {"light", light_}, {"surfels", surfels}, {"goesOn", goesOn_}, {"count", count_}});
+        {{"hits", hits}, {"light", light_}, {"surfels", surfels}, {"goesOn", goesOn_}, {"counts", counts_}});
     all.insert(all.end(), stored.begin(), stored.end());
     return all;
+}
+
+uint32_t FinalGather::takeCounts(CommandStream& stream) {
+    const Counts counts = stream.readAs<Counts>(counts_, 1)[0];
+    lookups_ += counts.lookups;
+    unlit_ += counts.unlit;
+    return counts.surfels;
 }
 
 void FinalGather::follow(PassContext& context, const std::vector<Binding>& stored) {
     CommandStream& stream = context.stream;
     for (uint32_t step = 0; step <= settings_.maxSteps; ++step) {
-        const uint32_t surfels = stream.readAs<uint32_t>(count_, 1)[0];
+        const uint32_t surfels = takeCounts(stream);
         if (surfels == 0) return;
 
         // Direct light at the surfels, and rays on.
@@ -165,7 +179,7 @@ void FinalGather::follow(PassContext& context, const std::vector<Binding>& store
 
         // Where those end.
         context.tracer.closestHit(stream, rays_, nextHits_, surfels);
-        stream.fill(count_, 0);
+        stream.fill(counts_, 0);
         std::vector<Binding> ends = endBindings(context, stored, nextHits_, to);
         ends.insert(ends.end(), {{"from", from}, {"rays", rays_}});
         const bool isLast = step + 1 == settings_.maxSteps;

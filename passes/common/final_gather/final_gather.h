@@ -16,7 +16,8 @@ namespace voxray {
 /// A final gather: what the surfaces at the hits of trace_gather_rays reflect of light that is stored there,
 /// and measured light where none is or where the hit is too near. Where light is stored is the user's: two
 /// shaders in its folder, shade.comp and go_on.comp, include final_gather/shade.glsl and
-/// final_gather/go_on.glsl and define storedLight() (final_gather/hit.glsl).
+/// final_gather/go_on.glsl and define storedLight() (final_gather/hit.glsl). Reports how many hits no
+/// light is stored for, in percent of those that are far enough off to look it up.
 class FinalGather {
  public:
     struct Settings {
@@ -26,7 +27,8 @@ class FinalGather {
         uint32_t lightSamples = 1;  ///< Of the emissive surfaces and of the environment, at each such hit.
         float nearFieldCells = 0;   ///< Rays shorter than this go on; 0: no ray does.
         uint32_t maxSteps = 3;      ///< That a ray goes on, at most.
-        std::optional<uint32_t> storedBounces = {};  ///< Resource::lightBounces of the stored light.
+        std::optional<uint32_t> storedBounces = {};    ///< Resource::lightBounces of the stored light.
+        std::string unlit = "hits on unlit faces, %";  ///< What hits are called that no light is stored for.
     };
 
     void declare(PassBuilder& builder);
@@ -41,6 +43,8 @@ class FinalGather {
     void gather(PassContext& context, const std::vector<Binding>& stored, uint32_t batch);
     /// Measures direct light at the hits of a batch where it is asked for, and lets rays go on.
     void follow(PassContext& context, const std::vector<Binding>& stored);
+    /// Adds up what the last dispatch counted. @returns its surfels.
+    uint32_t takeCounts(CommandStream& stream);
     std::vector<Binding> endBindings(PassContext& context, const std::vector<Binding>& stored,
                                      const Buffer& hits, const Buffer& surfels) const;
 
@@ -52,13 +56,15 @@ class FinalGather {
     Program shade_, reflect_, goOn_, collect_, moments_;
     IrradianceResolve resolve_;
     Sampler sampler_;
-    Buffer light_;  ///< What the rays of a batch bring.
+    Buffer light_;   ///< What the rays of a batch bring.
+    Buffer counts_;  ///< Of one dispatch.
+    double lookups_ = 0, unlit_ = 0;
 
     // Where direct light is measured at hits, and rays go on from there.
     std::vector<LightSource> sources_;
     SurfelLight hitLight_;
     std::array<Buffer, 2> surfels_;  ///< Of a batch's hits, and of those one step before.
-    Buffer goesOn_, count_, direct_, rays_, nextHits_;
+    Buffer goesOn_, direct_, rays_, nextHits_;
 };
 
 }  // namespace voxray

@@ -21,7 +21,11 @@ layout(scalar) buffer Light { vec4 data[]; } light;
 layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
 // By surfel: 1 where its ray goes on from there, and the geometric normal, octahedral.
 layout(scalar) writeonly buffer GoesOn { uvec2 data[]; } goesOn;
-buffer Count { uint value; } count;                // Of surfels.
+buffer Counts {
+    uint surfels;
+    uint lookups;  // Hits that stored light is looked up for.
+    uint unlit;    // Those of them for which none is stored.
+} counts;
 
 // The end of ray i, which comes from `from` and brings `throughput` of what the surface at its hit reflects. A cell cannot tell
 // points apart that are closer to each other than its size: a ray that is shorter than `nearField` cells does not read it but goes on
@@ -40,7 +44,12 @@ void endRay(uint i, Hit hit, vec3 from, vec3 throughput, uint id, float nearFiel
     // What is stored there, of the side that the ray came from.
     at.reflectance *= throughput;
     const StoredLight stored = storedLight(at.position, faceNormal);
-    const bool isOnWay = nearField > 0.0 && (hit.t < nearField * stored.cellSize || !stored.known);
+    const bool isNear = hit.t < nearField * stored.cellSize;
+    if (!isNear) {
+        atomicAdd(counts.lookups, 1u);
+        if (!stored.known) atomicAdd(counts.unlit, 1u);
+    }
+    const bool isOnWay = isNear || (nearField > 0.0 && !stored.known);
     if (!isOnWay) light.data[i].rgb += at.reflectance * stored.irradiance;
 #ifndef SHADOW_RAYS
     if (!isOnWay) return;
@@ -49,7 +58,7 @@ void endRay(uint i, Hit hit, vec3 from, vec3 throughput, uint id, float nearFiel
     // Where light is measured.
     at.id = id;
     at.parent = i;
-    const uint number = atomicAdd(count.value, 1u);
+    const uint number = atomicAdd(counts.surfels, 1u);
     surfels.data[number] = at;
     goesOn.data[number] = uvec2(isOnWay ? 1u : 0u, toOctahedral(faceNormal));
 }
