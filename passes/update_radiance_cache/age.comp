@@ -10,6 +10,7 @@ layout(scalar) readonly buffer OldSums { uint64_t data[]; } oldSums;
 buffer CellCounts {
     uint cells;
     uint lost;
+    uint collisions;
 } cellCounts;
 layout(push_constant) uniform Push { uint historyFrames; } push;
 
@@ -24,7 +25,8 @@ void main() {
     }
     if (left[3] < uint64_t(RADIANCE_CACHE_SAMPLE_UNITS / 4u)) return;
     bool isNew;
-    const uint slot = takeRadianceCell(g, oldKeys.data[old], isNew);
+    uint collisions;
+    const uint slot = takeRadianceCell(g, oldKeys.data[old], isNew, collisions);
     if (slot == NO_CELL) {
         // Rounded up, so that no loss goes uncounted.
         const uint64_t unit = uint64_t(RADIANCE_CACHE_SAMPLE_UNITS);
@@ -32,5 +34,6 @@ void main() {
         return;
     }
     atomicAdd(cellCounts.cells, 1u);
+    if (collisions > 0u) atomicAdd(cellCounts.collisions, collisions);
     for (uint c = 0u; c < 4u; ++c) radianceCacheSums.data[4u * slot + c] = left[c];
 }

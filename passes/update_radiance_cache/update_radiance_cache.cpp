@@ -16,7 +16,7 @@ constexpr uint32_t kWrittenVertices = 4;     // Of a path: what it sees, and wha
 
 // As in follow.comp.
 struct CellCounts {
-    uint32_t cells, lost;
+    uint32_t cells, lost, collisions;
 };
 
 struct FollowPush {
@@ -121,6 +121,8 @@ void UpdateRadianceCache::record(PassContext& context) {
     context.report("occupancy", double(counts.cells) / params_.capacity);
     context.report("vertices per path", vertices / params_.raysPerImage);
     context.report("samples lost", counts.lost);
+    context.report("hash collisions per cell",
+                   counts.cells > 0 ? double(counts.collisions) / counts.cells : 0);
 }
 
 void UpdateRadianceCache::begin(PassContext& context, RadianceCache& cache) {

@@ -13,7 +13,8 @@ layout(scalar) readonly buffer Vertices { PathVertex data[]; } vertices;
 layout(scalar) readonly buffer Direct { vec4 data[]; } direct;
 buffer CellCounts {
     uint cells;
-    uint lost;  // Samples whose cell found no slot.
+    uint lost;        // Samples whose cell found no slot.
+    uint collisions;  // Slots that cells found taken by others.
 } cellCounts;
 layout(push_constant) uniform Push {
     uint count;
@@ -36,8 +37,10 @@ void main() {
 
     const RadianceCacheGrid g = radianceCacheGrid.data;
     bool isNew;
-    const uint slot = takeRadianceCell(g, packUint2x32(vertices.data[i].key), isNew);
+    uint collisions;
+    const uint slot = takeRadianceCell(g, packUint2x32(vertices.data[i].key), isNew, collisions);
     if (isNew) atomicAdd(cellCounts.cells, 1u);
+    if (collisions > 0u) atomicAdd(cellCounts.collisions, collisions);
     if (slot == NO_CELL)
         atomicAdd(cellCounts.lost, 1u);
     else

@@ -61,9 +61,11 @@ uint findRadianceCell(RadianceCacheGrid g, uint64_t key) {
 }
 
 // The same, which takes an empty slot where there is none; NO_CELL where all slots that it may lie in are taken. Slots are never
-// emptied meanwhile, so that a key has one slot, in whichever order threads come.
-uint takeRadianceCell(RadianceCacheGrid g, uint64_t key, out bool isNew) {
+// emptied meanwhile, so that a key has one slot, in whichever order threads come. `collisions`: slots that a new cell found taken
+// by others. Their sum over all cells does not depend on the order either, which is a property of linear probing.
+uint takeRadianceCell(RadianceCacheGrid g, uint64_t key, out bool isNew, out uint collisions) {
     isNew = false;
+    collisions = 0u;
     const uint first = radianceCacheFirstSlot(key);
     for (uint k = 0u; k < RADIANCE_CACHE_PROBES; ++k) {
         const uint slot = (first + k) & (g.capacity - 1u);
@@ -71,6 +73,7 @@ uint takeRadianceCell(RadianceCacheGrid g, uint64_t key, out bool isNew) {
         if (found == 0ul) {
             found = atomicCompSwap(radianceCacheKeys.data[slot], 0ul, key);
             isNew = found == 0ul;
+            if (isNew) collisions = k;
         }
         if (isNew || found == key) return slot;
     }

@@ -116,6 +116,25 @@ TEST(RadianceCache, AFullTableCountsWhatItLosesAndRaysGoOn) {
     EXPECT_NEAR(small / full, 1.0, 0.02);
 }
 
+TEST(RadianceCache, CountsHashCollisionsAsLinearProbingHasThem) {
+    // Knuth: a key of a table that is full to a finds a / (2 (1 - a)) slots taken on its way, on average,
+    // where hashes are even. The same count each time: it does not depend on the order of threads.
+    const auto run = [](const std::string& capacity) {
+        Chain chain("cornell", "{lights: point}", cacheGraph(", cell_size: 0.02, capacity: " + capacity, 1));
+        EXPECT_EQ(reportedBy(chain.frameSamples, "samples lost"), 0);
+        return std::pair{reportedBy(chain.frameSamples, "occupancy"),
+                         reportedBy(chain.frameSamples, "hash collisions per cell")};
+    };
+    for (const std::string capacity : {"32768", "65536"}) {
+        const auto [occupancy, collisions] = run(capacity);
+        const double expected = occupancy / (2 * (1 - occupancy));
+        std::printf("full to %.3f: %.4f collisions per cell, expected %.4f\n", occupancy, collisions,
+                    expected);
+        EXPECT_NEAR(collisions / expected, 1.0, 0.1) << capacity;
+        EXPECT_EQ(run(capacity).second, collisions);
+    }
+}
+
 TEST(RadianceCache, CellsGrowWithTheirDistanceFromTheCamera) {
     // Halving the size of all cells splits those of surfaces in four.
     const auto cells = [](const std::string& size) {
