@@ -1,5 +1,4 @@
 // Flux into voxels, summed by face in fixed point. Host: passes/common/voxels/flux_accumulator.h.
-// With RACY the sums are plain reads and writes that lose what meets.
 #ifndef VOXRAY_FLUX_ACCUMULATOR_GLSL
 #define VOXRAY_FLUX_ACCUMULATOR_GLSL
 
@@ -23,12 +22,7 @@ void addFlux(uint voxel, vec3 normal, vec3 watts, float unitsPerWatt) {
         const uint face = voxel * 6u + faceOf(normal, axis);
         for (uint c = 0u; c < 3u; ++c) {
             const uint64_t units = uint64_t(watts[c] * unitsPerSurfaceWatt);
-            if (units == 0ul) continue;
-#ifdef RACY
-            fluxAccumulator.data[face * 3u + c] += units;
-#else
-            atomicAdd(fluxAccumulator.data[face * 3u + c], units);
-#endif
+            if (units > 0ul) atomicAdd(fluxAccumulator.data[face * 3u + c], units);
         }
     }
 }

@@ -25,11 +25,10 @@ layout(scalar) buffer VoxelWeights { uint data[]; } voxelWeights;  // 1 where a 
 #elif WRITE == WRITE_MOVING_AVERAGE
 layout(scalar) coherent buffer VoxelSums { uint data[]; } voxelSums;  // RGBA8, count in A
 #else
-layout(scalar) buffer VoxelSums { float data[]; } voxelSums;        // 3 a face: means
-layout(scalar) buffer VoxelWeights { float data[]; } voxelWeights;  // 1 a face
+layout(scalar) buffer VoxelSums { vec4 data[]; } voxelSums;  // By face; in w 1 where a sample fell
 #endif
 
-// Below this part of a sample, max and moving_average, which have no weights, leave it out.
+// Below this part of a sample, the ways that have no weights leave it out.
 #define MIN_WEIGHT 0.0625
 
 // Merges a sample into face voxel * 6 + direction (+x -x +y -y +z -z). `irradiance` in W/m², not negative;
@@ -60,12 +59,8 @@ void writeFace(uint face, vec3 irradiance, float weight, float scale) {
         desired = packUnorm4x8(vec4((mean.rgb * count + color) / (count + 1.0), (count + 1.0) / 255.0));
     }
 #else
-    const float total = voxelWeights.data[face] + weight;
-    voxelWeights.data[face] = total;
-    for (uint c = 0u; c < 3u; ++c) {
-        const float mean = voxelSums.data[face * 3u + c];
-        voxelSums.data[face * 3u + c] = mean + (irradiance[c] - mean) * (weight / total);
-    }
+    // The last one stays.
+    if (weight >= MIN_WEIGHT) voxelSums.data[face] = vec4(irradiance, 1.0);
 #endif
 }
 
@@ -92,8 +87,7 @@ vec4 mergedIrradiance(uint face, float scale) {
     const vec4 mean = unpackUnorm4x8(voxelSums.data[face]);
     return vec4(mean.rgb / scale, mean.a > 0.0 ? 1.0 : 0.0);
 #else
-    return vec4(voxelSums.data[face * 3u], voxelSums.data[face * 3u + 1u], voxelSums.data[face * 3u + 2u],
-                voxelWeights.data[face] > 0.0 ? 1.0 : 0.0);
+    return voxelSums.data[face];
 #endif
 }
 

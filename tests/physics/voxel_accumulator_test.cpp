@@ -86,6 +86,22 @@ TEST(VoxelAccumulator, AverageIsTheMeanAndMaxTheLargest) {
     EXPECT_LT(Merged(Write::MovingAverage, 101, 0.5f, 0.01f).worst(1.0), 0.5);
 }
 
+TEST(VoxelAccumulator, NoneStoresOneSampleAsItIs) {
+    // Samples of 1 and 3: whichever came last, and no mean of both.
+    const Merged merged(Write::None, 2, 1, 2);
+    int faces = 0;
+    for (size_t face = 0; face < merged.area.size(); ++face) {
+        if (merged.area[face] <= 0) continue;
+        ++faces;
+        for (size_t c = 0; c < 3; ++c) {
+            const double value =
+                merged.flux[face * 3 + c] / (merged.area[face] * merged.faceArea) / double(1u << c);
+            EXPECT_LT(std::min(std::abs(value - 1), std::abs(value / 3 - 1)), kPacked);
+        }
+    }
+    EXPECT_GT(faces, 100);
+}
+
 TEST(VoxelAccumulator, AverageDoesNotDependOnOrder) {
     const Merged forwards(Write::Average, 101, 0.123f, 0.037f),
         backwards(Write::Average, 101, 0.123f, 0.037f, true);

@@ -24,20 +24,16 @@ struct FollowPush {
     float scale;
 };
 
-bool sumsFlux(Write write) {
-    return write == Write::Average || write == Write::None;
-}
-
-Defines followDefines(Write write) {
-    if (write == Write::Average) return {{"FLUX", "1"}};
-    if (write == Write::None) return {{"FLUX", "1"}, {"RACY", "1"}};
-    return VoxelAccumulator::defines(write);
+std::string nameOf(Write write) {
+    for (const auto& [value, name] : EnumNames<Write>::names)
+        if (value == write) return name;
+    return "";
 }
 
 // Merged irradiances need beams: light whose cross-section is known at each hit.
 void checkBeams(const std::string& pass, const LightPathParams& params,
                 const std::vector<LightSource>& sources) {
-    const char* write = params.write == Write::Max ? "max" : "moving_average";
+    const std::string write = nameOf(params.write);
     const bool isDiffuse = params.secondary == Secondary::Diffuse || params.secondary == Secondary::Material;
     if (isDiffuse && params.bounces > 0)
         throw Error(
@@ -58,7 +54,7 @@ void checkBeams(const std::string& pass, const LightPathParams& params,
 void LightPaths::plan(PassPlan& plan, const std::string& pass, const LightPathParams& params, uint32_t batch,
                       const SurfaceVoxels& voxels, const std::vector<LightSource>& sources) {
     params_ = params;
-    sumsFlux_ = sumsFlux(params.write);
+    sumsFlux_ = params.write == Write::Average;
     const bool indirect = params.lastBounce() > 0;
     if (sumsFlux_) {
         if (!plan.device.shaderInt64Atomics)
@@ -87,7 +83,8 @@ void LightPaths::prepare(PassSetup& setup) {
         makeComputeProgram(setup.device, compile("passes/common/light_paths/light_paths_visibility.comp"));
     follow_ = makeComputeProgram(
         setup.device,
-        compile("passes/common/light_paths/light_paths_follow.comp", followDefines(params_.write)),
+        compile("passes/common/light_paths/light_paths_follow.comp",
+                sumsFlux_ ? Defines{{"FLUX", "1"}} : VoxelAccumulator::defines(params_.write)),
         {{0, uint32_t(params_.secondary)}, {1, params_.caustics}});
     unoccludedArea_ = makeComputeProgram(setup.device, compile("passes/common/voxels/unoccluded_area.comp"));
     for (int i = 0; i < 2; ++i) {

@@ -46,10 +46,10 @@ struct LightPathParams : WriteParams {
 /// Follows rays from lights: each hit leaves light in its voxel, then the ray bounces. Whoever emits writes
 /// rays() and paths(), and hits() where it knows the first hit already.
 ///
-/// `write: average` sums each ray's flux over the voxel's unoccluded area, and `none` does so without
-/// atomics. `max` and `moving_average` merge irradiances, as the thesis: the beam's power over its
-/// cross-section at the hit, times the cosine. A diffusely scattered ray has no cross-section, so they take
-/// punctual lights and mirror bounces only. Source: Magalhães 2020, sections 3.3.1 and 4.3.2.5.
+/// `write: average` sums each ray's flux over the voxel's unoccluded area. The other ways merge irradiances,
+/// as the thesis: the beam's power over its cross-section at the hit, times the cosine. A diffusely scattered
+/// ray has no cross-section, so they take punctual lights and mirror bounces only. Source: Magalhães 2020,
+/// sections 3.3.1 and 4.3.2.5.
 class LightPaths {
  public:
     /// Describes the memory, the result's included. @param batch rays that are followed at once, at most.

@@ -16,7 +16,7 @@ layout(push_constant) uniform Push {
 void main() {
     const uint i = linearIndex();
     if (i >= push.count || surfels.data[i].voxel == 0xffffffffu || surfels.data[i].area == 0.0) return;
-#if WRITE == WRITE_AVERAGE || WRITE == WRITE_NONE
+#if WRITE == WRITE_AVERAGE
     const float weight = surfels.data[i].area;
 #else
     const float weight = 1.0;

@@ -23,8 +23,10 @@ BytesPerVoxel bytesPerVoxel(Write write) {
             return {kFaces * 3 * sizeof(uint64_t), kFaces * sizeof(uint64_t)};
         case Write::MovingAverage:
             return {kFaces * sizeof(uint32_t), 0};
-        default:
+        case Write::Max:
             return {kFaces * 3 * sizeof(uint32_t), kFaces * sizeof(uint32_t)};
+        default:
+            return {kFaces * 4 * sizeof(float), 0};
     }
 }
 

@@ -28,9 +28,10 @@ struct WriteParams {
             field("write", &WriteParams::write,
                   "How light that meets in a voxel is merged: average is exact and independent of order; max "
                   "keeps the "
-                  "brightest sample; moving_average is the thesis's 8-bit compare-and-swap loop; none is not "
-                  "synchronised "
-                  "and loses writes."),
+                  "brightest sample; moving_average is the thesis's 8-bit compare-and-swap loop; none stores "
+                  "each "
+                  "sample over the one before, so that whichever comes last stays: what a write costs at "
+                  "least."),
             field("white", &WriteParams::white,
                   "Irradiance, W/m², that white stands for in the 8 bits of moving_average; what is brighter "
                   "is clamped.",
@@ -48,8 +49,8 @@ struct WriteParams {
 ///    typical brightness 2^38 samples fit a face, at that bound 2^23.
 ///  - max: per channel, by atomicMax on float bits.
 ///  - moving_average: RGBA8, the count in alpha, which stops at 255; a sample is lost after 2^16 attempts.
-///  - none: a running mean by plain reads and writes; concurrent samples get lost, at random.
-/// max and moving_average know no weights: a face takes all of a sample, or none below 1/16 of its weight.
+///  - none: one plain store; the last sample stays, whichever that is.
+/// All but average know no weights: a face takes all of a sample, or none below 1/16 of its weight.
 class VoxelAccumulator {
  public:
     VoxelAccumulator() = default;
