@@ -63,7 +63,7 @@ void main() {
         mark(own, faces);
         area = knownArea(own, normal);
     }
-    for (int k = 0; k < 27 && area < 0.05; ++k) {
+    for (int k = 0; k < 27 && area < SMALL_FACE_AREA; ++k) {
         const uint voxel = voxelNumber(push.grid, cell + ivec3(k % 3, (k / 3) % 3, k / 9) - 1);
         if (k == 13 || voxel == NO_VOXEL) continue;
         mark(voxel, faces);
