@@ -3,26 +3,45 @@
 
 generality_table.py RESULTS...: folders that `./voxray run configs/generality/SCENE.yaml` wrote. A cell is the mean
 ratio, relMSE and nRMSE of the indirect light; where the reference is black, the root mean square of the leaking
-radiance, W/(m² sr), alone. Last comes what a black image and a constant image of the right mean score in each scene.
+radiance, W/(m² sr), alone. Then comes how much light leaks into shell_room, and last what a black image and a constant
+image of the right mean score in each scene.
 """
 import csv
 import json
+import math
 import os
 import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "framework"))
+from report import exr_pixels  # noqa: E402
 
 VOXELS = "voxelize.resolution"
 COLUMNS = ("indirect_mean_ratio", "indirect_relmse", "indirect_nrmse")
 NO_RATIO = 1e6  # Of an image over a black reference.
+# What the floor outside of shell_room reflects of the sun alone, W/(m² sr): albedo / pi times irradiance times cosine.
+SUNLIT_FLOOR = 0.75 / math.pi * 20 * 0.6 / math.hypot(0.5, 0.6, 1)
 PLAIN = {"variant", "status", "error", "device", "tracer", VOXELS, "inject", "gather"}
+
+
+def is_black(row):
+    """Whether all should be black."""
+    return float(row["indirect_nrmse"]) == 0 or float(row["indirect_mean_ratio"]) == NO_RATIO
 
 
 def cell(row):
     if row["status"] != "ok":
         return "failed"
-    nrmse, mean_ratio = float(row["indirect_nrmse"]), float(row["indirect_mean_ratio"])
-    if nrmse == 0 or mean_ratio == NO_RATIO:
-        return f"rms {nrmse:.2g}"
-    return f"{mean_ratio:.3f} / {float(row['indirect_relmse']):.2g} / {nrmse:.2g}"
+    if is_black(row):
+        return f"rms {float(row['indirect_nrmse']):.2g}"
+    return " / ".join((f"{float(row['indirect_mean_ratio']):.3f}", f"{float(row['indirect_relmse']):.2g}",
+                       f"{float(row['indirect_nrmse']):.2g}"))
+
+
+def leak(folder, row):
+    """Light inside over light outside, in percent: the mean indirect radiance of all pixels, which should be black, over
+    SUNLIT_FLOOR."""
+    channels = exr_pixels.read(os.path.join(folder, "images", row["variant"], "indirect.exr"))
+    return 100 * sum(channels[name].mean(dtype=float) for name in "RGB") / 3 / SUNLIT_FLOOR
 
 
 def swept(row):
@@ -55,9 +74,9 @@ def baselines(folder):
         yield f"| `{name_of(folder)}`{', ' + which if which else ''} | " + " | ".join(texts) + " |"
 
 
-def table(folder):
-    rows = rows_of(folder)
-    cells = {(swept(row), row["inject"], row["gather"], int(row[VOXELS])): cell(row) for row in rows}
+def table(rows, text):
+    """A line an injection, a column a gather and resolution; `text` of each row. Of a chain the last pass has the name."""
+    cells = {(swept(row), row["inject"].split(" + ")[-1], row["gather"], int(row[VOXELS])): text(row) for row in rows}
     lines = dict.fromkeys((key[0], key[1]) for key in cells)
     columns = sorted({(key[2], key[3]) for key in cells}, key=lambda column: (column[0] != "gather_rays", column))
     yield "| injection | " + " | ".join(f"`{gather}`, {voxels}³" for gather, voxels in columns) + " |"
@@ -70,7 +89,11 @@ def table(folder):
 if __name__ == "__main__":
     for results in sys.argv[1:]:
         print(f"\n### {name_of(results)}\n")
-        print("\n".join(table(results)))
+        print("\n".join(table(rows_of(results), cell)))
+        black = [row for row in rows_of(results) if row["status"] == "ok" and is_black(row)]
+        if name_of(results) == "shell_room" and black:
+            print("\nLight inside over light outside, %:\n")
+            print("\n".join(table(black, lambda row, folder=results: f"{leak(folder, row):.2g}")))
     print("\n### A black and a constant image\n\n| scene | black | constant, of the right mean |\n| --- | --- | --- |")
     for results in sys.argv[1:]:
         print("\n".join(baselines(results)))
