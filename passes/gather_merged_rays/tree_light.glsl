@@ -4,7 +4,8 @@
 
 StoredLight storedLight(vec3 position, vec3 normal) {
     StoredLight stored;
-    stored.irradiance = irradianceAt(irradianceTree.grid.voxels, position, normal, stored.known);
+    bool isOwn;
+    stored.irradiance = irradianceAt(irradianceTree.grid.voxels, position, normal, isOwn, stored.known);
     stored.cellSize = irradianceTree.grid.voxels.voxelSize;
     return stored;
 }

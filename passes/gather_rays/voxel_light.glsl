@@ -7,7 +7,8 @@ layout(scalar) readonly buffer Grid { VoxelGrid data; } grid;
 StoredLight storedLight(vec3 position, vec3 normal) {
     const VoxelGrid g = grid.data;
     StoredLight stored;
-    stored.irradiance = irradianceAt(g, position, normal, stored.known);
+    bool anyKnown;
+    stored.irradiance = irradianceAt(g, position, normal, stored.known, anyKnown);
     stored.cellSize = g.voxelSize;
     return stored;
 }

@@ -24,13 +24,14 @@ void addFaces(VoxelGrid g, ivec3 voxel, vec3 normal, inout vec3 sum, inout float
 }
 
 // Irradiance at a point of a surface with unit normal `normal`. Where its voxel has too little surface that faces the
-// same way (SMALL_FACE_AREA), the
-// voxels around it are taken together. Where they know nothing either, it is black and `known` is false.
-vec3 irradianceAt(VoxelGrid g, vec3 position, vec3 normal, out bool known) {
+// same way (SMALL_FACE_AREA), `isOwn` is false and the voxels around it are taken together, even through a wall. Where they know
+// nothing either, it is black and `known` is false.
+vec3 irradianceAt(VoxelGrid g, vec3 position, vec3 normal, out bool isOwn, out bool known) {
     const ivec3 voxel = voxelAt(g, position);
     vec3 sum = vec3(0.0);
     float area = 0.0;
     addFaces(g, voxel, normal, sum, area);
+    isOwn = area >= SMALL_FACE_AREA;
     for (int i = 0; i < 27 && area < SMALL_FACE_AREA; ++i) {
         if (i == 13) continue;
         addFaces(g, voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, normal, sum, area);
@@ -54,7 +55,8 @@ vec3 interpolatedIrradianceAt(VoxelGrid g, vec3 position, vec3 normal, out bool 
         sum += tent.x * tent.y * tent.z * voxelSum;
         area += tent.x * tent.y * tent.z * voxelArea;
     }
-    if (area < SMALL_FACE_AREA) return irradianceAt(g, position, normal, known);
+    bool isOwn;
+    if (area < SMALL_FACE_AREA) return irradianceAt(g, position, normal, isOwn, known);
     known = true;
     return sum / area;
 }
