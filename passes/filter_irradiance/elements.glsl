@@ -25,7 +25,11 @@ bool elementOfThread(ivec2 pixels, out ivec2 element) {
 float kernel(int x, int y) { return (x == 0 ? 2.0 : 1.0) * (y == 0 ? 2.0 : 1.0); }
 
 // By how much the variance of a level's values is above that of a mean of independent ones. From level 1 on what taps stand for
-// overlaps: without edges variance falls by 4.2 a level, not by 7.1.
-float overlap(int level) { return level == 0 ? 1.0 : 1.7; }
+// overlaps. Without edges the levels up to this one make a tent of n = 2^level, and with it one of 2 n, along rows and columns each;
+// the squares of a tent's weights add up to s(n) = (2 n² + 1) / (3 n³), those of the kernel to 3/8: the root is s(2 n) / s(n) over that.
+float overlap(int level) {
+    const float squaredWidth = exp2(2.0 * float(level)), root = (8.0 * squaredWidth + 1.0) / (6.0 * squaredWidth + 3.0);
+    return root * root;
+}
 
 #endif
