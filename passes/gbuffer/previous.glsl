@@ -4,14 +4,12 @@
 
 #include "shaders/scene/scene.glsl"
 
-layout(scalar) readonly buffer PreviousPositions { float data[]; } previousPositions;  // As scenePositions.
+layout(scalar) readonly buffer PreviousPositions { vec3 data[]; } previousPositions;  // As scenePositions.
 layout(scalar) readonly buffer InstanceStarts { uint data[]; } instanceStarts;  // First triangle of each mesh instance.
 
 vec3 previousPosition(uint triangle, vec2 barycentrics) {
-    const uvec3 v = 3u * triangleVertices(triangle);
-    const vec3 p0 = vec3(previousPositions.data[v.x], previousPositions.data[v.x + 1u], previousPositions.data[v.x + 2u]);
-    const vec3 p1 = vec3(previousPositions.data[v.y], previousPositions.data[v.y + 1u], previousPositions.data[v.y + 2u]);
-    const vec3 p2 = vec3(previousPositions.data[v.z], previousPositions.data[v.z + 1u], previousPositions.data[v.z + 2u]);
+    const uvec3 v = triangleVertices(triangle);
+    const vec3 p0 = previousPositions.data[v.x], p1 = previousPositions.data[v.y], p2 = previousPositions.data[v.z];
     const vec3 w = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
     return w.x * p0 + w.y * p1 + w.z * p2;
 }
