@@ -39,9 +39,12 @@ def time_to_reach(error: float, points: list[tuple[float, float]]) -> Reached | 
 def sentences(results: Results, light: str, metric: Metric, families: list[Family], names: Names) -> list[str]:
     """Of the methods next to path tracing in this run, the one that saves most time at equal error, and what its frame
     and that of the fastest path-traced family take; none where the run has no path-traced family or no method that
-    is faster at its error."""
+    is faster at its error. None over several scenes either, whose times and errors don't compare: `voxray pareto` has
+    them scene by scene."""
     column = LIGHTS[light] + metric.key
     rows = results.ok.set_index("variant", drop=False)
+    if "scene" in rows and rows["scene"].nunique() > 1:
+        return []
     usable = {name for name in rows.index if rows.loc[name, "frame_ms_median"] > 0 and rows.loc[name, column] > 0}
     rivals = [family for family in families if _RIVAL in family.passes and usable & set(family.variants)]
     traced = {name for family in rivals for name in family.variants}

@@ -123,6 +123,11 @@ class Comparing(ReportTest):
             rows[0] |= {"nrmse": error}
             said = [s for s in self.summary(self.results(rows, sweep_keys=["method"], variants=graphs)) if "equal" in s]
             self.assertEqual([s.endswith(expected) for s in said], [True] if expected else [])
+        # Times and errors of two scenes don't compare.
+        rows[0] |= {"nrmse": 0.3}
+        for row, scene in zip(rows, ("room", "hall", "hall", "hall", "hall", "hall")):
+            row |= {"scene": scene}
+        self.assertNotIn("At equal", " ".join(self.summary(self.results(rows, sweep_keys=["method"], variants=graphs))))
 
     def test_time_to_reach_an_error(self):
         points = [(10, 0.4), (40, 0.2), (50, 0.3), (160, 0.1)]  # 50 ms are beaten by 40
