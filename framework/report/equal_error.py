@@ -36,15 +36,33 @@ def time_to_reach(error: float, points: list[tuple[float, float]]) -> Reached | 
     return Reached(front[-1][0], ">")
 
 
-def sentences(results: Results, light: str, metric: Metric, families: list[Family], names: Names) -> list[str]:
-    """Of the methods next to path tracing in this run, the one that saves most time at equal error, and what its frame
-    and that of the fastest path-traced family take; none where the run has no path-traced family or no method that
-    is faster at its error. None over several scenes either, whose times and errors don't compare: `voxray pareto` has
-    them scene by scene."""
+@dataclass(frozen=True)
+class SpeedUp:
+    """How many times as long path tracing takes as a frame of a variant, `ms`, for its error: `reached` is its time, that of
+    the family `rival`. `ends` are the factors at the ends of the error's interval, () where they tell nothing."""
+
+    variant: str
+    ms: float
+    rival: Family
+    reached: Reached
+    ends: tuple[float, ...]
+
+    @property
+    def factor(self) -> float:
+        return self.reached.milliseconds / self.ms
+
+    @property
+    def bound(self) -> str:
+        """"more than " where path tracing does not reach the error at all."""
+        return "more than " if self.reached.bound else ""
+
+
+def speed_up(results: Results, light: str, metric: Metric, families: list[Family]) -> SpeedUp | None:
+    """Of the methods next to path tracing, the one that saves most time at equal error; None where the run has no
+    path-traced family or no method that is faster at its error. `results` are of one scene and reference: others don't
+    compare."""
     column = LIGHTS[light] + metric.key
     rows = results.ok.set_index("variant", drop=False)
-    if "scene" in rows and rows["scene"].nunique() > 1:
-        return []
     usable = {name for name in rows.index if rows.loc[name, "frame_ms_median"] > 0 and rows.loc[name, column] > 0}
     rivals = [family for family in families if _RIVAL in family.passes and usable & set(family.variants)]
     traced = {name for family in rivals for name in family.variants}
@@ -58,17 +76,20 @@ def sentences(results: Results, light: str, metric: Metric, families: list[Famil
         rival, reached = _fastest(rows.loc[name, column], curves)
         if rival and reached.bound != "<" and reached.milliseconds / ms > best_factor:
             best, best_factor = (name, ms, rival, reached), reached.milliseconds / ms
-    if best is None:
-        return []
-    name, ms, rival, reached = best
-    more, who, short = "", f"one of {rival.name}", ""
-    if reached.bound:
-        more, who, short = "more than ", "path tracing", " (all its variants have a higher error)"
-    build = rows.loc[name, "build_ms"]
+    return SpeedUp(*best, _ends(rows.loc[best[0]], column, best[1], curves)) if best else None
+
+
+def sentence(found: SpeedUp, results: Results, light: str, metric: Metric, names: Names) -> str:
+    """What a frame of the faster method and of the fastest path-traced family take, and the build of the method."""
+    who, short = f"one of {found.rival.name}", ""
+    if found.bound:
+        who, short = "path tracing", " (all its variants have a higher error)"
+    build = results.ok.set_index("variant").loc[found.variant, "build_ms"]
     apart = f". Its build, once for each scene or light, takes {text.figures(build)} ms more" if build > 0 else ""
-    return [f"At equal {metric.label} of the {light} light: a frame of {names.full(name)} takes {text.figures(ms)} ms, "
-            f"{who} {more}{text.figures(reached.milliseconds)} ms: {more}"
-            f"{text.figures(best_factor, 2)} times as long{short}{_range(rows.loc[name], column, ms, curves)}{apart}."]
+    within = f" ({text.span(*found.ends)} within the error's interval)" if found.ends else ""
+    return (f"At equal {metric.label} of the {light} light: a frame of {names.full(found.variant)} takes "
+            f"{text.figures(found.ms)} ms, {who} {found.bound}{text.figures(found.reached.milliseconds)} ms: {found.bound}"
+            f"{text.figures(found.factor, 2)} times as long{short}{within}{apart}.")
 
 
 def _fastest(error: float, curves) -> tuple[Family | None, Reached | None]:
@@ -81,9 +102,9 @@ def _fastest(error: float, curves) -> tuple[Family | None, Reached | None]:
     return curves[i][0], reached
 
 
-def _range(row, column: str, ms: float, curves) -> str:
+def _ends(row, column: str, ms: float, curves) -> tuple[float, ...]:
     # What the error's own interval makes of the factor.
     ends = [_fastest(error, curves)[1] for error in reversed(interval_of(row, column)) if error > 0]
     if len(ends) < 2 or any(end.bound for end in ends) or ends[0].milliseconds == ends[1].milliseconds:
-        return ""
-    return f" ({text.span(*(end.milliseconds / ms for end in ends))} within the error's interval)"
+        return ()
+    return tuple(end.milliseconds / ms for end in ends)

@@ -6,18 +6,25 @@ import math
 
 import pandas as pd
 
+from report.comparisons import comparisons
 from report.load import BASELINES, Metric, Results, interval_of
 
 COST_COLUMNS = ("build_ms", "frame_ms_median", "memory_bytes")
 
 
 def score_marks(results: Results, metric: Metric, column: str) -> dict[str, str]:
-    """Marks of one score: variant -> "best" or "tie". No marks where fewer than two variants have one.
+    """Marks of one score: variant -> "best" or "tie", among those that are compared with the same reference. No marks where
+    fewer than two of these have one.
 
     Scores with confidence intervals tie where no other's interval lies wholly below theirs; the best is then one of
     the ties. Others tie where both reach their reference's noise floor: a perfect image would score no better.
     Scores that are equal to the last digit are all the best.
     """
+    return {name: mark for _, compared in comparisons(results)
+            for name, mark in _score_marks(compared, metric, column).items()}
+
+
+def _score_marks(results: Results, metric: Metric, column: str) -> dict[str, str]:
     rows = results.ok.set_index("variant")
     ranks = rows[column].map(metric.rank).dropna()
     if len(ranks) < 2:
@@ -37,7 +44,12 @@ def score_marks(results: Results, metric: Metric, column: str) -> dict[str, str]
 
 
 def cost_marks(results: Results, column: str) -> dict[str, str]:
-    """Marks of one cost, lower is better. Frame times tie where the fastest one's p95 reaches this median."""
+    """Marks of one cost, lower is better, among variants of the same scene and reference. Frame times tie where the
+    fastest one's p95 reaches this median."""
+    return {name: mark for _, compared in comparisons(results) for name, mark in _cost_marks(compared, column).items()}
+
+
+def _cost_marks(results: Results, column: str) -> dict[str, str]:
     rows = results.ok.set_index("variant")
     costs = rows[column].dropna()
     if len(costs) < 2:

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import math
+
 from report import equal_error, noise, text
+from report.comparisons import comparisons
 from report.load import LIGHTS, Results
-from report.names import Family, Names
+from report.names import Family, Names, families_of, names_of
 from report.ranking import beaten_by, score_marks
+
+_TENTH_DB = 10.0  # a tenth of a squared error, in dB
 
 
 def summary(results: Results, light: str, families: list[Family], names: Names) -> list[str]:
@@ -21,33 +26,79 @@ def summary(results: Results, light: str, families: list[Family], names: Names) 
         sentences.append(f"{finished} of {_count(total, 'variant')} finished. {_count(failed, 'variant')} failed; the "
                          "reason stands below the table.")
     metric = results.metrics[0] if results.metrics else None
+    compared = comparisons(results)
+    if len(compared) > 1:
+        sentences += _by_scene(compared, light, metric, names) if metric else []
+        sentences += noise.sentences(results, light, names) if metric else []
+        return sentences + _worse_than_nothing(results, light, names)
     if metric:
         sentences += _lowest_error(results, light, metric, names)
-        sentences += equal_error.sentences(results, light, metric, families, names)
+        faster = equal_error.speed_up(results, light, metric, families)
+        sentences += [equal_error.sentence(faster, results, light, metric, names)] if faster else []
         sentences += noise.sentences(results, light, names)
     sentences += _fastest(results, light, names)
     return sentences + _worse_than_nothing(results, light, names)
 
 
+def _by_scene(compared: list[tuple[str, Results]], light: str, metric, names: Names) -> list[str]:
+    """A short sentence for each scene with several variants: its lowest error, and what path tracing takes for an error as low as the method's that
+    saves most time. Errors and times of two scenes don't compare."""
+    sentences = []
+    for scene, results in compared:
+        own = Names(names.numbers, names_of(results).short)
+        scores = _scores(results, light, metric)
+        if len(scores) < 2:
+            continue
+        best = scores.map(metric.rank).idxmin()
+        ties = _ties(results, light, metric)
+        also = f" (ties with {len(ties) - 1} more)" if best in ties and len(ties) > 1 else ""
+        said = f"{scene}: lowest {metric.label} {text.figures(scores[best])}, {own.full(best)}{also}."
+        faster = equal_error.speed_up(results, light, metric, families_of(results, own))
+        if faster:
+            said += (f" For the error of {own.full(faster.variant)} path tracing takes {faster.bound}"
+                     f"{text.figures(faster.factor, 2)} times as long as its {text.figures(faster.ms)} ms a frame.")
+        sentences.append(said)
+    if sentences and metric.meaning:
+        sentences[0] = f"Of the {light} light, {sentences[0]} {metric.label}: {metric.meaning.split(';')[0]}."
+    return sentences
+
+
+def _scores(results: Results, light: str, metric):
+    return results.ok.set_index("variant")[LIGHTS[light] + metric.key].dropna()
+
+
+def _ties(results: Results, light: str, metric) -> list[str]:
+    marks = score_marks(results, metric, LIGHTS[light] + metric.key)
+    return [name for name in results.ok["variant"] if marks.get(name) == "tie"]
+
+
 def _lowest_error(results: Results, light: str, metric, names: Names) -> list[str]:
-    column = LIGHTS[light] + metric.key
-    scores = results.ok.set_index("variant")[column].dropna()
+    scores, ties = _scores(results, light, metric), _ties(results, light, metric)
     if scores.empty:
         return []
     best = scores.map(metric.rank).idxmin()
-    marks = score_marks(results, metric, column)
-    ties = [name for name in scores.index if marks.get(name) == "tie"]
     explained = f" {metric.label}: {metric.meaning.split(';')[0]}." if metric.meaning else ""
     if not ties:
         return [f"Lowest {metric.label} of the {light} light: {names.full(best)}, {text.figures(scores[best])}.{explained}"]
-    found = [f"Lowest {metric.label} of the {light} light: {names.listed(ties)} tie, from "
-             f"{text.figures(scores[ties].min())} to {text.figures(scores[ties].max())}."]
-    if 2 * len(ties) > len(scores):
-        spp = (results.only_reference or {}).get("spp")
-        found[0] += (" Most variants tie: more samples in the reference tell them apart (raise reference.spp"
-                     f"{f', now {spp}' if spp else ''}).")
-    found[0] += explained
-    return found
+    found = (f"Lowest {metric.label} of the {light} light: {names.listed(ties)} tie, from "
+             f"{text.figures(scores[ties].min())} to {text.figures(scores[ties].max())}.")
+    advice = _what_tells_apart(results, light, ties) if 2 * len(ties) > len(scores) else ""
+    return [found + advice + explained]
+
+
+def _what_tells_apart(results: Results, light: str, ties: list[str]) -> str:
+    """More samples in the reference where its noise is over a tenth of the ties' squared error, by PSNR of the previews;
+    else nothing that the reference could bring: the ties share an error."""
+    reference = results.reference_of(ties[0])
+    column = LIGHTS[light] + "psnr_db"
+    floor = results.noise(column, reference)
+    scores = results.ok.set_index("variant").get(column)
+    if scores is None or not math.isfinite(floor) or not scores[ties].median() < floor - _TENTH_DB:
+        spp = (reference or {}).get("spp")
+        now = f", now {spp}" if spp else ""
+        return f" Most variants tie: more samples in the reference tell them apart (raise reference.spp{now})."
+    return (" Most variants tie, and not for the reference's noise, which is less than a tenth of their squared error: they "
+            "share an error. ./voxray explain CONFIG says which stage it comes from.")
 
 
 def _fastest(results: Results, light: str, names: Names) -> list[str]:
