@@ -2,7 +2,7 @@
 """Prints how much faster lookups, gather rays or virtual lights are than filtered path tracing at equal error, from results of
 configs/bench/rivals.yaml or configs/papers/sun2015/rivals.yaml.
 
-rivals_table.py DIR: for each scene and number of samples a pixel, the frame time of path tracing (G-buffer, paths, filter)
+rivals_table.py DIR [--best]: for each scene and number of samples a pixel, the frame time of path tracing (G-buffer, paths, filter)
 and its errors of indirect light; then that time over the time in which voxels that are looked up, gather rays into voxels,
 or gather rays into a radiance cache reach as small an nRMSE / relMSE: with light and geometry that stand still (frames
 alone), with light that is new in each frame (what brings light counts, too), and with geometry that is new, too (all that
@@ -11,6 +11,7 @@ column before would come to if these cost nothing. For virtual lights what sampl
 variants those count that no other one beats in time and error; between them the time is interpolated, logarithm over
 logarithm.
 `>` where the fastest of them already has less error, `-` where none has as little. Direct light is in neither.
+With --best: the least error of each method in no more time than filtered path tracing takes to it.
 """
 import csv
 import math
@@ -67,18 +68,55 @@ def front(points):
     return best
 
 
-def speed_up(ms, error, points):
-    """How much longer `ms` is than what the points take to an error."""
+def time_to(error, points):
+    """(ms in which a front reaches an error, ">" where its fastest point already has less); None where none has as little."""
     if not points or points[-1][1] > error:
-        return "-"
+        return None
     if points[0][1] <= error:
-        return f">{ms / points[0][0]:.1f}"
+        return points[0][0], ">"
     for (ms0, error0), (ms1, error1) in zip(points, points[1:]):
         if error1 <= error < error0:
             # An error that can't be told from none is reached at the slower point, no sooner.
             at = math.log(error0 / error) / math.log(error0 / error1) if error1 > 0 else 1
-            return f"{ms / (ms0 * (ms1 / ms0) ** at):.1f}"
+            return ms0 * (ms1 / ms0) ** at, ""
     raise AssertionError("errors of a front decrease")
+
+
+def speed_up(ms, error, points):
+    """How much longer `ms` is than what the points take to an error."""
+    reached = time_to(error, points)
+    return f"{reached[1]}{ms / reached[0]:.1f}" if reached else "-"
+
+
+def samples_of(passes, row):
+    """Samples a pixel of filtered path tracing, None for another method."""
+    return int(re.search(r"path_trace spp (\d+)", row["indirect"])[1]) if any(p["pass"] == "paths" for p in passes) else None
+
+
+def is_no_slower(ms, error, rivals):
+    """Whether filtered path tracing takes at least `ms` to the error, or never gets there."""
+    reached = time_to(error, rivals)
+    return reached is None or ms <= reached[0]
+
+
+def best(folder):
+    """Of each scene and method the variant of the least nRMSE among those that are no slower than filtered path tracing
+    at the same nRMSE."""
+    yield "| scene | method | variant | ms | nRMSE / relMSE / mean ratio |"
+    yield "|" + " --- |" * 5
+    for scene, found in variants(folder).items():
+        rivals = front([(time_of(passes, lambda name: False, LEFT_OUT), float(row["indirect_nrmse"]))
+                        for passes, row in found if samples_of(passes, row)])
+        for title, gather in (("looked up", "inject_radiosity"), ("voxels", "gather_rays"), ("cache", "gather_cached_rays")):
+            mine = [(float(row["indirect_nrmse"]), time_of(passes, lambda name: False, LEFT_OUT), row)
+                    for passes, row in found if any(p["pass"] == gather for p in passes)]
+            fast = [entry for entry in mine if is_no_slower(entry[1], entry[0], rivals)]
+            if mine and not fast:
+                yield f"| {scene} | {title} | none | | |"
+            elif fast:
+                error, ms, row = min(fast, key=lambda entry: entry[:2])
+                yield (f"| {scene} | {title} | {row['indirect']} | {ms:.0f} | {error:.3f} / {float(row['indirect_relmse']):.4f} / "
+                       f"{float(row['indirect_mean_ratio']):.3f} |")
 
 
 def table(folder):
@@ -95,16 +133,16 @@ def table(folder):
                 fronts[title, name] = front([(time_of(passes, counts_build, left_out), float(row[name]))
                                              for passes, row in mine])
         for passes, row in found:
-            if not any(p["pass"] == "paths" for p in passes):
+            samples = samples_of(passes, row)
+            if samples is None:
                 continue
             ms = time_of(passes, lambda name: False, LEFT_OUT)
             cells = [" / ".join(speed_up(time_of(passes, lambda name: False, left_out), float(row[name]), fronts[title, name])
                                 for name in ERRORS)
                      for title, _, _, left_out in columns]
-            samples = re.search(r"path_trace spp (\d+)", row["indirect"])[1]
             errors = " / ".join(f"{float(row[name]):.3f}" for name in ERRORS)
             yield f"| {scene} | {samples} | {ms:.0f} | {errors} | {' | '.join(cells)} |"
 
 
 if __name__ == "__main__":
-    print("\n".join(table(sys.argv[1])))
+    print("\n".join(best(sys.argv[1]) if "--best" in sys.argv[2:] else table(sys.argv[1])))

@@ -5,7 +5,7 @@ foreach(part explain page pareto ranking reading)
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}/tests/unit)
   set_tests_properties(report.${part} PROPERTIES TIMEOUT 300)
 endforeach()
-foreach(script compare_builds image_sheet mirror_borders trials tune)
+foreach(script compare_builds image_sheet mirror_borders rivals_table trials tune)
   add_test(NAME scripts.${script}
     COMMAND /usr/bin/python3 -m unittest -q ${script}_test
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/unit)
