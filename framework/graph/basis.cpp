@@ -5,9 +5,9 @@
 namespace voxray {
 namespace {
 
-Resource* inputNamed(const GraphNode& node, const std::string& name) {
+Resource* portNamed(const GraphNode& node, const std::string& name, bool isOutput) {
     for (size_t p = 0; p < node.ports.size(); ++p)
-        if (!node.ports[p].output && node.ports[p].name == name) return node.resources[p];
+        if (node.ports[p].output == isOutput && node.ports[p].name == name) return node.resources[p];
     return nullptr;
 }
 
@@ -18,10 +18,11 @@ std::string writerOf(const std::vector<GraphNode>& nodes, const Resource* resour
     return {};
 }
 
-/// What an output's elements are numbered by: the writer's input of that name, else the basis of what it
-/// reads.
+/// What an output's elements are numbered by: the writer's input of that name or its other output, else the
+/// basis of what it reads.
 const Resource* basisOf(const GraphNode& writer, const std::string& port) {
-    if (const Resource* own = inputNamed(writer, port)) return own;
+    if (const Resource* own = portNamed(writer, port, false)) return own;
+    if (const Resource* own = portNamed(writer, port, true)) return own;
     for (size_t p = 0; p < writer.ports.size(); ++p) {
         const Resource* input = writer.ports[p].output ? nullptr : writer.resources[p];
         if (input && input->basis && input->basisPort() == port) return input->basis;
@@ -41,7 +42,7 @@ void bindBases(const std::vector<GraphNode>& nodes) {
                 resource->basis = basisOf(node, port);
                 continue;
             }
-            const Resource* read = inputNamed(node, port);
+            const Resource* read = portNamed(node, port, false);
             if (!read || !resource->basis || read == resource->basis) continue;
             const std::string maker = writerOf(nodes, resource->basis), other = writerOf(nodes, read);
             throw UsageError(node.where,

@@ -45,6 +45,7 @@ void LinkSurfels::declare(PassBuilder& builder) {
     surfels_ = builder.read<Surfels>("surfels", "points to link");
     links_ = builder.write<SurfelLinks>("links", "which surfels each surfel sees");
     byVoxel_ = builder.write<SurfelsByVoxel>("surfels_by_voxel", "the surfels of each voxel");
+    neighbours_ = builder.write<SurfelNeighbours>("neighbours", "the surfels around each surfel");
 }
 
 void LinkSurfels::plan(PassPlan& plan) {
@@ -59,6 +60,7 @@ void LinkSurfels::plan(PassPlan& plan) {
     plan.scratchBuffer(unlinked_, "number of hits without surfel", sizeof(uint32_t));
     SurfelSort::plan(plan, plan.get(surfels_), voxels, plan.get(byVoxel_));
     plan.get(byVoxel_).coveredSides = plan.get(surfels_).coveredSides;
+    if (plan.get(neighbours_).isRead) NeighbourSearch::plan(plan, plan.get(byVoxel_), voxels);
 }
 
 void LinkSurfels::prepare(PassSetup& setup) {
@@ -66,6 +68,7 @@ void LinkSurfels::prepare(PassSetup& setup) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file));
     };
     sort_.prepare(setup);
+    neighbourSearch_.prepare(setup);
     pack_ = program("passes/link_surfels/pack.comp");
     emit_ = program("passes/link_surfels/emit.comp");
     probe_ = program("passes/link_surfels/probe.comp");
@@ -93,6 +96,9 @@ void LinkSurfels::record(PassContext& context) {
 
     sort_.run(context.stream, surfels, context.get(voxels_).voxelCount, context.get(byVoxel_));
     pack(context);
+    if (context.get(neighbours_).isRead)
+        neighbourSearch_.run(context.stream, context.get(voxels_), context.get(byVoxel_),
+                             context.get(neighbours_));
     context.stream.fill(unlinked_, 0);
     uint32_t first = 0;
     for (const Surfels::Chunk& chunk : surfels.chunks) {

@@ -3,6 +3,7 @@
 #include "passes/common/surfels/surfel_links.h"
 #include "passes/common/surfels/surfel_sort.h"
 #include "passes/common/voxels/voxels.h"
+#include "passes/link_surfels/neighbour_search.h"
 
 namespace voxray {
 
@@ -43,7 +44,9 @@ class LinkSurfels final : public Pass {
     Port<const Surfels> surfels_;
     Port<SurfelLinks> links_;
     Port<SurfelsByVoxel> byVoxel_;
+    Port<SurfelNeighbours> neighbours_;
     SurfelSort sort_;
+    NeighbourSearch neighbourSearch_;
     Program pack_, emit_, probe_, link_;
     Buffer rays_, hits_, probes_, covered_, unlinked_;  ///< Scratch, of a batch of rays.
 };

@@ -2,32 +2,34 @@
 #extension GL_GOOGLE_include_directive : require
 // Irradiance of each surfel as the mean of those around it. Each counts by
 //
-//     noise / (noise + bias²)
+//     kernel * noise / (noise + bias²)
 //
 // as in filter_irradiance. noise: variance of a surfel, the mean of both, so that a pair has one weight.
 // bias²: what geometry allows the two to differ by, and what the means of their surroundings do differ by beyond their noise.
-#include "passes/smooth_surfels/around.glsl"
+#include "passes/smooth_surfels/surroundings.glsl"
 
 layout(scalar) readonly buffer ResultAt { LitSurfels result; };
 
-Surroundings own;
-vec3 sum = vec3(0.0);
-float weights = 0.0;
-
-void visit(uint slot, float bias, float kernel) {
-    const Surroundings other = surroundings.data[slot];
-    const float mean_ = 0.5 * (own.mean + other.mean), noise = 0.5 * (own.variance + other.variance);
-    const float apart = own.mean - other.mean;
-    const float bias2 = bias * mean_ * mean_ + max(apart * apart - own.ofMean - other.ofMean, 0.0);
-    const float weight = kernel * (bias2 > 0.0 ? noise / max(noise + bias2, 1e-30) : 1.0);
-    sum += weight * unpackRadiosity(lit.data[slot].z);
-    weights += weight;
+float weightOf(vec3 own, vec3 other, vec2 pair) {
+    const float mean_ = 0.5 * (own.x + other.x), noise = 0.5 * (own.y + other.y), apart = own.x - other.x;
+    const float bias2 = pair.x * mean_ * mean_ + max(apart * apart - own.z - other.z, 0.0);
+    return pair.y * (bias2 > 0.0 ? noise / max(noise + bias2, 1e-30) : 1.0);
 }
 
 void main() {
     const uint slot = linearIndex();
     if (slot >= push.count) return;
-    own = surroundings.data[slot];
-    around(slot);
+    const uvec4 words = surroundings.data[slot];
+    const vec3 own = uintBitsToFloat(words.xyz);
+    const uint end = begins.data[slot + 1u];
+    vec3 sum = unpackRadiosity(words.w);
+    float weights = 1.0;
+    for (uint i = begins.data[slot]; i < end; ++i) {
+        const uvec2 neighbour = pairs.data[i];
+        const uvec4 other = surroundings.data[neighbour.x];
+        const float weight = weightOf(own, uintBitsToFloat(other.xyz), biasAndKernel(neighbour));
+        sum += weight * unpackRadiosity(other.w);
+        weights += weight;
+    }
     result.data[slot] = uvec3(lit.data[slot].xy, packRadiosity(sum / weights));
 }

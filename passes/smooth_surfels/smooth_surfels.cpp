@@ -8,10 +8,9 @@
 namespace voxray {
 namespace {
 
-constexpr uint64_t kSurroundingsBytes = 3 * sizeof(float), kLitBytes = 3 * sizeof(uint32_t);
+constexpr uint64_t kSurroundingsBytes = 4 * sizeof(float), kLitBytes = 3 * sizeof(uint32_t);
 
 struct SmoothPush {
-    gpu::VoxelGrid grid;
     uint32_t count;
     float noise;
 };
@@ -19,8 +18,8 @@ struct SmoothPush {
 }  // namespace
 
 void SmoothSurfels::declare(PassBuilder& builder) {
-    voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels, by which surfels are found");
-    surfels_ = builder.read<SurfelsByVoxel>("surfels_by_voxel", "the surfels of each voxel");
+    surfels_ = builder.read<SurfelsByVoxel>("surfels_by_voxel", "surfels, in the slots of their light");
+    neighbours_ = builder.read<SurfelNeighbours>("neighbours", "the surfels around each surfel");
     light_ = builder.read<SurfelIrradiance>("surfel_irradiance", "light that arrives at surfels");
     smooth_ = builder.write<SurfelIrradiance>("surfel_irradiance", "the same with less noise");
 }
@@ -50,16 +49,16 @@ void SmoothSurfels::record(PassContext& context) {
     LargeBuffer other(context.device, "irradiance one step before", slots * kLitBytes);
     const LargeBuffer surroundings(context.device, "surroundings of surfels", slots * kSurroundingsBytes);
 
-    const SurfaceVoxels& voxels = context.get(voxels_);
-    const SmoothPush push{voxels.grid, count, context.get(light_).relativeVariance};
+    const SurfelNeighbours& neighbours = context.get(neighbours_);
+    const SmoothPush push{count, context.get(light_).relativeVariance};
     const LargeBuffer* from = &context.get(light_).lit;
     for (uint32_t i = 0; i < params_.iterations; ++i) {
         // The last iteration writes the result.
         LargeBuffer& to = (params_.iterations - i) % 2 == 1 ? result : other;
-        std::vector<Binding> bindings = voxels.bindings({{"SortedAt", surfels.sorted.at()},
-                                                         {"lists", surfels.lists},
-                                                         {"LitAt", from->at()},
-                                                         {"SurroundingsAt", surroundings.at()}});
+        std::vector<Binding> bindings{{"begins", neighbours.begins},
+                                      {"PairsAt", neighbours.pairs.at()},
+                                      {"LitAt", from->at()},
+                                      {"SurroundingsAt", surroundings.at()}};
         context.stream.dispatch(surroundings_, bindings, push, linearGroups(count));
         bindings.push_back({"ResultAt", to.at()});
         context.stream.dispatch(mean_, bindings, push, linearGroups(count));

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "passes/common/surfels/surfel_neighbours.h"
 #include "passes/common/surfels/surfels_by_voxel.h"
-#include "passes/common/voxels/voxels.h"
 
 namespace voxray {
 
@@ -13,10 +13,8 @@ class SmoothSurfels final : public Pass {
     static constexpr const char* kHelp =
         "Lowers the noise of what gather_surfels reads: mean irradiance of the surfels within a voxel's "
         "size, "
-        "as "
-        "far as they lie on the same surface in the same light. Once for a light, so that frames cost the "
-        "same. "
-        "Biased by: iterations (blurs what is smaller than a voxel).";
+        "as far as they lie on the same surface in the same light. Once for a light, so that frames cost the "
+        "same. Biased by: iterations (blurs what is smaller than a voxel).";
     struct Params {
         uint32_t iterations = 2;
         static constexpr auto schema() {
@@ -33,8 +31,8 @@ class SmoothSurfels final : public Pass {
 
  private:
     Params params_;
-    Port<const SurfaceVoxels> voxels_;
     Port<const SurfelsByVoxel> surfels_;
+    Port<const SurfelNeighbours> neighbours_;
     Port<const SurfelIrradiance> light_;
     Port<SurfelIrradiance> smooth_;
     Program surroundings_, mean_;

@@ -1,12 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Mean and variance of the light around each surfel, on the same surface.
-#include "passes/smooth_surfels/around.glsl"
+#include "shaders/scene/sampling.glsl"
+#include "passes/smooth_surfels/surroundings.glsl"
 
-float weights = 0.0, squaredWeights = 0.0, sum = 0.0, squares = 0.0;
+float weights, squaredWeights, sum, squares;
 
-void visit(uint slot, float bias, float kernel) {
-    const float weight = kernel * push.noise / (push.noise + bias), value = luminance(unpackRadiosity(lit.data[slot].z));
+void add(float weight, uint irradiance) {
+    const float value = luminance(unpackRadiosity(irradiance));
     weights += weight;
     squaredWeights += weight * weight;
     sum += weight * value;
@@ -16,7 +17,15 @@ void visit(uint slot, float bias, float kernel) {
 void main() {
     const uint slot = linearIndex();
     if (slot >= push.count) return;
-    around(slot);
+    weights = 0.0, squaredWeights = 0.0, sum = 0.0, squares = 0.0;
+    const uint own = lit.data[slot].z, end = begins.data[slot + 1u];
+    add(1.0, own);
+    for (uint i = begins.data[slot]; i < end; ++i) {
+        const uvec2 neighbour = pairs.data[i];
+        const vec2 pair = biasAndKernel(neighbour);
+        add(pair.y * push.noise / (push.noise + pair.x), lit.data[neighbour.x].z);
+    }
     const float mean_ = sum / weights, variance = max(squares / weights - mean_ * mean_, 0.0);
-    surroundings.data[slot] = Surroundings(mean_, variance, variance * squaredWeights / (weights * weights));
+    surroundings.data[slot] = uvec4(
+        floatBitsToUint(vec3(mean_, variance, variance * squaredWeights / (weights * weights))), own);
 }

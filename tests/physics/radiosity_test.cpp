@@ -6,6 +6,7 @@
 
 #include "image/metrics.h"
 #include "passes/common/surfels/surfel_links.h"
+#include "passes/common/surfels/surfel_neighbours.h"
 #include "passes/common/surfels/surfels_by_voxel.h"
 #include "passes/common/voxels/voxels.h"
 #include "scene/shapes.h"
@@ -71,6 +72,38 @@ TEST(Radiosity, LinksHoldWhatRaysSee) {
         inside += linked == kRays;
     }
     EXPECT_NEAR(double(inside) / links.surfelCount, 0.5, 0.01);
+}
+
+TEST(Radiosity, NeighboursAreTheSurfelsWithinAVoxel) {
+    Chain chain(
+        "clutter", "{}",
+        graphYaml({"voxelize, resolution: 12", "place_surfels, sides: all",
+                   "link_surfels, rays_per_surfel: 1", "inject_radiosity, bounces: 1", "smooth_surfels"}));
+    const SurfelNeighbours& neighbours = *chain.graph().resource<SurfelNeighbours>("neighbours");
+    const auto begins = chain.read<uint32_t>(neighbours.begins);
+    const auto pairs = chain.read<glm::uvec2>(neighbours.pairs);
+    const auto surfels =
+        chain.read<gpu::SortedSurfel>(chain.graph().resource<SurfelsByVoxel>("surfels_by_voxel")->sorted);
+    const float size = chain.graph().resource<SurfaceVoxels>("voxels")->grid.voxelSize;
+    ASSERT_EQ(begins.size(), surfels.size() + 1);
+    ASSERT_EQ(begins.back(), pairs.size());
+
+    std::vector<bool> isListed(surfels.size());
+    size_t missing = 0;
+    for (uint32_t i = 0; i < surfels.size(); ++i) {
+        for (uint32_t p = begins[i]; p < begins[i + 1]; ++p) isListed[pairs[p].x] = true;
+        for (uint32_t j = 0; j < surfels.size(); ++j) {
+            const gpu::SortedSurfel &a = surfels[i], &b = surfels[j];
+            const bool isNear = i != j && glm::distance(a.position, b.position) < size &&
+                                glm::dot(a.normal, b.normal) > 0 && ((a.id ^ b.id) & VOXRAY_COVERED) == 0;
+            ASSERT_TRUE(isNear || !isListed[j]) << i << " " << j;
+            missing += isNear && !isListed[j];
+            isListed[j] = false;
+        }
+    }
+    // A surfel whose own voxel is empty is in the list of the next one, which may lie out of the 27.
+    EXPECT_LT(double(missing), 1e-3 * double(pairs.size()));
+    EXPECT_GT(double(pairs.size()), 4.0 * double(surfels.size()));
 }
 
 // nRMSE of indirect light in Cornell after three bounces; `gather`: the passes after inject_radiosity.

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "graph/pass.h"
+#include "passes/common/compute/large_buffer.h"
+
+namespace voxray {
+
+/// The surfels around each surfel on the same surface: those nearer than a voxel's size, without itself.
+/// Depends on geometry alone, so that light which is new reads it as it is. If A is a neighbour of B, B is
+/// one of A.
+struct SurfelNeighbours : Resource {
+    std::string basisPort() const override { return "surfels_by_voxel"; }
+
+    Buffer begins;  ///< By slot: its first pair, and after the last slot the number of pairs; uint32_t.
+    /// By pair: the neighbour's slot, and the bias² and the kernel of the pair
+    /// (shaders/surfels/neighbours.glsl).
+    LargeBuffer pairs;
+};
+
+}  // namespace voxray
