@@ -111,7 +111,8 @@ void main() {
     }
     proposals.data[ray] = proposal;
     // The ray's own way to the hit is open.
-    const vec3 from = p.position - min(0.5 * hit.t, 0.5 * push.grid.voxelSize) * direction;
-    const vec3 way = raisedOver(patchSurfels.data[proposal.surfel], push.grid.voxelSize) - from;
+    const PatchSurfel s = patchSurfels.data[proposal.surfel];
+    const vec3 from = p.position - min(0.5 * hit.t, s.height) * direction;
+    const vec3 way = raisedOver(s) - from;
     between.data[ray] = dot(way, way) > 0.0 ? Ray(from, 0.0, normalize(way), length(way)) : kNoRay;
 }

@@ -37,7 +37,9 @@ struct Walk {
 
 // What a side shows of its faces to a ray. In a corner a ray begins among the voxels of the other surface, on its front side, for that
 // is where corners are lit: as long as it passes from one of them to the next that surface lies behind it.
-vec3 shownBy(VoxelMaterial m, Walk w, ivec3 voxel) {
+vec3 shownBy(uint side, Walk w, ivec3 voxel) {
+    if (sides.data[side].isCovered == 1u) return vec3(0.0);
+    const VoxelMaterial m = voxelMaterial(side);
     if (w.isInLayer && isFlat(m) && dot(m.normal, w.direction) > 0.0) return vec3(0.0);
     return isOwnSurface(w.normal, w.direction, voxel - w.own, m) ? vec3(0.0) : projectedArea(m, w.direction);
 }
@@ -47,13 +49,13 @@ bool seesVoxel(uint ray, Walk w, ivec3 voxel, float away, out uint target) {
     const uint number = voxelNumber(push.grid, voxel);
     float sum = 0.0;
     for (uint side = firstSide.data[number]; side < firstSide.data[number + 1u]; ++side)
-        sum += dot(shownBy(voxelMaterial(side), w, voxel), vec3(1.0));
+        sum += dot(shownBy(side, w, voxel), vec3(1.0));
     target = NO_TARGET;
     if (sum == 0.0) return false;
     float at = rayPick(ray) * sum;
     for (uint side = firstSide.data[number]; side < firstSide.data[number + 1u]; ++side) {
         const VoxelMaterial m = voxelMaterial(side);
-        const vec3 shown = shownBy(m, w, voxel);
+        const vec3 shown = shownBy(side, w, voxel);
         const float own = dot(shown, vec3(1.0));
         if (own == 0.0) continue;
         target = targetOf(side, faceAgainst(m, w.direction, shown, at / own), away);

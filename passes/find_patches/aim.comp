@@ -11,7 +11,7 @@ layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(push_constant) uniform Push {
     uint first;
     uint count;
-    float voxelSize;  // m
+    uint isCovered;  // Which surfels.
 } push;
 
 void main() {
@@ -19,9 +19,9 @@ void main() {
     if (i >= push.count) return;
     Ray ray = kNoRay;
     const PatchSurfel s = patchSurfels.data[push.first + i];
-    if (s.side == NO_SIDE) {
-        const vec3 from = raisedOver(s, push.voxelSize);
-        const vec3 way = raisedOver(patchSurfels.data[pivots.data[s.voxel]], push.voxelSize) - from;
+    if (s.side == NO_SIDE && s.isCovered == push.isCovered) {
+        const vec3 from = raisedOver(s);
+        const vec3 way = raisedOver(patchSurfels.data[pivots.data[s.voxel]]) - from;
         if (dot(way, way) > 0.0) ray = Ray(from, 0.0, normalize(way), length(way));
     }
     rays.data[i] = ray;

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The surfels of all voxels, on no side yet; covered ones never are. A thread takes one of a chunk.
+// The surfels of all voxels, on no side yet. A thread takes one of a chunk.
 #include "shaders/clusters/patches.glsl"
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -12,6 +12,7 @@ layout(scalar) readonly buffer SlotsAt { LargeUints slots; };
 layout(push_constant) uniform Push {
     uint count;
     uint firstNumber;
+    float voxelSize;  // m
 } push;
 
 void main() {
@@ -20,8 +21,6 @@ void main() {
     const Surfel s = surfels.data[i];
     const uint number = push.firstNumber + i, slot = slots.data[number];
     if (slot == NO_SIDE) return;
-    const bool isCovered = s.area == 0.0;
-    patchSurfels.data[slot] =
-        PatchSurfel(s.position, number, s.normal, s.id, s.reflectance, s.voxel, isCovered ? COVERED_SIDE : NO_SIDE);
-    if (isCovered) slots.data[number] = NO_SIDE;
+    patchSurfels.data[slot] = PatchSurfel(s.position, number, s.normal, s.id, s.reflectance, s.voxel, NO_SIDE, 0.5 * push.voxelSize,
+                                          s.area == 0.0 ? 1u : 0u);
 }

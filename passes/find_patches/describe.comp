@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What the surfaces of a side are: of each face's area in the voxel the part that its surfels have. A thread takes a voxel.
+// What the surfaces of a side are: of each face's area in the voxel the part that its surfels have. Surfels of covered sides stand for
+// what each point has of the surfaces' area, for then both sides of all points are surfels. A thread takes a voxel.
 #include "shaders/clusters/patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -25,9 +26,12 @@ void main() {
     if (voxel >= push.voxels) return;
     const uint first = firstSide.data[voxel], end = firstSide.data[voxel + 1u];
     vec3 allPositive = vec3(0.0), allNegative = vec3(0.0);
-    for (uint side = first; side < end; ++side)
-        for (uint i = 0u; i < sides.data[side].surfels; ++i)
+    float points = 0.0;
+    for (uint side = first; side < end; ++side) {
+        points += 0.5 * float(sides.data[side].surfels);
+        for (uint i = 0u; i < sides.data[side].surfels && sides.data[side].isCovered == 0u; ++i)
             addArea(patchSurfels.data[sides.data[side].firstSurfel + i].normal, allPositive, allNegative);
+    }
     const VoxelMaterial whole = voxelMaterial(voxel);
     for (uint side = first; side < end; ++side) {
         VoxelMaterial m = whole;
@@ -40,8 +44,13 @@ void main() {
             m.albedo += s.reflectance / float(surfels);
             m.normal += s.normal / float(surfels);
         }
-        m.unoccludedPositive = partOf(positive, allPositive, whole.unoccludedPositive);
-        m.unoccludedNegative = partOf(negative, allNegative, whole.unoccludedNegative);
+        if (sides.data[side].isCovered == 1u) {
+            m.unoccludedPositive = whole.area / points * positive;
+            m.unoccludedNegative = whole.area / points * negative;
+        } else {
+            m.unoccludedPositive = partOf(positive, allPositive, whole.unoccludedPositive);
+            m.unoccludedNegative = partOf(negative, allNegative, whole.unoccludedNegative);
+        }
         m.area = dot(m.unoccludedPositive + m.unoccludedNegative, vec3(1.0));
         sideMaterials.data[side] = packMaterial(m);
     }

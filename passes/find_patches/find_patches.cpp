@@ -11,7 +11,7 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kBatchRays = 1u << 20;
-/// Of a voxel: what is left after that many is one more.
+/// Of a voxel, open or covered: what is left is on the last one.
 constexpr uint32_t kMaxSides = 8;
 /// Of a side, in the mean: two layers of the voxels round it.
 constexpr uint64_t kNeighbours = 18;
@@ -19,17 +19,25 @@ constexpr uint64_t kNeighbours = 18;
 struct ChunkPush {
     uint32_t count;
     uint32_t firstNumber;
+    float voxelSize;
+};
+
+struct AcrossPush {
+    uint32_t first;
+    uint32_t count;
+    float voxelSize;
 };
 
 struct PivotPush {
     uint32_t voxels;
     uint32_t round;
+    uint32_t isCovered;
 };
 
 struct AimPush {
     uint32_t first;
     uint32_t count;
-    float voxelSize;
+    uint32_t isCovered;
 };
 
 struct JoinPush {
@@ -37,11 +45,7 @@ struct JoinPush {
     uint32_t count;
     uint32_t round;
     uint32_t isLast;
-};
-
-struct ListPush {
-    uint32_t voxels;
-    float voxelSize;
+    uint32_t isCovered;
 };
 
 struct NearPush {
@@ -94,6 +98,8 @@ void FindPatches::plan(PassPlan& plan) {
                         uints(pairs) + 8 * uints(sides) + RadixSort::scratchBytes(uint32_t(sides)));
     plan.scratchBuffer(rays_, "rays between surfels", uint64_t(kBatchRays) * sizeof(Ray));
     plan.scratchBuffer(occluded_, "visibility of surfels", uint64_t(kBatchRays) * sizeof(uint32_t));
+    if (plan.get(surfels_).coveredSides)
+        plan.scratchBuffer(hits_, "gaps before surfels", uint64_t(kBatchRays) * sizeof(Hit));
     plan.scratchBuffer(counter_, "what is left", sizeof(uint32_t));
 }
 
@@ -109,6 +115,8 @@ void FindPatches::prepare(PassSetup& setup) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
     begin_ = program("begin");
+    aimAcross_ = program("aim_across");
+    raise_ = program("raise");
     pivot_ = program("pivot");
     aim_ = program("aim");
     join_ = program("join");
@@ -166,29 +174,53 @@ void FindPatches::findSides(PassContext& context, SurfelsByVoxel& lists) {
                         {{"surfels", chunk.surfels},
                          {"SlotsAt", lists.slots.at()},
                          {"PatchSurfelsAt", patches.surfels.at()}},
-                        ChunkPush{chunk.count, number}, linearGroups(chunk.count));
+                        ChunkPush{chunk.count, number, voxels.grid.voxelSize}, linearGroups(chunk.count));
         number += chunk.count;
     }
     stream.finish();
     patches.places = std::move(lists.slots);
     lists.sorted = {};
+    splitByRays(context, lists, 0);
+    if (!context.get(surfels_).coveredSides) return;
+    raiseCovered(context);
+    splitByRays(context, lists, 1);
+}
+
+void FindPatches::raiseCovered(PassContext& context) {
+    const float voxelSize = context.get(voxels_).grid.voxelSize;
+    const VoxelPatches& patches = context.get(patches_);
+    CommandStream& stream = context.stream;
+    inBatches(patches.surfelCount, [&](uint32_t first, uint32_t count) {
+        stream.dispatch(aimAcross_, {{"rays", rays_}, {"PatchSurfelsAt", patches.surfels.at()}},
+                        AcrossPush{first, count, voxelSize}, linearGroups(count));
+        context.tracer.closestHit(stream, rays_, hits_, count);
+        stream.dispatch(raise_, {{"hits", hits_}, {"PatchSurfelsAt", patches.surfels.at()}},
+                        PairPush{first, count}, linearGroups(count));
+    });
+}
+
+void FindPatches::splitByRays(PassContext& context, const SurfelsByVoxel& lists, uint32_t isCovered) {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    const VoxelPatches& patches = context.get(patches_);
+    CommandStream& stream = context.stream;
     const Buffer pivots(context.device, "surfels that began sides", uints(voxels.voxelCount));
-    for (uint32_t round = 0; round < kMaxSides; ++round) {
+    for (uint32_t i = 0; i < kMaxSides; ++i) {
+        const uint32_t round = isCovered * kMaxSides + i;
         stream.fill(counter_, 0);
         stream.dispatch(pivot_,
                         {{"lists", lists.lists},
                          {"pivots", pivots},
                          {"left", counter_},
                          {"PatchSurfelsAt", patches.surfels.at()}},
-                        PivotPush{voxels.voxelCount, round}, linearGroups(voxels.voxelCount));
+                        PivotPush{voxels.voxelCount, round, isCovered}, linearGroups(voxels.voxelCount));
         if (stream.readAs<uint32_t>(counter_, 1)[0] == 0) break;
         inBatches(patches.surfelCount, [&](uint32_t first, uint32_t count) {
             stream.dispatch(aim_,
                             {{"pivots", pivots}, {"rays", rays_}, {"PatchSurfelsAt", patches.surfels.at()}},
-                            AimPush{first, count, voxels.grid.voxelSize}, linearGroups(count));
+                            AimPush{first, count, isCovered}, linearGroups(count));
             context.tracer.occluded(stream, rays_, occluded_, count);
             stream.dispatch(join_, {{"occluded", occluded_}, {"PatchSurfelsAt", patches.surfels.at()}},
-                            JoinPush{first, count, round, round + 1 == kMaxSides ? 1u : 0u},
+                            JoinPush{first, count, round, i + 1 == kMaxSides ? 1u : 0u, isCovered},
                             linearGroups(count));
         });
     }
@@ -216,7 +248,7 @@ void FindPatches::listSides(PassContext& context, const SurfelsByVoxel& lists) {
                      {"PlacesAt", patches.places.at()},
                      {"sides", patches.sides},
                      {"PatchSurfelsAt", patches.surfels.at()}},
-                    ListPush{count, voxels.grid.voxelSize}, linearGroups(count));
+                    count, linearGroups(count));
     stream.dispatch(describe_,
                     {{"VoxelMaterialsAt", voxels.materials.at()},
                      {"sides", patches.sides},

@@ -13,7 +13,7 @@
 
 namespace voxray {
 
-/// Splits the surfaces of each voxel by the open space that they look into, and clusters likewise, so that
+/// Splits the surfaces of each voxel by the space that they look into, and clusters likewise, so that
 /// no side of a thin wall holds the other side's light. Beyond Cosin and Patow 2022; docs/clusters.md.
 class FindPatches final : public Pass {
  public:
@@ -21,7 +21,10 @@ class FindPatches final : public Pass {
     static constexpr const char* kHelp =
         "Splits the surfels of each voxel into sides, those between which nothing stands, and clusters into "
         "parts that hang together: so both sides of a wall that is thinner than a voxel are told apart where "
-        "light is gathered (cluster_visibility, inject_clusters, gather_clusters). Biased by: voxel size "
+        "light is gathered (cluster_visibility, inject_clusters, gather_clusters). With place_surfels' "
+        "'sides: all' gaps narrower than a voxel have sides, too, which send light and receive it. Biased "
+        "by: "
+        "voxel size "
         "(what hides less than half a voxel above surfaces splits nothing). Noisy by: points_per_voxel (a "
         "surface without a point has no side). Source: docs/clusters.md.";
     struct Params {
@@ -35,8 +38,12 @@ class FindPatches final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Orders the surfels of each voxel by the side that they are on.
+    /// The side of its voxel that each surfel is on.
     void findSides(PassContext& context, SurfelsByVoxel& lists);
+    /// The height of covered surfels.
+    void raiseCovered(PassContext& context);
+    /// The sides of open surfels, or those of covered ones.
+    void splitByRays(PassContext& context, const SurfelsByVoxel& lists, uint32_t isCovered);
     void listSides(PassContext& context, const SurfelsByVoxel& lists);
     /// Sides next to each other that nothing hides.
     void findNeighbours(PassContext& context);
@@ -52,9 +59,9 @@ class FindPatches final : public Pass {
     std::optional<Compaction> compaction_;
     std::optional<Histogram> histogram_;
     std::optional<RadixSort> radixSort_;
-    Program begin_, pivot_, aim_, join_, order_, list_, describe_;
+    Program begin_, aimAcross_, raise_, pivot_, aim_, join_, order_, list_, describe_;
     Program countNear_, listNear_, aimNear_, partNear_, label_, spread_, flag_, number_, assign_, parts_;
-    Buffer rays_, occluded_, counter_;                      ///< Scratch.
+    Buffer rays_, hits_, occluded_, counter_;               ///< Scratch.
     std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of the voxels and their clusters.
 };
 

@@ -10,11 +10,14 @@ layout(push_constant) uniform Push {
     uint first;
     uint count;
     uint round;
-    uint isLast;  // 1: hidden or not.
+    uint isLast;     // 1: hidden or not.
+    uint isCovered;  // Which surfels.
 } push;
 
 void main() {
     const uint i = linearIndex();
-    if (i >= push.count || patchSurfels.data[push.first + i].side != NO_SIDE) return;
+    if (i >= push.count) return;
+    const PatchSurfel s = patchSurfels.data[push.first + i];
+    if (s.side != NO_SIDE || s.isCovered != push.isCovered) return;
     if (push.isLast == 1u || occluded.data[i] == 0u) patchSurfels.data[push.first + i].side = push.round;
 }

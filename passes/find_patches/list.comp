@@ -10,10 +10,7 @@ readonly buffer Lists { uvec2 data[]; } lists;
 readonly buffer FirstSide { uint data[]; } firstSide;
 layout(scalar) readonly buffer PlacesAt { LargeUints places; };
 layout(scalar) writeonly buffer Sides { SurfaceSide data[]; } sides;
-layout(push_constant) uniform Push {
-    uint voxels;
-    float voxelSize;  // m
-} push;
+layout(push_constant) uniform Push { uint voxels; } push;
 
 void main() {
     const uint voxel = linearIndex();
@@ -26,6 +23,7 @@ void main() {
             patchSurfels.data[i].side = side;
             places.data[patchSurfels.data[i].number] = i;
         }
-        sides.data[side] = SurfaceSide(raisedOver(patchSurfels.data[first], push.voxelSize), voxel, first, i - first);
+        const PatchSurfel s = patchSurfels.data[first];
+        sides.data[side] = SurfaceSide(raisedOver(s), voxel, first, i - first, s.isCovered);
     }
 }

@@ -39,6 +39,7 @@ void main() {
             const uint voxel = voxelNumber(push.grid, center + ivec3(i % 3, i / 3 % 3, i / 9) - 1);
             if (i == 13 || voxel == NO_VOXEL) continue;
             for (uint other = firstSide.data[voxel]; other < firstSide.data[voxel + 1u]; ++other) {
+                if (sides.data[other].isCovered != sides.data[side].isCovered) continue;
                 if (!haveFaceInCommon(m, unpackMaterial(sideMaterials.data[other]))) continue;
 #ifdef LIST
                 neighbours.data[firstNeighbour.data[side] + count] = other;

@@ -18,11 +18,12 @@ void main() {
         // By insertion, which keeps the order of ids.
         for (uint i = begin; i < lists.data[voxel].y; ++i) {
             const PatchSurfel s = patchSurfels.data[i];
-            if (s.side != COVERED_SIDE) sides = max(sides, s.side + 1u);
             uint to = i;
             for (; to > begin && patchSurfels.data[to - 1u].side > s.side; --to) patchSurfels.data[to] = patchSurfels.data[to - 1u];
             patchSurfels.data[to] = s;
         }
+        for (uint i = begin; i < lists.data[voxel].y; ++i)
+            if (i == begin || patchSurfels.data[i].side != patchSurfels.data[i - 1u].side) ++sides;
     }
     counts.data[voxel] = sides;  // One more than there are voxels: where the last one ends.
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Of each voxel's surfels that are on no side yet, the first begins one. A thread takes a voxel.
+// Of each voxel's open surfels that are on no side yet, or of its covered ones, the first begins one. A thread takes a voxel.
 #include "shaders/clusters/patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
@@ -11,13 +11,14 @@ buffer Left { uint count; } left;  // Voxels that have such surfels.
 layout(push_constant) uniform Push {
     uint voxels;
     uint round;
+    uint isCovered;  // Which surfels.
 } push;
 
 void main() {
     const uint voxel = linearIndex();
     if (voxel >= push.voxels) return;
     for (uint i = lists.data[voxel].x; i < lists.data[voxel].y; ++i) {
-        if (patchSurfels.data[i].side != NO_SIDE) continue;
+        if (patchSurfels.data[i].side != NO_SIDE || patchSurfels.data[i].isCovered != push.isCovered) continue;
         patchSurfels.data[i].side = push.round;
         pivots.data[voxel] = i;
         atomicAdd(left.count, 1u);

@@ -74,7 +74,8 @@ void GatherClusters::record(PassContext& context) {
     VoxelIrradiance& result = context.get(irradiance_);
     result.allocate(context.device, voxels.voxelCount);
     stream.dispatch(store_,
-                    {{"firstSide", patches.firstSide},
+                    {{"sides", patches.sides},
+                     {"firstSide", patches.firstSide},
                      {"VoxelMaterialsAt", patches.materials.at()},
                      {"FacesAt", faces.at()},
                      {"SidesDirectAt", light.direct.at()},

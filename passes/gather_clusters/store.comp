@@ -1,13 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Irradiance of the faces of the sides in a voxel (whose materials are bound) as its flux over their unoccluded area. A thread takes
-// the two faces across an axis of a voxel.
+// Irradiance of the faces of the open sides in a voxel (whose materials are bound) as its flux over their unoccluded area. A thread
+// takes the two faces across an axis of a voxel.
+#include "shaders/clusters/patch_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/packed_flux.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FaceValues { vec3 data[]; };
+layout(scalar) readonly buffer Sides { SurfaceSide data[]; } sides;
 readonly buffer FirstSide { uint data[]; } firstSide;
 layout(scalar) readonly buffer FacesAt { FaceValues faces; };
 layout(scalar) readonly buffer SidesDirectAt { FaceValues sidesDirect; };
@@ -26,6 +28,7 @@ void main() {
     vec3 directFlux[2] = vec3[](vec3(0.0), vec3(0.0)), indirectFlux[2] = vec3[](vec3(0.0), vec3(0.0));
     float own[2] = float[](0.0, 0.0);
     for (uint side = firstSide.data[voxel]; side < firstSide.data[voxel + 1u]; ++side) {
+        if (sides.data[side].isCovered == 1u) continue;
         const VoxelMaterial m = voxelMaterial(side);
         for (uint k = 0u; k < 2u; ++k) {
             const uint face = 2u * axis + k;

@@ -7,7 +7,6 @@
 VOXRAY_SHARED_BEGIN
 
 #define NO_SIDE 0xffffffffu
-#define COVERED_SIDE 0xfffffffeu  // While sides are searched: no open space lies before the surfel (place_surfels).
 #define NO_PART 0xffffffffu
 
 // A point of a side.
@@ -18,15 +17,18 @@ struct PatchSurfel {
     uint id;        // As Surfel's: the same in every run.
     vec3 reflectance;
     uint voxel;
-    uint side;  // Among all; while sides are searched, among those of its voxel.
+    uint side;     // Among all; while sides are searched, among those of its voxel.
+    float height;  // m above it where the space before it is looked at: half a voxel, or half the gap that it is in.
+    uint isCovered;  // 1: no open space lies before it, as far as a voxel (place_surfels).
 };
 
-// Surfaces of a voxel that look into the same open space. Its patches are its six faces.
+// Surfaces of a voxel that look into the same space: open space, or a gap narrower than a voxel. Its patches are its six faces.
 struct SurfaceSide {
-    vec3 raised;  // m, in the open space: half a voxel above its first surfel.
+    vec3 raised;  // m, in that space, above its first surfel.
     uint voxel;
     uint firstSurfel;
     uint surfels;
+    uint isCovered;  // 1: in a gap. It sends and receives light, but the voxel's irradiance is that of open sides.
 };
 
 // Sides of a cluster's voxels that look into the same open space.

@@ -10,7 +10,7 @@
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PatchSurfels { PatchSurfel data[]; };
 layout(scalar) readonly buffer PatchSurfelsAt { PatchSurfels patchSurfels; };
 
-// A place in the open space before a surfel: nothing is within a voxel along its normal (place_surfels).
-vec3 raisedOver(PatchSurfel s, float voxelSize) { return s.position + 0.5 * voxelSize * s.normal; }
+// A place in the space before a surfel.
+vec3 raisedOver(PatchSurfel s) { return s.position + s.height * s.normal; }
 
 #endif

@@ -67,6 +67,40 @@ TEST(GatherClusters, KeepTheEnergyOfAFurnace) {
         }
 }
 
+TEST(InjectClusters, KeepTheFluxOfALampInAGapNarrowerThanAVoxel) {
+    // A lamp of I W/sr amid a closed box of 24 m² in one voxel: within it no side is open. 4 pi I / 24 m²
+    // arrives at each wall, and a of it again with each bounce. Nothing arrives at the open, outer sides.
+    const double a = 0.5, intensity = 2, first = 4 * kPi * intensity / 24;
+    const double sent = a * first * (1 - std::pow(a, 5)) / (1 - a);
+    Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
+                graphYaml({"voxelize, resolution: 1", "place_surfels, sides: all, points_per_voxel: 256",
+                           "cluster_voxels, target: 1", "find_patches", "cluster_visibility, rays: 256",
+                           "inject_clusters, bounces: 4, direct: shadow_rays"}));
+    const auto sides = readSides(chain);
+    const auto light = chain.read<float>(chain.graph().resource<ClusterLight>("cluster_light")->sides);
+    const auto materials =
+        chain.read<gpu::PackedVoxelMaterial>(chain.graph().resource<VoxelPatches>("patches")->materials);
+    const float voxelSize = chain.graph().resource<SurfaceVoxels>("voxels")->grid.voxelSize;
+    double flux = 0, area = 0, outside = 0;
+    for (size_t side = 0; side < sides.size(); ++side) {
+        const gpu::VoxelMaterial m = gpu::unpackMaterial(materials[side]);
+        for (int face = 0; face < 6; ++face) {
+            const double own = light[(6 * side + size_t(face)) * 3 + 1];
+            if (sides[side].isCovered == 0) {
+                outside += own;
+                continue;
+            }
+            const glm::vec3& areas = face % 2 == 0 ? m.unoccludedPositive : m.unoccludedNegative;
+            area += areas[face / 2] * voxelSize * voxelSize;
+            flux += own * areas[face / 2] * voxelSize * voxelSize;
+        }
+    }
+    std::printf("a gap: %.4f of its area, %.4f of the flux\n", area / 24, flux / area / sent);
+    EXPECT_NEAR(area / 24, 1, 0.01);
+    EXPECT_NEAR(flux / area / sent, 1, 0.03);
+    EXPECT_EQ(outside, 0);
+}
+
 TEST(GatherClusters, KeepTheEnergyOfASphere) {
     // Its walls are sheets at all angles to the voxels, whose dark outer faces must not be seen from within.
     // About the axis of a face a hemisphere reaches behind a slanted sheet and loses light.

@@ -7,9 +7,9 @@
 
 namespace voxray {
 
-/// The surfaces of each voxel, split into sides: each holds those surfels that look into the same open space.
-/// Both sides of a wall that is thinner than a voxel are two. A side's six faces are its patches. Clusters
-/// are split likewise, into parts (find_patches).
+/// The surfaces of each voxel, split into sides: each holds those surfels that look into the same space, open
+/// or a gap narrower than a voxel. Both sides of a wall that is thinner than a voxel are two. A side's six
+/// faces are its patches. Clusters are split likewise, into parts (find_patches).
 struct VoxelPatches : Resource {
     std::string basisPort() const override { return "voxels"; }
 

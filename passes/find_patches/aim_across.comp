@@ -1,0 +1,21 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// From each covered surfel across the gap that it is in. A thread takes a surfel.
+#include "shaders/clusters/patches.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/surfels/open_space.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(push_constant) uniform Push {
+    uint first;
+    uint count;
+    float voxelSize;  // m
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const PatchSurfel s = patchSurfels.data[push.first + i];
+    rays.data[i] = s.isCovered == 1u ? openSpaceRay(s.position, s.normal, push.voxelSize) : kNoRay;
+}
