@@ -1,6 +1,7 @@
 #include "passes/cluster_visibility/cluster_visibility.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
@@ -19,9 +20,16 @@ struct Proposal {
     uint32_t hidden[kRounds];
 };
 
+/// Of what patches see, by clusters alone: several rays of a patch meet the same one, so that lists grow with
+/// the root of rays (docs/papers/cosin2022.md). More than this many times the root aren't expected, in the
+/// mean.
+constexpr double kSeenByRootOfRays = 4;
+/// In small scenes buffers' alignment counts.
+constexpr uint64_t kMinListBytes = 1 << 20;
+
 struct ListPush {
-    uint32_t faces;
-    uint32_t raysPerFace;
+    uint32_t patches;
+    uint32_t raysPerPatch;
 };
 
 }  // namespace
@@ -29,12 +37,11 @@ struct ListPush {
 /// As in face_ray.glsl.
 struct FindClusterVisibility::RayPush {
     gpu::VoxelGrid grid;
-    uint32_t firstFace;
+    gpu::SeenLayout lists;
+    uint32_t firstPatch;
     uint32_t rays;
-    uint32_t raysPerFace;
     uint32_t seed;
     float nearDistance;
-    uint32_t sideTargets;
     uint32_t alongAxis;
     uint32_t round;
 };
@@ -45,29 +52,25 @@ void FindClusterVisibility::declare(PassBuilder& builder) {
     visibility_ = builder.write<ClusterVisibility>("cluster_visibility", "which clusters each patch sees");
 }
 
-uint32_t FindClusterVisibility::chunkFaces() const {
-    return kChunkRays / params_.rays;
-}
-
 void FindClusterVisibility::plan(PassPlan& plan) {
     const SurfaceVoxels& voxels = plan.get(voxels_);
     ClusterVisibility& visibility = plan.get(visibility_);
-    visibility.rays = params_.rays;
-    visibility.seesVoxels = params_.nearDistance > 0;
+    const uint32_t chunk = kChunkRays / params_.rays;
+    visibility.layout = {params_.rays, chunk, 0};
     march_.plan(plan, voxels);
-    const uint64_t faces = kSidesPerVoxel * voxels.voxelCount * kFaces;
-    const uint64_t chunk = chunkFaces(), rays = chunk * params_.rays;
-    plan.reserve("what faces see (at most)", faces * (params_.rays + 2) * sizeof(uint32_t));
-    plan.reserveScratch("patches (estimated)", faces * sizeof(uint32_t));
+    const uint64_t patches = kPatchesPerVoxel * voxels.voxelCount, rays = uint64_t(chunk) * params_.rays;
+    const double root = std::ceil(kSeenByRootOfRays * std::sqrt(double(params_.rays)));
+    const uint64_t seen = seesPatches() ? params_.rays : std::min(params_.rays, uint32_t(root));
+    listBytes_ = std::max(patches * (seen + 1) * sizeof(uint32_t), kMinListBytes);
+    plan.reserve("what patches see (estimated)", listBytes_);
+    plan.reserveScratch("faces of patches (estimated)", patches * sizeof(uint32_t));
     plan.scratchBuffer(targets_, "targets of rays", rays * sizeof(uint32_t));
-    plan.scratchBuffer(counts_, "targets of faces", (chunk + 1) * sizeof(uint32_t));
+    plan.scratchBuffer(counts_, "targets of patches", (chunk + 1) * sizeof(uint32_t));
     plan.scratchBuffer(missed_, "rays that met nothing", 2 * sizeof(uint32_t));
-    plan.reserveScratch("lists of faces (estimated)", faces / 8 +
-                                                          Compaction::scratchBytes(uint32_t(faces / 32 + 1)) +
-                                                          PrefixSum::scratchBytes(uint32_t(chunk) + 1));
+    plan.reserveScratch("sums of lists", PrefixSum::scratchBytes(chunk + 1));
     if (params_.visibility == FaceRays::Exact) {
-        plan.scratchBuffer(rays_, "rays of faces", rays * sizeof(Ray));
-        plan.scratchBuffer(hits_, "hits of faces' rays", rays * sizeof(Hit));
+        plan.scratchBuffer(rays_, "rays of patches", rays * sizeof(Ray));
+        plan.scratchBuffer(hits_, "hits of patches' rays", rays * sizeof(Hit));
         plan.scratchBuffer(proposals_, "what rays may have hit", rays * sizeof(Proposal));
         plan.scratchBuffer(between_, "rays from hits", rays * sizeof(Ray));
         plan.scratchBuffer(occluded_, "visibility of hits", rays * sizeof(uint32_t));
@@ -77,13 +80,12 @@ void FindClusterVisibility::plan(PassPlan& plan) {
 void FindClusterVisibility::prepare(PassSetup& setup) {
     version_.reset();
     march_.prepare(setup.device, setup.compiler);
-    compaction_.emplace(setup.device, setup.compiler);
     prefixSum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
     const auto program = [&](const char* name, const Defines& defines = {}) {
         const std::string file = std::string("passes/cluster_visibility/") + name + ".comp";
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
-    faceBits_ = program("faces");
+    listFaces_ = program("faces");
     merge_ = program("merge");
     compact_ = program("compact");
     if (params_.visibility == FaceRays::Exact) {
@@ -105,39 +107,43 @@ void FindClusterVisibility::record(PassContext& context) {
     version_ = version;
     ++visibility.version;
     visibility.chunks.clear();
-    visibility.sideTargets = kFaces * patches.partCount;
-    const uint64_t all = uint64_t(kFaces) * patches.sideCount;
-    const uint64_t targets = visibility.sideTargets + (visibility.seesVoxels ? all : 0);
+    visibility.addresses = {};
+    visibility.patchCount = patches.patchCount;
+    visibility.layout.sideTargets = kFaces * patches.partCount;
+    const uint64_t targets =
+        uint64_t(kFaces) * patches.partCount + (seesPatches() ? uint64_t(patches.patchCount) : 0);
     if (targets > SEEN_MAX_TARGETS)
         throw Error(
-            "{}: {} faces of clusters and voxels don't fit into 22 bits; set 'near_distance: 0' or lower "
-            "voxelize's 'resolution'",
+            "{}: {} faces of clusters and patches don't fit into 22 bits; set 'near_distance: 0', or lower "
+            "cluster_voxels's 'target' or voxelize's 'resolution'",
             kName, targets);
 
-    // Faces that anything can arrive at
     CommandStream& stream = context.stream;
     march_.begin(stream, voxels);
-    const uint32_t words = uint32_t((all + 31) / 32);
-    const Buffer flags(context.device, "patches", std::max(words, 1u) * sizeof(uint32_t));
-    stream.dispatch(faceBits_, {{"VoxelMaterialsAt", patches.materials.at()}, {"flags", flags}},
-                    uint32_t(all), linearGroups(words));
-    faces_ = Buffer(context.device, "patches", std::max<uint64_t>(all, 1) * sizeof(uint32_t));
-    const uint32_t faces = compaction_->run(stream, flags, faces_, words);
-
+    const uint32_t count = patches.patchCount, perChunk = visibility.layout.patchesPerChunk;
+    faces_ = Buffer(context.device, "faces of patches", std::max(count, 1u) * sizeof(uint32_t));
+    stream.dispatch(listFaces_, {{"sides", patches.sides}, {"faces", faces_}}, patches.sideCount,
+                    linearGroups(patches.sideCount));
     stream.fill(missed_, 0);
-    for (uint32_t first = 0; first < faces; first += chunkFaces())
-        look(context, first, std::min(chunkFaces(), faces - first));
+    for (uint32_t first = 0; first < count; first += perChunk)
+        look(context, first, std::min(perChunk, count - first));
     faces_ = {};
     context.voxelCounts.push_back(&march_.counts());
 
     uint64_t seen = 0;
-    for (const ClusterVisibility::Chunk& chunk : visibility.chunks)
+    std::vector<uint64_t> addresses;
+    for (const ClusterVisibility::Chunk& chunk : visibility.chunks) {
         seen += chunk.seen.bytes() / sizeof(uint32_t);
-    const double rays = double(faces) * params_.rays;
+        addresses.insert(addresses.end(), {chunk.first.address(), chunk.seen.address()});
+    }
+    if (addresses.empty()) addresses.resize(2);
+    visibility.addresses = Buffer(context.device, "addresses of lists", addresses.size() * sizeof(uint64_t));
+    stream.upload(visibility.addresses, addresses);
+    const double rays = double(count) * params_.rays;
     const std::vector<uint32_t> missed = stream.readAs<uint32_t>(missed_, 2);
-    const auto percent = [&](uint32_t count) { return faces > 0 ? 100 * count / rays : 0; };
-    context.report("faces with surfaces", faces);
-    context.report("clusters and voxels seen by a face", faces > 0 ? double(seen) / faces : 0);
+    const auto percent = [&](uint32_t lost) { return count > 0 ? 100 * lost / rays : 0; };
+    context.report("patches", count);
+    context.report("clusters and voxels seen by a patch", count > 0 ? double(seen) / count : 0);
     context.report("rays that met nothing, %", percent(missed[0]));
     context.report("hits without surfel, % of rays", percent(missed[1]));
     context.report("bytes of the lists", double(visibility.bytes()));
@@ -195,12 +201,11 @@ void FindClusterVisibility::look(PassContext& context, uint32_t first, uint32_t 
     ClusterVisibility& visibility = context.get(visibility_);
     CommandStream& stream = context.stream;
     const RayPush push{context.get(voxels_).grid,
+                       visibility.layout,
                        first,
                        count * params_.rays,
-                       params_.rays,
                        randomSeed(context.frame),
                        params_.nearDistance,
-                       visibility.sideTargets,
                        params_.hemisphere == FaceHemisphere::Face ? 1u : 0u,
                        0};
     if (params_.visibility == FaceRays::Exact)
@@ -208,16 +213,20 @@ void FindClusterVisibility::look(PassContext& context, uint32_t first, uint32_t 
     else
         marchRays(context, push);
 
-    // Merged by face, and moved together
+    // Merged by patch, and moved together
     const ListPush list{count, params_.rays};
     stream.dispatch(merge_, {{"targets", targets_}, {"counts", counts_}}, list, linearGroups(count + 1));
     ClusterVisibility::Chunk chunk;
-    chunk.count = count;
-    chunk.faces = Buffer(context.device, "faces that see", count * sizeof(uint32_t));
-    chunk.first = Buffer(context.device, "where faces' lists begin", (count + 1) * sizeof(uint32_t));
-    stream.copy(faces_, chunk.faces, count * sizeof(uint32_t), first * sizeof(uint32_t));
+    chunk.first = Buffer(context.device, "where patches' lists begin", (count + 1) * sizeof(uint32_t));
     const uint32_t seen = prefixSum_->run(stream, counts_, chunk.first, count + 1);
-    chunk.seen = Buffer(context.device, "what faces see", std::max(seen, 1u) * sizeof(uint32_t));
+    const uint64_t bytes = visibility.bytes() + (uint64_t(count) + 1 + seen) * sizeof(uint32_t);
+    if (bytes > listBytes_)
+        throw Error(
+            "{}: what {} of {} patches see takes {:.1f} MiB, and {:.1f} MiB were planned for all; lower "
+            "'rays', cluster_voxels's 'target' or voxelize's 'resolution'",
+            kName, first + count, visibility.patchCount, double(bytes) / (1 << 20),
+            double(listBytes_) / (1 << 20));
+    chunk.seen = Buffer(context.device, "what patches see", std::max(seen, 1u) * sizeof(uint32_t));
     stream.dispatch(compact_, {{"targets", targets_}, {"first", chunk.first}, {"seen", chunk.seen}}, list,
                     linearGroups(count));
     stream.finish();

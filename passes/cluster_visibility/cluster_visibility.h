@@ -7,7 +7,7 @@
 #include "graph/registry.h"
 #include "passes/common/clusters/cluster_visibility.h"
 #include "passes/common/clusters/voxel_patches.h"
-#include "passes/common/compute/compaction.h"
+#include "passes/common/compute/prefix_sum.h"
 #include "passes/common/voxel_march/voxel_march.h"
 
 namespace voxray {
@@ -71,7 +71,7 @@ class FindClusterVisibility final : public Pass {
 
  private:
     struct RayPush;
-    uint32_t chunkFaces() const;
+    bool seesPatches() const { return params_.nearDistance > 0; }
     /// Lists what `count` patches from `first` on see.
     void look(PassContext& context, uint32_t first, uint32_t count);
     /// The targets of their rays.
@@ -83,9 +83,9 @@ class FindClusterVisibility final : public Pass {
     Port<const VoxelPatches> patches_;
     Port<ClusterVisibility> visibility_;
     VoxelMarch march_{VoxelWalk::Bricks};
-    std::optional<Compaction> compaction_;
     std::optional<PrefixSum> prefixSum_;
-    Program faceBits_, marchRays_, emit_, choose_, merge_, compact_;
+    uint64_t listBytes_ = 0;  ///< That were planned for the lists.
+    Program listFaces_, marchRays_, emit_, choose_, merge_, compact_;
     Buffer faces_, targets_, counts_, missed_, rays_, hits_, proposals_, between_, occluded_;  ///< Scratch.
     std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of the voxels and their patches.
 };

@@ -3,28 +3,28 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/clusters/patches.glsl"
 #include "shaders/clusters/seen_types.h"
+#include "shaders/clusters/side_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/voxel_march/surface_segment.glsl"
 #include "shaders/voxels/face.glsl"
 #include "shaders/voxels/voxels.glsl"
 
-layout(scalar) readonly buffer Faces { uint data[]; } faces;  // 6 * side + face.
+layout(scalar) readonly buffer Faces { uint data[]; } faces;  // By patch: 6 * side + face.
 layout(scalar) readonly buffer Sides { SurfaceSide data[]; } sides;
 layout(scalar) readonly buffer OfSide { uint data[]; } ofSide;  // Parts of clusters.
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
-    uint firstFace;
-    uint rays;      // Of all faces in hand.
-    uint raysPerFace;
+    SeenLayout lists;
+    uint firstPatch;
+    uint rays;  // Of all patches in hand.
     uint seed;
-    float nearDistance;  // Voxels: what is nearer is seen by sides of voxels, not by parts of clusters.
-    uint sideTargets;
+    float nearDistance;  // Voxels: what is nearer is seen by patches, not by parts of clusters.
     uint alongAxis;      // 1: the hemisphere stands on the face. 0: on the surface.
     uint round;          // Of the search for what was hit.
 } push;
 
-uint rayFace(uint ray) { return faces.data[push.firstFace + ray / push.raysPerFace]; }
+uint rayFace(uint ray) { return faces.data[push.firstPatch + ray / push.lists.raysPerPatch]; }
 
 // Numbers of a patch's sequences: direction, place, pick.
 uint raySeed(uint ray, uint sequence) { return hashCombine(hashCombine(push.seed, sequence), rayFace(ray)); }
@@ -41,7 +41,7 @@ PatchSurfel raySurfel(uint ray) {
     const SurfaceSide side = sides.data[rayFace(ray) / 6u];
     float area = 0.0;
     for (uint i = 0u; i < side.surfels; ++i) area += areaAt(patchSurfels.data[side.firstSurfel + i], face);
-    float at = area * sobol2(ray % push.raysPerFace, raySeed(ray, 1u)).x;
+    float at = area * sobol2(ray % push.lists.raysPerPatch, raySeed(ray, 1u)).x;
     uint last = side.firstSurfel;
     for (uint i = 0u; i < side.surfels; ++i) {
         const float own = areaAt(patchSurfels.data[side.firstSurfel + i], face);
@@ -56,14 +56,15 @@ PatchSurfel raySurfel(uint ray) {
 // By the cosine about the surfel's normal, or the face's axis.
 vec3 rayDirection(uint ray, PatchSurfel s) {
     const vec3 about = push.alongAxis == 1u ? faceNormal(rayFace(ray) % 6u) : s.normal;
-    return cosineDirection(sobol2(ray % push.raysPerFace, raySeed(ray, 0u)), about);
+    return cosineDirection(sobol2(ray % push.lists.raysPerPatch, raySeed(ray, 0u)), about);
 }
 
-// A patch of a cluster's part or, near by, of the side itself. NO_TARGET for a side without a cluster, which sends nothing.
+// A face of a cluster's part or, near by, the patch itself. NO_TARGET where there is no patch, and for a side without a cluster,
+// which sends nothing.
 uint targetOf(uint side, uint face, float away) {
     const uint part = ofSide.data[side];
-    if (part == NO_PART) return NO_TARGET;
-    return away < push.nearDistance ? push.sideTargets + 6u * side + face : 6u * part + face;
+    if (part == NO_PART || !hasPatch(sides.data[side], face)) return NO_TARGET;
+    return away < push.nearDistance ? push.lists.sideTargets + patchAt(sides.data[side], face) : 6u * part + face;
 }
 
-float rayPick(uint ray) { return toUnit(hashCombine(raySeed(ray, 2u), ray % push.raysPerFace)); }
+float rayPick(uint ray) { return toUnit(hashCombine(raySeed(ray, 2u), ray % push.lists.raysPerPatch)); }

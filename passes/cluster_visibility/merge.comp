@@ -1,16 +1,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Sorts the targets of each face's rays and merges equal ones: a thread takes a face.
+// Sorts the targets of each patch's rays and merges equal ones: a thread takes a patch.
 #include "shaders/clusters/seen_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) buffer Targets { uint data[]; } targets;  // By face and ray; after it, of each face first what it sees.
+layout(scalar) buffer Targets { uint data[]; } targets;  // By patch and ray; after it, of each patch first what it sees.
 layout(scalar) writeonly buffer Counts { uint data[]; } counts;
 layout(push_constant) uniform Push {
-    uint faces;
-    uint raysPerFace;
+    uint patches;
+    uint raysPerPatch;
 } push;
 
 // Moves the target at `at` of a heap of `count` down to its place.
@@ -36,14 +36,14 @@ void heapSort(uint first, uint count) {
 }
 
 void main() {
-    const uint face = linearIndex();
-    if (face > push.faces) return;
+    const uint number = linearIndex();
+    if (number > push.patches) return;
     uint merged = 0u;
-    if (face < push.faces) {
-        const uint first = face * push.raysPerFace;
-        heapSort(first, push.raysPerFace);
+    if (number < push.patches) {
+        const uint first = number * push.raysPerPatch;
+        heapSort(first, push.raysPerPatch);
         uint target = targets.data[first], rays = 0u;
-        for (uint i = 0u; i < push.raysPerFace && target != NO_TARGET; ++i) {
+        for (uint i = 0u; i < push.raysPerPatch && target != NO_TARGET; ++i) {
             const uint next = targets.data[first + i];
             if (next == target) {
                 ++rays;
@@ -55,5 +55,5 @@ void main() {
         }
         if (target != NO_TARGET) targets.data[first + merged++] = packSeen(target, rays);
     }
-    counts.data[face] = merged;  // One more than there are faces: where the last one ends.
+    counts.data[number] = merged;  // One more than there are patches: where the last one ends.
 }

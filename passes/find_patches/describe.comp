@@ -1,15 +1,17 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What the surfaces of a side are: of each face's area in the voxel the part that its surfels have. Surfels of covered sides stand for
+// What the surfaces of a side are: of each face's area in the voxel the part that its surfels have; where it has any, it has a patch.
+// Surfels of covered sides stand for
 // what each point has of the surfaces' area, for then both sides of all points are surfels. A thread takes a voxel.
 #include "shaders/clusters/patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer Sides { SurfaceSide data[]; } sides;
+layout(scalar) buffer Sides { SurfaceSide data[]; } sides;
 readonly buffer FirstSide { uint data[]; } firstSide;
 layout(scalar) readonly buffer SideMaterialsAt { VoxelMaterials sideMaterials; };
+writeonly buffer Counts { uint data[]; } counts;  // Of each side's patches.
 layout(push_constant) uniform Push { uint voxels; } push;
 
 // Area at faces of what looks along each axis, and against it.
@@ -52,6 +54,13 @@ void main() {
             m.unoccludedNegative = partOf(negative, allNegative, whole.unoccludedNegative);
         }
         m.area = dot(m.unoccludedPositive + m.unoccludedNegative, vec3(1.0));
-        sideMaterials.data[side] = packMaterial(m);
+        const PackedVoxelMaterial packed = packMaterial(m);
+        sideMaterials.data[side] = packed;
+        const VoxelMaterial stored = unpackMaterial(packed);
+        uint faces = 0u;
+        for (uint face = 0u; face < 6u; ++face)
+            if (unoccluded(stored, face) > 0.0) faces |= 1u << face;
+        sides.data[side].faces = faces;
+        counts.data[side] = uint(bitCount(faces));
     }
 }

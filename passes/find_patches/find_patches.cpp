@@ -123,6 +123,7 @@ void FindPatches::prepare(PassSetup& setup) {
     order_ = program("order");
     list_ = program("list");
     describe_ = program("describe");
+    numberPatches_ = program("number_patches");
     countNear_ = program("near");
     listNear_ = program("near", {{"LIST", "1"}});
     aimNear_ = program("aim_near");
@@ -157,6 +158,7 @@ void FindPatches::record(PassContext& context) {
     findParts(context);
     context.report("sides of voxels", patches.sideCount);
     context.report("sides for each voxel", double(patches.sideCount) / voxels.voxelCount);
+    context.report("patches for each voxel", double(patches.patchCount) / voxels.voxelCount);
     context.report("parts of clusters", patches.partCount);
     context.report("bytes of sides", double(patches.bytes()));
 }
@@ -249,13 +251,18 @@ void FindPatches::listSides(PassContext& context, const SurfelsByVoxel& lists) {
                      {"sides", patches.sides},
                      {"PatchSurfelsAt", patches.surfels.at()}},
                     count, linearGroups(count));
+    const Buffer counts(context.device, "patches of sides", uints(sides));
     stream.dispatch(describe_,
                     {{"VoxelMaterialsAt", voxels.materials.at()},
                      {"sides", patches.sides},
                      {"firstSide", patches.firstSide},
                      {"SideMaterialsAt", patches.materials.at()},
+                     {"counts", counts},
                      {"PatchSurfelsAt", patches.surfels.at()}},
                     count, linearGroups(count));
+    patches.patchCount = prefixSum_->run(stream, counts, counts, patches.sideCount);
+    stream.dispatch(numberPatches_, {{"before", counts}, {"sides", patches.sides}}, patches.sideCount,
+                    linearGroups(patches.sideCount));
     stream.finish();
 }
 

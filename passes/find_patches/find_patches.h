@@ -59,7 +59,7 @@ class FindPatches final : public Pass {
     std::optional<Compaction> compaction_;
     std::optional<Histogram> histogram_;
     std::optional<RadixSort> radixSort_;
-    Program begin_, aimAcross_, raise_, pivot_, aim_, join_, order_, list_, describe_;
+    Program begin_, aimAcross_, raise_, pivot_, aim_, join_, order_, list_, describe_, numberPatches_;
     Program countNear_, listNear_, aimNear_, partNear_, label_, spread_, flag_, number_, assign_, parts_;
     Buffer rays_, hits_, occluded_, counter_;               ///< Scratch.
     std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of the voxels and their clusters.

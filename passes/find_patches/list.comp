@@ -24,6 +24,6 @@ void main() {
             places.data[patchSurfels.data[i].number] = i;
         }
         const PatchSurfel s = patchSurfels.data[first];
-        sides.data[side] = SurfaceSide(raisedOver(s), voxel, first, i - first, s.isCovered);
+        sides.data[side] = SurfaceSide(raisedOver(s), voxel, first, i - first, s.isCovered, 0u, 0u);
     }
 }

@@ -8,6 +8,11 @@
 namespace voxray {
 namespace {
 
+struct GatherPush {
+    gpu::SeenLayout lists;
+    uint32_t count;
+};
+
 struct StorePush {
     uint32_t pairs;
     float voxelFaceArea;
@@ -21,6 +26,7 @@ void GatherClusters::declare(PassBuilder& builder) {
     clusters_ = builder.read<VoxelClusters>("clusters", "surface voxels in groups");
     visibility_ = builder.read<ClusterVisibility>("cluster_visibility", "which clusters each patch sees");
     light_ = builder.read<ClusterLight>("cluster_light", "what clusters send");
+    if (isLazy()) gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
     irradiance_ =
         builder.write<VoxelIrradiance>("irradiance", "direct light, and indirect light that was gathered");
 }
@@ -29,63 +35,100 @@ void GatherClusters::plan(PassPlan& plan) {
     const uint32_t voxels = plan.get(voxels_).voxelCount;
     plan.get(irradiance_).lightBounces = oneMore(plan.get(light_).lightBounces);
     plan.reserve("irradiance of voxels (estimated)", VoxelIrradiance::bytes(voxels));
-    plan.reserveScratch("irradiance of faces (estimated)", 2 * ClusterGather::bytes(kSidesPerVoxel * voxels));
+    plan.reserveScratch("irradiance of patches (estimated)",
+                        2 * kPatchesPerVoxel * voxels * sizeof(glm::vec3));
+    if (isLazy()) SeenVoxels::plan(plan, voxels);
 }
 
 void GatherClusters::prepare(PassSetup& setup) {
     version_.reset();
-    gather_ = ClusterGather(setup.device, setup.compiler);
-    filter_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/gather_clusters/filter.comp"));
-    store_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/gather_clusters/store.comp"));
+    const Defines defines = isLazy() ? Defines{{"SEEN", "1"}} : Defines{};
+    const auto program = [&](const char* name) {
+        const std::string file = std::string("passes/gather_clusters/") + name + ".comp";
+        return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
+    };
+    gather_ = program("gather");
+    filter_ = program("filter");
+    store_ = program("store");
+    if (isLazy()) seen_.prepare(setup);
 }
 
 void GatherClusters::record(PassContext& context) {
     const SurfaceVoxels& voxels = context.get(voxels_);
     const VoxelPatches& patches = context.get(patches_);
+    const std::pair version{context.get(visibility_).version, context.get(light_).version};
+    const bool isNew = version_ != version;
+    version_ = version;
+    VoxelIrradiance& result = context.get(irradiance_);
+    if (isNew) result.allocate(context.device, voxels.voxelCount);
+    if (!isLazy()) {
+        if (!isNew) return;
+        SeenVoxels::Found all;
+        all.voxelCount = voxels.voxelCount;
+        all.sidesWithin.assign(filterSteps() + 1, patches.sideCount);
+        gather(context, all);
+        requireLight(context.stream, voxels, result);
+        return;
+    }
+    if (isNew) {
+        for (const Buffer* buffer : result.checkedBuffers()) context.stream.fill(*buffer, 0);
+        seen_.reset(context, voxels);
+    }
+    const SeenVoxels::Found found =
+        seen_.find(context, context.get(gbuffer_), voxels, patches, filterSteps());
+    context.report("voxels that came into view", found.voxelCount);
+    if (found.voxelCount == 0) return;
+    if (!isNew) ++result.version;
+    gather(context, found);
+}
+
+void GatherClusters::gather(PassContext& context, const SeenVoxels::Found& found) {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    const VoxelPatches& patches = context.get(patches_);
     const ClusterVisibility& visibility = context.get(visibility_);
     const ClusterLight& light = context.get(light_);
-    const std::pair version{visibility.version, light.version};
-    if (version_ == version) return;
-    version_ = version;
-
     CommandStream& stream = context.stream;
-    const uint32_t sides = patches.sideCount;
-    const uint64_t bytes = ClusterGather::bytes(std::max(sides, 1u));
-    LargeBuffer faces(context.device, "irradiance of faces", bytes);
+    const auto onList = [&](std::vector<Binding> bindings, const char* name, const Buffer& list) {
+        if (isLazy()) bindings.emplace_back(name, list);
+        return bindings;
+    };
+    const uint64_t bytes = std::max(patches.patchCount, 1u) * sizeof(glm::vec3);
+    LargeBuffer gathered(context.device, "irradiance of patches", bytes);
     LargeBuffer filtered(context.device, "filtered irradiance", bytes);
-    stream.fill(faces, 0);
-    gather_.gather(stream, visibility, light, faces);
-    // Binomial weights of 5 voxels are those of 3, twice.
-    const uint32_t steps = params_.filterPasses * (params_.filterSize / 2);
+    const uint32_t steps = filterSteps(), sides = found.sidesWithin[steps];
+    stream.dispatch(
+        gather_,
+        onList(gatherBindings(visibility, light, {{"sides", patches.sides}, {"GatheredAt", gathered.at()}}),
+               "listed", found.sides),
+        GatherPush{visibility.layout, sides}, linearGroups(sides));
     for (uint32_t i = 0; i < steps; ++i) {
+        const uint32_t count = found.sidesWithin[steps - 1 - i];
         stream.dispatch(filter_,
-                        {{"sides", patches.sides},
-                         {"coordinates", context.get(clusters_).coordinates},
-                         {"firstNeighbour", patches.firstNeighbour},
-                         {"NeighboursAt", patches.neighbours.at()},
-                         {"VoxelMaterialsAt", patches.materials.at()},
-                         {"FacesAt", faces.at()},
-                         {"FilteredAt", filtered.at()}},
-                        sides, linearGroups(sides));
+                        onList({{"sides", patches.sides},
+                                {"coordinates", context.get(clusters_).coordinates},
+                                {"firstNeighbour", patches.firstNeighbour},
+                                {"NeighboursAt", patches.neighbours.at()},
+                                {"GatheredAt", gathered.at()},
+                                {"FilteredAt", filtered.at()}},
+                               "listed", found.sides),
+                        count, linearGroups(count));
         stream.finish();
-        std::swap(faces, filtered);
+        std::swap(gathered, filtered);
     }
-
-    VoxelIrradiance& result = context.get(irradiance_);
-    result.allocate(context.device, voxels.voxelCount);
+    const VoxelIrradiance& result = context.get(irradiance_);
     stream.dispatch(store_,
-                    {{"sides", patches.sides},
-                     {"firstSide", patches.firstSide},
-                     {"VoxelMaterialsAt", patches.materials.at()},
-                     {"FacesAt", faces.at()},
-                     {"SidesDirectAt", light.direct.at()},
-                     {"DirectAt", result.direct.at()},
-                     {"IndirectAt", result.indirect.at()},
-                     {"area", result.area}},
-                    StorePush{3 * voxels.voxelCount, voxels.grid.voxelSize * voxels.grid.voxelSize},
-                    linearGroups(3 * voxels.voxelCount));
+                    onList({{"sides", patches.sides},
+                            {"firstSide", patches.firstSide},
+                            {"VoxelMaterialsAt", patches.materials.at()},
+                            {"GatheredAt", gathered.at()},
+                            {"PatchDirectAt", light.direct.at()},
+                            {"DirectAt", result.direct.at()},
+                            {"IndirectAt", result.indirect.at()},
+                            {"area", result.area}},
+                           "found", found.voxels),
+                    StorePush{3 * found.voxelCount, voxels.grid.voxelSize * voxels.grid.voxelSize},
+                    linearGroups(3 * found.voxelCount));
     stream.finish();
-    requireLight(stream, voxels, result);
 }
 
 }  // namespace voxray

@@ -1,13 +1,23 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <utility>
 
 #include "graph/registry.h"
 #include "passes/common/clusters/cluster_light.h"
 #include "passes/common/clusters/voxel_clusters.h"
+#include "passes/gather_clusters/seen_voxels.h"
 
 namespace voxray {
+
+/// Which voxels light is gathered for.
+enum class GatherUpdate { All, Seen };
+template <>
+struct EnumNames<GatherUpdate> {
+    static constexpr std::array names{std::pair{GatherUpdate::All, "all"},
+                                      std::pair{GatherUpdate::Seen, "seen"}};
+};
 
 /// Indirect light of voxels' faces out of the clusters that they see, filtered over neighbours. Source: Cosin
 /// and Patow 2022, section 4.4.
@@ -22,10 +32,15 @@ class GatherClusters final : public Pass {
         "creeps round edges). Noisy by: the lists' rays. "
         "Source: Cosin and Patow 2022, section 4.4.";
     struct Params {
+        GatherUpdate update = GatherUpdate::All;
         uint32_t filterPasses = 2;
         uint32_t filterSize = 5;
         static constexpr auto schema() {
             return std::tuple{
+                field("update", &Params::update,
+                      "all: every voxel, whenever light or voxels have changed. seen: voxels round what the "
+                      "camera sees, when they come into view; they keep their light until light or voxels "
+                      "change. For gather_irradiance, which reads no others."),
                 field("filter_passes", &Params::filterPasses,
                       "Times that faces are averaged with the same faces of the sides round them.", 0u, 8u),
                 field(
@@ -44,15 +59,22 @@ class GatherClusters final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    bool isLazy() const { return params_.update == GatherUpdate::Seen; }
+    /// Binomial weights of 5 voxels are those of 3, twice.
+    uint32_t filterSteps() const { return params_.filterPasses * (params_.filterSize / 2); }
+    /// Gathers and filters the light of voxels that were found.
+    void gather(PassContext& context, const SeenVoxels::Found& found);
+
     Params params_;
     Port<const SurfaceVoxels> voxels_;
     Port<const VoxelPatches> patches_;
     Port<const VoxelClusters> clusters_;
     Port<const ClusterVisibility> visibility_;
     Port<const ClusterLight> light_;
+    Port<const GBuffer> gbuffer_;
     Port<VoxelIrradiance> irradiance_;
-    ClusterGather gather_;
-    Program filter_, store_;
+    SeenVoxels seen_;
+    Program gather_, filter_, store_;
     std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of lists and light.
 };
 

@@ -1,18 +1,22 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Irradiance of the faces of the open sides in a voxel (whose materials are bound) as its flux over their unoccluded area. A thread
-// takes the two faces across an axis of a voxel.
-#include "shaders/clusters/patch_types.h"
+// takes the two faces across an axis of a voxel; SEEN: of one that is listed.
+#include "shaders/clusters/side_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
+#include "shaders/surfels/radiosity.glsl"
 #include "shaders/voxels/packed_flux.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FaceValues { vec3 data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PatchValues { vec3 data[]; };
 layout(scalar) readonly buffer Sides { SurfaceSide data[]; } sides;
 readonly buffer FirstSide { uint data[]; } firstSide;
-layout(scalar) readonly buffer FacesAt { FaceValues faces; };
-layout(scalar) readonly buffer SidesDirectAt { FaceValues sidesDirect; };
+#ifdef SEEN
+readonly buffer Found { uint data[]; } found;
+#endif
+layout(scalar) readonly buffer GatheredAt { PatchValues gathered; };
+layout(scalar) readonly buffer PatchDirectAt { LargeUints patchDirect; };
 layout(scalar) buffer DirectAt { LargeUints direct; };
 layout(scalar) buffer IndirectAt { LargeUints indirect; };
 writeonly buffer Area { uint data[]; } area;
@@ -22,20 +26,28 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
-    const uint pair = linearIndex();
-    if (pair >= push.pairs) return;
-    const uint voxel = pair / 3u, axis = pair % 3u;
+    const uint i = linearIndex();
+    if (i >= push.pairs) return;
+#ifdef SEEN
+    const uint voxel = found.data[i / 3u];
+#else
+    const uint voxel = i / 3u;
+#endif
+    const uint axis = i % 3u, pair = 3u * voxel + axis;
     vec3 directFlux[2] = vec3[](vec3(0.0), vec3(0.0)), indirectFlux[2] = vec3[](vec3(0.0), vec3(0.0));
     float own[2] = float[](0.0, 0.0);
-    for (uint side = firstSide.data[voxel]; side < firstSide.data[voxel + 1u]; ++side) {
-        if (sides.data[side].isCovered == 1u) continue;
-        const VoxelMaterial m = voxelMaterial(side);
+    for (uint number = firstSide.data[voxel]; number < firstSide.data[voxel + 1u]; ++number) {
+        const SurfaceSide side = sides.data[number];
+        if (side.isCovered == 1u) continue;
+        const VoxelMaterial m = voxelMaterial(number);
         for (uint k = 0u; k < 2u; ++k) {
             const uint face = 2u * axis + k;
+            if (!hasPatch(side, face)) continue;
             const float part = unoccluded(m, face);
+            const uint at = patchAt(side, face);
             own[k] += part;
-            directFlux[k] += part * push.voxelFaceArea * sidesDirect.data[6u * side + face];
-            indirectFlux[k] += part * push.voxelFaceArea * faces.data[6u * side + face];
+            directFlux[k] += part * push.voxelFaceArea * unpackRadiosity(patchDirect.data[at]);
+            indirectFlux[k] += part * push.voxelFaceArea * gathered.data[at];
         }
     }
     storeFlux(direct, pair, directFlux[0], directFlux[1]);

@@ -9,7 +9,7 @@ namespace voxray {
 namespace {
 
 struct InjectedPush {
-    uint32_t faces;
+    uint32_t sides;
     float voxelFaceArea;
 };
 
@@ -19,7 +19,7 @@ struct PlacePush {
 };
 
 struct ReflectPush {
-    uint32_t faces;
+    uint32_t sides;
     uint32_t hasBounced;
 };
 
@@ -39,9 +39,11 @@ void InjectClusters::declare(PassBuilder& builder) {
 }
 
 void InjectClusters::plan(PassPlan& plan) {
-    const uint64_t faces = ClusterGather::bytes(kSidesPerVoxel * plan.get(voxels_).voxelCount);
-    plan.reserve("light of sides (estimated)", 3 * faces);
-    plan.reserveScratch("bounced light (estimated)", 2 * faces);
+    const uint64_t voxels = plan.get(voxels_).voxelCount;
+    const uint64_t patches = ClusterLight::bytes(kPatchesPerVoxel * voxels);
+    plan.reserve("light of patches (estimated)", 2 * patches);
+    plan.reserve("light of parts (estimated)", kFaces * ClusterLight::bytes(kSidesPerVoxel * voxels));
+    plan.reserveScratch("bounced light (estimated)", 2 * patches);
     if (params_.direct == ClusterDirect::Injected) {
         const std::optional<uint32_t> injected = plan.get(irradiance_).lightBounces;
         if (injected) plan.get(light_).lightBounces = *injected + params_.bounces;
@@ -84,17 +86,17 @@ void InjectClusters::record(PassContext& context) {
     ClusterLight& light = context.get(light_);
     ++light.version;
     const auto make = [&](auto& buffer, const char* name, uint64_t count) {
-        const uint64_t bytes = ClusterGather::bytes(std::max<uint64_t>(count, 1));
+        const uint64_t bytes = ClusterLight::bytes(count);
         if (buffer && buffer.bytes() == bytes) return;
         buffer = {};
         buffer = std::remove_reference_t<decltype(buffer)>(context.device, name, bytes);
     };
-    make(light.parts, "radiosity of parts", patches.partCount);
-    make(light.sides, "radiosity of sides", patches.sideCount);
-    make(light.direct, "direct irradiance of sides", patches.sideCount);
-    make(arriving_, "light that arrives", patches.sideCount);
+    make(light.parts, "radiosity of parts", uint64_t(kFaces) * patches.partCount);
+    make(light.patches, "radiosity of patches", patches.patchCount);
+    make(light.direct, "direct irradiance of patches", patches.patchCount);
+    make(arriving_, "light that arrives", patches.patchCount);
     if (params_.bounces > 0) {
-        make(bounced_, "bounced light", patches.sideCount);
+        make(bounced_, "bounced light", patches.patchCount);
         context.stream.fill(bounced_, 0);
     }
     if (isInjected)
@@ -116,15 +118,15 @@ void InjectClusters::readInjected(PassContext& context, const ClusterLight& ligh
     const VoxelPatches& patches = context.get(patches_);
     const VoxelIrradiance& irradiance = context.get(irradiance_);
     const float voxelSize = context.get(voxels_).grid.voxelSize;
-    const uint32_t faces = kFaces * patches.sideCount;
     context.stream.dispatch(injected_,
                             {{"sides", patches.sides},
                              {"DirectAt", irradiance.direct.at()},
                              {"IndirectAt", irradiance.indirect.at()},
                              {"area", irradiance.area},
-                             {"SidesDirectAt", light.direct.at()},
+                             {"PatchDirectAt", light.direct.at()},
                              {"ArrivingAt", arriving_.at()}},
-                            InjectedPush{faces, voxelSize * voxelSize}, linearGroups(faces));
+                            InjectedPush{patches.sideCount, voxelSize * voxelSize},
+                            linearGroups(patches.sideCount));
 }
 
 void InjectClusters::measure(PassContext& context, const ClusterLight& light) {
@@ -146,7 +148,7 @@ void InjectClusters::measure(PassContext& context, const ClusterLight& light) {
                     {{"sides", patches.sides},
                      {"PatchSurfelsAt", patches.surfels.at()},
                      {"PlacedAt", ofSurfels.at()},
-                     {"SidesDirectAt", light.direct.at()}},
+                     {"PatchDirectAt", light.direct.at()}},
                     patches.sideCount, linearGroups(patches.sideCount));
     stream.copy(light.direct, arriving_, light.direct.bytes());
     stream.finish();
@@ -155,18 +157,20 @@ void InjectClusters::measure(PassContext& context, const ClusterLight& light) {
 void InjectClusters::reflect(PassContext& context, bool hasBounced) {
     const VoxelPatches& patches = context.get(patches_);
     const ClusterLight& light = context.get(light_);
-    const uint32_t faces = kFaces * patches.sideCount;
     context.stream.dispatch(reflectSides_,
                             {{"VoxelMaterialsAt", patches.materials.at()},
+                             {"sides", patches.sides},
                              {"ArrivingAt", arriving_.at()},
                              {"BouncedAt", hasBounced ? bounced_.at() : arriving_.at()},
-                             {"RadiosityAt", light.sides.at()}},
-                            ReflectPush{faces, hasBounced ? 1u : 0u}, linearGroups(faces));
+                             {"RadiosityAt", light.patches.at()}},
+                            ReflectPush{patches.sideCount, hasBounced ? 1u : 0u},
+                            linearGroups(patches.sideCount));
     context.stream.dispatch(sumParts_,
                             {{"VoxelMaterialsAt", patches.materials.at()},
+                             {"sides", patches.sides},
                              {"parts", patches.parts},
                              {"members", patches.members},
-                             {"RadiosityAt", light.sides.at()},
+                             {"RadiosityAt", light.patches.at()},
                              {"sent", light.parts}},
                             patches.partCount, linearGroups(patches.partCount));
 }

@@ -58,7 +58,7 @@ class InjectClusters final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Direct light by face of each side, and all that arrives before the first bounce in arriving_.
+    /// Direct light of each patch, and all that arrives before the first bounce in arriving_.
     void readInjected(PassContext& context, const ClusterLight& light);
     void measure(PassContext& context, const ClusterLight& light);
     /// What is sent of arriving_ and of what has bounced so far.

@@ -1,23 +1,30 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Radiosity of each face of each side (whose materials are bound): reflectance times irradiance. A thread takes a face.
+// Radiosity of each patch: reflectance of its side (whose materials are bound) times irradiance. A thread takes a side.
+#include "shaders/clusters/side_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
+#include "shaders/surfels/radiosity.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FaceValues { vec3 data[]; };
-layout(scalar) readonly buffer ArrivingAt { FaceValues arriving; };  // Irradiance before the first bounce, W/m².
-layout(scalar) readonly buffer BouncedAt { FaceValues bounced; };    // After it, W/m².
-layout(scalar) readonly buffer RadiosityAt { FaceValues radiosity; };
+layout(scalar) readonly buffer Sides { SurfaceSide data[]; } sides;
+layout(scalar) readonly buffer ArrivingAt { LargeUints arriving; };  // Irradiance before the first bounce, W/m², packed.
+layout(scalar) readonly buffer BouncedAt { LargeUints bounced; };    // After it.
+layout(scalar) readonly buffer RadiosityAt { LargeUints radiosity; };
 layout(push_constant) uniform Push {
-    uint faces;
+    uint sides_;
     uint hasBounced;
 } push;
 
 void main() {
-    const uint face = linearIndex();
-    if (face >= push.faces) return;
-    vec3 irradiance = arriving.data[face];
-    if (push.hasBounced == 1u) irradiance += bounced.data[face];
-    radiosity.data[face] = voxelMaterial(face / 6u).albedo * irradiance;
+    const uint i = linearIndex();
+    if (i >= push.sides_) return;
+    const SurfaceSide side = sides.data[i];
+    const vec3 albedo = voxelMaterial(i).albedo;
+    const uint end = side.firstPatch + uint(bitCount(side.faces));
+    for (uint at = side.firstPatch; at < end; ++at) {
+        vec3 irradiance = unpackRadiosity(arriving.data[at]);
+        if (push.hasBounced == 1u) irradiance += unpackRadiosity(bounced.data[at]);
+        radiosity.data[at] = packRadiosity(albedo * irradiance);
+    }
 }

@@ -4,17 +4,18 @@
 // section 4.4: irradiance is pulled up to clusters). A thread takes a part; its sides come in their order, so sums are the same in each
 // run.
 //
-// The ratio of two small samples could outshine a scene. So a face with less than SMALL_FACE_AREA sends what its part does.
-#include "shaders/clusters/patch_types.h"
+// The ratio of two small samples could outshine a scene. So a patch with less than SMALL_FACE_AREA sends what its part does.
+#include "shaders/clusters/side_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
+#include "shaders/surfels/radiosity.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FaceValues { vec3 data[]; };
+layout(scalar) readonly buffer Sides { SurfaceSide data[]; } sides;
 layout(scalar) readonly buffer Parts { ClusterPart data[]; } parts;
 layout(scalar) readonly buffer Members { uint data[]; } members;
-layout(scalar) readonly buffer RadiosityAt { FaceValues radiosity; };
-layout(scalar) writeonly buffer Sent { vec3 data[]; } sent;
+layout(scalar) readonly buffer RadiosityAt { LargeUints radiosity; };
+layout(scalar) writeonly buffer Sent { uint data[]; } sent;
 layout(push_constant) uniform Push { uint count; } push;
 
 void main() {
@@ -26,16 +27,17 @@ void main() {
         float area = 0.0;
         for (uint k = 0u; k < count; ++k) {
             const uint side = members.data[first + k];
+            if (!hasPatch(sides.data[side], face)) continue;
             const float own = unoccluded(voxelMaterial(side), face);
-            if (own == 0.0) continue;
-            sum += own * radiosity.data[6u * side + face];
+            sum += own * unpackRadiosity(radiosity.data[patchAt(sides.data[side], face)]);
             area += own;
         }
-        const vec3 mean = area > 0.0 ? sum / area : vec3(0.0);
+        const uint mean = packRadiosity(area > 0.0 ? sum / area : vec3(0.0));
         sent.data[6u * i + face] = mean;
         for (uint k = 0u; k < count; ++k) {
             const uint side = members.data[first + k];
-            if (unoccluded(voxelMaterial(side), face) < SMALL_FACE_AREA) radiosity.data[6u * side + face] = mean;
+            if (hasPatch(sides.data[side], face) && unoccluded(voxelMaterial(side), face) < SMALL_FACE_AREA)
+                radiosity.data[patchAt(sides.data[side], face)] = mean;
         }
     }
 }

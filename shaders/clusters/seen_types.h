@@ -1,6 +1,6 @@
-// What a face sees, in a word: a target, and how many of the face's rays met it. Shared by C++ and GLSL.
+// What a patch sees, in a word: a target, and how many of the patch's rays met it. Shared by C++ and GLSL.
 //
-// Targets are faces: 6 * part of a cluster + face, and from 6 * parts on 6 * side + face.
+// Targets are faces of clusters' parts, 6 * part + face, and from 6 * parts on patches.
 #ifndef VOXRAY_SHARED_SEEN_TYPES_H
 #define VOXRAY_SHARED_SEEN_TYPES_H
 
@@ -18,6 +18,13 @@ VOXRAY_SHARED_BEGIN
 #define SEEN_RAY_BITS 10u
 #define SEEN_MAX_RAYS 1024u
 #define SEEN_MAX_TARGETS 4194304u
+
+// How lists are laid out. Those of patches are held in chunks.
+struct SeenLayout {
+    uint raysPerPatch;
+    uint patchesPerChunk;
+    uint sideTargets;  // Targets from here on are patches, before it faces of parts.
+};
 
 // `rays`: 1 to 1024.
 VOXRAY_SEEN_FUNCTION uint packSeen(uint target, uint rays) {

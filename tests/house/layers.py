@@ -35,7 +35,7 @@ ROOMS = {
     "clipmap": {"compute", "voxels", "radiance"},
     "lights": {"compute", "view", "voxels"},
     "light_paths": {"compute", "voxels", "lights"},
-    "clusters": {"compute", "voxels"},
+    "clusters": {"compute", "voxels", "surfels"},
     "vpls": {"compute"},
     "surfels": {"compute", "view", "voxels", "lights"},
     "final_gather": {"compute", "view", "filter", "lights", "surfels"},

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "passes/common/clusters/cluster_light.h"
+#include "passes/common/clusters/cluster_visibility.h"
 #include "passes/common/clusters/voxel_patches.h"
 #include "tests/physics/voxels_read.h"
 
@@ -30,6 +33,36 @@ inline std::vector<std::string> clusterGraph(const std::string& inject, const st
 /// Sides that split the surfaces of a chain's voxels.
 inline std::vector<gpu::SurfaceSide> readSides(Chain& chain) {
     return chain.read<gpu::SurfaceSide>(chain.graph().resource<VoxelPatches>("patches")->sides);
+}
+
+/// Of each patch: 6 * side + face.
+inline std::vector<uint32_t> facesOfPatches(const std::vector<gpu::SurfaceSide>& sides) {
+    std::vector<uint32_t> faces;
+    for (uint32_t side = 0; side < sides.size(); ++side)
+        for (uint32_t face = 0; face < 6; ++face)
+            if ((sides[side].faces >> face & 1u) != 0) faces.push_back(6 * side + face);
+    return faces;
+}
+
+/// What each patch sees.
+inline std::vector<std::vector<uint32_t>> readSeen(Chain& chain) {
+    std::vector<std::vector<uint32_t>> lists;
+    for (const ClusterVisibility::Chunk& chunk :
+         chain.graph().resource<ClusterVisibility>("cluster_visibility")->chunks) {
+        const auto first = chain.read<uint32_t>(chunk.first), seen = chain.read<uint32_t>(chunk.seen);
+        for (size_t i = 0; i + 1 < first.size(); ++i)
+            lists.emplace_back(seen.begin() + first[i], seen.begin() + first[i + 1]);
+    }
+    return lists;
+}
+
+/// Radiosity of each patch, W/m², green, as shaders/surfels/radiosity.glsl packs it.
+inline std::vector<double> readRadiosity(Chain& chain) {
+    std::vector<double> radiosity;
+    for (const uint32_t bits :
+         chain.read<uint32_t>(chain.graph().resource<ClusterLight>("cluster_light")->patches))
+        radiosity.push_back(std::ldexp(double(bits >> 8 & 255) / 255, int(bits >> 24) - 128));
+    return radiosity;
 }
 
 }  // namespace voxray::test

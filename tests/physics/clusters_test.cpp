@@ -6,8 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "passes/common/clusters/cluster_light.h"
-#include "passes/common/clusters/cluster_visibility.h"
 #include "passes/common/clusters/voxel_clusters.h"
 #include "tests/physics/cluster_graph.h"
 #include "tests/support/errors.h"
@@ -143,20 +141,17 @@ TEST(ClusterVisibility, CountsFormFactors) {
         const auto parts = chain.read<gpu::ClusterPart>(patches->parts);
         const auto members = chain.read<uint32_t>(patches->members);
         const auto materials = chain.read<gpu::PackedVoxelMaterial>(patches->materials);
-        const auto* lists = chain.graph().resource<ClusterVisibility>("cluster_visibility");
+        const auto faces = facesOfPatches(sides);
+        const auto lists = readSeen(chain);
         double sum = 0, area = 0;
-        for (const ClusterVisibility::Chunk& chunk : lists->chunks) {
-            const auto faces = chain.read<uint32_t>(chunk.faces), first = chain.read<uint32_t>(chunk.first);
-            const auto seen = chain.read<uint32_t>(chunk.seen);
-            for (uint32_t i = 0; i < chunk.count; ++i) {
-                const uint32_t side = faces[i] / 6;
-                if (faces[i] % 6 != 2 || c.coordinates[sides[side].voxel].y > 16) continue;
-                const double own = gpu::unpackMaterial(materials[side]).unoccludedPositive.y;
-                area += own;
-                for (uint32_t k = first[i]; k < first[i + 1]; ++k)
-                    if (sides[members[parts[gpu::seenTarget(seen[k]) / 6].firstMember]].raised.y > 0.5f)
-                        sum += own * gpu::seenRays(seen[k]) / lists->rays;
-            }
+        for (size_t i = 0; i < lists.size(); ++i) {
+            const uint32_t side = faces[i] / 6;
+            if (faces[i] % 6 != 2 || c.coordinates[sides[side].voxel].y > 16) continue;
+            const double own = gpu::unpackMaterial(materials[side]).unoccludedPositive.y;
+            area += own;
+            for (const uint32_t seen : lists[i])
+                if (sides[members[parts[gpu::seenTarget(seen) / 6].firstMember]].raised.y > 0.5f)
+                    sum += own * gpu::seenRays(seen) / 256;
         }
         std::printf("%s: form factor %.4f\n", visibility.c_str(), sum / area);
         // Through voxels rays begin one of 1/32 m above the square and end one before the other.
@@ -172,11 +167,11 @@ double leakIntoARoom(const std::string& visibility, const std::string& direct, c
                                        "rays: 64, near_distance: " + near + ", visibility: " + visibility,
                                        "2, direct: " + direct, "filter_passes: 2", "25")));
     const auto sides = readSides(chain);
-    const auto light = chain.read<float>(chain.graph().resource<ClusterLight>("cluster_light")->sides);
+    const auto light = readRadiosity(chain);
     double inside = 0, outside = 0, insideCount = 0, outsideCount = 0;
     for (size_t i = 0; i < sides.size(); ++i) {
         double sum = 0;
-        for (size_t face = 0; face < 6; ++face) sum += light[(6 * i + face) * 3 + 1];
+        for (int k = 0; k < std::popcount(sides[i].faces); ++k) sum += light[sides[i].firstPatch + size_t(k)];
         const glm::vec3 at = sides[i].raised;
         const bool isInside = std::abs(at.x) < 2 && at.y > 0 && at.y < 2.5f && std::abs(at.z) < 2;
         (isInside ? inside : outside) += sum;

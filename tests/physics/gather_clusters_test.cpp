@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
-#include "passes/common/clusters/cluster_light.h"
-#include "passes/common/clusters/cluster_visibility.h"
 #include "tests/physics/cluster_graph.h"
 
 namespace voxray::test {
@@ -23,21 +22,6 @@ double indirectFlux(Chain& chain) {
     return sum;
 }
 
-/// Calls f with the side of each patch and the number of its rays that met a target.
-template <class F>
-void forEachPatch(Chain& chain, F f) {
-    for (const ClusterVisibility::Chunk& chunk :
-         chain.graph().resource<ClusterVisibility>("cluster_visibility")->chunks) {
-        const auto faces = chain.read<uint32_t>(chunk.faces), first = chain.read<uint32_t>(chunk.first);
-        const auto seen = chain.read<uint32_t>(chunk.seen);
-        for (uint32_t i = 0; i < chunk.count; ++i) {
-            uint32_t rays = 0;
-            for (uint32_t k = first[i]; k < first[i + 1]; ++k) rays += gpu::seenRays(seen[k]);
-            f(faces[i] / 6, rays);
-        }
-    }
-}
-
 TEST(GatherClusters, KeepTheEnergyOfAFurnace) {
     // Walls that emit e and reflect a: direct irradiance is pi e, and after n bounces between clusters and
     // one of the gather pi e (a + ... + a^(n + 1)) is indirect. Rays of a closed box all meet a wall.
@@ -52,12 +36,17 @@ TEST(GatherClusters, KeepTheEnergyOfAFurnace) {
             // All that is seen from within the box, and nothing from without.
             const auto sides = readSides(chain);
             uint32_t inside = 0, outside = 0;
-            forEachPatch(chain, [&](uint32_t side, uint32_t rays) {
-                const glm::vec3 at = glm::abs(sides[side].raised);
+            const auto faces = facesOfPatches(sides);
+            const auto lists = readSeen(chain);
+            ASSERT_EQ(lists.size(), faces.size());
+            for (size_t patch = 0; patch < lists.size(); ++patch) {
+                uint32_t rays = 0;
+                for (const uint32_t seen : lists[patch]) rays += gpu::seenRays(seen);
+                const glm::vec3 at = glm::abs(sides[faces[patch] / 6].raised);
                 const bool isInside = std::max({at.x, at.y, at.z}) < 1;
-                EXPECT_EQ(rays, isInside ? 64 : 0) << "side " << side;
+                EXPECT_EQ(rays, isInside ? 64 : 0) << "patch " << patch;
                 ++(isInside ? inside : outside);
-            });
+            }
             EXPECT_GT(inside, 1000);
             EXPECT_GT(outside, 1000);
             const double ratio = mean(chain.image("indirect")) / expected;
@@ -77,23 +66,24 @@ TEST(InjectClusters, KeepTheFluxOfALampInAGapNarrowerThanAVoxel) {
                            "cluster_voxels, target: 1", "find_patches", "cluster_visibility, rays: 256",
                            "inject_clusters, bounces: 4, direct: shadow_rays"}));
     const auto sides = readSides(chain);
-    const auto light = chain.read<float>(chain.graph().resource<ClusterLight>("cluster_light")->sides);
+    const auto light = readRadiosity(chain);
     const auto materials =
         chain.read<gpu::PackedVoxelMaterial>(chain.graph().resource<VoxelPatches>("patches")->materials);
     const float voxelSize = chain.graph().resource<SurfaceVoxels>("voxels")->grid.voxelSize;
+    const auto faces = facesOfPatches(sides);
+    ASSERT_EQ(light.size(), faces.size());
     double flux = 0, area = 0, outside = 0;
-    for (size_t side = 0; side < sides.size(); ++side) {
-        const gpu::VoxelMaterial m = gpu::unpackMaterial(materials[side]);
-        for (int face = 0; face < 6; ++face) {
-            const double own = light[(6 * side + size_t(face)) * 3 + 1];
-            if (sides[side].isCovered == 0) {
-                outside += own;
-                continue;
-            }
-            const glm::vec3& areas = face % 2 == 0 ? m.unoccludedPositive : m.unoccludedNegative;
-            area += areas[face / 2] * voxelSize * voxelSize;
-            flux += own * areas[face / 2] * voxelSize * voxelSize;
+    for (size_t patch = 0; patch < faces.size(); ++patch) {
+        const uint32_t side = faces[patch] / 6, face = faces[patch] % 6;
+        if (sides[side].isCovered == 0) {
+            outside += light[patch];
+            continue;
         }
+        const gpu::VoxelMaterial m = gpu::unpackMaterial(materials[side]);
+        const glm::vec3& areas = face % 2 == 0 ? m.unoccludedPositive : m.unoccludedNegative;
+        const double own = areas[int(face / 2)] * voxelSize * voxelSize;
+        area += own;
+        flux += light[patch] * own;
     }
     std::printf("a gap: %.4f of its area, %.4f of the flux\n", area / 24, flux / area / sent);
     EXPECT_NEAR(area / 24, 1, 0.01);
@@ -123,9 +113,8 @@ TEST(GatherClusters, SendNoMoreFromSliversThanFromTheirClusters) {
                 graphYaml(clusterGraph("rays_per_light: 1048576, bounces: 0", "target: 200", "rays: 1", "0",
                                        "filter_passes: 0", "32")));
     double brightest = 0;
-    for (const float radiosity :
-         chain.read<float>(chain.graph().resource<ClusterLight>("cluster_light")->sides))
-        brightest = std::max(brightest, double(radiosity) / (0.5 * kPi));
+    for (const double radiosity : readRadiosity(chain))
+        brightest = std::max(brightest, radiosity / (0.5 * kPi));
     std::printf("brightest face: %.2f of the closed form\n", brightest);
     EXPECT_GT(brightest, 1);
     EXPECT_LT(brightest, 2);
@@ -170,6 +159,48 @@ TEST(GatherClusters, AgreeWithGatheringFromEveryVoxel) {
     std::printf("clusters %.4f, near by voxels %.4f of every voxel\n", clusters, mixed);
     EXPECT_NEAR(clusters, 1, 0.03);
     EXPECT_NEAR(mixed, 1, 0.01);
+}
+
+TEST(GatherClusters, OfSeenVoxelsShowWhatThoseOfAllShow) {
+    // To the bit, from two places one after the other, and after the light has moved. What was seen is kept.
+    const auto run = [](const std::string& update) {
+        return std::make_unique<Chain>(
+            "cornell", "{lights: point}",
+            graphYaml(clusterGraph("rays_per_light: 65536, bounces: 0", "target: 200", "rays: 64", "1",
+                                   "update: " + update, "32")),
+            48, 48);
+    };
+    const auto seen = run("seen"), all = run("all");
+    const auto expectTheSame = [&](const char* when) {
+        EXPECT_EQ(seen->image("indirect").data, all->image("indirect").data) << when;
+    };
+    const auto found = [&] { return reported(seen->frameSamples.at(1), "voxels that came into view"); };
+    const double voxels = seen->graph().resource<SurfaceVoxels>("voxels")->voxelCount;
+    const double first = found();
+    expectTheSame("at first");
+    EXPECT_LT(first, voxels);
+    const glm::vec3 from = seen->state().cameras.at(0).position;
+    const auto go = [&](const glm::vec3& by) {
+        seen->runFrameFrom(from + by);
+        all->runFrameFrom(from + by);
+    };
+    go({0.3f, 0.2f, -1.5f});
+    const double second = found();
+    expectTheSame("from elsewhere");
+    EXPECT_GT(second, 0);
+    EXPECT_LT(second, 0.5 * first);
+    go({});
+    EXPECT_EQ(found(), 0);
+    expectTheSame("back again");
+    const auto moveLight = [](SceneState& state) {
+        state.lights[0].position += glm::vec3(0.3f, -0.4f, 0);
+        return std::vector<Box>();
+    };
+    seen->update(moveLight);
+    all->update(moveLight);
+    EXPECT_EQ(found(), first);
+    expectTheSame("in other light");
+    std::printf("%.0f of %.0f voxels came into view, then %.0f\n", first, voxels, second);
 }
 
 TEST(GatherClusters, AgreeWithTheReferenceOnCornell) {

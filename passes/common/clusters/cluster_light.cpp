@@ -6,28 +6,28 @@ namespace voxray {
 namespace {
 
 struct Push {
-    uint32_t faces;
-    uint32_t raysPerFace;
-    uint32_t sideTargets;
+    gpu::SeenLayout lists;
+    uint32_t patches;
 };
 
 }  // namespace
+
+std::vector<Binding> gatherBindings(const ClusterVisibility& visibility, const ClusterLight& light,
+                                    std::initializer_list<Binding> more) {
+    std::vector<Binding> bindings = {{"seenChunks", visibility.addresses},
+                                     {"partRadiosity", light.parts},
+                                     {"PatchRadiosityAt", light.patches.at()}};
+    bindings.insert(bindings.end(), more.begin(), more.end());
+    return bindings;
+}
 
 ClusterGather::ClusterGather(Device& device, const ShaderCompiler& compiler)
     : gather_(makeComputeProgram(device, compiler.compile("passes/common/clusters/cluster_gather.comp"))) {}
 
 void ClusterGather::gather(CommandStream& stream, const ClusterVisibility& visibility,
                            const ClusterLight& light, const LargeBuffer& irradiance) const {
-    for (const ClusterVisibility::Chunk& chunk : visibility.chunks)
-        stream.dispatch(gather_,
-                        {{"faces", chunk.faces},
-                         {"first", chunk.first},
-                         {"seen", chunk.seen},
-                         {"partRadiosity", light.parts},
-                         {"SideRadiosityAt", light.sides.at()},
-                         {"IrradianceAt", irradiance.at()}},
-                        Push{chunk.count, visibility.rays, visibility.sideTargets},
-                        linearGroups(chunk.count));
+    stream.dispatch(gather_, gatherBindings(visibility, light, {{"IrradianceAt", irradiance.at()}}),
+                    Push{visibility.layout, visibility.patchCount}, linearGroups(visibility.patchCount));
 }
 
 }  // namespace voxray

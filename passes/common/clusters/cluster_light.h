@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <initializer_list>
+#include <vector>
+
 #include "graph/pass.h"
 #include "passes/common/clusters/cluster_visibility.h"
 #include "passes/common/clusters/voxel_patches.h"
@@ -7,26 +11,30 @@
 
 namespace voxray {
 
-/// What parts of clusters and sides of voxels send: radiosity (W/m²) by the targets of ClusterVisibility.
-/// Light that lamps send themselves is not in it.
+/// What parts of clusters and patches send: radiosity (W/m²) by the targets of ClusterVisibility, in 32 bits
+/// each, off by 1/255 of the largest channel at most (shaders/surfels/radiosity.glsl). Light that lamps send
+/// themselves is not in it.
 struct ClusterLight : Resource {
-    Buffer parts;          ///< 6 x 3 floats a part.
-    LargeBuffer sides;     ///< 6 x 3 floats a side.
-    LargeBuffer direct;    ///< Irradiance (W/m²) straight from the lights, 6 x 3 floats a side.
+    Buffer parts;          ///< 6 a part.
+    LargeBuffer patches;   ///< 1 a patch.
+    LargeBuffer direct;    ///< Irradiance (W/m²) straight from the lights, packed likewise: 1 a patch.
     uint64_t version = 0;  ///< Another one whenever the light is.
 
-    std::vector<const Buffer*> checkedBuffers() const override { return {&parts, &sides, &direct}; }
+    /// Bytes of one of these values for each of so many.
+    static uint64_t bytes(uint64_t count) { return std::max<uint64_t>(count, 1) * sizeof(uint32_t); }
 };
 
-/// Radiosity of what faces see, weighted by their rays: the irradiance (W/m²) of each face.
+/// What shaders/clusters/gather_patch.glsl reads, followed by `more`.
+std::vector<Binding> gatherBindings(const ClusterVisibility& visibility, const ClusterLight& light,
+                                    std::initializer_list<Binding> more);
+
+/// Radiosity of what patches see, weighted by their rays: the irradiance of each patch.
 class ClusterGather {
  public:
     ClusterGather() = default;
     ClusterGather(Device& device, const ShaderCompiler& compiler);
 
-    /// Bytes of the irradiance that gather() writes.
-    static uint64_t bytes(uint64_t sides) { return sides * kFaces * sizeof(glm::vec3); }
-    /// @param irradiance 6 x 3 floats a side, W/m²; faces without a list are left as they are.
+    /// @param irradiance 1 value a patch, W/m², packed as ClusterLight is.
     void gather(CommandStream& stream, const ClusterVisibility& visibility, const ClusterLight& light,
                 const LargeBuffer& irradiance) const;
 

@@ -8,29 +8,26 @@
 
 namespace voxray {
 
-/// What each patch (a face of one of the sides in a voxel) sees: parts of clusters by their faces, and near
-/// sides of voxels by theirs, each with the number of rays that met it. Rays are distributed by the cosine,
-/// so rays over all rays is a form factor. GLSL: shaders/clusters/seen_types.h.
+/// What each patch sees: parts of clusters by their faces, and near patches, each with the number of rays
+/// that met it. Rays are distributed by the cosine, so rays over all rays is a form factor. GLSL:
+/// shaders/clusters/seen_types.h and gather_patch.glsl.
 struct ClusterVisibility : Resource {
     std::string basisPort() const override { return "voxels"; }
 
-    /// Faces one after another, and what they see.
+    /// What patches see that follow one another by number.
     struct Chunk {
-        Buffer faces;        ///< Numbers of faces: 6 * side + (+x -x +y -y +z -z), ascending.
-        Buffer first;        ///< Where each begins in `seen`, and where the last one ends.
-        Buffer seen;         ///< A uint each: gpu::seenTarget() and gpu::seenRays(), by target.
-        uint32_t count = 0;  ///< Faces.
+        Buffer first;  ///< Where each patch's list begins in `seen`, and where the last one ends.
+        Buffer seen;   ///< A uint each: gpu::seenTarget() and gpu::seenRays(), by target.
     };
     std::vector<Chunk> chunks;
-    uint32_t rays = 0;         ///< From each face; known from plan() on.
-    bool seesVoxels = false;   ///< Whether any target may be a face of a side; known from plan() on.
-    uint32_t sideTargets = 0;  ///< Targets from here on are faces of sides, before it those of parts.
+    Buffer addresses;          ///< Of `first` and `seen`, by chunk.
+    gpu::SeenLayout layout{};  ///< Rays and patches of a chunk are known from plan() on.
+    uint32_t patchCount = 0;   ///< That have a list.
     uint64_t version = 0;      ///< Another one whenever the lists are.
 
     uint64_t bytes() const {
-        uint64_t sum = 0;
-        for (const Chunk& chunk : chunks)
-            sum += chunk.faces.bytes() + chunk.first.bytes() + chunk.seen.bytes();
+        uint64_t sum = addresses.bytes();
+        for (const Chunk& chunk : chunks) sum += chunk.first.bytes() + chunk.seen.bytes();
         return sum;
     }
 };

@@ -8,12 +8,14 @@
 namespace voxray {
 
 /// The surfaces of each voxel, split into sides: each holds those surfels that look into the same space, open
-/// or a gap narrower than a voxel. Both sides of a wall that is thinner than a voxel are two. A side's six
-/// faces are its patches. Clusters are split likewise, into parts (find_patches).
+/// or a gap narrower than a voxel. Both sides of a wall that is thinner than a voxel are two. Those of a
+/// side's six faces at which it has area are its patches, numbered by side and face. Clusters are split
+/// likewise, into parts (find_patches).
 struct VoxelPatches : Resource {
     std::string basisPort() const override { return "voxels"; }
 
     uint32_t sideCount = 0;
+    uint32_t patchCount = 0;
     uint32_t surfelCount = 0;
     uint32_t partCount = 0;
     uint64_t version = 0;    ///< Another one whenever the content is.
@@ -40,7 +42,7 @@ struct VoxelPatches : Resource {
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }
 };
 
-/// More sides than this many a voxel aren't expected, in the mean.
-constexpr uint64_t kSidesPerVoxel = 3;
+/// More sides and patches than this many a voxel aren't expected, in the mean.
+constexpr uint64_t kSidesPerVoxel = 3, kPatchesPerVoxel = 6;
 
 }  // namespace voxray

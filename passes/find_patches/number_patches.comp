@@ -1,0 +1,16 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Numbers the patches of all sides. A thread takes a side.
+#include "shaders/clusters/patch_types.h"
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+readonly buffer Before { uint data[]; } before;  // Patches of the sides before each.
+layout(scalar) buffer Sides { SurfaceSide data[]; } sides;
+layout(push_constant) uniform Push { uint sides_; } push;
+
+void main() {
+    const uint side = linearIndex();
+    if (side < push.sides_) sides.data[side].firstPatch = before.data[side];
+}
