@@ -57,17 +57,19 @@ void main() {
         if (hasSpecular(surface)) n = specularNormal(n, out_);
         const vec3 side = normalize(texelFetch(geometricNormal, texel, 0).xyz);
 
-        // Irradiance on a plane facing the sample, were it not in shadow.
-        const LightSample s = sampleSource(push.kind, push.light, push.lightSamples, push.emitterCount, p.xyz, n,
+        // Irradiance on a plane facing the sample, were it not in shadow. From where the ray begins: else one that meets a surface of light
+        // at a slant would end behind it.
+        const float offset = surfaceOffset(p.xyz);
+        const vec3 from = p.xyz + side * offset;
+        const LightSample s = sampleSource(push.kind, push.light, push.lightSamples, push.emitterCount, from, n,
                                            push.firstPixel * perPixel + i, push.seed);
         const float cosine = dot(n, s.direction);
         if (cosine > 0.0 && dot(side, s.direction) > 0.0) {
             radiance = reflectance(texelFetch(albedo, texel, 0).rgb, surface, n, out_, s.direction) * s.irradiance * cosine;
-            const float offset = surfaceOffset(p.xyz);
-            ray = Ray(p.xyz + side * offset, 0.0, s.direction, s.distance_ - 2.0 * offset);
+            ray = Ray(from, 0.0, s.direction, s.distance_ - 2.0 * offset);
             if (kMeetVoxels) {
                 ray.origin = beginOffSurface(push.grid, p.xyz, side, s.direction);
-                ray.tMax = s.distance_ - dot(ray.origin - p.xyz, s.direction) - VOXELS_BEFORE_LIGHT * push.grid.voxelSize;
+                ray.tMax = s.distance_ - dot(ray.origin - from, s.direction) - VOXELS_BEFORE_LIGHT * push.grid.voxelSize;
             }
         }
     }

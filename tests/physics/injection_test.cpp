@@ -89,6 +89,16 @@ TEST(DirectShadowRays, AreaLightConvergesToTheReference) {
     EXPECT_NEAR(mean(chain.image("final")) / mean(reference.image("final")), 1.0, 0.01);
 }
 
+TEST(DirectShadowRays, AWideLightHidesNothingOfItself) {
+    // Rays that meet its plane at a slant end before it, too: most of what lies over the receiver is below 30
+    // degrees.
+    Chain chain("quad_light", "{light_size: 20, distance: 1}",
+                graphYaml({"gbuffer", "direct_shadow_rays, light_samples: 256", "composite"}), 64, 64);
+    Chain reference("quad_light", "{light_size: 20, distance: 1}",
+                    graphYaml({"path_trace, spp: 256, bounces: 0"}), 64, 64);
+    EXPECT_NEAR(mean(chain.image("final")) / mean(reference.image("final")), 1.0, 0.01);
+}
+
 TEST(DirectShadowRays, EnvironmentConvergesToTheReference) {
     // Spheres and a floor under a white sky and nothing else.
     Scene scene = *makeBuiltinScene("spheres", parseYaml("{moving: false}", "scene"));
@@ -137,7 +147,7 @@ TEST(VoxelLookup, SevenTapKeepsAConstantAndBlursAnEdge) {
 
     // Emissive walls of albedo 0.6 and radiance 1 reflect 0.6 of it, but for noise where few samples fall.
     const std::string furnace = "{shape: box, albedo: 0.6, emission: 1}";
-    for (const std::string lookup : {"trilinear", "seven_tap"}) {
+    for (const std::string lookup : {"trilinear", "seven_tap", "bilinear_face"}) {
         double worst = 0;
         for (const float value : direct("furnace", furnace, lookup).data)
             worst = std::max(worst, std::abs(value - 0.6) / 0.6);

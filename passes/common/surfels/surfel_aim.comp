@@ -23,12 +23,13 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
-    const LightSample l = sampleSource(push.kind, push.light, push.samples, push.emitterCount, s.position, s.normal, s.id,
-                                       push.seed);
-    const vec3 irradiance = l.irradiance * max(dot(s.normal, l.direction), 0.0);
+    // From where the ray begins: else one that meets a surface of light at a slant would end behind it.
     const float offset = surfaceOffset(s.position);
+    const vec3 from = s.position + s.normal * offset;
+    const LightSample l = sampleSource(push.kind, push.light, push.samples, push.emitterCount, from, s.normal, s.id, push.seed);
+    const vec3 irradiance = l.irradiance * max(dot(s.normal, l.direction), 0.0);
     Ray ray;
-    ray.origin = s.position + s.normal * offset;
+    ray.origin = from;
     ray.direction = l.direction;
     ray.tMin = 0.0;
     ray.tMax = any(greaterThan(irradiance, vec3(0.0))) ? l.distance_ - 2.0 * offset : -1.0;
