@@ -56,4 +56,31 @@ vec3 voxelIrradiance(VoxelGrid g, vec3 position, vec3 normal, float radius, bool
     return vec3(0.0);
 }
 
+// The same by the face that looks most like the normal alone, bilinear between four voxels of the layer that the point lies in (Cosin
+// and Patow 2022, section 4.5). Where these hold too little area, and in grids of one direction, as voxelIrradiance().
+vec3 bilinearFaceIrradiance(VoxelGrid g, vec3 position, vec3 normal) {
+    const vec3 size = abs(normal);
+    const uint axis = size.x >= max(size.y, size.z) ? 0u : size.y >= size.z ? 1u : 2u;
+    const uint face = 2u * axis + (normal[axis] < 0.0 ? 1u : 0u);
+    vec3 center = (position - g.origin) / g.voxelSize - 0.5;
+    center[axis] = floor(center[axis] + 0.5);
+    const vec3 corner = floor(center), part = center - corner;
+    vec3 flux = vec3(0.0);
+    float area = 0.0;
+    for (uint i = 0u; i < 4u; ++i) {
+        ivec3 far = ivec3(0);
+        far[(axis + 1u) % 3u] = int(i & 1u);
+        far[(axis + 2u) % 3u] = int(i >> 1);
+        const uint voxel = voxelNumber(g, ivec3(corner) + far);
+        if (voxel == NO_VOXEL) continue;
+        const vec3 tent = mix(1.0 - part, part, vec3(far));
+        const float weight = tent.x * tent.y * tent.z;
+        const uint at = voxel * 6u + face;
+        area += weight * areaOf(voxelArea.data[at / 2u], at);
+        flux += weight * loadFlux(voxelFlux, at);
+    }
+    if (area <= 0.1 || g.directions == 1u) return voxelIrradiance(g, position, normal, 1.0, false);
+    return flux / (area * g.voxelSize * g.voxelSize);
+}
+
 #endif

@@ -12,14 +12,18 @@ layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     float radius;
     int samples;  // Texels of the g-buffer along each side of a pixel.
-    uint sevenTap;
+    uint lookup;  // As VoxelLookup numbers them.
 } push;
+#define SEVEN_TAP 1u
+#define BILINEAR_FACE 2u
 
 vec3 reflected(ivec2 texel) {
     const vec4 p = texelFetch(position, texel, 0);
     if (p.w == 0.0) return vec3(0.0);
     const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
-    const vec3 irradiance = voxelIrradiance(push.grid, p.xyz, n, push.radius, push.sevenTap != 0u);
+    const vec3 irradiance = push.lookup == BILINEAR_FACE
+                                ? bilinearFaceIrradiance(push.grid, p.xyz, n)
+                                : voxelIrradiance(push.grid, p.xyz, n, push.radius, push.lookup == SEVEN_TAP);
     return texelFetch(albedo, texel, 0).rgb / 3.14159265358979 * irradiance;
 }
 

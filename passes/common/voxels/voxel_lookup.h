@@ -8,12 +8,13 @@
 
 namespace voxray {
 
-enum class VoxelLookup { Trilinear, SevenTap };
+enum class VoxelLookup { Trilinear, SevenTap, BilinearFace };
 
 template <>
 struct EnumNames<VoxelLookup> {
     static constexpr std::array names{std::pair{VoxelLookup::Trilinear, "trilinear"},
-                                      std::pair{VoxelLookup::SevenTap, "seven_tap"}};
+                                      std::pair{VoxelLookup::SevenTap, "seven_tap"},
+                                      std::pair{VoxelLookup::BilinearFace, "bilinear_face"}};
 };
 
 /// Light reflected at every pixel's surface, albedo / pi times the irradiance that voxels hold there: all of
@@ -27,11 +28,13 @@ class VoxelLookupPass : public Pass {
             return std::tuple{
                 field("radius", &Params::radius,
                       "Reach of the interpolation in voxels; 1 is trilinear, more is smoother and blurs.",
-                      0.5f, 8.0f),
+                      0.5f, 8.0f)
+                    .onlyWith(noneOf(&Params::lookup, {VoxelLookup::BilinearFace})),
                 field("lookup", &Params::lookup,
                       "trilinear: at the surface. seven_tap: there and at one voxel's distance along each "
                       "axis, which hides holes in the voxels and blurs (Magalhães 2020, listing 4.8; there "
-                      "empty voxels count as black, here they are left out).")};
+                      "empty voxels count as black, here they are left out). bilinear_face: the face most "
+                      "like the normal alone, between four voxels of one layer (Cosin and Patow 2022).")};
         }
     };
 
