@@ -3,6 +3,7 @@
 #define VOXRAY_LIGHTS_GLSL
 
 #include "shaders/scene/sampling.glsl"
+#include "shaders/lights/spherical_triangle.glsl"
 #include "shaders/scene/scene.glsl"
 
 // Kinds of sources, as LightSource::Kind in passes/common/lights/light_sources.h has them.
@@ -44,10 +45,15 @@ uint pickEmitter(uint emitterCount, float u) {
     return low;
 }
 
-// A point on an emissive triangle, picked by power and uniform over its area: L cos' area / (d² probability).
+// A point on an emissive triangle that is picked by power, uniform over the solid angle that the triangle takes, L angle / probability, or,
+// where that is small, over its area: L cos' area / (d² probability).
 LightSample sampleEmitters(uint emitterCount, vec3 position, float pick, vec2 u) {
     const GpuEmitter emitter = sceneEmitters.data[pickEmitter(emitterCount, pick)];
-    const SurfacePoint e = surfacePoint(emitter.triangle, trianglePoint(u));
+    const uvec3 corners = triangleVertices(emitter.triangle);
+    const SphericalTriangle t = sphericalTriangle(vertexPosition(corners.x) - position, vertexPosition(corners.y) - position,
+                                                  vertexPosition(corners.z) - position);
+    const bool isWide = t.solidAngle > MIN_SOLID_ANGLE;
+    const SurfacePoint e = surfacePoint(emitter.triangle, isWide ? sphericalTrianglePoint(t, u) : trianglePoint(u));
     const GpuMaterial m = sceneMaterials.data[e.material];
     const vec3 away = e.position - position;
     LightSample s;
@@ -55,13 +61,13 @@ LightSample sampleEmitters(uint emitterCount, vec3 position, float pick, vec2 u)
     s.direction = away / s.distance_;
     float cosine = -dot(e.geometricNormal, s.direction);
     if (m.doubleSided != 0u) cosine = abs(cosine);
-    s.irradiance = emission(m, e, 0.0) * max(cosine, 0.0) * emitter.area /
-                   (s.distance_ * s.distance_ * emitter.probability);
+    const float angle = isWide ? float(cosine > 0.0) * t.solidAngle : max(cosine, 0.0) * emitter.area / (s.distance_ * s.distance_);
+    s.irradiance = emission(m, e, 0.0) * angle / emitter.probability;
     return s;
 }
 
 // A sample of a source of light for a surface: of punctual light `light`, or number `light` of `samples` samples of the emissive
-// surfaces (by power and area) or of the environment (by cosine about `normal`). `index` numbers the surface among those that
+// surfaces (by power and solid angle) or of the environment (by cosine about `normal`). `index` numbers the surface among those that
 // share `seed`: neighbours in it complement each other. The irradiance is divided by `samples`, not multiplied by the cosine.
 LightSample sampleSource(uint kind, uint light, uint samples, uint emitterCount, vec3 position, vec3 normal, uint index,
                          uint seed) {
