@@ -156,19 +156,14 @@ uint64_t gpuSceneBytes(const SceneState& state) {
     return bytes;
 }
 
-std::vector<Binding> GpuScene::bindings(std::initializer_list<Binding> more) const {
-    std::vector<Binding> all{{"scenePositions", positions},
-                             {"sceneAttributes", attributes},
-                             {"sceneTriangles", triangles},
-                             {"sceneTriangleMaterials", triangleMaterials},
-                             {"sceneMaterials", materials},
-                             {"sceneLights", lights},
-                             {"sceneEmitters", emitters},
-                             {"sceneTextures", textures},
-                             {"sceneEnvironment", environment, environmentSampler}};
-    for (Binding& binding : all) binding.optional = true;
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
+std::vector<Binding> GpuScene::bindings(std::vector<Binding> more) const {
+    more.insert(more.begin(),
+                {ifUsed({"scenePositions", positions}), ifUsed({"sceneAttributes", attributes}),
+                 ifUsed({"sceneTriangles", triangles}), ifUsed({"sceneTriangleMaterials", triangleMaterials}),
+                 ifUsed({"sceneMaterials", materials}), ifUsed({"sceneLights", lights}),
+                 ifUsed({"sceneEmitters", emitters}), ifUsed({"sceneTextures", textures}),
+                 ifUsed({"sceneEnvironment", environment, environmentSampler})});
+    return more;
 }
 
 GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& state) {

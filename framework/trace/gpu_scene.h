@@ -31,7 +31,10 @@ struct GpuScene {
     std::vector<Sampler> samplers;
 
     /// The bindings that a shader including shaders/scene/scene.glsl may use, followed by `more`.
-    std::vector<Binding> bindings(std::initializer_list<Binding> more) const;
+    std::vector<Binding> bindings(std::vector<Binding> more) const;
+    std::vector<Binding> bindings(std::initializer_list<Binding> more) const {
+        return bindings(std::vector<Binding>(more));
+    }
 };
 
 /// Bytes that makeGpuScene will allocate.

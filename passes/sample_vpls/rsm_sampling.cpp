@@ -48,9 +48,9 @@ void RsmSampling::prepare(PassSetup& setup) {
 void RsmSampling::emit(PassContext& context, const Rsm& rsm, size_t source, const Target& target) const {
     CommandStream& stream = context.stream;
     const auto bindings = [&](std::initializer_list<Binding> own) {
-        std::vector<Binding> all = context.scene.bindings(own);
-        for (const Binding& binding : rsm.bindings()) all.push_back(binding);
-        return all;
+        std::vector<Binding> all = rsm.bindings();
+        all.insert(all.end(), own);
+        return context.scene.bindings(std::move(all));
     };
     const uint32_t firstView = rsm.firstView[source], views = rsm.firstView[source + 1] - firstView;
     const uint32_t texels = views * rsm.texelsPerView();

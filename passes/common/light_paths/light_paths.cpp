@@ -124,13 +124,12 @@ void LightPaths::follow(PassContext& context, const SurfaceVoxels& voxels, const
 
         // Deposit and bounce.
         const size_t target = bounce == 0 ? 0 : 1;
-        std::vector<Binding> bindings = voxels.bindings(context.scene.bindings(
-            {{"rays", rays_}, {"hits", hits_}, {"paths", paths_}, {"hidden", hidden_}}));
-        for (const Binding& binding :
-             sumsFlux_ ? fluxes_[target].bindings() : irradiances_[target].bindings())
-            bindings.push_back(binding);
+        std::vector<Binding> bindings =
+            sumsFlux_ ? fluxes_[target].bindings() : irradiances_[target].bindings();
+        bindings.insert(bindings.end(),
+                        {{"rays", rays_}, {"hits", hits_}, {"paths", paths_}, {"hidden", hidden_}});
         const float scale = sumsFlux_ ? fluxes_[target].unitsPerWatt() : irradiances_[target].scale();
-        stream.dispatch(follow_, bindings,
+        stream.dispatch(follow_, voxels.bindings(context.scene.bindings(bindings)),
                         FollowPush{voxels.grid, batch.first, batch.count, batch.seed, bounce,
                                    params_.lastBounce(), scale},
                         linearGroups(batch.count));
