@@ -53,7 +53,10 @@ void readInto(T& out, const Value& value, const std::string& what) {
     } else if constexpr (std::is_floating_point_v<T>) {
         out = T(value.asNumber(what));
     } else if constexpr (std::is_same_v<T, glm::vec3>) {
-        if (value.isScalar()) {
+        if (value.isScalar() && !value.isNumber()) {
+            throw UsageError(value.where, "{}: expected a number, not '{}', or three, as in [1, 1, 1]", what,
+                             value.scalar);
+        } else if (value.isScalar()) {
             out = glm::vec3(float(value.asNumber(what)));
         } else {
             if (!value.isList() || value.items.size() != 3)

@@ -186,9 +186,14 @@ int64_t Value::asInteger(std::string_view what) const {
                      withHyphen(*this));
 }
 
+bool Value::isNumber() const {
+    double number = 0;
+    return isScalar() && !quoted && parseAll(scalar, number) && std::isfinite(number);
+}
+
 double Value::asNumber(std::string_view what) const {
     double number = 0;
-    if (isScalar() && !quoted && parseAll(scalar, number) && std::isfinite(number)) return number;
+    if (isNumber() && parseAll(scalar, number)) return number;
     throw UsageError(where, "{}: expected a number, not {}{}", what, describe(*this), withHyphen(*this));
 }
 

@@ -31,6 +31,7 @@ struct Value {
     bool isScalar() const { return kind == Kind::Scalar; }
     bool isList() const { return kind == Kind::List; }
     bool isMap() const { return kind == Kind::Map; }
+    bool isNumber() const;  ///< A scalar that asNumber() reads.
 
     /// Entry of a map, or nullptr.
     const Value* find(std::string_view key) const;

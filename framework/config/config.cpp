@@ -1,11 +1,9 @@
 #include "config/config.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "config/overrides.h"
 #include "config/yaml.h"
-#include "image/score.h"
 
 namespace voxray {
 namespace {
@@ -26,8 +24,21 @@ void checkName(const Value& config, const std::string& name) {
                          oneLine(name, 60));
 }
 
+/// The graph's first pass as an entry of a list, out of a map of passes.
+std::string firstEntry(const Value& graph) {
+    if (graph.find("pass")) return graph.text();
+    const auto& [name, parameters] = graph.members[0];
+    Value entry = Value::map();
+    entry.set("pass", Value::fromScalar(name));
+    for (const auto& [key, value] : parameters.members) entry.set(key, value);
+    return entry.text();
+}
+
 // Ids share the first part of override paths with the config's keys.
 void checkGraph(const Value& graph) {
+    if (graph.isMap() && !graph.members.empty())
+        throw UsageError(graph.where, "graph: expected a list of passes, each with a dash: write '- {}'",
+                         firstEntry(graph));
     if (!graph.isList() || graph.items.empty())
         throw UsageError(graph.where, "graph: expected a list of passes, as in [{{pass: gbuffer}}]");
     for (const Value& entry : graph.items) {
@@ -42,64 +53,10 @@ void checkGraph(const Value& graph) {
     }
 }
 
-// Masks name columns of results.csv and pictures.
-std::vector<MaskSettings> readMasks(const Value& map) {
-    if (!map.isMap())
-        throw UsageError(
-            map.where,
-            "measure.masks: expected a map of conditions by name, as in {{floor: {{material: stone}}}}");
-    std::vector<MaskSettings> masks;
-    for (const auto& [name, conditions] : map.members) {
-        const bool isPlain =
-            !name.empty() && name.size() <= 50 && std::ranges::all_of(name, [](unsigned char c) {
-                return std::isalnum(c) || c == '_' || c == '-';
-            });
-        if (!isPlain)
-            throw UsageError(conditions.where,
-                             "measure.masks: '{}' can't name a mask; use up to 50 letters, digits, '_', '-'",
-                             name);
-        if (!conditions.isMap() || conditions.members.empty())
-            throw UsageError(conditions.where,
-                             "measure.masks.{}: expected conditions, as in {{material: stone}}", name);
-        MaskSettings mask = readParams<MaskSettings>(conditions, "measure.masks." + name);
-        mask.name = name;
-        mask.where = conditions.where;
-        masks.push_back(std::move(mask));
-    }
-    return masks;
-}
-
-MeasureSettings readMeasure(const Value& map) {
-    Value scalars = map;
-    scalars.erase("metrics");
-    scalars.erase("masks");
-    MeasureSettings measure = readParams<MeasureSettings>(scalars, "measure");
-    if (measure.compareEvery > 0 && comparedFrames(measure) < 3)
-        throw UsageError(map.find("compare_every")->where,
-                         "measure.compare_every: {} compares {} of {} frames; temporal error needs at least "
-                         "3: raise 'frames'",
-                         measure.compareEvery, comparedFrames(measure), measure.frames);
-    if (const Value* masks = map.find("masks"); masks && !masks->isNull()) measure.masks = readMasks(*masks);
-    const Value* list = map.find("metrics");
-    if (!list) {
-        measure.metrics = metricNames();
-        return measure;
-    }
-    if (!list->isList())
-        throw UsageError(list->where, "measure.metrics: expected a list, as in [flip, relmse]");
-    for (const Value& item : list->items) {
-        const std::string name = item.asString("measure.metrics");
-        const std::vector<std::string> names = metricNames();
-        if (std::find(names.begin(), names.end(), name) == names.end())
-            throw UsageError(item.where, "measure.metrics: unknown metric '{}'{}", name,
-                             didYouMean(name, names));
-        measure.metrics.push_back(name);
-    }
-    return measure;
-}
-
 void checkSweep(const Value& sweep) {
-    if (!sweep.isMap()) throw UsageError(sweep.where, "sweep: expected a map of lists");
+    if (!sweep.isMap())
+        throw UsageError(sweep.where,
+                         "sweep: expected a map of lists, as in {{voxelize.resolution: [64, 128]}}");
     for (const auto& [path, values] : sweep.members)
         if (values.items.empty() && values.members.empty())
             throw UsageError(
@@ -114,6 +71,35 @@ void checkSweep(const Value& sweep) {
                                  key, values.text());
 }
 
+/// What configs of other tools say, and the option of the command line that says it here.
+constexpr std::pair<const char*, const char*> kOptions[] = {{"output", "--out DIR"},
+                                                            {"out", "--out DIR"},
+                                                            {"results", "--out DIR"},
+                                                            {"device", "--device NAME"},
+                                                            {"scenes", "--scenes DIR"}};
+
+/// A key of the config that stands in one of its blocks: mostly it is indented too far.
+/// A built-in scene may have a parameter of that name.
+void checkBlocks(const Value& config) {
+    const auto& keys = configKeys();
+    for (const char* name : {"scene", "image", "measure", "reference"}) {
+        const Value* block = config.find(name);
+        for (const auto& [key, value] : block ? block->members : std::vector<Value::Member>())
+            if (std::ranges::count(keys, key) > 0 && !(value.isScalar() && block == config.find("scene")))
+                throw UsageError(value.where,
+                                 "{0}: '{1}' is a key of its own, next to '{0}': indent it as far as '{0}'",
+                                 name, key);
+    }
+}
+
+/// The first pass of the graph, or the reference, with a parameter of that name; "" where there is none.
+std::string passWith(const Value& config, const std::string& parameter) {
+    const Value *graph = config.find("graph"), *reference = config.find("reference");
+    for (const Value& entry : graph ? graph->items : std::vector<Value>())
+        if (entry.find(parameter)) return passId(entry);
+    return reference && reference->find(parameter) ? "reference" : "";
+}
+
 void checkTopLevel(const Value& config) {
     if (!config.isMap()) throw UsageError(config.where, "a config is a map; see docs/writing-a-config.md");
     for (const auto& [key, value] : config.members) {
@@ -122,11 +108,49 @@ void checkTopLevel(const Value& config) {
         if (const std::string path = pathOfKey(key); !path.empty())
             throw UsageError(value.where, "unknown key '{}'; it stands in '{}'", key,
                              path.substr(0, path.find('.')));
+        if (const std::string pass = passWith(config, key); !pass.empty())
+            throw UsageError(value.where, "unknown key '{}'; it stands in the pass '{}'", key, pass);
+        for (const auto& [word, option] : kOptions)
+            if (key == word)
+                throw UsageError(value.where, "unknown key '{}'; it is said on the command line: {}", key,
+                                 option);
         throw UsageError(value.where, "unknown key '{}'{}", key, didYouMean(key, keys));
     }
+    checkBlocks(config);
     if (const Value* profiles = config.find("profiles");
         profiles && !profiles->isMap() && !profiles->isNull())
-        throw UsageError(profiles->where, "profiles: expected a map of named overrides");
+        throw UsageError(
+            profiles->where,
+            "profiles: expected a map of named overrides, as in {{small: {{image: {{width: 160}}}}}}");
+}
+
+bool hasReference(const Value& config) {
+    const Value* reference = config.find("reference");
+    return reference && !reference->isNull();
+}
+
+/// What the config's text asks for in vain, under whichever profile. Overrides may well leave it so: they
+/// take axes of the sweep out, or the reference.
+/// @param config the same with all overrides in place.
+void checkEmptyBlocks(const Value& root, const Value& config) {
+    if (const Value* sweep = root.find("sweep"); sweep && sweep->isMap() && sweep->members.empty())
+        throw UsageError(sweep->where,
+                         "sweep: an empty map varies nothing: leave it out, or write paths and values, as in "
+                         "{{voxelize.resolution: [64, 128]}}");
+    bool isCompared = hasReference(root) || hasReference(config);
+    if (const Value* profiles = root.find("profiles"))
+        for (const auto& profile : profiles->members)
+            for (const auto& [path, value] : profile.value.members)
+                isCompared = isCompared || (path.starts_with("reference") && !value.isNull());
+    const Value* measure = root.find("measure");
+    if (isCompared || !measure) return;
+    for (const char* key : {"masks", "metrics", "second_seed", "compare_every"})
+        if (const Value* value = measure->find(key);
+            value && !value->isNull() && value->scalar != "false" && value->scalar != "0")
+            throw UsageError(value->where,
+                             "measure.{}: no effect without a 'reference' to compare with; add one, as in "
+                             "reference: {{pass: path_trace, spp: 64}}, or leave it out",
+                             key);
 }
 
 Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
@@ -143,20 +167,12 @@ Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
     Value config = root;
     if (!options.profile.empty()) applyProfile(config, options.profile);
     for (const std::string& assignment : options.assignments) applyAssignment(config, assignment);
-    return readExperiment(std::move(config));
+    Experiment experiment = readExperiment(std::move(config));
+    checkEmptyBlocks(root, experiment.config);
+    return experiment;
 }
 
 }  // namespace
-
-uint32_t comparedFrames(const MeasureSettings& settings) {
-    return settings.compareEvery == 0 ? 1 : (settings.frames - 1) / settings.compareEvery + 1;
-}
-
-std::vector<std::string> metricNames() {
-    std::vector<std::string> names;
-    for (const Metric& metric : metrics()) names.emplace_back(metric.name);
-    return names;
-}
 
 Setup readSetup(const Value& config) {
     Setup setup;
@@ -183,7 +199,7 @@ Experiment readExperiment(Value config) {
     Experiment experiment;
     experiment.setup = readSetup(config);
     if (const Value* measure = config.find("measure"))
-        experiment.measure = readMeasure(*measure);
+        experiment.measure = readMeasureSettings(*measure);
     else
         experiment.measure.metrics = metricNames();
     if (const Value* sweep = config.find("sweep"); sweep && !sweep->isNull()) {

@@ -91,11 +91,15 @@ void overridePass(Value& graph, size_t index, const std::string& rest, const std
     }
 }
 
-/// "; did you mean ...": a pass that has another id here, a parameter that stands in the graph, whose pass is
-/// left out or followed by an underscore in place of a dot, a key of a block, or the nearest of the
-/// candidates.
-std::string nearestPath(const Value& config, const std::string& word,
+/// "; did you mean ...": the path with other signs in place of its dots, a pass that has another id here, a
+/// parameter that stands in the graph, whose pass is left out or followed by an underscore in place of a dot,
+/// a key of a block, or the nearest of the candidates. `word` is the path's first part.
+std::string nearestPath(const Value& config, const std::string& path, const std::string& word,
                         const std::vector<std::string>& candidates) {
+    std::string dotted = path;
+    for (char& c : dotted)
+        if (c == '/' || c == ':') c = '.';
+    if (dotted != path && hasTarget(config, dotted)) return fmt::format("; did you mean '{}'?", dotted);
     const Value* graph = config.find("graph");
     for (const Value& entry : graph && graph->isList() ? graph->items : std::vector<Value>())
         if (const Value* pass = entry.find("pass"); pass && pass->isScalar() && pass->scalar == word)
@@ -144,6 +148,18 @@ bool hasTarget(const Value& config, const std::string& path) {
                        [&](const Value& entry) { return passId(entry) == first; });
 }
 
+TextLocation placeOf(const Value& config, const std::string& path) {
+    const Value* found = &config;
+    for (size_t from = 0; from < path.size();) {
+        const size_t dot = std::min(path.find('.', from), path.size());
+        const Value* next = found->find(path.substr(from, dot - from));
+        if (!next) break;
+        found = next;
+        from = dot + 1;
+    }
+    return found->where;
+}
+
 std::string passId(const Value& entry) {
     for (const char* key : {"id", "pass"})
         if (const Value* found = entry.find(key); found && found->isScalar()) return found->scalar;
@@ -171,7 +187,7 @@ void applyOverride(Value& config, const std::string& path, const Value& value, M
     // A key of the config
     if (std::find(configKeys().begin(), configKeys().end(), first) == configKeys().end())
         throw UsageError(value.where, "'{}': neither a key of the config nor a pass of its graph{}", first,
-                         nearestPath(config, first, candidates));
+                         nearestPath(config, path, first, candidates));
     setAlong(config, path, path, value, merge);
 }
 

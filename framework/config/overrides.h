@@ -27,6 +27,9 @@ enum class Merge {
     Replace  ///< The new value stands alone (sweeps).
 };
 
+/// Where the value that `path` names stands, or else the nearest map round it.
+TextLocation placeOf(const Value& config, const std::string& path);
+
 /// Sets what `path` names to `value`; null takes it out. Errors are located at `value.where`.
 /// @throws UsageError for a path that leads nowhere, with the nearest valid one.
 void applyOverride(Value& config, const std::string& path, const Value& value, Merge merge = Merge::Maps);

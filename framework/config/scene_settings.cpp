@@ -23,6 +23,7 @@ ConfigLight readLight(const Value& entry, size_t index) {
     if (std::ranges::count_if(kinds, [&](const std::string& kind) { return entry.find(kind); }) > 1)
         throw UsageError(entry.where, "{}: a light has one of the keys directional, point and spot", what);
     ConfigLight read;
+    read.where = entry.where;
     Light& light = read.light;
     light.name = fmt::format("config light {}", index);
     if (const Value* axis = entry.find("directional")) {
@@ -84,18 +85,16 @@ void readEnvironment(const Value& value, SceneSettings& settings) {
     EnvironmentSettings environment;
     if (value.isMap()) {
         environment = readParams<EnvironmentSettings>(value, "scene.environment");
+        const Value* scale = value.find("scale");
+        if (environment.map.empty())
+            throw UsageError(
+                value.where, "scene.environment: 'map' is missing, as in {{map: sky.exr, scale: 2}}{}",
+                scale ? fmt::format("; for a radiance alone write environment: {}", scale->text()) : "");
     } else if (value.isScalar() && value.scalar == "none" && !value.quoted) {
         environment.scale = glm::vec3(0.0f);
     } else {
         // A number or a triple is a radiance; any other text is a file
-        bool isNumber = value.isList();
-        if (value.isScalar()) {
-            try {
-                value.asNumber("");
-                isNumber = true;
-            } catch (const UsageError&) {
-            }
-        }
+        const bool isNumber = value.isList() || value.isNumber();
         const bool isFile = value.isScalar() && value.scalar.find('.') != std::string::npos;
         if (!isNumber && !isFile)
             throw UsageError(
@@ -163,6 +162,12 @@ SceneSettings readSceneSettings(const Value& map) {
         }
     }
     settings.options = readParams<SceneOptions>(scalars, "scene");
+    if (const Value* lights = map.find("lights");
+        lights && lights->isList() && lights->items.empty() && settings.options.keepFileLights)
+        throw UsageError(lights->where,
+                         "scene.lights: an empty list adds no light to the scene's own, which stay: leave it "
+                         "out, or write 'keep_file_lights: false' next to it; 'override: {{MATERIAL: "
+                         "{{emission: 0}}}}' puts out a surface that shines");
     return settings;
 }
 

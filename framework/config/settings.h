@@ -266,7 +266,7 @@ struct EnvironmentSettings {
         return std::tuple{
             field("map", &EnvironmentSettings::map, "An equirectangular EXR or HDR file, row 0 at +Y."),
             field("scale", &EnvironmentSettings::scale,
-                  "Multiplies the map; the radiance itself, W/(m² sr), where there is no map.",
+                  "Multiplies the map. A radiance alone, W/(m² sr), stands in place of both keys.",
                   glm::vec3(0.0f), glm::vec3(kMaxLight))};
     }
 };
@@ -277,6 +277,7 @@ struct ConfigLight {
     glm::vec3 move{
         0.0f};  ///< From one frame to the next: of its position in m, or of a directional's direction.
     uint32_t offAt = 0;  ///< The frame from which on it does not shine; 0: none.
+    TextLocation where;
 };
 
 /// `scene`, read.
@@ -292,6 +293,9 @@ struct SceneSettings {
     std::optional<EnvironmentSettings> environment;  ///< Empty: the scene's own.
     TextLocation where, cameraWhere, environmentWhere;
 };
+
+/// Reads the block `measure`. @throws UsageError with file, line and the nearest valid word.
+MeasureSettings readMeasureSettings(const Value& map);
 
 /// Reads the block `scene`. Touches no file. @throws UsageError with file, line and the nearest valid word.
 SceneSettings readSceneSettings(const Value& map);

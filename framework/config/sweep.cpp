@@ -59,6 +59,11 @@ std::vector<Axis> readAxes(const Value& sweep) {
         const std::set<std::string> unique(axes.back().texts.begin(), axes.back().texts.end());
         if (unique.size() != axes.back().texts.size())
             throw UsageError(list.where, "sweep.{}: a value appears twice", path);
+        for (size_t i = 0; i < list.members.size(); ++i)
+            for (size_t j = 0; j < i; ++j)
+                if (list.members[i].value == list.members[j].value)
+                    throw UsageError(list.members[i].value.where, "sweep.{}: '{}' and '{}' are the same",
+                                     path, list.members[j].key, list.members[i].key);
     }
     for (Axis& axis : axes)
         if (labels[axis.label] > 1) axis.label = axis.path;

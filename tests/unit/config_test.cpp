@@ -161,6 +161,8 @@ TEST(Config, Environment) {
     EXPECT_EQ(with("sky.exr")->map, "sky.exr");
     EXPECT_EQ(with("{map: sky.exr, scale: 2}")->scale, glm::vec3(2.0f));
     EXPECT_THROW(with("{mpa: sky.exr}"), UsageError);
+    EXPECT_THROW(with("{scale: 2}"), UsageError);
+    EXPECT_THROW(with("{}"), UsageError);
 }
 
 TEST(Config, ProfileMergesMapsAndFollowsPaths) {
@@ -234,6 +236,27 @@ TEST(Config, MasksAndComparedFramesAreChecked) {
     measure.frames = 10;
     measure.compareEvery = 3;
     EXPECT_EQ(comparedFrames(measure), 4u);  // 0, 3, 6, 9
+}
+
+TEST(Config, BlocksWithoutEffectAreRefusedInTheFileAlone) {
+    const std::string alone = replaced(kValid, "reference: {pass: path_trace, spp: 16}\n", "");
+    const std::string uncompared = replaced(alone, "    reference.spp: 4\n", "");
+    expectError(uncompared, {"demo.yaml:14: ", "measure.metrics: no effect without a 'reference'"});
+    // A profile or the command line may bring one, and take one out
+    parseExperiment(replaced(uncompared, "    image:", "    reference: {pass: path_trace}\n    image:"), "x");
+    parseExperiment(uncompared, "x", {"", {"reference={pass: path_trace}"}});
+    parseExperiment(kValid, "x", {"", {"reference=null"}});
+
+    const std::string empty = replaced(kValid, "sweep:\n  voxelize.resolution: [32, 64]\n", "sweep: {}\n");
+    expectError(empty, {"demo.yaml:13: ", "sweep: an empty map varies nothing"});
+    parseExperiment(kValid, "x", {"", {"sweep.voxelize.resolution=null"}});
+}
+
+TEST(Config, PlacesOfPaths) {
+    const Value config = parseExperiment(kValid, "demo.yaml").config;
+    EXPECT_EQ(placeOf(config, "scene.camera.fov_deg").line, 5);
+    EXPECT_EQ(placeOf(config, "scene.lights").line, 4);
+    EXPECT_EQ(placeOf(config, "scene.time_step").line, placeOf(config, "scene").line);
 }
 
 TEST(Yaml, LimitsAndSyntax) {
