@@ -7,6 +7,7 @@
 #include <set>
 
 #include "graph/finite_check.h"
+#include "graph/left_out.h"
 #include "graph/memory_book.h"
 #include "graph/wiring.h"
 
@@ -45,7 +46,8 @@ Graph& Graph::operator=(Graph&&) noexcept = default;
 
 std::vector<Graph::PassInfo> Graph::passes() const {
     std::vector<PassInfo> infos;
-    for (const GraphNode& node : impl_->nodes) infos.push_back({node.id, node.kind, node.phase});
+    for (const GraphNode& node : impl_->nodes)
+        infos.push_back({node.id, node.kind, node.phase, node.pass->framesBefore(), node.where});
     return infos;
 }
 
@@ -72,6 +74,21 @@ void Graph::checkIsMadeOf(const std::string& whole, const std::string& part) con
         "{0}: writes '{1}', but that is not what '{2}' reads, so '{3}' lacks what it brings: put '{0}' "
         "right before '{2}', or choose with inputs of '{2}'",
         last->id, part, maker->id, whole);
+}
+
+std::vector<Graph::Input> Graph::emptyInputs(const std::string& portName) const {
+    const auto writes = [&](const GraphNode& node) { return outputNamed(node, portName).has_value(); };
+    const auto& nodes = impl_->nodes;
+    const auto last = std::find_if(nodes.rbegin(), nodes.rend(), writes);
+    std::vector<Input> inputs;
+    for (size_t p = 0; last != nodes.rend() && p < last->ports.size(); ++p)
+        if (!last->ports[p].output && !last->resources[p])
+            inputs.push_back({last->id, last->ports[p].name, last->where});
+    return inputs;
+}
+
+std::string Graph::whyLeftOut(const std::string& id) const {
+    return voxray::whyLeftOut(impl_->nodes, id);
 }
 
 std::vector<std::string> Graph::keepOnly(const std::vector<std::string>& portNames) {

@@ -45,6 +45,8 @@ class Graph {
         std::string id;
         std::string kind;
         Phase phase;
+        uint32_t framesBefore;  ///< Pass::framesBefore()
+        TextLocation where;
     };
     /// In execution order.
     std::vector<PassInfo> passes() const;
@@ -60,6 +62,19 @@ class Graph {
     /// it, unless that one's `inputs` choose another. @throws UsageError with file and line: a pass changes
     /// the part too late.
     void checkIsMadeOf(const std::string& whole, const std::string& part) const;
+
+    /// An input of a pass, by the pass and the port.
+    struct Input {
+        std::string id;
+        std::string port;
+        TextLocation where;
+    };
+    /// Optional inputs of the last writer of a port that are bound to nothing.
+    std::vector<Input> emptyInputs(const std::string& portName) const;
+
+    /// That a pass is never run, why, and what to do about it, with its place: of one that no image that is
+    /// compared depends on. Before keepOnly().
+    std::string whyLeftOut(const std::string& id) const;
 
     /// A resource that will be read from outside, by port name: the last pass that writes it.
     bool writes(const std::string& portName) const;

@@ -218,6 +218,9 @@ class Pass {
     /// Frame for a pass that depends on the frame itself, such as its camera. Build for all others: they run
     /// once, or in each frame where they read what is written in each frame.
     virtual Phase phase() const { return Phase::Build; }
+    /// How many frames have to lead up to one that shows what the pass can: of one that goes on from frame to
+    /// frame.
+    virtual uint32_t framesBefore() const { return 0; }
     /// Names the ports. No device work.
     virtual void declare(PassBuilder& builder) = 0;
     /// Checks parameters against scene and device, describes outputs and all memory. Runs in graph order.

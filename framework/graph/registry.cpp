@@ -44,6 +44,19 @@ const PassKind* Registry::find(const std::string& name) const {
     return nullptr;
 }
 
+std::vector<std::string> Registry::writersOf(const std::string& port) const {
+    std::vector<std::string> writers;
+    for (const PassKind& kind : kinds_) {
+        const auto has = [&](bool output) {
+            return std::ranges::any_of(kind.ports, [&](const PortDoc& p) {
+                return p.name == port && p.output == output && !p.optional;
+            });
+        };
+        if (has(true) && !has(false)) writers.push_back(kind.name);
+    }
+    return writers;
+}
+
 const PassKind& Registry::require(const std::string& name, const TextLocation& where) const {
     if (const PassKind* kind = find(name)) return *kind;
     std::vector<std::string> names;

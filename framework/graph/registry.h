@@ -77,6 +77,10 @@ class Registry {
     /// @throws UsageError with "did you mean" at `where`.
     const PassKind& require(const std::string& name, const TextLocation& where) const;
 
+    /// Names of passes that write a port of this name out of others. Those that change what they read under
+    /// it need a writer themselves.
+    std::vector<std::string> writersOf(const std::string& port) const;
+
     /// Looks at a view before anything is rendered there. Empty where no pass brings one.
     Preview preview;
 

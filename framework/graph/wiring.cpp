@@ -23,12 +23,6 @@ std::vector<std::string> idsOf(const std::vector<GraphNode>& nodes) {
     return ids;
 }
 
-std::optional<size_t> outputNamed(const GraphNode& node, const std::string& name) {
-    for (size_t p = 0; p < node.ports.size(); ++p)
-        if (node.ports[p].output && node.ports[p].name == name) return p;
-    return {};
-}
-
 GraphNode readNode(const Registry& registry, const Value& entry,
                    const std::vector<std::string>& reservedKeys) {
     if (!entry.isMap())
@@ -79,21 +73,6 @@ Source explicitSource(const std::vector<GraphNode>& nodes, const GraphNode& read
                      didYouMean(id, idsOf(nodes)));
 }
 
-/// Passes that write a port of this name out of others. Those that change what they read
-/// under it need a writer themselves.
-std::vector<std::string> writersOf(const Registry& registry, const std::string& port) {
-    std::vector<std::string> writers;
-    for (const PassKind& kind : registry.kinds()) {
-        const auto has = [&](bool output) {
-            return std::ranges::any_of(kind.ports, [&](const PortDoc& p) {
-                return p.name == port && p.output == output && !p.optional;
-            });
-        };
-        if (has(true) && !has(false)) writers.push_back(kind.name);
-    }
-    return writers;
-}
-
 /// The nearest earlier pass that writes a port of this name, or nothing for an optional port.
 std::optional<Source> implicitSource(const std::vector<GraphNode>& nodes, size_t reader, const PortInfo& port,
                                      const Registry& registry) {
@@ -105,17 +84,30 @@ std::optional<Source> implicitSource(const std::vector<GraphNode>& nodes, size_t
             throw UsageError(nodes[reader].where,
                              "{}: reads '{}', which '{}' writes only later; move '{}' up", nodes[reader].id,
                              port.name, nodes[n].id, nodes[n].id);
-    const std::vector<std::string> writers = writersOf(registry, port.name);
+    const std::vector<std::string> writers = registry.writersOf(port.name);
     throw UsageError(nodes[reader].where, "{}: missing port '{}' ({}); no pass before it writes it{}",
                      nodes[reader].id, port.name, port.help,
                      writers.empty() ? "" : fmt::format("; these can: {}", fmt::join(writers, ", ")));
 }
 
-void checkInputKeys(const GraphNode& node, const Value& inputs) {
-    if (!inputs.isMap()) throw UsageError(inputs.where, "{}.inputs: expected a map of port: id", node.id);
+/// ", as in {irradiance: inject}" for `inputs` that are no map, with the pass that they name if there is one.
+std::string exampleOfInputs(const std::vector<GraphNode>& nodes, const std::vector<std::string>& ports,
+                            const Value& inputs) {
+    const Value& named = inputs.items.empty() ? inputs : inputs.items[0];
+    for (const GraphNode& writer : nodes)
+        for (const std::string& port : ports)
+            if (named.isScalar() && writer.id == named.scalar && outputNamed(writer, port))
+                return fmt::format(", as in {{{}: {}}}", port, writer.id);
+    return ports.empty() ? "" : fmt::format(", as in {{{}: ID}}", ports[0]);
+}
+
+void checkInputKeys(const std::vector<GraphNode>& nodes, const GraphNode& node, const Value& inputs) {
     std::vector<std::string> names;
     for (const PortInfo& port : node.ports)
         if (!port.output) names.push_back(port.name);
+    if (!inputs.isMap())
+        throw UsageError(inputs.where, "{}.inputs: expected a map of ports and ids{}; its ports are {}",
+                         node.id, exampleOfInputs(nodes, names, inputs), fmt::join(names, ", "));
     for (const auto& [key, value] : inputs.members)
         if (std::find(names.begin(), names.end(), key) == names.end())
             throw UsageError(value.where, "{}.inputs: '{}' is not an input of {}{}", node.id, key, node.kind,
@@ -153,6 +145,12 @@ std::vector<size_t> sorted(const std::vector<GraphNode>& nodes,
 
 }  // namespace
 
+std::optional<size_t> outputNamed(const GraphNode& node, const std::string& name) {
+    for (size_t p = 0; p < node.ports.size(); ++p)
+        if (node.ports[p].output && node.ports[p].name == name) return p;
+    return {};
+}
+
 std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList,
                                  const std::vector<std::string>& reservedKeys) {
     if (!passList.isList() || passList.items.empty())
@@ -185,7 +183,7 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
     std::vector<std::set<size_t>> dependencies(nodes.size());
     for (size_t n = 0; n < nodes.size(); ++n) {
         const Value* inputs = passList.items[n].find("inputs");
-        if (inputs) checkInputKeys(nodes[n], *inputs);
+        if (inputs) checkInputKeys(nodes, nodes[n], *inputs);
         for (size_t p = 0; p < nodes[n].ports.size(); ++p) {
             const PortInfo& port = nodes[n].ports[p];
             if (port.output) continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct GraphNode {
     Value resolved;                                  ///< The config's entry with defaults filled in.
     TextLocation where;
 };
+
+/// The number of a node's output port of that name.
+std::optional<size_t> outputNamed(const GraphNode& node, const std::string& name);
 
 /// Reads a config's pass list, binds every port and sorts passes so that writers come before readers.
 /// Passes that don't depend on each other keep the list's order.

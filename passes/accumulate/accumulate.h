@@ -37,6 +37,7 @@ class Accumulate final : public Pass {
     };
 
     explicit Accumulate(const Params& params) : params_(params) {}
+    uint32_t framesBefore() const override { return params_.history - 1; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;

@@ -83,6 +83,7 @@ class UpdateRadianceCache final : public Pass {
     Phase phase() const override {
         return params_.update == CacheUpdate::EachFrame ? Phase::Frame : Phase::Build;
     }
+    uint32_t framesBefore() const override { return params_.historyFrames - 1; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;

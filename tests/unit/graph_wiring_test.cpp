@@ -227,6 +227,26 @@ TEST(GraphWiring, KeepsOnlyWhatIsAskedFor) {
     EXPECT_EQ(g.keepOnly({"light"}), std::vector<std::string>{});
 }
 
+TEST(GraphWiring, TellsWhyAPassIsLeftOut) {
+    const Graph g = graph(
+        "- {pass: make_voxels}\n- {pass: make_voxels, id: nearer}\n- {pass: light_voxels}\n"
+        "- {pass: make_voxels, id: late}\n");
+    const std::string overwritten = g.whyLeftOut("make_voxels");
+    EXPECT_CONTAINS(overwritten,
+                    "g.yaml:1: 'make_voxels' is never run: 'nearer', after it, writes 'voxels' too");
+    EXPECT_CONTAINS(overwritten, "write 'inputs: {voxels: make_voxels}' in what shall read it");
+    EXPECT_CONTAINS(g.whyLeftOut("late"), "g.yaml:4: 'late' is never run: no pass reads what it writes");
+
+    const Graph chain = graph(
+        "- {pass: make_voxels}\n- {pass: make_voxels, id: unread}\n"
+        "- {pass: light_voxels, id: a, inputs: {voxels: make_voxels}}\n"
+        "- {pass: light_voxels, id: reads_unread, inputs: {light: a}}\n"
+        "- {pass: light_voxels, id: b, inputs: {voxels: make_voxels, light: a}}\n");
+    EXPECT_CONTAINS(chain.whyLeftOut("unread"), "'reads_unread' reads it, but no image that is compared");
+    EXPECT_CONTAINS(chain.whyLeftOut("reads_unread"),
+                    "'b', after it, writes 'light' too, and the last one counts");
+}
+
 TEST(GraphWiring, TellsProducersWhatIsRead) {
     // From outside, only the last output of a name can be read; keepOnly says which names are.
     const auto bytes = [](Graph g) {

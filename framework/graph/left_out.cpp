@@ -1,0 +1,52 @@
+#include "graph/left_out.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace voxray {
+namespace {
+
+bool writes(const GraphNode& node, const std::string& port) {
+    return outputNamed(node, port).has_value();
+}
+
+bool reads(const GraphNode& node, const std::string& port) {
+    return std::ranges::any_of(node.ports,
+                               [&](const PortInfo& other) { return !other.output && other.name == port; });
+}
+
+}  // namespace
+
+std::string whyLeftOut(const std::vector<GraphNode>& nodes, const std::string& id) {
+    const auto pass = std::ranges::find(nodes, id, &GraphNode::id);
+    std::string why =
+        "no pass reads what it writes, and no image that is compared depends on it: leave it out";
+    for (size_t p = pass->ports.size(); p-- > 0;) {
+        const std::string& port = pass->ports[p].name;
+        if (!pass->ports[p].output) continue;
+        const auto isBound = [&](const GraphNode& node) {
+            return std::ranges::count(node.resources, pass->resources[p]) > 0;
+        };
+        const auto reader = std::find_if(pass + 1, nodes.end(), isBound);
+        const auto other =
+            std::find_if(pass + 1, nodes.end(), [&](const GraphNode& node) { return writes(node, port); });
+        if (reader != nodes.end())
+            why = fmt::format("'{}' reads it, but no image that is compared depends on that", reader->id);
+        else if (other == nodes.end())
+            continue;
+        else if (std::any_of(other + 1, nodes.end(),
+                             [&](const GraphNode& node) { return reads(node, port); }))
+            why = fmt::format(
+                "'{0}', after it, writes '{1}' too, and passes read the nearest: take one of the two out, or "
+                "write 'inputs: {{{1}: {2}}}' in what shall read it",
+                other->id, port, id);
+        else
+            why = fmt::format(
+                "'{}', after it, writes '{}' too, and the last one counts: take one of the two out",
+                other->id, port);
+    }
+    return UsageError(pass->where, "'{}' is never run: {}", id, why).what();
+}
+
+}  // namespace voxray
