@@ -76,7 +76,7 @@ void GatherClusters::record(PassContext& context) {
     }
     const SeenVoxels::Found found =
         seen_.find(context, context.get(gbuffer_), voxels, patches, filterSteps());
-    context.report("voxels that came into view", found.voxelCount);
+    context.report("voxels gathered", found.voxelCount);
     if (found.voxelCount == 0) return;
     if (!isNew) ++result.version;
     gather(context, found);

@@ -180,7 +180,7 @@ TEST(GatherClusters, OfSeenVoxelsShowWhatThoseOfAllShow) {
     const auto expectTheSame = [&](const char* when) {
         EXPECT_EQ(seen->image("indirect").data, all->image("indirect").data) << when;
     };
-    const auto found = [&] { return reported(seen->frameSamples.at(1), "voxels that came into view"); };
+    const auto found = [&] { return reported(seen->frameSamples.at(1), "voxels gathered"); };
     const double voxels = seen->graph().resource<SurfaceVoxels>("voxels")->voxelCount;
     const double first = found();
     expectTheSame("at first");
