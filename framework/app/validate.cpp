@@ -3,13 +3,14 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/config_options.h"
 #include "app/source_root.h"
-#include "experiment/validate.h"
+#include "experiment/plan_checks.h"
 #include "passes/register_passes.h"
 
 namespace voxray {
@@ -30,17 +31,18 @@ DeviceInfo capableDevice() {
 }
 
 /// Checks a config under the profile that is asked for, or as it stands and again under each of its
-/// profiles. @throws UsageError for the first fault.
+/// profiles; what is warned of is said once. @throws UsageError for the first fault.
 void validate(const std::filesystem::path& config, const ConfigOptions& options, SceneLoader& loader,
               const Registry& registry) {
     std::vector<std::string> profiles{options.profile};
     if (options.profile.empty())
         for (const std::string& name : profileNames(config)) profiles.push_back(name);
+    std::set<std::string> said;
     for (const std::string& profile : profiles) {
         WiredExperiment wired =
             wireExperiment(loadExperiment(config, {profile, options.assignments}), registry);
         for (const std::string& warning : checkPlans(wired, loader, capableDevice(), registry))
-            fmt::print(stderr, "voxray: warning: {}\n", warning);
+            if (said.insert(warning).second) fmt::print(stderr, "voxray: warning: {}\n", warning);
         const size_t variants = wired.variants.size();
         fmt::print("{}{}: valid, {} variant{}\n", config.string(),
                    profile.empty() ? "" : " --profile " + profile, variants, variants == 1 ? "" : "s");

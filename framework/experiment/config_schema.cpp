@@ -157,7 +157,8 @@ Value sceneSchema() {
     properties.set("camera", anyOf({string, camera}));
     properties.set("lights", anyOf({string, lightList}));
     properties.set("environment",
-                   anyOf({string, rgbSchema(), mapSchema(describeParams<EnvironmentSettings>())}));
+                   anyOf({string, rgbSchema(),
+                          withRequired(mapSchema(describeParams<EnvironmentSettings>()), {"map"})}));
     properties.set("add", object({{"type", text("array")},
                                   {"items", additionSchema()},
                                   {"description", text("Scenes that are added to this one.")}}));
@@ -183,6 +184,8 @@ Value configJsonSchema(const Registry& registry) {
     Value metrics = Value::map();
     metrics.set("metrics", object({{"type", text("array")},
                                    {"items", object({{"enum", listOf(metricNames())}})},
+                                   {"minItems", literal("1")},
+                                   {"uniqueItems", literal("true")},
                                    {"description", text("Metrics that are written; all by default.")}}));
     metrics.set("masks",
                 object({{"type", text("object")},
@@ -193,6 +196,7 @@ Value configJsonSchema(const Registry& registry) {
     properties.set("reference", anyOf({object({{"type", text("null")}}), pass}));
     properties.set("sweep",
                    object({{"type", text("object")},
+                           {"minProperties", literal("1")},
                            {"additionalProperties",
                             anyOf({object({{"type", text("array")}, {"minItems", literal("1")}}),
                                    object({{"type", text("object")}, {"minProperties", literal("1")}})})},

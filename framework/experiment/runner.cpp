@@ -8,6 +8,7 @@
 #include "base/one_line.h"
 #include "experiment/manifest.h"
 #include "experiment/noise_parameters.h"
+#include "experiment/plan_checks.h"
 #include "experiment/progress.h"
 #include "experiment/report_process.h"
 #include "experiment/results_folder.h"

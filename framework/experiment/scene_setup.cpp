@@ -21,12 +21,24 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void checkBuiltin(const SceneSource& source) {
+std::optional<fs::path> lookUp(const fs::path& name, const std::vector<fs::path>& folders) {
+    std::error_code code;
+    if (name.is_absolute()) return fs::exists(name, code) ? std::optional(name) : std::nullopt;
+    for (const fs::path& folder : folders)
+        if (fs::exists(folder / name, code)) return folder / name;
+    return std::nullopt;
+}
+
+void checkBuiltin(const SceneSource& source, const std::vector<fs::path>& folders) {
     const std::string& name = source.builtin;
     const std::vector<std::string> names = builtinSceneNames();
-    if (std::find(names.begin(), names.end(), name) == names.end())
-        throw UsageError(source.where, "{}.builtin: no built-in scene '{}'{}", source.owner, name,
-                         didYouMean(name, names));
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+        std::string advice = didYouMean(name, names);
+        for (const char* ending : {"", ".gltf", ".glb"})
+            if (const std::string file = name + ending; lookUp(file, folders))
+                advice = fmt::format("; that is a file: write file: {}", file);
+        throw UsageError(source.where, "{}.builtin: no built-in scene '{}'{}", source.owner, name, advice);
+    }
 
     // Its own parameters, and in suggestions the keys that stand next to them
     std::vector<std::string> own, all = source.otherKeys;
@@ -71,14 +83,6 @@ auto readAt(const TextLocation& where, const Read& read) {
     } catch (const Error& error) {
         throw UsageError(where, "{}", error.what());
     }
-}
-
-std::optional<fs::path> lookUp(const fs::path& name, const std::vector<fs::path>& folders) {
-    std::error_code code;
-    if (name.is_absolute()) return fs::exists(name, code) ? std::optional(name) : std::nullopt;
-    for (const fs::path& folder : folders)
-        if (fs::exists(folder / name, code)) return folder / name;
-    return std::nullopt;
 }
 
 Camera chooseCamera(const SceneSettings& settings, const SceneState& state) {
@@ -158,7 +162,10 @@ fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& fol
     if (const auto path = lookUp(name, folders)) return *path;
     const bool isAbsolute = fs::path(name).is_absolute();
     std::vector<std::string> looked;
+    const std::vector<std::string> builtin = builtinSceneNames();
     std::string advice;
+    if (std::ranges::count(builtin, name) > 0)
+        advice = fmt::format("; that scene is built in: write builtin: {}", name);
     for (const fs::path& folder : folders) {
         if (!isAbsolute) looked.push_back(folder.string());
         if (advice.empty()) advice = didYouMeanFile(name, folder);
@@ -177,7 +184,7 @@ std::shared_ptr<const Scene> SceneLoader::load(const SceneSource& source) {
         const std::string id = "builtin:" + source.builtin + source.builtinParameters.text();
         auto& scene = scenes_[id];
         if (!scene) {
-            checkBuiltin(source);
+            checkBuiltin(source, folders_);
             scene = makeBuiltinScene(source.builtin, source.builtinParameters);
         }
         return scene;
@@ -228,7 +235,7 @@ std::string SceneLoader::key(const SceneSettings& settings) {
     Value camera = settings.camera ? writeParams(*settings.camera) : Value();
     camera.erase("move");
     hasher.add(settings.camera ? camera.text() : "");
-    for (const auto& [light, move, offAt] : settings.lights) {
+    for (const auto& [light, move, offAt, where] : settings.lights) {
         hasher.addPlain(light.type)
             .addPlain(light.intensity)
             .addPlain(light.position)

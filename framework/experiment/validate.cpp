@@ -3,16 +3,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <limits>
-#include <map>
-#include <optional>
 #include <set>
 
 #include "config/overrides.h"
-#include "experiment/pixel_masks.h"
 #include "experiment/reference.h"
-#include "experiment/session.h"
-#include "experiment/view_check.h"
 
 namespace voxray {
 namespace {
@@ -68,48 +62,6 @@ void checkOwnValues(const Experiment& experiment, const Registry& registry) {
             registry.require(name->scalar, name->where).resolve(entry, passId(entry), Graph::reservedKeys());
 }
 
-/// Where light begins in a variant: its first pass with a parameter `bounces`, with its place in the config.
-struct Bounces {
-    std::string id;
-    TextLocation where;
-    int64_t value;
-};
-std::optional<Bounces> bouncesOf(const WiredVariant& variant) {
-    for (const Value& pass : variant.resolved.items)
-        if (const Value* bounces = pass.find("bounces"))
-            for (const Value& entry : variant.setup.graph.items)
-                if (passId(entry) == passId(pass)) {
-                    const Value* written = entry.find("bounces");
-                    return Bounces{passId(pass), written ? written->where : entry.where,
-                                   bounces->asInteger("bounces")};
-                }
-    return std::nullopt;
-}
-
-/// What to write where the indirect light of a variant and of the reference have different numbers of
-/// bounces, unless the sweep varies them; else empty. Both graphs are planned.
-std::string bounceDifference(const WiredVariant& variant, const WiredExperiment& wired,
-                             const Graph& referenceGraph) {
-    const auto* own = variant.graph.resource<FrameImage>("indirect");
-    const auto* right = referenceGraph.resource<FrameImage>("indirect");
-    const auto variesBounces = [](const auto& axis) { return axis.key.ends_with(".bounces"); };
-    if (std::ranges::any_of(wired.experiment.sweep.members, variesBounces)) return {};
-    if (!own || !right || !own->lightBounces || !right->lightBounces ||
-        *own->lightBounces == *right->lightBounces)
-        return {};
-    const int64_t has = *own->lightBounces, wanted = *right->lightBounces;
-    std::string advice = fmt::format("write 'bounces: {}' in the reference", has);
-
-    // What comes after the first pass adds bounces of its own
-    const std::optional<Bounces> first = bouncesOf(variant);
-    if (first && has >= first->value && first->value + wanted - has >= 0)
-        advice = fmt::format("write 'bounces: {}' in '{}', or {}", first->value + wanted - has, first->id,
-                             advice.substr(6));
-    const TextLocation where = first ? first->where : wired.experiment.reference.where;
-    return UsageError(where, "indirect light has {} bounces, the reference's {}: {}", has, wanted, advice)
-        .what();
-}
-
 /// Why an axis changes nothing in a variant: no image depends on its pass, or other parameters leave the
 /// swept one without effect. Empty where it has one.
 std::string whyWithoutEffect(const WiredVariant& variant, const std::string& axis) {
@@ -158,6 +110,17 @@ void checkSwaps(const WiredExperiment& wired, const Registry& registry) {
     }
 }
 
+/// A light that goes off after the last frame never does.
+/// @throws UsageError with file and line.
+void checkLightsGoOff(const SceneSettings& scene, const MeasureSettings& measure) {
+    for (size_t i = 0; i < scene.lights.size(); ++i)
+        if (const ConfigLight& light = scene.lights[i]; light.offAt >= measure.frames)
+            throw UsageError(light.where,
+                             "scene.lights[{}].off_at: {} is after the last frame, {}, so that it always "
+                             "shines: lower it, or raise measure.frames",
+                             i, light.offAt, measure.frames - 1);
+}
+
 /// A swept parameter that has no effect in a variant: such variants come once.
 /// @throws UsageError with file and line for an axis that changes nothing in any variant.
 void leaveOutEqual(WiredExperiment& wired) {
@@ -202,6 +165,7 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
     checkPassNames(experiment, registry);
     WiredExperiment wired;
     for (Variant& variant : expandSweep(experiment)) {
+        checkLightsGoOff(variant.setup.scene, experiment.measure);
         Graph graph(registry, variant.setup.graph);
         if (!graph.writes("final"))
             throw UsageError(variant.setup.graph.where,
@@ -251,45 +215,6 @@ bool runsSomewhere(const WiredExperiment& wired, const std::string& id) {
         return std::ranges::any_of(variant.resolved.items,
                                    [&](const Value& pass) { return passId(pass) == id; });
     });
-}
-
-std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
-                                    const Registry& registry) {
-    constexpr uint64_t kAnySize = std::numeric_limits<uint64_t>::max();
-    std::map<std::string, std::vector<std::string>> notices;  // What is said, of which variants.
-    std::string key;
-    PreparedScene prepared;
-    for (WiredVariant& variant : wired.variants) {
-        // Variants in a row mostly share a scene
-        if (std::string own = loader.key(variant.setup.scene); own != key) {
-            prepared = loader.prepare(variant.setup.scene);
-            key = std::move(own);
-            checkMaskNames(wired.experiment.measure.masks, *prepared.state.scene);
-            if (std::string text = checkView(variant.setup, prepared, registry.preview); !text.empty())
-                notices[std::move(text)].push_back(variant.name);
-        }
-        const Frame frame = frameOf(variant.setup, prepared, variant.setup.general.seed);
-        try {
-            variant.graph.plan(frame, device, kAnySize);
-            if (wired.reference.isNull()) continue;
-            Graph reference = referenceGraph(wired.experiment, registry);
-            reference.plan(frame, device, kAnySize);
-            if (std::string text = bounceDifference(variant, wired, reference); !text.empty())
-                notices[std::move(text)].push_back(variant.name);
-        } catch (const Error& error) {
-            throw UsageError("{}{}", error.what(),
-                             wired.variants.size() > 1 ? fmt::format(" (variant {})", variant.name) : "");
-        }
-    }
-    std::vector<std::string> warnings;
-    for (const auto& [id, count] : variantsWithout(wired))
-        if (!runsSomewhere(wired, id))
-            warnings.push_back(fmt::format("'{}' is never run: no image that is compared depends on it", id));
-    for (const auto& [text, names] : notices)
-        warnings.push_back(names.size() == 1
-                               ? fmt::format("{} ({})", text, names[0])
-                               : fmt::format("{} ({} and {} more)", text, names[0], names.size() - 1));
-    return warnings;
 }
 
 }  // namespace voxray

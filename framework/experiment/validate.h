@@ -6,7 +6,6 @@
 
 #include "config/sweep.h"
 #include "experiment/idle_parameters.h"
-#include "experiment/scene_setup.h"
 #include "graph/graph.h"
 #include "graph/registry.h"
 
@@ -32,15 +31,6 @@ struct WiredExperiment {
 /// @throws UsageError with file and line; also for a value of a sweep whose pass runs in no variant, while
 /// another value's does.
 WiredExperiment wireExperiment(Experiment experiment, const Registry& registry);
-
-/// Prepares the scene of every variant and plans its graph and the reference's there, so that what a pass
-/// refuses shows before anything is rendered. How much memory there is does not count: any size fits.
-/// @return warnings: passes that run in no variant; with file and line, views in which no light was found,
-/// and variants whose light bounces more or fewer times than the reference's, which shows as a difference
-/// that no other parameter lowers. A config may ask for either.
-/// @throws UsageError with file and line, for a scene as SceneLoader::prepare().
-std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
-                                    const Registry& registry);
 
 /// Passes that no image of a variant depends on, by id: in how many variants that is so.
 std::map<std::string, size_t> variantsWithout(const WiredExperiment& wired);

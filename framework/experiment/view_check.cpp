@@ -1,11 +1,15 @@
 #include "experiment/view_check.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
 #include <iterator>
 #include <limits>
-#include <vector>
 
+#include "experiment/facing.h"
+#include "experiment/light_check.h"
 #include "scene/camera_rays.h"
 #include "scene/view.h"
 #include "trace/embree_scene.h"
@@ -20,6 +24,9 @@ struct Look {
 /// A glance finds light within milliseconds where there is much. A view that even the last look finds black
 /// shows only noise at best.
 constexpr Look kLooks[] = {{32, 4, 4}, {64, 8, 16}, {64, 64, 16}};
+
+/// Where surfaces fill less of the view there is hardly an image to compare.
+constexpr double kMinSeen = 0.01;
 
 struct Size {
     uint32_t width, height;
@@ -36,28 +43,31 @@ bool isBlack(const ImageF& image) {
     return std::ranges::all_of(image.data, [](float value) { return value == 0; });
 }
 
-/// Whether more rays of the camera hit surfaces from behind than from before: then the camera stands on the
-/// wrong side of walls, even where it sees furniture from below.
-bool seesMoreBacks(const SceneState& state, const EmbreeScene& tracer, const Camera& camera, Size size) {
+/// What the rays of a small image meet.
+struct Seen {
+    size_t backs = 0, fronts = 0, nothing = 0;
+
+    double part() const { return double(backs + fronts) / double(backs + fronts + nothing); }
+};
+
+Seen lookThrough(const SceneState& state, const EmbreeScene& tracer, const Camera& camera, Size size) {
     const CameraRays rays = cameraRays(camera, size.width, size.height);
-    const Geometry& g = state.geometry;
-    size_t backs = 0, fronts = 0;
+    Seen seen;
     for (uint32_t y = 0; y < size.height; ++y)
         for (uint32_t x = 0; x < size.width; ++x) {
             const glm::vec3 direction =
                 rays.direction((float(x) + 0.5f) / float(size.width), (float(y) + 0.5f) / float(size.height));
             const Hit hit =
                 tracer.closestHit({rays.origin, 0, direction, std::numeric_limits<float>::infinity()});
-            if (hit.triangle == Hit::kMiss) continue;
-            const glm::uvec3 corners = g.triangles[hit.triangle];
-            const glm::vec3 a = g.positions[corners.x];
-            const glm::vec3 front = glm::cross(g.positions[corners.y] - a, g.positions[corners.z] - a);
-            ++(glm::dot(front, direction) > 0 ? backs : fronts);
+            if (hit.triangle == Hit::kMiss)
+                ++seen.nothing;
+            else
+                ++(showsBack(state.geometry, hit.triangle, direction) ? seen.backs : seen.fronts);
         }
-    return backs > fronts;
+    return seen;
 }
 
-TextLocation placeOf(const SceneSettings& scene) {
+TextLocation cameraPlace(const SceneSettings& scene) {
     return scene.cameraWhere.file.empty() ? scene.where : scene.cameraWhere;
 }
 
@@ -67,33 +77,70 @@ std::string advice(const SceneSettings& scene) {
                        scene.source.builtin.empty() ? scene.source.file : scene.source.builtin);
 }
 
+std::string triple(const glm::vec3& v) {
+    return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v.x, v.y, v.z);
+}
+
+/// What to say of a camera that is so far off, or looks so far past it, that surfaces are hardly to be seen.
+std::string mostlyEmpty(const SceneSettings& scene, const Geometry& g, const Camera& camera) {
+    const glm::vec3 nearest = glm::clamp(camera.position, g.boundsMin, g.boundsMax);
+    return UsageError(
+               cameraPlace(scene),
+               "scene.camera: surfaces fill less than {} % of its view: it stands at {}, {:.3g} m away "
+               "from a scene that reaches from {} to {}; are its numbers metres? {}",
+               100 * kMinSeen, triple(camera.position), glm::distance(nearest, camera.position),
+               triple(g.boundsMin), triple(g.boundsMax), advice(scene))
+        .what();
+}
+
+/// What to say of an angle that is no larger than any in radians, and in degrees a telescope's; else "".
+std::string radians(const SceneSettings& scene) {
+    if (!scene.camera || scene.camera->fovDegrees > glm::pi<float>()) return {};
+    const float angle = scene.camera->fovDegrees;
+    return UsageError(
+               cameraPlace(scene),
+               "scene.camera.fov_deg: {0:.4g} degrees are a telescope's; {0:.4g} in radians is {1:.4g} "
+               "degrees",
+               angle, glm::degrees(angle))
+        .what();
+}
+
 }  // namespace
 
-std::string checkView(const Setup& setup, const PreparedScene& prepared, const Preview& preview) {
+std::vector<std::string> checkView(const Setup& setup, const PreparedScene& prepared,
+                                   const Preview& preview) {
+    const SceneSettings& scene = setup.scene;
     const SceneState& state = prepared.state;
     const Camera& camera = prepared.camera;
     if (!isInView(state.geometry, camera, setup.image.width, setup.image.height))
-        throw UsageError(placeOf(setup.scene), "scene.camera: no surface lies in its view; {}",
-                         advice(setup.scene));
+        throw UsageError(cameraPlace(scene), "scene.camera: no surface lies in its view; {}", advice(scene));
     if (!preview) return {};
 
     const EmbreeScene tracer(state, RaysToCome::Few);
+    std::vector<std::string> warnings = lightWarnings(scene, state, tracer);
+    if (std::string text = radians(scene); !text.empty()) warnings.push_back(std::move(text));
+    const Seen seen = lookThrough(state, tracer, camera, shrunk(setup.image, std::end(kLooks)[-1].size));
+    if (seen.part() < kMinSeen) {
+        warnings.push_back(mostlyEmpty(scene, state.geometry, camera));
+        return warnings;
+    }
+
     const auto isDark = [&](const Look& look) {
         const Size size = shrunk(setup.image, look.size);
         return isBlack(preview(state, tracer, camera, size.width, size.height, look.spp, look.bounces));
     };
-    if (!std::ranges::all_of(kLooks, isDark)) return {};
-    if (seesMoreBacks(state, tracer, camera, shrunk(setup.image, std::end(kLooks)[-1].size)))
-        throw UsageError(placeOf(setup.scene),
+    if (!std::ranges::all_of(kLooks, isDark)) return warnings;
+    if (seen.backs > seen.fronts)
+        throw UsageError(cameraPlace(scene),
                          "scene.camera: it sees the backs of surfaces, and no light: it stands outside of "
                          "a closed room or inside of a solid; {}",
-                         advice(setup.scene));
-    return UsageError(
-               placeOf(setup.scene),
-               "scene.camera: no light was found in its view, so that the image will be black; {}, and "
-               "tells what shines",
-               advice(setup.scene))
-        .what();
+                         advice(scene));
+    warnings.push_back(UsageError(cameraPlace(scene),
+                                  "scene.camera: no light was found in its view, so that the image will be "
+                                  "black; {}, and tells what shines",
+                                  advice(scene))
+                           .what());
+    return warnings;
 }
 
 }  // namespace voxray

@@ -30,6 +30,9 @@ profiles:
   smaller: {image: {width: 16}}
 """
 CAMERA = "camera: {position: [0, 1, 3], target: [0, 1, 0], fov_deg: 50}"
+GRAPH = CONFIG[CONFIG.index("graph:"):CONFIG.index("reference:")]
+SWEEP = CONFIG[CONFIG.index("sweep:"):CONFIG.index("measure:")]
+REFERENCE_TO_MASKS = CONFIG[CONFIG.index("reference:"):CONFIG.index("profiles:")].rstrip()
 
 # What is written in place of what; the line that is named; words of the message.
 MISTAKES = {
@@ -180,9 +183,77 @@ MISTAKES = {
     "a camera below the floor": ("position: [0, 1, 3]", "position: [0, -3, 0.5]", 4, "sees the backs of surfaces, and no light"),
     "a camera in a box": ("position: [0, 1, 3], target: [0, 1, 0]", "position: [-0.35, 0.6, -0.3], target: [0, 0.6, 0]", 4,
                           "'./voxray scene cornell' gives a camera that sees the scene"),
+    # What would do nothing
+    "masks without a reference": ("reference: {pass: path_trace, spp: 8, bounces: 3}\n", "", 20,
+                                  "measure.masks: no effect without a 'reference' to compare with; add one"),
+    "a second seed without a reference": (REFERENCE_TO_MASKS, SWEEP + "measure: {frames: 2, second_seed: true}", 20,
+                                          "measure.second_seed: no effect"),
+    "metrics without a reference": (REFERENCE_TO_MASKS, SWEEP + "measure: {frames: 2, metrics: [flip]}", 20,
+                                    "measure.metrics: no effect"),
+    "a sequence without a reference": (REFERENCE_TO_MASKS, SWEEP + "measure: {frames: 4, compare_every: 1}", 20,
+                                       "measure.compare_every: no effect"),
+    "a light off after the last frame": ("intensity: [1, 1, 1]", "intensity: [1, 1, 1], off_at: 2", 6,
+                                         "off_at: 2 is after the last frame, 1, so that it always shines"),
+    "steps of time where nothing moves": ("  camera:", "  time_step: 0.1\n  camera:", 4,
+                                          "scene.time_step: no effect: nothing in the scene is animated"),
+    "a time where nothing moves": ("  camera:", "  time: 3\n  camera:", 4, "scene.time: no effect"),
+    "no lights by an empty list": ("lights:\n    - {point: [0, 1.8, 0], intensity: [1, 1, 1]}", "lights: []", 5,
+                                   "an empty list adds no light to the scene's own, which stay"),
+    "no metrics": ("frames: 2", "frames: 2, metrics: []", 21, "measure.metrics: an empty list"),
+    "a metric twice": ("frames: 2", "frames: 2, metrics: [flip, flip]", 21, "'flip' appears twice"),
+    "a scale of no map": ("  lights:", "  environment: {scale: 2}\n  lights:", 5,
+                          "'map' is missing, as in {map: sky.exr, scale: 2}; for a radiance alone write environment: 2"),
+    "a limit of memory that nothing fits in": ("frames: 2", "frames: 2, memory_limit_mb: 1", 21,
+                                               "memory_limit_mb: 1 MiB are too few for 2 of 2 variants"),
+    "an empty sweep": (SWEEP, "sweep: {}\n", 19, "an empty map varies nothing"),
+    "a sweep of no values": ("[4096, 8192]", "[]", 20, "expected a list of values, as in [64, 128]"),
+    "two names for one value": ("inject.rays_per_light: [4096, 8192]", "voxelize.method:\n    a: exact\n    b: exact", 22,
+                                "sweep.voxelize.method: 'a' and 'b' are the same"),
+    # Blocks
+    "a block below another one": ("image: {width", "  image: {width", 7,
+                                  "'image' is a key of its own, next to 'scene': indent it as far as 'scene'"),
+    "a slash for the dot": ("inject.rays_per", "inject/rays_per", 20, "did you mean 'inject.rays_per_light'?"),
+    "inputs as a list": ("{noisy_irradiance: gather}", "[gather]", 15,
+                         "indirect.inputs: expected a map of ports and ids, as in {noisy_irradiance: gather}; its ports are"),
+    "passes without dashes": (GRAPH, "graph:\n  gbuffer: {}\n  voxelize: {resolution: 16}\n", 9,
+                              "expected a list of passes, each with a dash: write '- {pass: gbuffer}'"),
+    "a pass's parameter without its pass": ("seed: 7", "resolution: 64", 8, "it stands in the pass 'voxelize'"),
+    "a color by its name": ("intensity: [1, 1, 1]", "intensity: white", 6, "not 'white', or three, as in [1, 1, 1]"),
+    "the results' folder in the config": ("seed: 7", "output: results/mine", 8, "it is said on the command line: --out DIR"),
+    "a built-in scene as a file": ("builtin: cornell", "file: cornell", 3, "that scene is built in: write builtin: cornell"),
+    "a file as a built-in scene": ("builtin: cornell", "builtin: mine.yaml", 3, "that is a file: write file: mine.yaml"),
     # Chains
     "a chain without its last pass": ("inject.rays_per_light: [4096, 8192]", "indirect: [gather_irradiance, [trace_gather_rays]]", 20,
                                       "'trace_gather_rays' is never run: no image depends on what it writes; 'gather_irradiance' in its place writes"),
+}
+
+# What may be meant, but mostly is not: warned of before anything renders. The same four.
+WARNINGS = {
+    "a camera far away": (CAMERA, "camera: {position: [0, 1, 60], target: [0, 1, 0], fov_deg: 50}", 4,
+                          "surfaces fill less than 1 % of its view: it stands at [0, 1, 60], 59 m away from a scene that reaches "
+                          "from [-1, 0, -1] to [1, 2, 1]; are its numbers metres?"),
+    "radians for degrees": ("fov_deg: 50", "fov_deg: 1.05", 4, "1.05 in radians is 60.16 degrees"),
+    "no direct light": ("  - {pass: direct_shadow_rays, id: direct}\n", "", 16,
+                        "'final' lacks direct light, which the reference has; these can: direct_shadow_"),
+    "two writers of the image": ("  - {pass: composite}", "  - {pass: composite}\n  - {pass: composite, id: again}", 17,
+                                 "'composite' is never run: 'again', after it, writes 'final' too, and the last one counts"),
+    "voxels that no pass reads": ("  - {pass: voxelize", "  - {pass: voxelize, id: coarse, resolution: 8}\n  - {pass: voxelize", 11,
+                                  "'coarse' is never run: 'voxelize', after it, writes 'voxels' too"),
+    "a light that points past the scene": ("{point: [0, 1.8, 0],", "{spot: [0, 1.8, 3], direction: [0, 0, 1],", 6,
+                                           "scene.lights[0]: it lights nothing"),
+    "a light that shines upwards": ("{point: [0, 1.8, 0], intensity", "{directional: [0, 1, 0], irradiance", 6,
+                                    "it lights the backs of surfaces alone"),
+    "a light in centimetres": ("point: [0, 1.8, 0]", "point: [0, 180, 0]", 6, "are its numbers metres?"),
+    "frames added up where there are none": (
+        "  - {pass: filter_irradiance, id: indirect, inputs: {noisy_irradiance: gather}}",
+        "  - {pass: accumulate}\n  - {pass: filter_irradiance, id: indirect}", 15,
+        "accumulate: it goes on from frame to frame, and 3 of the 15 frames that it looks back on come before"),
+    "lights that the scene lacks": ("  lights:", "  keep_file_lights: false\n  lights:", 5, "the scene has no punctual lights"),
+    "spheres that have no time to move": ("  lights:", "  moving_spheres: {count: 1, center: [0, 1, 0]}\n  lights:", 5,
+                                          "they stand still; for ones that move write 'time_step'"),
+    "a variant that needs more memory": (
+        SWEEP + "measure: {frames: 2", "sweep:\n  voxelize.resolution: [16, 512]\nmeasure: {memory_limit_mb: 40, frames: 2", 21,
+        "too few for 1 of 2 variants: resolution-512 takes"),
 }
 
 
@@ -197,9 +268,15 @@ class Mistakes(CommandTest):
                 self.assertIn(words, error)
                 self.assertFalse(os.path.exists(self.path("out")), "a bad config leaves no results folder")
 
-    def test_a_pass_that_never_runs_is_warned_of(self):
-        self.write("mine.yaml", CONFIG.replace("  - {pass: composite}", "  - {pass: composite}\n  - {pass: composite, id: again}"))
-        self.assertIn("warning: 'composite' is never run", self.expect(0, "validate", "mine.yaml").stderr)
+    def test_what_may_be_meant_is_warned_of(self):
+        for what, (right, other, line, words) in WARNINGS.items():
+            with self.subTest(what):
+                self.assertIn(right, CONFIG)
+                self.write("mine.yaml", CONFIG.replace(right, other, 1))
+                warnings = self.expect(0, "validate", "mine.yaml").stderr.splitlines()
+                said = [warning for warning in warnings if words in warning]
+                self.assertEqual(len(said), 1, warnings)
+                self.assertTrue(said[0].startswith(f"voxray: warning: mine.yaml:{line}: "), said)
 
     def test_a_dark_view_is_warned_of(self):
         # A room that light must not leak into

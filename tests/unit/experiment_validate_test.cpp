@@ -1,4 +1,4 @@
-#include "experiment/validate.h"
+#include "experiment/plan_checks.h"
 
 #include <gtest/gtest.h>
 
@@ -116,6 +116,34 @@ TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
     expectError("graph:\n  - {pass: constant}\nreference: {pass: constant}\n",
                 {"x.yaml:5: ", "writes no 'final_a'"});
     expectError("graph:\n  - {pass: relay, inputs: {extra: relay}}\n", {"x.yaml:4: "});
+}
+
+TEST(Validate, MotionIsRefusedWhereItHasNoEffectInAnyVariant) {
+    const auto refusal = [](const std::string& scene, const std::string& rest) {
+        const std::string text = "name: x\nscene: {" + scene + "}\n" + rest + "\ngraph: [{pass: constant}]\n";
+        return errorOf<UsageError>([&] {
+            WiredExperiment wired = wireExperiment(parseExperiment(text, "x.yaml"), fakes::registry());
+            SceneLoader loader({});
+            checkPlans(wired, loader, DeviceInfo(), fakes::registry());
+        });
+    };
+    const std::string still = refusal("builtin: cornell, time_step: 0.1", "");
+    EXPECT_CONTAINS(still, "x.yaml:2: scene.time_step: no effect: nothing in the scene is animated");
+    EXPECT_CONTAINS(refusal("builtin: cornell, time: 1", ""), "x.yaml:2: scene.time: no effect");
+    EXPECT_EQ(refusal("builtin: spheres, time: 1, time_step: 0.1", ""), "");
+    EXPECT_EQ(refusal("builtin: cornell, time_step: 0.1, moving_spheres: {count: 1}", ""), "");
+    EXPECT_EQ(refusal("builtin: cornell, time_step: 0.1", "sweep: {scene.builtin: [cornell, spheres]}"), "");
+
+    // A single frame
+    const std::string single = "measure: {frames: 1, warmup: 0}";
+    const std::string camera =
+        "builtin: cornell, camera: {position: [0, 1, 3], target: [0, 1, 0], move: [0, 0, 1]}";
+    EXPECT_CONTAINS(refusal("builtin: spheres, time_step: 0.1", single),
+                    "scene.time_step: no effect: there is one frame");
+    EXPECT_CONTAINS(refusal(camera, single), "x.yaml:2: scene.camera.move: no effect");
+    EXPECT_CONTAINS(refusal("builtin: cornell, lights: [{point: [0, 1, 0], move: [0, 0.1, 0]}]", single),
+                    "scene.lights: no effect");
+    EXPECT_EQ(refusal(camera, "measure: {frames: 1, warmup: 1}"), "");
 }
 
 TEST(Schema, ConfigSchemaHoldsEveryPassAndKey) {

@@ -1,5 +1,6 @@
 #include "experiment/view_check.h"
 
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include "passes/register_passes.h"
@@ -17,7 +18,9 @@ std::string saidOf(const std::string& scene) {
     SceneLoader loader({});
     Registry registry;
     registerPasses(registry);
-    return checkView(experiment.setup, loader.prepare(experiment.setup.scene), registry.preview);
+    const auto warnings =
+        checkView(experiment.setup, loader.prepare(experiment.setup.scene), registry.preview);
+    return fmt::format("{}", fmt::join(warnings, " | "));
 }
 
 std::string refusalOf(const std::string& scene) {
@@ -65,6 +68,34 @@ TEST(ViewCheck, FindsLightThatFewPathsMeet) {
                      "[0, 1, 0.2], "
                      "intensity: 1, outer_deg: 2}]"),
               "");
+}
+
+TEST(ViewCheck, WarnsOfCamerasThatSeeHardlyAnything) {
+    const std::string far =
+        saidOf("builtin: cornell, camera: {position: [0, 1, 31], target: [0, 1, 0], fov_deg: 60}");
+    EXPECT_CONTAINS(far, "x.yaml:2: ");
+    EXPECT_CONTAINS(far, "fill less than 1 % of its view: it stands at [0, 1, 31], 30 m away");
+    EXPECT_CONTAINS(far, "from [-1, 0, -1] to [1, 2, 1]");
+    // A telescope sees enough from there
+    EXPECT_EQ(saidOf("builtin: cornell, camera: {position: [0, 1, 31], target: [0, 1, 0], fov_deg: 5}"), "");
+    const std::string radians =
+        saidOf("builtin: cornell, camera: {position: [0, 1, 3.8], target: [0, 1, 0], fov_deg: 1.05}");
+    EXPECT_CONTAINS(radians, "fov_deg: 1.05 degrees are a telescope's; 1.05 in radians is 60.16 degrees");
+}
+
+TEST(ViewCheck, WarnsOfLightsThatLightNothing) {
+    const auto saidOfLight = [](const std::string& light) {
+        return saidOf("builtin: cornell, lights: [" + light + "]");
+    };
+    const std::string nothing = "scene.lights[0]: it lights nothing", backs = "the backs of surfaces alone";
+    EXPECT_CONTAINS(saidOfLight("{spot: [0, 1, 3], direction: [0, 0, 1]}"), nothing);
+    EXPECT_CONTAINS(saidOfLight("{directional: [0, 1, 0]}"), backs);
+    EXPECT_CONTAINS(saidOfLight("{point: [0, 180, 0]}"), backs);
+    EXPECT_CONTAINS(saidOfLight("{point: [-0.35, 0.6, -0.3]}"), backs);  // In the taller box
+    // At the ceiling, through the open front from far away, and one that is yet to come
+    EXPECT_EQ(saidOfLight("{spot: [0, 1, 0], direction: [0, 1, 0], outer_deg: 1}"), "");
+    EXPECT_EQ(saidOfLight("{point: [0, 1, 1000]}, {directional: [0, 0, -1]}"), "");
+    EXPECT_EQ(saidOfLight("{spot: [0, 1, 3], direction: [0, 0, 1], move: [0, 0, -1]}"), "");
 }
 
 }  // namespace

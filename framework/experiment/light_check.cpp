@@ -1,0 +1,116 @@
+#include "experiment/light_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/vec2.hpp>
+#include <limits>
+
+#include "experiment/facing.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kRays = 4096;  ///< Of each kind, of a light.
+
+/// What a light's rays met so far.
+enum class Met { Nothing, Backs, Fronts };
+
+struct Axes {
+    glm::vec3 x, y;
+};
+
+Axes perpendicularTo(const glm::vec3& direction) {
+    const glm::vec3 other = std::abs(direction.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    const glm::vec3 x = glm::normalize(glm::cross(direction, other));
+    return {x, glm::cross(direction, x)};
+}
+
+/// A point of a sequence that fills the unit square evenly. Source: Roberts 2018, "The Unreasonable
+/// Effectiveness of Quasirandom Sequences" (the plastic number's powers).
+glm::vec2 evenPoint(uint32_t i) {
+    const glm::dvec2 point = double(i + 1) * glm::dvec2(0.7548776662466927, 0.5698402909980532);
+    return glm::vec2(point - glm::floor(point));
+}
+
+/// The i-th of kRays rays that a light sends.
+Ray sentRay(const Light& light, const Geometry& g, uint32_t i) {
+    const glm::vec2 point = evenPoint(i);
+    const float infinity = std::numeric_limits<float>::infinity();
+    const glm::vec3 center = 0.5f * (g.boundsMin + g.boundsMax);
+    const float radius = std::max(0.5f * glm::length(g.boundsMax - g.boundsMin), 1e-6f);
+    const Axes axes = perpendicularTo(light.direction);
+    if (light.type == LightType::Directional) {
+        const glm::vec2 offset = radius * (2.0f * point - 1.0f);
+        const glm::vec3 origin =
+            center - 2.0f * radius * light.direction + offset.x * axes.x + offset.y * axes.y;
+        return {origin, 0, light.direction, infinity};
+    }
+    const float lowest = light.type == LightType::Spot ? std::cos(light.outerConeAngle) : -1.0f;
+    const float cosine = glm::mix(lowest, 1.0f, point.x), azimuth = glm::two_pi<float>() * point.y;
+    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+    const glm::vec3 direction =
+        cosine * light.direction + sine * (std::cos(azimuth) * axes.x + std::sin(azimuth) * axes.y);
+    return {light.position, 0, glm::normalize(direction), infinity};
+}
+
+/// A ray of the light to a triangle's center; inactive where it does not shine there.
+Ray rayTo(const Light& light, const Geometry& g, uint32_t triangle) {
+    const glm::uvec3 corners = g.triangles[triangle];
+    const glm::vec3 center =
+        (g.positions[corners.x] + g.positions[corners.y] + g.positions[corners.z]) / 3.0f;
+    const glm::vec3 way = center - light.position;
+    const float distance = glm::length(way);
+    const bool isInCone = light.type != LightType::Spot ||
+                          glm::dot(way, light.direction) > distance * std::cos(light.outerConeAngle);
+    const float end = isInCone && distance > 0 ? std::numeric_limits<float>::infinity() : -1.0f;
+    return {light.position, 0, distance > 0 ? way / distance : light.direction, end};
+}
+
+Met whatIsMet(const Light& light, const SceneState& state, const EmbreeScene& tracer) {
+    const Geometry& g = state.geometry;
+    Met met = Met::Nothing;
+    const auto look = [&](const Ray& ray) {
+        if (ray.tMax < ray.tMin || met == Met::Fronts) return;
+        const Hit hit = tracer.closestHit(ray);
+        if (hit.triangle == Hit::kMiss) return;
+        const bool hasBack = !state.scene->materials[g.triangleMaterials[hit.triangle]].doubleSided;
+        met = hasBack && showsBack(g, hit.triangle, ray.direction) ? Met::Backs : Met::Fronts;
+    };
+    for (uint32_t i = 0; i < kRays; ++i) look(sentRay(light, g, i));
+    if (light.type == LightType::Directional) return met;
+
+    // Few of a distant light's rays come near
+    const size_t triangles = g.triangles.size();
+    const size_t step = std::max<size_t>(1, triangles / kRays);
+    for (size_t t = 0; t < triangles; t += step) look(rayTo(light, g, uint32_t(t)));
+    return met;
+}
+
+}  // namespace
+
+std::vector<std::string> lightWarnings(const SceneSettings& scene, const SceneState& state,
+                                       const EmbreeScene& tracer) {
+    std::vector<std::string> warnings;
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const ConfigLight& entry = scene.lights[i];
+        if (entry.light.intensity == glm::vec3(0.0f) || entry.move != glm::vec3(0.0f)) continue;
+        const Met met = whatIsMet(entry.light, state, tracer);
+        if (met == Met::Fronts) continue;
+        warnings.push_back(
+            UsageError(entry.where,
+                       "scene.lights[{}]: it lights {}; is its direction the way that the light "
+                       "travels, and are its numbers metres?",
+                       i,
+                       met == Met::Nothing
+                           ? "nothing: no surface lies where it shines"
+                           : "the backs of surfaces alone, from outside of a room or within a "
+                             "solid")
+                .what());
+    }
+    return warnings;
+}
+
+}  // namespace voxray

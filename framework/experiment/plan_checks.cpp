@@ -1,0 +1,207 @@
+#include "experiment/plan_checks.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "config/overrides.h"
+#include "experiment/idle_motion.h"
+#include "experiment/pixel_masks.h"
+#include "experiment/session.h"
+#include "experiment/view_check.h"
+
+namespace voxray {
+namespace {
+
+constexpr double kMiB = 1024.0 * 1024.0;
+
+/// Where light begins in a variant: its first pass with a parameter `bounces`, with its place in the config.
+struct Bounces {
+    std::string id;
+    TextLocation where;
+    int64_t value;
+};
+std::optional<Bounces> bouncesOf(const WiredVariant& variant) {
+    for (const Value& pass : variant.resolved.items)
+        if (const Value* bounces = pass.find("bounces"))
+            for (const Value& entry : variant.setup.graph.items)
+                if (passId(entry) == passId(pass)) {
+                    const Value* written = entry.find("bounces");
+                    return Bounces{passId(pass), written ? written->where : entry.where,
+                                   bounces->asInteger("bounces")};
+                }
+    return std::nullopt;
+}
+
+/// What to write where the indirect light of a variant and of the reference have different numbers of
+/// bounces, unless the sweep varies them; else empty. Both graphs are planned.
+std::string bounceDifference(const WiredVariant& variant, const WiredExperiment& wired,
+                             const Graph& referenceGraph) {
+    const auto* own = variant.graph.resource<FrameImage>("indirect");
+    const auto* right = referenceGraph.resource<FrameImage>("indirect");
+    const auto variesBounces = [](const auto& axis) { return axis.key.ends_with(".bounces"); };
+    if (std::ranges::any_of(wired.experiment.sweep.members, variesBounces)) return {};
+    if (!own || !right || !own->lightBounces || !right->lightBounces ||
+        *own->lightBounces == *right->lightBounces)
+        return {};
+    const int64_t has = *own->lightBounces, wanted = *right->lightBounces;
+    std::string advice = fmt::format("write 'bounces: {}' in the reference", has);
+
+    // What comes after the first pass adds bounces of its own
+    const std::optional<Bounces> first = bouncesOf(variant);
+    if (first && has >= first->value && first->value + wanted - has >= 0)
+        advice = fmt::format("write 'bounces: {}' in '{}', or {}", first->value + wanted - has, first->id,
+                             advice.substr(6));
+    const TextLocation where = first ? first->where : wired.experiment.reference.where;
+    return UsageError(where, "indirect light has {} bounces, the reference's {}: {}", has, wanted, advice)
+        .what();
+}
+
+/// What to say of a variant whose image lacks a part of the light that the reference has.
+std::vector<std::string> missingLight(const WiredVariant& variant, const Registry& registry) {
+    std::vector<std::string> texts;
+    for (const Graph::Input& input : variant.graph.emptyInputs("final"))
+        if (input.port == "direct" || input.port == "indirect")
+            texts.push_back(
+                UsageError(input.where,
+                           "{0}: no pass before it writes '{1}', so that 'final' lacks {1} light, "
+                           "which the reference has; these can: {2}",
+                           input.id, input.port, fmt::join(registry.writersOf(input.port), ", "))
+                    .what());
+    return texts;
+}
+
+/// What to say of passes that go on from frame to frame, where frame 0 alone is compared.
+std::vector<std::string> shortHistory(const WiredVariant& variant, const MeasureSettings& measure) {
+    std::vector<std::string> texts;
+    if (measure.compareEvery > 0) return texts;
+    for (const Graph::PassInfo& pass : variant.graph.passes())
+        if (pass.framesBefore > measure.warmup)
+            texts.push_back(
+                UsageError(pass.where,
+                           "{0}: it goes on from frame to frame, and {1} of the {2} frames that it "
+                           "looks back on come before the one that is compared: write measure: "
+                           "{{warmup: {2}}}, or compare a sequence with 'compare_every'",
+                           pass.id, measure.warmup, pass.framesBefore)
+                    .what());
+    return texts;
+}
+
+/// What to say where the config takes away lights that the scene does not have: mostly others are meant.
+std::vector<std::string> lightsThatStay(const WiredVariant& variant, const Scene& scene) {
+    if (variant.setup.scene.options.keepFileLights || !scene.lights.empty()) return {};
+    return {
+        UsageError(placeOf(variant.config, "scene.keep_file_lights"),
+                   "scene.keep_file_lights: the scene has no punctual lights; what else shines stays: "
+                   "'override: {{MATERIAL: {{emission: 0}}}}' puts out a surface, 'environment: none' the "
+                   "sky")
+            .what()};
+}
+
+/// What to say of spheres that are to move and have no time to.
+std::vector<std::string> spheresThatStay(const WiredVariant& variant) {
+    const SceneSettings& scene = variant.setup.scene;
+    if (!scene.movingSpheres || scene.movingSpheres->count == 0 || scene.options.timeStep > 0) return {};
+    return {UsageError(placeOf(variant.config, "scene.moving_spheres"),
+                       "scene.moving_spheres: they stand still; for ones that move write 'time_step', the "
+                       "seconds from one frame to the next, next to it")
+                .what()};
+}
+
+/// A variant and the memory that it takes.
+struct Need {
+    std::string variant;
+    uint64_t bytes;
+    std::string largest;  ///< Id of the pass that takes most.
+};
+
+Need needOf(const WiredVariant& variant, const std::vector<PassMemory>& memory) {
+    const std::vector<Graph::PassInfo> passes = variant.graph.passes();
+    size_t largest = 0;
+    for (size_t i = 0; i < memory.size(); ++i)
+        if (memory[i].bytes + memory[i].scratchBytes > memory[largest].bytes + memory[largest].scratchBytes)
+            largest = i;
+    return {variant.name, peakBytes(memory), passes.empty() ? "" : passes[largest].id};
+}
+
+/// @return what to warn of where some variants are over the config's limit, else "".
+/// @throws UsageError with file and line where all are.
+std::string overTheLimit(const Experiment& experiment, std::vector<Need> needs) {
+    const uint64_t limitMb = experiment.measure.memoryLimitMb;
+    const auto isOver = [&](const Need& need) { return limitMb > 0 && need.bytes > limitMb << 20; };
+    const size_t over = size_t(std::ranges::count_if(needs, isOver));
+    if (over == 0) return {};
+    std::ranges::stable_sort(needs, {}, &Need::bytes);
+    const auto& [variant, bytes, largest] = *std::ranges::find_if(needs, isOver);
+    const UsageError error(
+        placeOf(experiment.config, "measure.memory_limit_mb"),
+        "measure.memory_limit_mb: {} MiB are too few for {} of {} variants: {} takes {:.1f} "
+        "MiB, the largest part of it by '{}'",
+        limitMb, over, needs.size(), variant, double(bytes) / kMiB, largest);
+    if (over == needs.size()) throw error;
+    return error.what();
+}
+
+}  // namespace
+
+std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
+                                    const Registry& registry) {
+    constexpr uint64_t kAnySize = std::numeric_limits<uint64_t>::max();
+    const Experiment& experiment = wired.experiment;
+    std::map<std::string, std::vector<std::string>> notices;  // What is said, of which variants.
+    std::vector<Need> needs;
+    IdleMotion motion(experiment.measure);
+    std::string key;
+    PreparedScene prepared;
+    for (WiredVariant& variant : wired.variants) {
+        const auto say = [&](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) notices[text].push_back(variant.name);
+        };
+        // Variants in a row mostly share a scene
+        if (std::string own = loader.key(variant.setup.scene); own != key) {
+            prepared = loader.prepare(variant.setup.scene);
+            key = std::move(own);
+            checkMaskNames(experiment.measure.masks, *prepared.state.scene);
+            say(checkView(variant.setup, prepared, registry.preview));
+        }
+        motion.look(variant, *prepared.state.scene);
+        say(lightsThatStay(variant, *prepared.state.scene));
+        say(spheresThatStay(variant));
+        const Frame frame = frameOf(variant.setup, prepared, variant.setup.general.seed);
+        try {
+            needs.push_back(needOf(variant, variant.graph.plan(frame, device, kAnySize)));
+            say(shortHistory(variant, experiment.measure));
+            if (wired.reference.isNull()) continue;
+            say(missingLight(variant, registry));
+            Graph reference = referenceGraph(experiment, registry);
+            reference.plan(frame, device, kAnySize);
+            if (std::string text = bounceDifference(variant, wired, reference); !text.empty()) say({text});
+        } catch (const Error& error) {
+            throw UsageError("{}{}", error.what(),
+                             wired.variants.size() > 1 ? fmt::format(" (variant {})", variant.name) : "");
+        }
+    }
+    motion.refuse();
+
+    std::vector<std::string> warnings;
+    if (std::string text = overTheLimit(experiment, std::move(needs)); !text.empty())
+        warnings.push_back(std::move(text));
+    for (const auto& [id, count] : variantsWithout(wired))
+        if (!runsSomewhere(wired, id)) {
+            const auto lacks = [&id = id](const WiredVariant& v) {
+                return std::ranges::count(v.leftOut, id) > 0;
+            };
+            const auto variant = std::ranges::find_if(wired.variants, lacks);
+            warnings.push_back(Graph(registry, variant->setup.graph).whyLeftOut(id));
+        }
+    for (const auto& [text, names] : notices)
+        warnings.push_back(names.size() == 1
+                               ? fmt::format("{} ({})", text, names[0])
+                               : fmt::format("{} ({} and {} more)", text, names[0], names.size() - 1));
+    return warnings;
+}
+
+}  // namespace voxray
