@@ -57,11 +57,11 @@ void main() {
         if (hasSpecular(surface)) n = specularNormal(n, out_);
         const vec3 side = normalize(texelFetch(geometricNormal, texel, 0).xyz);
 
-        // Irradiance on a plane facing the sample, were it not in shadow. From where the ray begins: else one that meets a surface of light
-        // at a slant would end behind it.
+        // Irradiance on a plane facing the sample, were it not in shadow. Surfaces of light are sampled from where the ray begins: else one
+        // that meets them at a slant would end behind them.
         const float offset = surfaceOffset(p.xyz);
-        const vec3 from = p.xyz + side * offset;
-        const LightSample s = sampleSource(push.kind, push.light, push.lightSamples, push.emitterCount, from, n,
+        const vec3 from = p.xyz + side * offset, lit = push.kind == SOURCE_EMITTERS ? from : p.xyz;
+        const LightSample s = sampleSource(push.kind, push.light, push.lightSamples, push.emitterCount, lit, n,
                                            push.firstPixel * perPixel + i, push.seed);
         const float cosine = dot(n, s.direction);
         if (cosine > 0.0 && dot(side, s.direction) > 0.0) {
@@ -69,7 +69,7 @@ void main() {
             ray = Ray(from, 0.0, s.direction, s.distance_ - 2.0 * offset);
             if (kMeetVoxels) {
                 ray.origin = beginOffSurface(push.grid, p.xyz, side, s.direction);
-                ray.tMax = s.distance_ - dot(ray.origin - from, s.direction) - VOXELS_BEFORE_LIGHT * push.grid.voxelSize;
+                ray.tMax = s.distance_ - dot(ray.origin - lit, s.direction) - VOXELS_BEFORE_LIGHT * push.grid.voxelSize;
             }
         }
     }

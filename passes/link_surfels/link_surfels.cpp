@@ -60,7 +60,8 @@ void LinkSurfels::plan(PassPlan& plan) {
     plan.scratchBuffer(unlinked_, "number of hits without surfel", sizeof(uint32_t));
     SurfelSort::plan(plan, plan.get(surfels_), voxels, plan.get(byVoxel_));
     plan.get(byVoxel_).coveredSides = plan.get(surfels_).coveredSides;
-    if (plan.get(neighbours_).isRead) NeighbourSearch::plan(plan, plan.get(byVoxel_), voxels);
+    if (plan.get(neighbours_).isRead)
+        NeighbourSearch::plan(plan, plan.get(byVoxel_), voxels, plan.get(neighbours_));
 }
 
 void LinkSurfels::prepare(PassSetup& setup) {
@@ -97,8 +98,9 @@ void LinkSurfels::record(PassContext& context) {
     sort_.run(context.stream, surfels, context.get(voxels_).voxelCount, context.get(byVoxel_));
     pack(context);
     if (context.get(neighbours_).isRead)
-        neighbourSearch_.run(context.stream, context.get(voxels_), context.get(byVoxel_),
-                             context.get(neighbours_));
+        context.report("radius of neighbours, voxels",
+                       neighbourSearch_.run(context.stream, context.get(voxels_), context.get(byVoxel_),
+                                            context.get(neighbours_)));
     context.stream.fill(unlinked_, 0);
     uint32_t first = 0;
     for (const Surfels::Chunk& chunk : surfels.chunks) {

@@ -4,7 +4,6 @@
 #include <limits>
 #include <numbers>
 
-#include "base/error.h"
 #include "passes/common/compute/dispatch.h"
 
 namespace voxray {
@@ -15,19 +14,23 @@ constexpr uint64_t kPairBytes = 2 * sizeof(uint32_t);
 struct NeighbourPush {
     gpu::VoxelGrid grid;
     uint32_t slots;
+    float radius;
 };
 
 }  // namespace
 
-void NeighbourSearch::plan(PassPlan& plan, const SurfelsByVoxel& surfels, uint64_t voxels) {
-    // A disk whose radius is a voxel's size, on a flat surface; at most half of the surfels look to one side.
-    const double around =
-        std::numbers::pi / 2 * double(surfels.maxCount) / double(std::max<uint64_t>(voxels, 1));
-    plan.reserve(
-        "neighbours of surfels (estimated)",
-        surfels.maxCount * sizeof(uint32_t) + uint64_t(double(surfels.maxCount) * around) * kPairBytes);
+void NeighbourSearch::plan(PassPlan& plan, const SurfelsByVoxel& surfels, uint64_t voxels,
+                           SurfelNeighbours& to) {
+    // Half of the surfels at most look to one side. A plane cuts through up to the root of 3 voxels for each
+    // square of their size, and a disk whose radius is a voxel's size is pi of these.
+    const double around = std::numbers::pi * std::numbers::sqrt3 / 2 * double(surfels.maxCount) /
+                          double(std::max<uint64_t>(voxels, 1));
+    to.maxCount = std::min(uint64_t(double(surfels.maxCount) * around) + surfels.maxCount,
+                           uint64_t(std::numeric_limits<uint32_t>::max()));
+    plan.reserve("neighbours of surfels (estimated)",
+                 (surfels.maxCount + 1) * sizeof(uint32_t) + to.maxCount * kPairBytes);
     plan.reserveScratch("counts of neighbours (estimated)",
-                        PrefixSum::scratchBytes(uint32_t(surfels.maxCount + 1)));
+                        PrefixSum::scratchBytes(uint32_t(surfels.maxCount + 1)) + sizeof(uint32_t));
 }
 
 void NeighbourSearch::prepare(PassSetup& setup) {
@@ -37,33 +40,44 @@ void NeighbourSearch::prepare(PassSetup& setup) {
     prefixSum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
 }
 
-void NeighbourSearch::run(CommandStream& stream, const SurfaceVoxels& voxels, const SurfelsByVoxel& surfels,
-                          SurfelNeighbours& to) const {
+float NeighbourSearch::run(CommandStream& stream, const SurfaceVoxels& voxels, const SurfelsByVoxel& surfels,
+                           SurfelNeighbours& to) const {
     Device& device = stream.device();
     const uint32_t slots = surfels.slotCount;
     to.begins = {}, to.pairs = {};
     to.begins = Buffer(device, "first neighbour of each surfel", (uint64_t(slots) + 1) * sizeof(uint32_t));
-    const Buffer largest(device, "neighbours of a surfel, at most", sizeof(uint32_t));
+    float radius = 1;
+    uint64_t pairs = count(stream, voxels, surfels, radius * voxels.grid.voxelSize, to);
+    while (pairs > to.maxCount) {  // At radius 0 there are none.
+        radius = radius > 0.01f ? kShrink * radius : 0;
+        pairs = count(stream, voxels, surfels, radius * voxels.grid.voxelSize, to);
+    }
+    to.pairs = LargeBuffer(device, "neighbours of surfels", std::max<uint64_t>(pairs, 1) * kPairBytes);
+    stream.dispatch(list_,
+                    voxels.bindings({{"SortedAt", surfels.sorted.at()},
+                                     {"lists", surfels.lists},
+                                     {"begins", to.begins},
+                                     {"PairsAt", to.pairs.at()}}),
+                    NeighbourPush{voxels.grid, slots, radius * voxels.grid.voxelSize}, linearGroups(slots));
+    stream.finish();
+    return radius;
+}
+
+uint64_t NeighbourSearch::count(CommandStream& stream, const SurfaceVoxels& voxels,
+                                const SurfelsByVoxel& surfels, float radius, SurfelNeighbours& to) const {
+    const uint32_t slots = surfels.slotCount;
+    const Buffer largest(stream.device(), "neighbours of a surfel, at most", sizeof(uint32_t));
     stream.fill(to.begins, 0);
     stream.fill(largest, 0);
-    const NeighbourPush push{voxels.grid, slots};
-    std::vector<Binding> bindings =
-        voxels.bindings({{"SortedAt", surfels.sorted.at()}, {"lists", surfels.lists}});
-    const auto dispatch = [&](const Program& program, std::vector<Binding> more) {
-        more.insert(more.begin(), bindings.begin(), bindings.end());
-        stream.dispatch(program, more, push, linearGroups(slots));
-    };
-    dispatch(count_, {{"counts", to.begins}, {"largest", largest}});
-    const uint64_t most = stream.readAs<uint32_t>(largest, 1)[0];
-    if (most * slots > std::numeric_limits<uint32_t>::max())
-        throw Error(
-            "link_surfels: {} surfels with up to {} neighbours each are more pairs than can be numbered "
-            "(2^32); lower place_surfels's 'points_per_voxel', or leave smooth_surfels out",
-            slots, most);
-    const uint32_t pairs = prefixSum_->run(stream, to.begins, to.begins, slots + 1);
-    to.pairs = LargeBuffer(device, "neighbours of surfels", std::max(pairs, 1u) * kPairBytes);
-    dispatch(list_, {{"begins", to.begins}, {"PairsAt", to.pairs.at()}});
-    stream.finish();
+    stream.dispatch(count_,
+                    voxels.bindings({{"SortedAt", surfels.sorted.at()},
+                                     {"lists", surfels.lists},
+                                     {"counts", to.begins},
+                                     {"largest", largest}}),
+                    NeighbourPush{voxels.grid, slots, radius}, linearGroups(slots));
+    const uint64_t bound = uint64_t(stream.readAs<uint32_t>(largest, 1)[0]) * slots;
+    const uint32_t sum = prefixSum_->run(stream, to.begins, to.begins, slots + 1);
+    return bound > std::numeric_limits<uint32_t>::max() ? bound : sum;
 }
 
 }  // namespace voxray

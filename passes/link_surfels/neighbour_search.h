@@ -12,15 +12,23 @@ namespace voxray {
 /// Finds the surfels around each surfel, for smooth_surfels.
 class NeighbourSearch {
  public:
-    /// Reserves what is expected: voxels that surfels lie in as on a flat surface.
-    static void plan(PassPlan& plan, const SurfelsByVoxel& surfels, uint64_t voxels);
+    /// Reserves what a flat surface has that cuts through as many voxels as one can.
+    static void plan(PassPlan& plan, const SurfelsByVoxel& surfels, uint64_t voxels, SurfelNeighbours& to);
     void prepare(PassSetup& setup);
 
-    /// @throws Error where there are more pairs of neighbours than can be numbered.
-    void run(CommandStream& stream, const SurfaceVoxels& voxels, const SurfelsByVoxel& surfels,
-             SurfelNeighbours& to) const;
+    /// Lists those within a voxel's size; where these are more than were planned for, within the largest of
+    /// the radii that shrink by kShrink that has no more. @return the radius, in voxels.
+    float run(CommandStream& stream, const SurfaceVoxels& voxels, const SurfelsByVoxel& surfels,
+              SurfelNeighbours& to) const;
 
  private:
+    static constexpr float kShrink = 0.8f;
+
+    /// Counts the pairs within a radius (m) and leaves the first of each slot in to.begins. @return their
+    /// number, which may be larger than can be numbered: then an upper bound.
+    uint64_t count(CommandStream& stream, const SurfaceVoxels& voxels, const SurfelsByVoxel& surfels,
+                   float radius, SurfelNeighbours& to) const;
+
     Program count_, list_;
     std::optional<PrefixSum> prefixSum_;
 };

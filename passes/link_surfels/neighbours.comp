@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Lists the surfels around each surfel: those of the 27 voxels about it that lie within a voxel's size and look to the same side.
+// Lists the surfels around each surfel: those of the 27 voxels about it that lie within a radius and look to the same side.
 // Runs twice: COUNT tells how many there are, then, with the sums of these, they are written.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/surfels/neighbours.glsl"
@@ -21,6 +21,7 @@ layout(scalar) readonly buffer PairsAt { NeighbourPairs pairs; };
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint slots;
+    float radius;  // m, at most a voxel's size.
 } push;
 
 void main() {
@@ -29,7 +30,7 @@ void main() {
     SortedSurfelWords words = sorted;  // The address is read once: no compiler takes it out of the loops.
     const SortedSurfel own = sortedSurfel(words, slot);
     const ivec3 voxel = voxelAt(push.grid, own.position);
-    const float squaredSize = push.grid.voxelSize * push.grid.voxelSize;
+    const float squaredRadius = push.radius * push.radius;
 #ifdef COUNT
     uint count = 0u;
 #else
@@ -43,12 +44,12 @@ void main() {
             const SortedSurfel s = sortedSurfel(words, j);
             const vec3 away = s.position - own.position;
             const float squared = dot(away, away);
-            if (j == slot || squared >= squaredSize || dot(s.normal, own.normal) <= 0.0) continue;
+            if (j == slot || squared >= squaredRadius || dot(s.normal, own.normal) <= 0.0) continue;
             if (((s.id ^ own.id) & VOXRAY_COVERED) != 0u) continue;  // Light in a gap says nothing of light before it.
 #ifdef COUNT
             ++count;
 #else
-            pairs.data[next++] = packNeighbour(j, surfelBias(own.position, own.normal, s.position, s.normal), 1.0 - squared / squaredSize);
+            pairs.data[next++] = packNeighbour(j, surfelBias(own.position, own.normal, s.position, s.normal), 1.0 - squared / squaredRadius);
 #endif
         }
     }

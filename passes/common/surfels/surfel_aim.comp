@@ -23,10 +23,10 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
-    // From where the ray begins: else one that meets a surface of light at a slant would end behind it.
+    // Surfaces of light are sampled from where the ray begins: else one that meets them at a slant would end behind them.
     const float offset = surfaceOffset(s.position);
-    const vec3 from = s.position + s.normal * offset;
-    const LightSample l = sampleSource(push.kind, push.light, push.samples, push.emitterCount, from, s.normal, s.id, push.seed);
+    const vec3 from = s.position + s.normal * offset, lit = push.kind == SOURCE_EMITTERS ? from : s.position;
+    const LightSample l = sampleSource(push.kind, push.light, push.samples, push.emitterCount, lit, s.normal, s.id, push.seed);
     const vec3 irradiance = l.irradiance * max(dot(s.normal, l.direction), 0.0);
     Ray ray;
     ray.origin = from;

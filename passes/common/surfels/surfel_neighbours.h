@@ -11,6 +11,7 @@ namespace voxray {
 struct SurfelNeighbours : Resource {
     std::string basisPort() const override { return "surfels_by_voxel"; }
 
+    uint64_t maxCount = 0;  ///< Of pairs: known from planning on.
     Buffer begins;  ///< By slot: its first pair, and after the last slot the number of pairs; uint32_t.
     /// By pair: the neighbour's slot, and the bias² and the kernel of the pair
     /// (shaders/surfels/neighbours.glsl).
