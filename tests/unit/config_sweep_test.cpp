@@ -28,9 +28,10 @@ std::string sweepError(const std::string& sweep) {
 }  // namespace
 
 TEST(Sweep, NoAxesGiveOneVariant) {
-    const auto variants = expand("  {}\n");
+    const auto variants = expand("");
     ASSERT_EQ(variants.size(), 1u);
     EXPECT_EQ(variants[0].name, "default");
+    EXPECT_CONTAINS(sweepError("  {}\n"), "an empty map varies nothing");
 }
 
 TEST(Sweep, CartesianProductInFileOrder) {
