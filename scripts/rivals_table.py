@@ -59,6 +59,11 @@ def time_of(passes, counts_build, left_out):
                if p["pass"] not in left_out and (p["phase"] == "frame" or counts_build(p["pass"])))
 
 
+def frame_time(passes):
+    """Milliseconds of a frame of indirect light, without what is built."""
+    return time_of(passes, lambda name: False, LEFT_OUT)
+
+
 def front(points):
     """Of points (ms, error) those that no other one beats, from fast to slow."""
     best = []
@@ -105,10 +110,10 @@ def best(folder):
     yield "| scene | method | variant | ms | nRMSE / relMSE / mean ratio |"
     yield "|" + " --- |" * 5
     for scene, found in variants(folder).items():
-        rivals = front([(time_of(passes, lambda name: False, LEFT_OUT), float(row["indirect_nrmse"]))
+        rivals = front([(frame_time(passes), float(row["indirect_nrmse"]))
                         for passes, row in found if samples_of(passes, row)])
         for title, gather in (("looked up", "inject_radiosity"), ("voxels", "gather_rays"), ("cache", "gather_cached_rays")):
-            mine = [(float(row["indirect_nrmse"]), time_of(passes, lambda name: False, LEFT_OUT), row)
+            mine = [(float(row["indirect_nrmse"]), frame_time(passes), row)
                     for passes, row in found if any(p["pass"] == gather for p in passes)]
             fast = [entry for entry in mine if is_no_slower(entry[1], entry[0], rivals)]
             if mine and not fast:
@@ -136,7 +141,7 @@ def table(folder):
             samples = samples_of(passes, row)
             if samples is None:
                 continue
-            ms = time_of(passes, lambda name: False, LEFT_OUT)
+            ms = frame_time(passes)
             cells = [" / ".join(speed_up(time_of(passes, lambda name: False, left_out), float(row[name]), fronts[title, name])
                                 for name in ERRORS)
                      for title, _, _, left_out in columns]

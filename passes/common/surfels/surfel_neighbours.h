@@ -5,9 +5,9 @@
 
 namespace voxray {
 
-/// The surfels around each surfel on the same surface: those nearer than a voxel's size, without itself.
-/// Depends on geometry alone, so that light which is new reads it as it is. If A is a neighbour of B, B is
-/// one of A.
+/// The surfels around each surfel that look to the same side: those nearer than a voxel's size (or less,
+/// where these would be more than maxCount), without itself. Depends on geometry alone, so that light which
+/// is new reads it as it is. If A is a neighbour of B, B is one of A.
 struct SurfelNeighbours : Resource {
     std::string basisPort() const override { return "surfels_by_voxel"; }
 
