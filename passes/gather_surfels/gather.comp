@@ -74,9 +74,10 @@ void lookUp(PixelSurface at, out Mean open, out Mean covered) {
         const vec3 inVoxel = part + 0.5 - vec3(far);
         for (uint i = slots.x; i < slots.y; ++i) {
             const uvec3 s = surfels.data[i];
-            const vec3 n = fromOctahedral(s.y);
+            const vec3 n = normalOfSurfel(s.y), place = placeInVoxel(s.x), away = place - inVoxel;
             if (dot(n, at.geometricNormal) <= 0.0) continue;
-            const float bias = planeBias(inVoxel, at.geometricNormal, placeInVoxel(s.x), n) + normalBias(at.normal, n);
+            const float bias = planeBias(inVoxel, at.geometricNormal, place, n) + normalBias(at.normal, n) +
+                               distanceBias(dot(away, away), inverseDistanceOf(s.y));
             const float weight = tent * push.noise / (push.noise + bias);
             const vec3 weighted = weight * unpackRadiosity(s.z);
             if (isCoveredSurfel(s.x))

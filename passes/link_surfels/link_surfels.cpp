@@ -38,6 +38,13 @@ struct LinkPush {
     uint32_t surfelCount;
 };
 
+struct DistancePush {
+    uint32_t firstNumber;
+    uint32_t surfelCount;
+    uint32_t raysPerSurfel;
+    float voxelSize;
+};
+
 }  // namespace
 
 void LinkSurfels::declare(PassBuilder& builder) {
@@ -53,6 +60,7 @@ void LinkSurfels::plan(PassPlan& plan) {
     plan.get(links_).raysPerSurfel = params_.raysPerSurfel;
     plan.reserve("surfel links (estimated)", surfels * params_.raysPerSurfel * sizeof(uint32_t));
     plan.reserve("packed surfels (estimated)", surfels * kPackedSurfelBytes);
+    plan.reserveScratch("inverse distances of surfels (estimated)", surfels * sizeof(float));
     plan.scratchBuffer(rays_, "link rays", uint64_t(kBatchRays) * sizeof(Ray));
     plan.scratchBuffer(hits_, "link hits", uint64_t(kBatchRays) * sizeof(Hit));
     plan.scratchBuffer(probes_, "rays that tell covered hits", uint64_t(kBatchRays) * sizeof(Ray));
@@ -74,6 +82,8 @@ void LinkSurfels::prepare(PassSetup& setup) {
     emit_ = program("passes/link_surfels/emit.comp");
     probe_ = program("passes/link_surfels/probe.comp");
     link_ = program("passes/link_surfels/link.comp");
+    distance_ = program("passes/link_surfels/inverse_distance.comp");
+    packDistance_ = program("passes/link_surfels/pack_distance.comp");
 }
 
 void LinkSurfels::record(PassContext& context) {
@@ -97,16 +107,19 @@ void LinkSurfels::record(PassContext& context) {
 
     sort_.run(context.stream, surfels, context.get(voxels_).voxelCount, context.get(byVoxel_));
     pack(context);
+    const LargeBuffer inverseDistances(context.device, "inverse distances of surfels",
+                                       std::max(context.get(byVoxel_).slotCount, 1u) * sizeof(float));
+    context.stream.fill(unlinked_, 0);
+    uint32_t first = 0;
+    for (const Surfels::Chunk& chunk : surfels.chunks) {
+        link(context, chunk, first, links, inverseDistances);
+        first += chunk.count;
+    }
+    packDistance(context, inverseDistances);
     if (context.get(neighbours_).isRead)
         context.report("radius of neighbours, voxels",
                        neighbourSearch_.run(context.stream, context.get(voxels_), context.get(byVoxel_),
                                             context.get(neighbours_)));
-    context.stream.fill(unlinked_, 0);
-    uint32_t first = 0;
-    for (const Surfels::Chunk& chunk : surfels.chunks) {
-        link(context, chunk, first, links);
-        first += chunk.count;
-    }
     const uint32_t unlinked = context.stream.readAs<uint32_t>(unlinked_, 1)[0];
     context.report("links", double(count) * params_.raysPerSurfel);
     context.report("hits without surfel, % of rays",
@@ -126,8 +139,8 @@ void LinkSurfels::pack(PassContext& context) const {
         PackPush{voxels.grid, voxels.voxelCount}, linearGroups(voxels.voxelCount));
 }
 
-void LinkSurfels::link(PassContext& context, const Surfels::Chunk& chunk, uint32_t first,
-                       SurfelLinks& links) const {
+void LinkSurfels::link(PassContext& context, const Surfels::Chunk& chunk, uint32_t first, SurfelLinks& links,
+                       const LargeBuffer& inverseDistances) const {
     const SurfaceVoxels& voxels = context.get(voxels_);
     const SurfelsByVoxel& byVoxel = context.get(byVoxel_);
     const bool probe = context.get(surfels_).coveredSides;
@@ -155,7 +168,23 @@ void LinkSurfels::link(PassContext& context, const Surfels::Chunk& chunk, uint32
                                                                         {"unlinked", unlinked_}})),
                                 LinkPush{voxels.grid, first + begin, rays, perSurfel, links.surfelCount},
                                 linearGroups(rays));
+        context.stream.dispatch(
+            distance_,
+            {{"hits", hits_}, {"SlotsAt", byVoxel.slots.at()}, {"InverseDistancesAt", inverseDistances.at()}},
+            DistancePush{first + begin, rays / perSurfel, perSurfel, voxels.grid.voxelSize},
+            linearGroups(rays / perSurfel));
     }
+    context.stream.finish();
+}
+
+void LinkSurfels::packDistance(PassContext& context, const LargeBuffer& inverseDistances) const {
+    const SurfelsByVoxel& byVoxel = context.get(byVoxel_);
+    const uint32_t voxels = context.get(voxels_).voxelCount;
+    context.stream.dispatch(packDistance_,
+                            {{"InverseDistancesAt", inverseDistances.at()},
+                             {"PackedAt", byVoxel.packed.at()},
+                             {"lists", byVoxel.lists}},
+                            voxels, linearGroups(voxels));
     context.stream.finish();
 }
 

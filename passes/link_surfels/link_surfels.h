@@ -33,8 +33,13 @@ class LinkSurfels final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Traces the rays of a chunk, whose first surfel has number `first`, and links them.
-    void link(PassContext& context, const Surfels::Chunk& chunk, uint32_t first, SurfelLinks& links) const;
+    /// Traces the rays of a chunk, whose first surfel has number `first`, and links them. `inverseDistances`
+    /// gets, by slot, the mean of 1 / distance of what each surfel sees, 1 / voxel.
+    void link(PassContext& context, const Surfels::Chunk& chunk, uint32_t first, SurfelLinks& links,
+              const LargeBuffer& inverseDistances) const;
+
+    /// Packs means of these with the surfels.
+    void packDistance(PassContext& context, const LargeBuffer& inverseDistances) const;
 
     /// What lookups read of the surfels that are sorted by voxel.
     void pack(PassContext& context) const;
@@ -47,7 +52,7 @@ class LinkSurfels final : public Pass {
     Port<SurfelNeighbours> neighbours_;
     SurfelSort sort_;
     NeighbourSearch neighbourSearch_;
-    Program pack_, emit_, probe_, link_;
+    Program pack_, emit_, probe_, link_, distance_, packDistance_;
     Buffer rays_, hits_, probes_, covered_, unlinked_;  ///< Scratch, of a batch of rays.
 };
 

@@ -57,6 +57,7 @@ float NeighbourSearch::run(CommandStream& stream, const SurfaceVoxels& voxels, c
                     voxels.bindings({{"SortedAt", surfels.sorted.at()},
                                      {"lists", surfels.lists},
                                      {"begins", to.begins},
+                                     {"PackedAt", surfels.packed.at()},
                                      {"PairsAt", to.pairs.at()}}),
                     NeighbourPush{voxels.grid, slots, radius * voxels.grid.voxelSize}, linearGroups(slots));
     stream.finish();

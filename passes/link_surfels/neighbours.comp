@@ -4,6 +4,7 @@
 // COUNT tells how many there are; then, with the sums of these, they are written.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/surfels/neighbours.glsl"
+#include "shaders/surfels/packed_surfel.glsl"
 #include "shaders/surfels/sorted_surfels.glsl"
 #include "shaders/surfels/surfel_bias.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -16,6 +17,7 @@ buffer Counts { uint data[]; } counts;
 buffer Largest { uint value; } largest;
 #else
 readonly buffer Begins { uint data[]; } begins;
+layout(scalar) readonly buffer PackedAt { PackedSurfels packed_; };
 layout(scalar) readonly buffer PairsAt { NeighbourPairs pairs; };
 #endif
 layout(push_constant, scalar) uniform Push {
@@ -35,6 +37,7 @@ void main() {
     uint count = 0u;
 #else
     uint next = begins.data[slot];
+    const float ownInverse = inverseDistanceOf(packed_.data[slot].y);
 #endif
     for (int i = 0; i < 27; ++i) {
         const uint number = voxelNumber(push.grid, voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1);
@@ -49,7 +52,9 @@ void main() {
 #ifdef COUNT
             ++count;
 #else
-            pairs.data[next++] = packNeighbour(j, surfelBias(own.position, own.normal, s.position, s.normal), 1.0 - squared / squaredRadius);
+            const float inverse = 0.5 * (ownInverse + inverseDistanceOf(packed_.data[j].y)) / push.grid.voxelSize;
+            const float bias = surfelBias(own.position, own.normal, s.position, s.normal) + distanceBias(squared, inverse);
+            pairs.data[next++] = packNeighbour(j, bias, 1.0 - squared / squaredRadius);
 #endif
         }
     }

@@ -4,7 +4,7 @@
 
 // In the mean square, over the squared mean irradiance. Normals are of unit length and less than a right angle apart.
 
-// Ward's bound for a change of normal (Ward, Rubinstein and Clear 1988), which for small angles is 1 - cos.
+// Ward's bound for a change of normal (Ward, Rubinstein and Clear 1988, section 3), which for small angles is 1 - cos.
 float normalBias(vec3 normalA, vec3 normalB) {
     const float cosine = max(dot(normalA, normalB), 1e-6);
     return (1.0 - cosine) / cosine;
@@ -18,7 +18,11 @@ float planeBias(vec3 positionA, vec3 normalA, vec3 positionB, vec3 normalB) {
     return squared > 0.0 ? 2.0 * min(height * height / squared, 1.0) : 0.0;
 }
 
-// The sum of both, of points whose shading normals are the geometric ones.
+// Ward's bound for a change of place, in the same section: the points' distance over the harmonic mean distance of what one of them
+// sees.
+float distanceBias(float squaredDistance, float inverseDistance) { return squaredDistance * inverseDistance * inverseDistance; }
+
+// The sum of the first two, of points whose shading normals are the geometric ones.
 float surfelBias(vec3 positionA, vec3 normalA, vec3 positionB, vec3 normalB) {
     return planeBias(positionA, normalA, positionB, normalB) + normalBias(normalA, normalB);
 }

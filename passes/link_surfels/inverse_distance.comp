@@ -1,0 +1,30 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// How near the surfaces are that each surfel sees: the mean of 1 / distance over its rays, cosine distributed.
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/trace/ray_types.h"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+layout(scalar) readonly buffer SlotsAt { LargeUints slots; };
+layout(scalar) readonly buffer InverseDistancesAt { LargeFloats inverseDistances; };  // By slot, 1 / voxel.
+layout(push_constant) uniform Push {
+    uint firstNumber;  // Of the first ray's surfel.
+    uint surfelCount;  // Of this batch.
+    uint raysPerSurfel;
+    float voxelSize;  // m
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.surfelCount) return;
+    const uint slot = slots.data[push.firstNumber + i];
+    if (slot == 0xffffffffu) return;
+    float sum = 0.0;
+    for (uint ray = 0u; ray < push.raysPerSurfel; ++ray) {
+        const Hit hit = hits.data[i * push.raysPerSurfel + ray];
+        if (hit.triangle != NO_HIT) sum += push.voxelSize / max(hit.t, push.voxelSize / 64.0);
+    }
+    inverseDistances.data[slot] = sum / float(push.raysPerSurfel);
+}
