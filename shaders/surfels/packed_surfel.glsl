@@ -36,8 +36,9 @@ vec3 normalOfSurfel(uint bits) { return fromOctahedral((bits & 0xfffu) << 4 | (b
 const float DISTANCE_STEPS = 20.0, MIN_INVERSE_DISTANCE = 1.0 / 64.0;
 
 uint withInverseDistance(uint normal, float inverseDistance) {
-    const float steps = inverseDistance > 0.0 ? clamp(round(DISTANCE_STEPS * log2(inverseDistance / MIN_INVERSE_DISTANCE)) + 1.0, 0.0, 255.0) : 0.0;
-    return (normal & 0xffffffu) | uint(steps) << 24;
+    const float step_ = round(DISTANCE_STEPS * log2(inverseDistance / MIN_INVERSE_DISTANCE)) + 1.0;
+    const uint steps = inverseDistance > 0.0 ? uint(clamp(step_, 0.0, 255.0)) : 0u;
+    return (normal & 0xffffffu) | steps << 24;
 }
 
 float inverseDistanceOf(uint bits) {
