@@ -9,7 +9,9 @@
 #include "graph/finite_check.h"
 #include "graph/left_out.h"
 #include "graph/memory_book.h"
+#include "graph/size_advice.h"
 #include "graph/wiring.h"
+#include "vulkan/size_error.h"
 
 namespace voxray {
 
@@ -18,6 +20,8 @@ struct Graph::Impl {
     std::vector<MemoryBook> books;  ///< By node.
     std::optional<FiniteCheck> finiteCheck;
 
+    /// Does a part of a pass's work. @throws Error that says what to lower where something is too large.
+    void work(const GraphNode& node, const std::function<void()>& part) const;
     void checkOutputs(const GraphNode& node, CommandStream& stream);
 };
 
@@ -148,6 +152,7 @@ bool Graph::writes(const std::string& portName) const {
 std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device, uint64_t memoryLimitBytes) {
     std::vector<PassMemory> memory;
     std::string largest;
+    const GraphNode* largestPass = nullptr;
     uint64_t largestBytes = 0;
     for (size_t n = 0; n < impl_->nodes.size(); ++n) {
         GraphNode& node = impl_->nodes[n];
@@ -163,14 +168,16 @@ std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device
             if (part.bytes <= largestBytes) continue;
             largestBytes = part.bytes;
             largest = node.id + "'s " + part.name;
+            largestPass = &node;
         }
     }
     constexpr double kMiB = 1024.0 * 1024.0;
     if (const uint64_t peak = peakBytes(memory); peak > memoryLimitBytes)
         throw Error(
             "the graph needs about {:.1f} MiB, the limit is {:.1f} MiB; the largest part is {} with {:.1f} "
-            "MiB",
-            double(peak) / kMiB, double(memoryLimitBytes) / kMiB, largest, double(largestBytes) / kMiB);
+            "MiB: {}",
+            double(peak) / kMiB, double(memoryLimitBytes) / kMiB, largest, double(largestBytes) / kMiB,
+            sizeAdvice(impl_->nodes, *largestPass));
     return memory;
 }
 
@@ -180,7 +187,7 @@ void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& co
     for (size_t n = 0; n < impl_->nodes.size(); ++n) {
         GraphNode& node = impl_->nodes[n];
         PassSetup setup(node.resources, frame, device, compiler, stream);
-        impl_->books[n].prepare(stream, [&] { node.pass->prepare(setup); });
+        impl_->work(node, [&] { impl_->books[n].prepare(stream, [&] { node.pass->prepare(setup); }); });
     }
 }
 
@@ -204,13 +211,14 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         // Time the pass on the device; the Embree backend's host work falls between the stamps.
         PassContext context(node.resources, frame, device, stream, tracer, scene, frameIndex);
         uint32_t begin = 0, end = 0;
-        impl_->books[n].record(stream, [&] {
+        const auto record = [&] {
             stream.beginLabel(node.id);
             begin = stream.timestamp();
             node.pass->record(context);
             end = stream.timestamp();
             stream.endLabel();
-        });
+        };
+        impl_->work(node, [&] { impl_->books[n].record(stream, record); });
 
         PassSample sample;
         sample.rays = tracer.raysTraced() - raysBefore + context.extraRays;
@@ -235,6 +243,14 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         if (!s.voxelCounts.empty()) sample.reported.push_back({"voxel visits", double(visits)});
     }
     return samples;
+}
+
+void Graph::Impl::work(const GraphNode& node, const std::function<void()>& part) const {
+    try {
+        part();
+    } catch (const SizeError& error) {
+        throw Error(node.where, "{}: {}: {}", node.id, error.what(), sizeAdvice(nodes, node));
+    }
 }
 
 void Graph::Impl::checkOutputs(const GraphNode& node, CommandStream& stream) {

@@ -82,16 +82,17 @@ class Graph {
     /// Checks sizes against the scene and the device and predicts memory, before any allocation.
     /// @return what each pass takes, in the order of passes().
     /// @throws Error where a pass can't do what is asked, or peakBytes() is over `memoryLimitBytes` (names
-    /// the largest part).
+    /// the largest part, and what to lower).
     std::vector<PassMemory> plan(const Frame& frame, const DeviceInfo& device, uint64_t memoryLimitBytes);
 
     /// Makes what passes described, and lets them make their programs. After plan(), with the same frame.
-    /// @throws Error naming a pass that takes more memory than it planned.
+    /// @throws Error naming a pass that takes more memory than it planned, or more than there is (with its
+    /// place and what to lower).
     void prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler, CommandStream& stream);
 
     /// Runs all passes of a phase once and checks their outputs for NaN and infinity where `checkFinite`
     /// (outside the measured time). @throws Error naming the pass, also where it takes more memory than it
-    /// planned.
+    /// planned or than there is.
     /// @return a sample for each pass of that phase, in the order of passes().
     std::vector<PassSample> run(Phase phase, const Frame& frame, Device& device, CommandStream& stream,
                                 RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex,

@@ -50,6 +50,12 @@ GraphNode readNode(const Registry& registry, const Value& entry,
         if (const Value* value = entry.find(key)) node.resolved.set(key, *value);
     const Value parameters = kind.resolve(entry, node.id, reservedKeys);
     for (const auto& [key, value] : parameters.members) node.resolved.set(key, value);
+
+    const std::vector<IdleParameter> idle = kind.idle(node.resolved, node.id, reservedKeys);
+    for (const ParameterDoc& doc : kind.parameters)
+        if (doc.type == "integer" && parameters.find(doc.name)->scalar != doc.min &&
+            std::ranges::count(idle, doc.name, &IdleParameter::name) == 0)
+            node.counts.push_back(doc.name);
     return node;
 }
 

@@ -21,6 +21,7 @@ struct GraphNode {
     std::vector<Resource*> resources;  ///< By port; null for an optional input that nothing writes.
     std::vector<std::unique_ptr<Resource>> outputs;  ///< What this pass owns.
     Value resolved;                                  ///< The config's entry with defaults filled in.
+    std::vector<std::string> counts;                 ///< Its whole-number parameters that can be lowered.
     TextLocation where;
 };
 

@@ -3,12 +3,13 @@
 #include <bit>
 #include <optional>
 
-#include "base/error.h"
+#include "vulkan/size_error.h"
 #include "vulkan/structure.h"
 
 namespace voxray {
 namespace {
 
+constexpr double kMiB = 1024.0 * 1024.0;
 constexpr VkMemoryPropertyFlags kHost =
     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
@@ -57,8 +58,9 @@ VkDeviceMemory allocateMemory(Device& device, const std::string& name,
         structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &limits);
     vkGetPhysicalDeviceProperties2(device.physical(), &properties);
     if (requirements.size > limits.maxMemoryAllocationSize)
-        throw Error("'{}' needs {} bytes; device '{}' allows {} in one allocation; lower its resolution",
-                    name, requirements.size, device.info().name, limits.maxMemoryAllocationSize);
+        throw SizeError("'{}' needs {:.1f} MiB; device '{}' allows {:.1f} MiB in one allocation", name,
+                        double(requirements.size) / kMiB, device.info().name,
+                        double(limits.maxMemoryAllocationSize) / kMiB);
 
     // The memory type: mapped where the host needs it or shares it, cached for reading back.
     const VkMemoryPropertyFlags needed = isMapped(device, kind) ? kHost : 0;
@@ -80,8 +82,8 @@ VkDeviceMemory allocateMemory(Device& device, const std::string& name,
     const VkResult result = vkAllocateMemory(device.handle(), &allocate, nullptr, &memory);
     if (result != VK_SUCCESS) {
         device.releaseMemory(requirements.size, name);
-        throw Error("device '{}' refused {} bytes for '{}' ({}); lower resolutions", device.info().name,
-                    requirements.size, name, int(result));
+        throw SizeError("device '{}' refused {:.1f} MiB for '{}' ({})", device.info().name,
+                        double(requirements.size) / kMiB, name, int(result));
     }
     return memory;
 }

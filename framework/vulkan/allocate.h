@@ -16,7 +16,7 @@ uint64_t maxBufferBytes(const Device& device);
 bool isMapped(const Device& device, MemoryKind kind);
 
 /// Books and allocates memory. `addressable`: with a device address.
-/// @throws Error naming the resource where it is too large, the limit is reached or the driver refuses.
+/// @throws SizeError naming the resource where it is too large, the limit is reached or the driver refuses.
 VkDeviceMemory allocateMemory(Device& device, const std::string& name,
                               const VkMemoryRequirements& requirements, MemoryKind kind, bool addressable);
 

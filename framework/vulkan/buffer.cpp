@@ -1,8 +1,8 @@
 #include <utility>
 
-#include "base/error.h"
 #include "vulkan/allocate.h"
 #include "vulkan/memory.h"
+#include "vulkan/size_error.h"
 #include "vulkan/structure.h"
 
 namespace voxray {
@@ -16,8 +16,8 @@ Buffer::Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind
     bytes_ = bytes;
     if (bytes == 0) throw Error("buffer '{}' would hold 0 bytes", name_);
     if (bytes > maxBufferBytes(device))
-        throw Error("buffer '{}' would hold {} bytes; device '{}' allows {} in one buffer", name_, bytes,
-                    device.info().name, maxBufferBytes(device));
+        throw SizeError("buffer '{}' would hold {} bytes; device '{}' allows {} in one buffer", name_, bytes,
+                        device.info().name, maxBufferBytes(device));
 
     auto create = structure<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
     create.size = bytes;

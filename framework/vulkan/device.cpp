@@ -4,7 +4,7 @@
 #include <cctype>
 #include <mutex>
 
-#include "base/error.h"
+#include "vulkan/size_error.h"
 #include "vulkan/structure.h"
 #include "vulkan/support.h"
 
@@ -258,10 +258,8 @@ void Device::reserveMemory(uint64_t bytes, const std::string& name) {
     const std::lock_guard lock(impl_->memoryMutex);
     const uint64_t used = impl_->memoryUsed, limit = impl_->memoryLimit;
     if (used > limit || bytes > limit - used)
-        throw Error(
-            "'{}' needs {:.1f} MiB of device memory; {:.1f} MiB of at most {:.1f} MiB are in use; lower "
-            "resolutions or raise the memory limit",
-            name, double(bytes) / kMiB, double(used) / kMiB, double(limit) / kMiB);
+        throw SizeError("'{}' needs {:.1f} MiB of device memory; {:.1f} MiB of at most {:.1f} MiB are in use",
+                        name, double(bytes) / kMiB, double(used) / kMiB, double(limit) / kMiB);
     impl_->memoryUsed += bytes;
     impl_->memoryPeak = std::max(impl_->memoryPeak, impl_->memoryUsed);
     impl_->memoryByResource[name] += bytes;

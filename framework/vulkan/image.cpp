@@ -2,9 +2,9 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include "base/error.h"
 #include "vulkan/allocate.h"
 #include "vulkan/memory.h"
+#include "vulkan/size_error.h"
 #include "vulkan/structure.h"
 
 namespace voxray {
@@ -95,9 +95,9 @@ void checkSupported(const Device& device, const std::string& name, const VkImage
     const VkExtent3D &wanted = create.extent, &largest = offered.maxExtent;
     if (wanted.width > largest.width || wanted.height > largest.height || wanted.depth > largest.depth ||
         create.mipLevels > offered.maxMipLevels)
-        throw Error("image '{}' of {}x{}x{} texels and {} levels is over device '{}''s {}x{}x{} and {}", name,
-                    wanted.width, wanted.height, wanted.depth, create.mipLevels, device.info().name,
-                    largest.width, largest.height, largest.depth, offered.maxMipLevels);
+        throw SizeError("image '{}' of {}x{}x{} texels and {} levels is over device '{}''s {}x{}x{} and {}",
+                        name, wanted.width, wanted.height, wanted.depth, create.mipLevels, device.info().name,
+                        largest.width, largest.height, largest.depth, offered.maxMipLevels);
 }
 
 VkImageView makeView(const Device& device, VkImage image, const ImageDesc& desc, uint32_t level,

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "gpu/vulkan_fixture.h"
+#include "vulkan/size_error.h"
 
 namespace voxray {
 namespace {
@@ -38,7 +39,7 @@ TEST_F(VulkanMemory, LimitRefusesBeforeAllocating) {
         EXPECT_CONTAINS(error, "'voxels' needs 2.0 MiB");
         EXPECT_CONTAINS(error, "2.0 MiB of at most 3.0 MiB");
         EXPECT_FALSE(device().memoryByResource().contains("voxels"));
-        EXPECT_THROW(Image(device(), "image", {.extent = {512, 512, 1}}), Error);
+        EXPECT_THROW(Image(device(), "image", {.extent = {512, 512, 1}}), SizeError);
     }
     device().setMemoryLimitBytes(limit);
     EXPECT_EQ(device().memoryUsedBytes(), 0u);
@@ -47,6 +48,7 @@ TEST_F(VulkanMemory, LimitRefusesBeforeAllocating) {
 TEST_F(VulkanMemory, ImpossibleSizesAreRefused) {
     EXPECT_CONTAINS(errorOf([] { Buffer(device(), "nothing", 0); }), "'nothing'");
     EXPECT_CONTAINS(errorOf([] { Buffer(device(), "huge", 1ull << 50); }), "'huge'");
+    EXPECT_THROW(Buffer(device(), "huge", 1ull << 50), SizeError);
     EXPECT_CONTAINS(errorOf([] { Image(device(), "flat", {.extent = {1 << 20, 1, 1}}); }), "'flat'");
     EXPECT_CONTAINS(errorOf([] { Image(device(), "empty", {.extent = {0, 4, 1}}); }), "'empty'");
     EXPECT_EQ(device().memoryUsedBytes(), 0u);

@@ -32,7 +32,10 @@ struct Hoard final : Pass {
         }
     };
     explicit Hoard(const Params& params) : params_(params) {}
-    void declare(PassBuilder& builder) override { builder.write<Nothing>("nothing", "nothing"); }
+    void declare(PassBuilder& builder) override {
+        builder.readOptional<Nothing>("nothing", "nothing");
+        builder.write<Nothing>("nothing", "nothing");
+    }
     void plan(PassPlan& plan) override {
         plan.buffer(described_, "described", 256 * kKiB);
         plan.scratchBuffer(scratch_, "described scratch", 256 * kKiB);
@@ -133,6 +136,40 @@ TEST_F(GraphMemory, WhatIsTakenBeyondThemNamesThePass) {
     expectError("reserve_kept: 1024, prepare_kept: 512, record_kept: 1024", 1536, "kept", 1024);
     expectError("reserve_scratch: 1024, record_scratch: 2048", 2048, "scratch", 1024);
     expectError("reserve_scratch: 1024, record_kept: 1024", 1024, "kept", 0);
+}
+
+TEST_F(GraphMemory, WhatIsTooLargeNamesThePassAndWhatToLower) {
+    Registry registry;
+    registry.add<Hoard>();
+    const std::string advice =
+        "lower what it grows with, of greedy.reserve_kept, greedy.prepare_kept, first.reserve_scratch, "
+        "image.width, image.height";
+    Graph graph(registry, parseYaml("- {pass: hoard, id: unread}\n"
+                                    "- {pass: hoard, id: first, reserve_scratch: 1}\n"
+                                    "- {pass: hoard, id: greedy, reserve_kept: 8192, prepare_kept: 8192}\n",
+                                    "g.yaml"));
+    Frame frame;
+    frame.scene = &state_;
+    const auto messageOf = [](const auto& work) -> std::string {
+        try {
+            work();
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    const std::string planned = messageOf([&] { graph.plan(frame, device_.info(), 4096 * kKiB); });
+    EXPECT_NE(planned.find("the largest part is greedy's kept with 8.0 MiB: " + advice), std::string::npos)
+        << planned;
+
+    const uint64_t limit = device_.memoryLimitBytes();
+    graph.plan(frame, device_.info(), limit);
+    device_.setMemoryLimitBytes(device_.memoryUsedBytes() + 4096 * kKiB);
+    const std::string made = messageOf([&] { graph.prepare(frame, device_, compiler_, stream_); });
+    device_.setMemoryLimitBytes(limit);
+    EXPECT_EQ(made.find("g.yaml:3: greedy: 'kept' needs 8.0 MiB"), 0u) << made;
+    EXPECT_NE(made.find(": " + advice), std::string::npos) << made;
+    stream_.discard();
 }
 
 TEST(PlanMemo, AsksASceneOnceForAllItsVariants) {
