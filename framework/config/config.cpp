@@ -153,6 +153,18 @@ void checkEmptyBlocks(const Value& root, const Value& config) {
                              key);
 }
 
+/// A config's file. @throws UsageError where it is a scene.
+Value readConfig(const std::filesystem::path& path) {
+    const std::filesystem::path ending = path.extension();
+    if (ending == ".glb" || ending == ".gltf")
+        throw UsageError(
+            "{0}: a scene, not a config; a config names it, as in scene: {{file: {1}}}, see "
+            "docs/tutorial.md; "
+            "'./voxray scene {0}' tells what is in it and gives a camera",
+            path.string(), path.filename().string());
+    return readYaml(path);
+}
+
 Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
     checkTopLevel(root);
 
@@ -222,14 +234,14 @@ Experiment parseExperiment(const std::string& yaml, const std::string& fileName,
 }
 
 Experiment loadExperiment(const std::filesystem::path& path, const ConfigOptions& options) {
-    Experiment experiment = readWithOptions(readYaml(path), options);
+    Experiment experiment = readWithOptions(readConfig(path), options);
     experiment.file = path;
     return experiment;
 }
 
 std::vector<std::string> profileNames(const std::filesystem::path& path) {
     std::vector<std::string> names;
-    const Value config = readYaml(path);
+    const Value config = readConfig(path);
     if (const Value* profiles = config.find("profiles"))
         for (const auto& member : profiles->members) names.push_back(member.key);
     return names;
