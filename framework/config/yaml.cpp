@@ -3,10 +3,11 @@
 #include <yaml-cpp/yaml.h>
 
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <unordered_set>
+#include <vector>
 
 #include "base/files.h"
+#include "config/yaml_faults.h"
 
 namespace voxray {
 namespace {
@@ -75,6 +76,7 @@ class Converter {
     void convertMap(const YAML::Node& node, int depth, Value& value) {
         value.kind = Value::Kind::Map;
         std::unordered_set<std::string> seen;
+        std::vector<Value> merged;
         for (const auto& entry : node) {
             const TextLocation where =
                 entry.first.Mark().is_null() ? value.where : locate(entry.first.Mark());
@@ -83,8 +85,27 @@ class Converter {
             if (!seen.insert(key).second) throw UsageError(where, "'{}' appears twice in the same map", key);
             Value member = convert(entry.second, depth + 1, where);
             member.where = where;
-            value.members.push_back({key, std::move(member)});
+            if (key == "<<" && entry.first.Tag() != "!")
+                merged = mapsOf(member);
+            else
+                value.members.push_back({key, std::move(member)});
         }
+
+        // What stands in the map itself counts, then what the first of the merged maps says
+        for (const Value& map : merged)
+            for (const Value::Member& member : map.members)
+                if (seen.insert(member.key).second) value.members.push_back(member);
+    }
+
+    /// What a merge key brings: a map, or a list of maps.
+    static std::vector<Value> mapsOf(const Value& value) {
+        std::vector<Value> maps = value.isList() ? value.items : std::vector{value};
+        for (const Value& map : maps)
+            if (!map.isMap())
+                throw UsageError(value.where,
+                                 "'<<' puts the entries of a map into this one: expected a map, as in <<: "
+                                 "*defaults, or a list of maps");
+        return maps;
     }
 
     const std::string& text_;
@@ -98,50 +119,6 @@ void checkUtf8(const std::string& text, const std::string& file) {
     } catch (const nlohmann::json::exception&) {
         throw UsageError({file, 0}, "is not UTF-8 text");
     }
-}
-
-/// A white space that YAML takes for none.
-struct WhiteSpace {
-    const char* bytes;
-    const char* name;
-};
-constexpr WhiteSpace kOtherSpaces[] = {{"\t", "a tab"}, {"\u00a0", "a non-breaking space"}};
-
-/// @throws UsageError for the first line that is indented by such a space.
-void checkIndentation(const std::string& text, const std::string& file) {
-    std::istringstream lines(text);
-    std::string line;
-    for (int number = 1; std::getline(lines, line); ++number)
-        for (const WhiteSpace& space : kOtherSpaces)
-            if (line.find(space.bytes) != std::string::npos &&
-                line.find(space.bytes) == line.find_first_not_of(' '))
-                throw UsageError({file, number}, "bad YAML: {} in the indentation; YAML takes spaces",
-                                 space.name);
-}
-
-/// Whether a line without braces has a ': ' after its first one.
-bool hasSecondColon(const std::string& text, int line) {
-    std::istringstream lines(text);
-    std::string found;
-    for (int number = 0; number <= line; ++number) std::getline(lines, found);
-    const size_t first = found.find(": ");
-    return first != std::string::npos && found.find(": ", first + 1) != std::string::npos &&
-           found.find('{') == std::string::npos;
-}
-
-/// What mostly lies behind a message of the parser, or "".
-std::string hintOf(const std::string& message) {
-    static const std::vector<std::pair<std::string, std::string>> hints{
-        {"end of map not found", "is this line, or the one before, indented unlike its neighbours?"},
-        {"end of sequence not found", "is this line, or the one before, indented unlike its neighbours?"},
-        {"end of map flow not found", "after a '{' before it a comma or the '}' is missing"},
-        {"end of sequence flow not found", "after a '[' before it a comma or the ']' is missing"},
-        {"illegal map value", "is a ':' missing in the line before?"}};
-    for (const auto& [part, hint] : hints)
-        if (message == part) return "; " + hint;
-    if (message.starts_with("unknown escape character"))
-        return "; write paths with '/', or between single quotes";
-    return {};
 }
 
 }  // namespace
@@ -158,11 +135,8 @@ Value parseYaml(const std::string& text, const std::string& fileName) {
         if (documents.empty()) return converter.convert(YAML::Node(), 0, {fileName, 1});
         return converter.convert(documents[0], 0, {fileName, 1});
     } catch (const YAML::Exception& error) {
-        checkIndentation(text, fileName);
-        if (hasSecondColon(text, error.mark.line))
-            throw UsageError(converter.locate(error.mark),
-                             "bad YAML: a second ': ' in a line; put a text that holds one between quotes");
-        throw UsageError(converter.locate(error.mark), "bad YAML: {}{}", error.msg, hintOf(error.msg));
+        const YamlFault fault = yamlFault(text, error.mark.is_null() ? 0 : error.mark.line + 1, error.msg);
+        throw UsageError({fileName, fault.line}, "bad YAML: {}", fault.message);
     }
 }
 

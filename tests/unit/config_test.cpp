@@ -285,6 +285,60 @@ TEST(Yaml, LimitsAndSyntax) {
     EXPECT_THROW(readYaml("/nowhere/x.yaml"), UsageError);
 }
 
+TEST(Yaml, MergeKeysBringWhatTheMapLacks) {
+    const Value value = parseYaml(
+        "a: &a {x: 1, y: 2}\n"
+        "b: &b {y: 3, z: [4]}\n"
+        "one: {<<: *a, y: 5}\n"
+        "many: {x: 0, <<: [*a, *b]}\n"
+        "nested:\n  <<: {<<: *a, w: 6}\n  x: 7\n"
+        "quoted: {'<<': 8}\n",
+        "f.yaml");
+    EXPECT_EQ(*value.find("one"), parseYaml("{y: 5, x: 1}", ""));
+    EXPECT_EQ(*value.find("many"), parseYaml("{x: 0, y: 2, z: [4]}", ""));
+    EXPECT_EQ(*value.find("nested"), parseYaml("{x: 7, w: 6, y: 2}", ""));
+    EXPECT_EQ(*value.find("quoted"), parseYaml("{'<<': 8}", ""));
+    EXPECT_EQ(value.find("one")->find("x")->where.line, 1);
+    for (const char* wrong : {"a: 1\nb: {<<: 3}\n", "a: 1\nb: {<<: [{c: 1}, 3]}\n",
+                              "a: 1\nb:\n"
+                              "  <<:\n"}) {
+        const std::string message = errorOf<UsageError>([&] { parseYaml(wrong, "f.yaml"); });
+        EXPECT_CONTAINS(message, "expected a map, as in <<: *defaults");
+        EXPECT_CONTAINS(message, "f.yaml:");
+    }
+}
+
+TEST(Yaml, KeysThatAreIndentedUnlikeTheirNeighbours) {
+    const auto failure = [](const std::string& text) {
+        return errorOf<UsageError>([&] { parseYaml(text, "f.yaml"); });
+    };
+    // Too deep: below a key that has its value
+    EXPECT_CONTAINS(failure("graph:\n  - pass: a\n      size: 16\n      more: 1\n"),
+                    "f.yaml:3: bad YAML: 'size' is indented unlike 'pass' in line 2, which has its value: "
+                    "indent it as far, by 4 spaces");
+    EXPECT_CONTAINS(failure("graph:\n  - pass: a\n    size: 16\n     more: 1\n"),
+                    "f.yaml:4: bad YAML: 'more' is indented unlike 'size' in line 3");
+    EXPECT_CONTAINS(failure("name: a\n\n# What it is\n seed: 7\n"),
+                    "f.yaml:4: bad YAML: 'seed' is indented unlike 'name' in line 1, which has its value: "
+                    "indent it as far, by 0 spaces");
+    EXPECT_CONTAINS(failure("image: {width: 3}\n  seed: 7\n"),
+                    "f.yaml:2: bad YAML: 'seed' is indented unlike");
+
+    // Too shallow: between the dash and what it begins with
+    EXPECT_CONTAINS(
+        failure("graph:\n  - pass: a\n  size: 16\n"),
+        "f.yaml:3: bad YAML: 'size' is indented unlike what the dash in line 2 begins with: indent "
+        "it by 4 spaces");
+    EXPECT_CONTAINS(failure("graph:\n  - pass: a\n    inputs:\n      b: c\n   size: 16\n"),
+                    "f.yaml:5: bad YAML: 'size' is indented unlike what the dash in line 2 begins with");
+    EXPECT_CONTAINS(failure("graph:\n  - pass: a\n  pass: b\n"),
+                    "f.yaml:3: bad YAML: a dash is missing before 'pass', as in line 2: write '- pass: ...'");
+
+    // What is wrong otherwise, and what is right
+    EXPECT_CONTAINS(failure("a: {b: 1,\n    c: 2\nd: 3\n"), "a comma or the '}' is missing");
+    EXPECT_NO_THROW(parseYaml("a: >\n  text\n    b: 1\nc:\n  - d: 1\n    e:\n        f: 2\n", "f.yaml"));
+}
+
 TEST(Yaml, ScalarsKeepQuotesAndLines) {
     const Value value = parseYaml("a: 1\nb:\n  c: '1'\n  d: null\n", "f.yaml");
     EXPECT_FALSE(value.find("a")->quoted);

@@ -1,0 +1,142 @@
+#include "config/yaml_faults.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace voxray {
+namespace {
+
+/// A line of block style with something in it.
+struct Line {
+    int number;     ///< 1-based.
+    size_t indent;  ///< Spaces before it.
+    size_t inner;   ///< The same, with those and the dashes of list entries before what they hold.
+    std::string text;
+    std::string key;  ///< Of "key: value" or "key:"; empty for another line.
+    bool hasValue;    ///< Behind the key, in the same line.
+
+    bool isEntry() const { return inner > indent; }
+};
+
+std::optional<Line> readLine(const std::string& text, int number) {
+    Line line{number, text.find_first_not_of(' '), 0, text, {}, false};
+    if (line.indent == std::string::npos || text[line.indent] == '#') return {};
+    line.inner = line.indent;
+    while (text.compare(line.inner, 2, "- ") == 0)
+        line.inner = std::min(text.find_first_not_of(' ', line.inner + 1), text.size());
+    const size_t colon = std::min(text.find(": ", line.inner), text.size() - 1);
+    const std::string key = text.substr(line.inner, colon - line.inner);
+    if (text[colon] != ':' || key.find_first_of("{[\"'#,") != std::string::npos) return line;
+    line.key = key;
+    const size_t value = text.find_first_not_of(' ', colon + 1);
+    line.hasValue = value != std::string::npos && text[value] != '#';
+    return line;
+}
+
+/// The lines that hold something, up to one with that number.
+std::vector<Line> linesUpTo(const std::string& text, int last) {
+    std::istringstream stream(text);
+    std::vector<Line> lines;
+    std::string line;
+    for (int number = 1; number <= last && std::getline(stream, line); ++number)
+        if (auto read = readLine(line, number)) lines.push_back(std::move(*read));
+    return lines;
+}
+
+/// A white space that YAML takes for none.
+struct WhiteSpace {
+    const char* bytes;
+    const char* name;
+};
+constexpr WhiteSpace kOtherSpaces[] = {{"\t", "a tab"}, {"\u00a0", "a non-breaking space"}};
+
+/// The first line that is indented by such a space.
+std::optional<YamlFault> otherSpace(const std::string& text) {
+    std::istringstream lines(text);
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number)
+        for (const WhiteSpace& space : kOtherSpaces)
+            if (line.find(space.bytes) != std::string::npos &&
+                line.find(space.bytes) == line.find_first_not_of(' '))
+                return YamlFault{number, fmt::format("{} in the indentation; YAML takes spaces", space.name)};
+    return {};
+}
+
+std::string spaces(size_t count) {
+    return fmt::format("{} space{}", count, count == 1 ? "" : "s");
+}
+
+/// A key that stands neither below its neighbours nor below a key that waits for a block.
+std::optional<YamlFault> indentation(const std::vector<Line>& lines) {
+    if (lines.size() < 2 || lines.back().key.empty() || lines.back().isEntry()) return {};
+    const Line &line = lines.back(), &before = lines[lines.size() - 2];
+    if (before.hasValue && line.indent > before.inner)
+        return YamlFault{
+            line.number,
+            fmt::format("'{}' is indented unlike '{}' in line {}, which has its value: indent it "
+                        "as far, by {}",
+                        line.key, before.key, before.number, spaces(before.inner))};
+
+    // Below the dash of an entry, or between it and what it holds
+    const auto above = std::find_if(lines.rbegin() + 1, lines.rend(),
+                                    [&](const Line& other) { return other.indent <= line.indent; });
+    if (above == lines.rend() || !above->isEntry() || line.indent >= above->inner) return {};
+    if (line.key == above->key)
+        return YamlFault{line.number, fmt::format("a dash is missing before '{0}', as in line {1}: write '- "
+                                                  "{0}: ...'",
+                                                  line.key, above->number)};
+    return YamlFault{line.number,
+                     fmt::format("'{}' is indented unlike what the dash in line {} begins with: indent it by "
+                                 "{}",
+                                 line.key, above->number, spaces(above->inner))};
+}
+
+/// Whether a line without braces has a ': ' after its first one.
+bool hasSecondColon(const Line& line) {
+    const size_t first = line.text.find(": ");
+    return first != std::string::npos && line.text.find(": ", first + 1) != std::string::npos &&
+           line.text.find('{') == std::string::npos;
+}
+
+/// Whether the parser stopped at a key that it did not expect, outside of braces.
+bool isOfBlocks(const std::string& message) {
+    constexpr std::array<std::string_view, 3> kMessages{"end of map not found", "end of sequence not found",
+                                                        "illegal map value"};
+    return std::ranges::count(kMessages, message) > 0;
+}
+
+/// What mostly lies behind a message of the parser, or "".
+std::string hintOf(const std::string& message) {
+    static const std::vector<std::pair<std::string, std::string>> hints{
+        {"end of map not found", "is this line, or the one before, indented unlike its neighbours?"},
+        {"end of sequence not found", "is this line, or the one before, indented unlike its neighbours?"},
+        {"end of map flow not found", "after a '{' before it a comma or the '}' is missing"},
+        {"end of sequence flow not found", "after a '[' before it a comma or the ']' is missing"},
+        {"illegal map value", "is a ':' missing in the line before?"}};
+    for (const auto& [part, hint] : hints)
+        if (message == part) return "; " + hint;
+    if (message.starts_with("unknown escape character"))
+        return "; write paths with '/', or between single quotes";
+    return {};
+}
+
+}  // namespace
+
+YamlFault yamlFault(const std::string& text, int line, const std::string& message) {
+    if (const auto fault = otherSpace(text)) return *fault;
+    const std::vector<Line> lines = linesUpTo(text, line);
+    const bool isThere = !lines.empty() && lines.back().number == line;
+    if (const auto fault = isThere && isOfBlocks(message) ? indentation(lines) : std::nullopt) return *fault;
+    if (isThere && hasSecondColon(lines.back()))
+        return {line, "a second ': ' in a line; put a text that holds one between quotes"};
+    return {line, message + hintOf(message)};
+}
+
+}  // namespace voxray
