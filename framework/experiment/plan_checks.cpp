@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "config/overrides.h"
+#include "experiment/addition_check.h"
 #include "experiment/idle_motion.h"
 #include "experiment/pixel_masks.h"
 #include "experiment/session.h"
@@ -166,6 +167,7 @@ std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader,
             key = std::move(own);
             checkMaskNames(experiment.measure.masks, *prepared.state.scene);
             say(checkView(variant.setup, prepared, registry.preview));
+            say(additionWarnings(variant.setup.scene, prepared, loader));
         }
         motion.look(variant, *prepared.state.scene);
         say(lightsThatStay(variant, *prepared.state.scene));

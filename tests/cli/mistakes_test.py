@@ -30,6 +30,7 @@ profiles:
   smaller: {image: {width: 16}}
 """
 CAMERA = "camera: {position: [0, 1, 3], target: [0, 1, 0], fov_deg: 50}"
+VOXELIZE = "  - {pass: voxelize, resolution: 16}"
 GRAPH = CONFIG[CONFIG.index("graph:"):CONFIG.index("reference:")]
 SWEEP = CONFIG[CONFIG.index("sweep:"):CONFIG.index("measure:")]
 REFERENCE_TO_MASKS = CONFIG[CONFIG.index("reference:"):CONFIG.index("profiles:")].rstrip()
@@ -86,7 +87,13 @@ MISTAKES = {
     "a sweep without effect": ("inject.rays_per_light: [4096, 8192]", "gather.light_samples: [1, 2]\n  gather.near_field_voxels: [0]", 20,
                                "changes nothing in any variant"),
     "a key twice": ("seed: 7", "seed: 7\nseed: 8", 9, "appears twice"),
-    "a line is indented too far": ("seed: 7", "  seed: 7", 8, "indented unlike its neighbours"),
+    "a line is indented too far": ("seed: 7", "  seed: 7", 8, "'seed' is indented unlike 'image' in line 7"),
+    "a parameter below its pass's name": (VOXELIZE, "  - pass: voxelize\n      resolution: 16", 12,
+                                          "'resolution' is indented unlike 'pass' in line 11, which has its value: indent it as far, by 4"),
+    "a parameter below its pass's dash": (VOXELIZE, "  - pass: voxelize\n  resolution: 16", 12,
+                                          "'resolution' is indented unlike what the dash in line 11 begins with: indent it by 4 spaces"),
+    "a merge key without a map": (VOXELIZE, "  - {pass: voxelize, <<: 16}", 11, "expected a map, as in <<: *defaults"),
+    "a wrong value that is merged in": (VOXELIZE, "  - {pass: voxelize, <<: {resolution: high}}", 11, "expected a whole number, not 'high'"),
     "a lost dash": ("  - {pass: composite}", "  {pass: composite}", 17, "indented unlike its neighbours"),
     "a tab": ("  - {pass: composite}", "\t- {pass: composite}", 17, "YAML takes spaces"),
     "a lost brace": ("height: 24}", "height: 24", 8, "a comma or the '}' is missing"),
@@ -248,6 +255,16 @@ WARNINGS = {
         "  - {pass: filter_irradiance, id: indirect, inputs: {noisy_irradiance: gather}}",
         "  - {pass: accumulate}\n  - {pass: filter_irradiance, id: indirect}", 15,
         "accumulate: it goes on from frame to frame, and 3 of the 15 frames that it looks back on come before"),
+    "a scene that is added in metres among centimetres": (
+        "  lights:", "  add: [{builtin: white_room, transform: {scale: [0.01, 0.005, 0.01]}}]\n  lights:", 5,
+        "scene.add[0]: 'white_room' is 0.03 m across, the scene that it is added to 3.46 m; is one of the two in centimetres? "
+        "then write transform: {scale: [1, 0.5, 1]}"),
+    "a scene that is added in centimetres": (
+        "  lights:", "  add: [{builtin: white_room, transform: {scale: 100}}]\n  lights:", 5,
+        "'white_room' is 346 m across, the scene that it is added to 3.46 m; is one of the two in centimetres? then write "
+        "transform: {scale: 1}"),
+    "a scene that is added far away": ("  lights:", "  add: [{builtin: mirror_row, transform: {translate: [0, 370, 0]}}]\n  lights:", 5,
+                                       "m away; is its 'translate' in metres?"),
     "lights that the scene lacks": ("  lights:", "  keep_file_lights: false\n  lights:", 5, "the scene has no punctual lights"),
     "spheres that have no time to move": ("  lights:", "  moving_spheres: {count: 1, center: [0, 1, 0]}\n  lights:", 5,
                                           "they stand still; for ones that move write 'time_step'"),
@@ -290,6 +307,8 @@ class Mistakes(CommandTest):
                                   ("unknown option '--profil'; did you mean '--profile'?", "run", "mine.yaml", "--profil=x"),
                                   ("unknown argument 'x'", "devices", "x"),
                                   ("did you mean 'mine.yaml'?", "run", "mime.yaml"),
+                                  ("room.glb: a scene, not a config; a config names it, as in scene: {file: room.glb}", "run", "room.glb"),
+                                  ("'./voxray scene room.glb' tells what is in it", "validate", "room.glb"),
                                   ("did you mean 'mine.yaml'?", "compare", "mime.yaml", "mine.yaml"),
                                   ("--scenes: Directory does not exist: nowhere", "run", "mine.yaml", "--scenes", "nowhere"),
                                   ("'x.jpg' does not end in .png", "scene", "cornell", "--picture", "x.jpg"),
