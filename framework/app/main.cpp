@@ -32,6 +32,8 @@ void checkCommandName(const CLI::App& app, const std::string& word) {
     }
     if (word == "test" || word == "bench")
         throw UsageError("'{0}' is a command of the launcher: ./voxray {0}", word);
+    if (word.ends_with(".yaml") || word.ends_with(".yml"))
+        throw UsageError("unknown command '{0}'; to render a config, write: voxray run {0}", word);
     throw UsageError("unknown command '{}'{}", word, didYouMean(word, names));
 }
 

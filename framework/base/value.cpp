@@ -41,6 +41,13 @@ std::string withHyphen(const Value& value) {
     return {};
 }
 
+/// "; a space is missing before '#'" for a comment that is taken for a part of the value, else "".
+std::string withComment(const Value& value) {
+    const bool isComment =
+        value.isScalar() && !value.quoted && value.scalar.find('#', 1) != std::string::npos;
+    return isComment ? "; a space is missing before '#'" : "";
+}
+
 /// ": write 1000000" for a whole number that is written as 1e6 or 1_000_000, else "".
 std::string inDigits(const Value& value) {
     if (!value.isScalar() || value.quoted) return {};
@@ -172,7 +179,8 @@ bool Value::asBool(std::string_view what) const {
         if (scalar == "true") return true;
         if (scalar == "false") return false;
     }
-    throw UsageError(where, "{}: expected true or false, not {}", what, describe(*this));
+    throw UsageError(where, "{}: expected true or false, not {}{}", what, describe(*this),
+                     withComment(*this));
 }
 
 int64_t Value::asInteger(std::string_view what) const {
@@ -182,8 +190,8 @@ int64_t Value::asInteger(std::string_view what) const {
         scalar.find_first_not_of("0123456789") == std::string::npos)
         throw UsageError(where, "{}: {} is out of range, at most {}", what, scalar,
                          std::numeric_limits<int64_t>::max());
-    throw UsageError(where, "{}: expected a whole number, not {}{}{}", what, describe(*this), inDigits(*this),
-                     withHyphen(*this));
+    throw UsageError(where, "{}: expected a whole number, not {}{}{}{}", what, describe(*this),
+                     inDigits(*this), withHyphen(*this), withComment(*this));
 }
 
 bool Value::isNumber() const {
@@ -194,7 +202,8 @@ bool Value::isNumber() const {
 double Value::asNumber(std::string_view what) const {
     double number = 0;
     if (isNumber() && parseAll(scalar, number)) return number;
-    throw UsageError(where, "{}: expected a number, not {}{}", what, describe(*this), withHyphen(*this));
+    throw UsageError(where, "{}: expected a number, not {}{}{}", what, describe(*this), withHyphen(*this),
+                     withComment(*this));
 }
 
 std::string Value::asString(std::string_view what) const {

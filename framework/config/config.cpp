@@ -101,7 +101,11 @@ std::string passWith(const Value& config, const std::string& parameter) {
 }
 
 void checkTopLevel(const Value& config) {
-    if (!config.isMap()) throw UsageError(config.where, "a config is a map; see docs/writing-a-config.md");
+    if (!config.isMap())
+        throw UsageError(config.where, "a config is a map; see docs/writing-a-config.md{}",
+                         config.isNull()   ? "; nothing is written here"
+                         : config.isList() ? "; leave out the dashes of its keys"
+                                           : "");
     for (const auto& [key, value] : config.members) {
         const auto& keys = configKeys();
         if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;

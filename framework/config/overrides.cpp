@@ -202,7 +202,9 @@ void applyProfile(Value& config, const std::string& name) {
         throw UsageError(where, "no profile '{}'{}", name,
                          names.empty() ? "; this config has none" : didYouMean(name, names));
     }
-    if (!profile->isMap()) throw UsageError(profile->where, "profiles.{}: expected a map of overrides", name);
+    if (!profile->isMap())
+        throw UsageError(profile->where,
+                         "profiles.{}: expected a map of overrides, as in {{image.width: 160}}", name);
     const Value overrides = *profile;
     for (const auto& [path, value] : overrides.members) {
         for (const char* required : {"name", "scene", "graph"})

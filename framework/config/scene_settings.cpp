@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <string_view>
 
 #include "config/settings.h"
 
@@ -53,9 +55,11 @@ ConfigLight readLight(const Value& entry, size_t index) {
         light.outerConeAngle = glm::radians(p.outerDegrees);
     } else {
         const std::string first = entry.members.empty() ? std::string() : entry.members[0].key;
-        throw UsageError(entry.where, "{}: not a type of light: '{}'{}{}", what, first,
-                         didYouMean(first, kinds),
-                         nearest(first, kinds).empty() ? "; as in {point: [0, 2, 0], intensity: 5}" : "");
+        throw UsageError(
+            entry.where, "{}: not a type of light: '{}'{}{}", what, first, didYouMean(first, kinds),
+            nearest(first, kinds).empty() ? "; as in {point: [0, 2, 0], intensity: 5}; to let a "
+                                            "surface shine, write override: {MATERIAL: {emission: 5}}"
+                                          : "");
     }
     return read;
 }
@@ -80,10 +84,19 @@ void readCamera(const Value& value, SceneSettings& settings) {
         throw UsageError(value.where, "scene.camera: looks along its own 'up'; give another up");
 }
 
+/// What other tools call the radiance of an environment that is the same in all directions.
+constexpr std::array<std::string_view, 4> kRadianceWords{"color", "colour", "radiance", "intensity"};
+
 void readEnvironment(const Value& value, SceneSettings& settings) {
     settings.environmentWhere = value.where;
     EnvironmentSettings environment;
     if (value.isMap()) {
+        for (const auto& [key, radiance] : value.members)
+            if (std::ranges::count(kRadianceWords, key) > 0)
+                throw UsageError(radiance.where,
+                                 "scene.environment: unknown parameter '{}'; a radiance stands alone: write "
+                                 "environment: {}",
+                                 key, radiance.text());
         environment = readParams<EnvironmentSettings>(value, "scene.environment");
         const Value* scale = value.find("scale");
         if (environment.map.empty())

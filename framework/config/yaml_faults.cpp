@@ -98,6 +98,11 @@ std::optional<YamlFault> indentation(const std::vector<Line>& lines) {
                                  line.key, above->number, spaces(above->inner))};
 }
 
+/// Whether a list entry's dash stands right before what it holds.
+bool hasNarrowDash(const Line& line) {
+    return line.text.find_first_of("{[", line.indent) == line.indent + 1 && line.text[line.indent] == '-';
+}
+
 /// Whether a line without braces has a ': ' after its first one.
 bool hasSecondColon(const Line& line) {
     const size_t first = line.text.find(": ");
@@ -134,6 +139,8 @@ YamlFault yamlFault(const std::string& text, int line, const std::string& messag
     const std::vector<Line> lines = linesUpTo(text, line);
     const bool isThere = !lines.empty() && lines.back().number == line;
     if (const auto fault = isThere && isOfBlocks(message) ? indentation(lines) : std::nullopt) return *fault;
+    if (isThere && hasNarrowDash(lines.back()))
+        return {line, "a space is missing after the dash of a list's entry: write '- '"};
     if (isThere && hasSecondColon(lines.back()))
         return {line, "a second ': ' in a line; put a text that holds one between quotes"};
     return {line, message + hintOf(message)};

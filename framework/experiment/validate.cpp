@@ -169,7 +169,8 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
         Graph graph(registry, variant.setup.graph);
         if (!graph.writes("final"))
             throw UsageError(variant.setup.graph.where,
-                             "graph: no pass writes 'final', the image that is compared");
+                             "graph: no pass writes 'final', the image that is compared; these can: {}",
+                             fmt::join(registry.writersOf("final"), ", "));
         for (const char* part : {"direct", "indirect"}) graph.checkIsMadeOf("final", part);
         std::vector<std::string> leftOut = graph.keepOnly(comparedPorts());
         Value resolved = graph.resolved();
