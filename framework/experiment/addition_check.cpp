@@ -8,6 +8,7 @@ namespace voxray {
 namespace {
 
 constexpr float kCentimetres = 100;  ///< In a metre.
+constexpr float kFlat = 1e-3f;       ///< Thickness over size of what counts as flat.
 
 /// Bounds of `count` instances in the compared frame; empty, with min over max, where they have no vertex.
 Box boundsOf(const Geometry& g, size_t first, size_t count) {
@@ -24,7 +25,8 @@ Box boundsOf(const Geometry& g, size_t first, size_t count) {
 /// Its diagonal, m; 0 where it is flat or empty.
 float sizeOf(const Box& box) {
     const glm::vec3 sides = box.max - box.min;
-    return glm::min(sides.x, glm::min(sides.y, sides.z)) > 0 ? glm::length(sides) : 0.0f;
+    const float size = glm::length(sides);
+    return glm::min(sides.x, glm::min(sides.y, sides.z)) > kFlat * size ? size : 0.0f;
 }
 
 /// "7" or "[7, 7, 14]": a placement's scale times a factor.

@@ -174,6 +174,7 @@ std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device
     constexpr double kMiB = 1024.0 * 1024.0;
     if (const uint64_t peak = peakBytes(memory); peak > memoryLimitBytes)
         throw Error(
+            largestPass->where,
             "the graph needs about {:.1f} MiB, the limit is {:.1f} MiB; the largest part is {} with {:.1f} "
             "MiB: {}",
             double(peak) / kMiB, double(memoryLimitBytes) / kMiB, largest, double(largestBytes) / kMiB,

@@ -6,6 +6,11 @@
 #include "vulkan/structure.h"
 
 namespace voxray {
+namespace {
+
+constexpr double kMiB = 1024.0 * 1024.0;
+
+}  // namespace
 
 // Delegating first makes the destructor clean up where the rest throws.
 Buffer::Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind,
@@ -16,8 +21,9 @@ Buffer::Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind
     bytes_ = bytes;
     if (bytes == 0) throw Error("buffer '{}' would hold 0 bytes", name_);
     if (bytes > maxBufferBytes(device))
-        throw SizeError("buffer '{}' would hold {} bytes; device '{}' allows {} in one buffer", name_, bytes,
-                        device.info().name, maxBufferBytes(device));
+        throw SizeError("buffer '{}' would hold {:.1f} MiB; device '{}' allows {:.1f} MiB in one buffer",
+                        name_, double(bytes) / kMiB, device.info().name,
+                        double(maxBufferBytes(device)) / kMiB);
 
     auto create = structure<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
     create.size = bytes;

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "experiment/addition_check.h"
 #include "experiment/scene_setup.h"
 #include "experiment_fakes.h"
 #include "scene/load.h"
@@ -147,4 +148,31 @@ TEST_F(RunTest, ChainsOfPassesRunInPlaceOfOne) {
     EXPECT_NEAR(std::stod(cell("c-witness-constant", "nrmse")), 0.5, 1e-6);
     EXPECT_CONTAINS(readTextFile(root_ / "out" / "passes.csv"), "c-witness-constant,witness,build,");
     EXPECT_CONTAINS(readTextFile(root_ / "out" / "passes.csv"), "c-witness-constant,c,frame,");
+}
+
+TEST(ComposedSceneLoader, WarnsOfAdditionsInAnotherUnit) {
+    const auto saidOf = [](const std::string& additions) {
+        SceneLoader loader({});
+        const SceneSettings scene = settingsOf("  add: [" + additions + "]\n");
+        return additionWarnings(scene, loader.prepare(scene), loader);
+    };
+    const auto room = [](const std::string& transform) {
+        return "{builtin: white_room, transform: {" + transform + "}}";  // As large as the Cornell box.
+    };
+    EXPECT_TRUE(saidOf(room("scale: 99") + ", " + room("scale: 0.0101")).empty());
+    EXPECT_TRUE(saidOf("{builtin: plane, transform: {scale: 1000}}").empty()) << "a ground has any size";
+    EXPECT_TRUE(saidOf(room("translate: [340, 0, 0]")).empty());
+
+    const std::vector<std::string> said =
+        saidOf(room("scale: 101") + ", " + room("scale: 2") + ", " + room("scale: 0.0099") + ", " +
+               room("translate: [0, 0, -350]"));
+    ASSERT_EQ(said.size(), 3u);
+    EXPECT_CONTAINS(
+        said[0],
+        "x.yaml:5: scene.add[0]: 'white_room' is 350 m across, the scene that it is added to 3.46 m");
+    EXPECT_CONTAINS(said[0], "transform: {scale: 1.01}");
+    EXPECT_CONTAINS(said[1], "scene.add[2]: ");
+    EXPECT_CONTAINS(said[1], "transform: {scale: 0.99}");
+    EXPECT_CONTAINS(said[2], "scene.add[3]: ");
+    EXPECT_CONTAINS(said[2], "and 348 m away");
 }
