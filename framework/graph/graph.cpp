@@ -19,9 +19,13 @@ struct Graph::Impl {
     std::vector<GraphNode> nodes;
     std::vector<MemoryBook> books;  ///< By node.
     std::optional<FiniteCheck> finiteCheck;
+    uint64_t memoryLimitBytes = 0;
 
     /// Does a part of a pass's work. @throws Error that says what to lower where something is too large.
     void work(const GraphNode& node, const std::function<void()>& part) const;
+    /// What the limit leaves to a pass beyond its plan, while the others keep what they have planned or
+    /// taken.
+    uint64_t spareBytes(size_t node) const;
     void checkOutputs(const GraphNode& node, CommandStream& stream);
 };
 
@@ -32,6 +36,17 @@ uint64_t peakBytes(const std::vector<PassMemory>& passes) {
         scratch = std::max(scratch, pass.scratchBytes);
     }
     return kept + scratch;
+}
+
+uint64_t Graph::Impl::spareBytes(size_t node) const {
+    std::vector<PassMemory> memory;
+    for (size_t n = 0; n < books.size(); ++n) {
+        PassMemory own = books[n].planned();
+        if (n != node) own.bytes = std::max(own.bytes, books[n].taken().bytes);
+        memory.push_back(own);
+    }
+    const uint64_t peak = peakBytes(memory);
+    return memoryLimitBytes > peak ? memoryLimitBytes - peak : 0;
 }
 
 const std::vector<std::string>& Graph::reservedKeys() {
@@ -150,6 +165,7 @@ bool Graph::writes(const std::string& portName) const {
 }
 
 std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device, uint64_t memoryLimitBytes) {
+    impl_->memoryLimitBytes = memoryLimitBytes;
     std::vector<PassMemory> memory;
     std::string largest;
     const GraphNode* largestPass = nullptr;
@@ -211,6 +227,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
 
         // Time the pass on the device; the Embree backend's host work falls between the stamps.
         PassContext context(node.resources, frame, device, stream, tracer, scene, frameIndex);
+        context.spareBytes = impl_->spareBytes(n);
         uint32_t begin = 0, end = 0;
         const auto record = [&] {
             stream.beginLabel(node.id);
@@ -219,7 +236,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
             end = stream.timestamp();
             stream.endLabel();
         };
-        impl_->work(node, [&] { impl_->books[n].record(stream, record); });
+        impl_->work(node, [&] { impl_->books[n].record(stream, context.spareBytes, record); });
 
         PassSample sample;
         sample.rays = tracer.raysTraced() - raysBefore + context.extraRays;

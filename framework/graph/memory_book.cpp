@@ -13,28 +13,35 @@ uint64_t tolerance(uint64_t reserved) {
     return (64ull << 10) + reserved / 32;
 }
 
+bool isScratch(const MemoryPlan::Part& part) {
+    return part.kind == MemoryPlan::Part::Scratch;
+}
+
 }  // namespace
 
 PassMemory MemoryBook::planned() const {
     PassMemory memory;
     for (const MemoryPlan::Part& part : plan_.parts())
-        (part.scratch ? memory.scratchBytes : memory.bytes) += part.bytes;
+        (isScratch(part) ? memory.scratchBytes : memory.bytes) += part.bytes;
     return memory;
 }
 
 uint64_t MemoryBook::make(Device& device, bool scratch) const {
     const uint64_t before = device.memoryUsedBytes();
     for (const MemoryPlan::Part& part : plan_.parts())
-        if (part.make && part.scratch == scratch) part.make(device);
+        if (part.make && isScratch(part) == scratch) part.make(device);
     return device.memoryUsedBytes() - before;
 }
 
-void MemoryBook::check(bool scratch, uint64_t taken, uint64_t notReserved) const {
+void MemoryBook::check(bool scratch, uint64_t taken, uint64_t notReserved, uint64_t spareBytes) const {
     const uint64_t bytes = taken > notReserved ? taken - notReserved : 0;
-    uint64_t reserved = 0;
-    for (const MemoryPlan::Part& part : plan_.parts())
-        if (!part.make && part.scratch == scratch) reserved += part.bytes;
-    if (bytes > reserved + tolerance(reserved))
+    uint64_t reserved = 0, spare = 0;
+    for (const MemoryPlan::Part& part : plan_.parts()) {
+        if (part.make || isScratch(part) != scratch) continue;
+        reserved += part.bytes;
+        if (part.kind == MemoryPlan::Part::Counted) spare = spareBytes;
+    }
+    if (bytes > reserved + tolerance(reserved) + spare)
         throw Error(
             "pass '{}' takes {} bytes of {} memory besides the buffers and images that it describes, but "
             "reserves {}; describe or reserve them in its plan()",
@@ -51,7 +58,7 @@ void MemoryBook::prepare(CommandStream& stream, const std::function<void()>& pre
     check(false, taken_.bytes, describedBytes_);
 }
 
-void MemoryBook::record(CommandStream& stream, const std::function<void()>& recordPass) {
+void MemoryBook::record(CommandStream& stream, uint64_t spareBytes, const std::function<void()>& recordPass) {
     Device& device = stream.device();
     const uint64_t before = device.memoryUsedBytes();
     device.resetMemoryPeak();
@@ -62,13 +69,13 @@ void MemoryBook::record(CommandStream& stream, const std::function<void()>& reco
     // Scratch is free for the next pass, and so is what was staged.
     if (described > 0 || stream.stagingBytes() > 0) stream.finish();
     for (const MemoryPlan::Part& part : plan_.parts())
-        if (part.make && part.scratch) part.free();
+        if (part.make && isScratch(part)) part.free();
 
     // A pass may size its outputs by what it counted: what it holds now is what it keeps.
     const uint64_t after = device.memoryUsedBytes(), scratch = device.memoryPeakBytes() - after;
     taken_.bytes += after - before;
     taken_.scratchBytes = std::max(taken_.scratchBytes, scratch);
-    check(false, taken_.bytes, describedBytes_);
+    check(false, taken_.bytes, describedBytes_, spareBytes);
     check(true, scratch, described + stream.stagingPeakBytes());
 }
 

@@ -24,14 +24,14 @@ class MemoryBook {
     /// @throws Error where the pass keeps more than it reserved.
     void prepare(CommandStream& stream, const std::function<void()>& preparePass);
     /// Makes scratch, calls `recordPass` and frees it, for which it waits for the device where there is any.
-    /// @throws Error where the pass takes more than it reserved. Staging buffers of the stream aren't
-    /// counted.
-    void record(CommandStream& stream, const std::function<void()>& recordPass);
+    /// @param spareBytes that a pass with counted parts may keep beyond what it reserved.
+    /// @throws Error where the pass takes more than that. Staging buffers of the stream aren't counted.
+    void record(CommandStream& stream, uint64_t spareBytes, const std::function<void()>& recordPass);
 
  private:
     uint64_t make(Device& device, bool scratch) const;
     /// @throws Error where `taken` bytes, less those that need no reservation, are more than was reserved.
-    void check(bool scratch, uint64_t taken, uint64_t notReserved) const;
+    void check(bool scratch, uint64_t taken, uint64_t notReserved, uint64_t spareBytes = 0) const;
 
     std::string pass_;
     MemoryPlan plan_;

@@ -193,6 +193,9 @@ class PassContext : public PortAccess {
     RayTracer& tracer;
     const GpuScene& scene;
     uint32_t frameIndex;
+    /// What the graph's limit leaves to this pass beyond what all have planned, for parts that it sizes by
+    /// what it counts (MemoryPlan::reserveCounted).
+    uint64_t spareBytes = 0;
     /// Rays traced outside of `tracer` (the reference traces on its own).
     uint64_t extraRays = 0;
     /// Counts of walks through voxels (shaders/voxel_march), which the graph reads when all passes have run:

@@ -21,11 +21,8 @@ struct Proposal {
 };
 
 /// Of what patches see, by clusters alone: several rays of a patch meet the same one, so that lists grow with
-/// the root of rays (docs/papers/cosin2022.md). More than this many times the root aren't expected, in the
-/// mean.
+/// the root of rays (docs/papers/cosin2022.md). About this many times the root are expected, in the mean.
 constexpr double kSeenByRootOfRays = 4;
-/// In small scenes buffers' alignment counts.
-constexpr uint64_t kMinListBytes = 1 << 20;
 
 struct ListPush {
     uint32_t patches;
@@ -61,8 +58,8 @@ void FindClusterVisibility::plan(PassPlan& plan) {
     const uint64_t patches = kPatchesPerVoxel * voxels.voxelCount, rays = uint64_t(chunk) * params_.rays;
     const double root = std::ceil(kSeenByRootOfRays * std::sqrt(double(params_.rays)));
     const uint64_t seen = seesPatches() ? params_.rays : std::min(params_.rays, uint32_t(root));
-    listBytes_ = std::max(patches * (seen + 1) * sizeof(uint32_t), kMinListBytes);
-    plan.reserve("what patches see (estimated)", listBytes_);
+    listBytes_ = patches * (seen + 1) * sizeof(uint32_t);
+    plan.reserveCounted("what patches see (estimated)", listBytes_);
     plan.reserveScratch("faces of patches (estimated)", patches * sizeof(uint32_t));
     plan.scratchBuffer(targets_, "targets of rays", rays * sizeof(uint32_t));
     plan.scratchBuffer(counts_, "targets of patches", (chunk + 1) * sizeof(uint32_t));
@@ -220,12 +217,12 @@ void FindClusterVisibility::look(PassContext& context, uint32_t first, uint32_t 
     chunk.first = Buffer(context.device, "where patches' lists begin", (count + 1) * sizeof(uint32_t));
     const uint32_t seen = prefixSum_->run(stream, counts_, chunk.first, count + 1);
     const uint64_t bytes = visibility.bytes() + (uint64_t(count) + 1 + seen) * sizeof(uint32_t);
-    if (bytes > listBytes_)
+    const uint64_t most = listBytes_ + context.spareBytes;
+    if (bytes > most)
         throw Error(
-            "{}: what {} of {} patches see takes {:.1f} MiB, and {:.1f} MiB were planned for all; lower "
-            "'rays', cluster_voxels's 'target' or voxelize's 'resolution'",
-            kName, first + count, visibility.patchCount, double(bytes) / (1 << 20),
-            double(listBytes_) / (1 << 20));
+            "{}: what {} of {} patches see takes {:.1f} MiB, and the memory limit leaves {:.1f} MiB for all; "
+            "lower 'rays', cluster_voxels's 'target' or voxelize's 'resolution', or raise the limit",
+            kName, first + count, visibility.patchCount, double(bytes) / (1 << 20), double(most) / (1 << 20));
     chunk.seen = Buffer(context.device, "what patches see", std::max(seen, 1u) * sizeof(uint32_t));
     stream.dispatch(compact_, {{"targets", targets_}, {"first", chunk.first}, {"seen", chunk.seen}}, list,
                     linearGroups(count));

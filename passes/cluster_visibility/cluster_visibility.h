@@ -84,7 +84,7 @@ class FindClusterVisibility final : public Pass {
     Port<ClusterVisibility> visibility_;
     VoxelMarch march_{VoxelWalk::Bricks};
     std::optional<PrefixSum> prefixSum_;
-    uint64_t listBytes_ = 0;  ///< That were planned for the lists.
+    uint64_t listBytes_ = 0;  ///< That are expected of the lists.
     Program listFaces_, marchRays_, emit_, choose_, merge_, compact_;
     Buffer faces_, targets_, counts_, missed_, rays_, hits_, proposals_, between_, occluded_;  ///< Scratch.
     std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of the voxels and their patches.

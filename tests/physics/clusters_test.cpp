@@ -159,6 +159,28 @@ TEST(ClusterVisibility, CountsFormFactors) {
     }
 }
 
+TEST(ClusterVisibility, KeepLongerListsThanAreExpected) {
+    // In a closed sphere 1024 rays meet nearly as many clusters, of one voxel each. Walls that emit 1 and
+    // reflect a half reflect a quarter of pi after the gather.
+    Chain chain(
+        "furnace", "{shape: sphere, albedo: 0.5, emission: 1}",
+        graphYaml({"gbuffer", "voxelize, resolution: 12", "place_surfels", "cluster_voxels, target: 100000",
+                   "find_patches", "cluster_visibility, rays: 1024, near_distance: 0",
+                   "inject_clusters, direct: shadow_rays", "gather_clusters, filter_passes: 0",
+                   "gather_irradiance"}),
+        16, 16);
+    const std::vector<Graph::PassInfo> passes = chain.graph().passes();
+    const size_t pass =
+        size_t(std::ranges::find(passes, "cluster_visibility", &Graph::PassInfo::id) - passes.begin());
+    const double expected = double(chain.predicted.at(pass).bytes);
+    const double taken = double(chain.graph().memory().at(pass).bytes);
+    const double light = mean(chain.image("indirect")) / 0.25;
+    std::printf("lists take %.2f of what was expected; light %.4f of the closed form\n", taken / expected,
+                light);
+    EXPECT_GT(taken, 1.2 * expected);
+    EXPECT_NEAR(light, 1, 0.01);
+}
+
 /// Light of sides inside a sealed room whose floor and ceiling run on outside, into the sun, through the same
 /// voxels, next to that of all others: means of radiosity, green.
 double leakIntoARoom(const std::string& visibility, const std::string& direct, const std::string& near) {
