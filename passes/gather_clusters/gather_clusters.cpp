@@ -35,9 +35,14 @@ void GatherClusters::plan(PassPlan& plan) {
     const uint32_t voxels = plan.get(voxels_).voxelCount;
     plan.get(irradiance_).lightBounces = oneMore(plan.get(light_).lightBounces);
     plan.reserve("irradiance of voxels (estimated)", VoxelIrradiance::bytes(voxels));
-    plan.reserveScratch("irradiance of patches (estimated)",
-                        2 * kPatchesPerVoxel * voxels * sizeof(glm::vec3));
-    if (isLazy()) SeenVoxels::plan(plan, voxels);
+    const uint64_t ofPatches = 2 * kPatchesPerVoxel * voxels * sizeof(glm::vec3);
+    if (!isLazy()) {
+        plan.reserveScratch("irradiance of patches (estimated)", ofPatches);
+        return;
+    }
+    plan.get(irradiance_).reach = params_.reach;
+    plan.reserve("irradiance of patches (estimated)", ofPatches);
+    SeenVoxels::plan(plan, voxels);
 }
 
 void GatherClusters::prepare(PassSetup& setup) {
@@ -72,10 +77,10 @@ void GatherClusters::record(PassContext& context) {
     }
     if (isNew) {
         for (const Buffer* buffer : result.checkedBuffers()) context.stream.fill(*buffer, 0);
-        seen_.reset(context, voxels);
+        seen_.reset(context, voxels, patches);
     }
     const SeenVoxels::Found found =
-        seen_.find(context, context.get(gbuffer_), voxels, patches, filterSteps());
+        seen_.find(context, context.get(gbuffer_), voxels, patches, params_.reach, filterSteps());
     context.report("voxels gathered", found.voxelCount);
     if (found.voxelCount == 0) return;
     if (!isNew) ++result.version;
@@ -93,13 +98,13 @@ void GatherClusters::gather(PassContext& context, const SeenVoxels::Found& found
         return bindings;
     };
     const uint64_t bytes = std::max(patches.patchCount, 1u) * sizeof(glm::vec3);
-    LargeBuffer gathered(context.device, "irradiance of patches", bytes);
-    LargeBuffer filtered(context.device, "filtered irradiance", bytes);
+    makeOrKeep(gathered_, context.device, "irradiance of patches", bytes);
+    makeOrKeep(filtered_, context.device, "filtered irradiance", bytes);
     const uint32_t steps = filterSteps(), sides = found.sidesWithin[steps];
     stream.dispatch(
         gather_,
-        onList(gatherBindings(visibility, light, {{"sides", patches.sides}, {"GatheredAt", gathered.at()}}),
-               "listed", found.sides),
+        onList(gatherBindings(visibility, light, {{"sides", patches.sides}, {"GatheredAt", gathered_.at()}}),
+               "listed", seen_.sides()),
         GatherPush{visibility.layout, sides}, linearGroups(sides));
     for (uint32_t i = 0; i < steps; ++i) {
         const uint32_t count = found.sidesWithin[steps - 1 - i];
@@ -108,27 +113,30 @@ void GatherClusters::gather(PassContext& context, const SeenVoxels::Found& found
                                 {"coordinates", context.get(clusters_).coordinates},
                                 {"firstNeighbour", patches.firstNeighbour},
                                 {"NeighboursAt", patches.neighbours.at()},
-                                {"GatheredAt", gathered.at()},
-                                {"FilteredAt", filtered.at()}},
-                               "listed", found.sides),
+                                {"GatheredAt", gathered_.at()},
+                                {"FilteredAt", filtered_.at()}},
+                               "listed", seen_.sides()),
                         count, linearGroups(count));
         stream.finish();
-        std::swap(gathered, filtered);
+        std::swap(gathered_, filtered_);
     }
     const VoxelIrradiance& result = context.get(irradiance_);
     stream.dispatch(store_,
                     onList({{"sides", patches.sides},
                             {"firstSide", patches.firstSide},
                             {"VoxelMaterialsAt", patches.materials.at()},
-                            {"GatheredAt", gathered.at()},
+                            {"GatheredAt", gathered_.at()},
                             {"PatchDirectAt", light.direct.at()},
                             {"DirectAt", result.direct.at()},
                             {"IndirectAt", result.indirect.at()},
                             {"area", result.area}},
-                           "found", found.voxels),
+                           "found", seen_.voxels()),
                     StorePush{3 * found.voxelCount, voxels.grid.voxelSize * voxels.grid.voxelSize},
                     linearGroups(3 * found.voxelCount));
     stream.finish();
+    if (isLazy()) return;  // Buffers stay for what comes into view next.
+    gathered_ = {};
+    filtered_ = {};
 }
 
 }  // namespace voxray

@@ -33,6 +33,7 @@ class GatherClusters final : public Pass {
         "Source: Cosin and Patow 2022, section 4.4.";
     struct Params {
         GatherUpdate update = GatherUpdate::All;
+        uint32_t reach = 4;
         uint32_t filterPasses = 2;
         uint32_t filterSize = 5;
         static constexpr auto schema() {
@@ -41,6 +42,14 @@ class GatherClusters final : public Pass {
                       "all: every voxel, whenever light or voxels have changed. seen: voxels round what the "
                       "camera sees, when they come into view; they keep their light until light or voxels "
                       "change. For gather_irradiance, which reads no others."),
+                field(
+                    "reach", &Params::reach,
+                    "How many voxels along each axis count as round what the camera sees. It must be as far "
+                    "as the lookup that follows reads: 4 times gather_irradiance's 'radius', where little "
+                    "surface is near, and one more with 'lookup: seven_tap'. A lookup that reads farther is "
+                    "refused.",
+                    1u, 64u)
+                    .onlyWith(oneOf(&Params::update, {GatherUpdate::Seen})),
                 field("filter_passes", &Params::filterPasses,
                       "Times that faces are averaged with the same faces of the sides round them.", 0u, 8u),
                 field(
@@ -75,6 +84,7 @@ class GatherClusters final : public Pass {
     Port<VoxelIrradiance> irradiance_;
     SeenVoxels seen_;
     Program gather_, filter_, store_;
+    LargeBuffer gathered_, filtered_;                       ///< Irradiance of patches.
     std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of lists and light.
 };
 

@@ -4,9 +4,6 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// As far as gather_irradiance looks for voxels: a radius of one, doubled twice.
-#define REACH 4
-
 uniform sampler2D position;
 buffer Asked { uint data[]; } asked;  // By voxel, bits: it was seen, and all those round it.
 writeonly buffer Found { uint data[]; } found;
@@ -14,6 +11,7 @@ buffer Count { uint value; } count;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uvec2 texels;
+    int reach;  // Voxels along each axis.
 } push;
 
 void main() {
@@ -24,9 +22,9 @@ void main() {
     const ivec3 cell = voxelAt(push.grid, p.xyz);
     const uint own = voxelNumber(push.grid, cell);
     if (own != NO_VOXEL && (asked.data[own] & 2u) != 0u) return;
-    for (int z = -REACH; z <= REACH; ++z)
-        for (int y = -REACH; y <= REACH; ++y)
-            for (int x = -REACH; x <= REACH; ++x) {
+    for (int z = -push.reach; z <= push.reach; ++z)
+        for (int y = -push.reach; y <= push.reach; ++y)
+            for (int x = -push.reach; x <= push.reach; ++x) {
                 const uint voxel = voxelNumber(push.grid, cell + ivec3(x, y, z));
                 if (voxel == NO_VOXEL || (asked.data[voxel] & 1u) != 0u) continue;
                 if ((atomicOr(asked.data[voxel], 1u) & 1u) == 0u) found.data[atomicAdd(count.value, 1u)] = voxel;

@@ -11,6 +11,7 @@ namespace {
 struct MarkPush {
     gpu::VoxelGrid grid;
     glm::uvec2 texels;
+    int32_t reach;
 };
 
 struct SpreadPush {
@@ -25,9 +26,8 @@ uint64_t uints(uint64_t count) {
 }  // namespace
 
 void SeenVoxels::plan(PassPlan& plan, uint64_t voxels) {
-    plan.reserve("voxels that were seen (estimated)", uints(voxels));
-    plan.reserveScratch("voxels that come into view (estimated)",
-                        uints(voxels) + 2 * uints(kSidesPerVoxel * voxels) + uints(1));
+    plan.reserve("voxels that come into view (estimated)",
+                 2 * uints(voxels) + 2 * uints(kSidesPerVoxel * voxels) + uints(1));
 }
 
 void SeenVoxels::prepare(PassSetup& setup) {
@@ -41,43 +41,43 @@ void SeenVoxels::prepare(PassSetup& setup) {
     sampler_ = texelSampler(setup.device);
 }
 
-void SeenVoxels::reset(PassContext& context, const SurfaceVoxels& voxels) {
-    if (!asked_ || asked_.bytes() != uints(voxels.voxelCount)) {
-        asked_ = {};
-        asked_ = Buffer(context.device, "voxels that were seen", uints(voxels.voxelCount));
-    }
+void SeenVoxels::reset(PassContext& context, const SurfaceVoxels& voxels, const VoxelPatches& patches) {
+    const auto make = [&](Buffer& buffer, const char* name, uint64_t count) {
+        makeOrKeep(buffer, context.device, name, uints(count));
+    };
+    make(asked_, "voxels that were seen", voxels.voxelCount);
+    make(found_, "voxels that come into view", voxels.voxelCount);
+    make(listed_, "sides that come into view", patches.sideCount);
+    make(reached_, "sides that were reached", patches.sideCount);
+    make(count_, "how many come into view", 1);
     context.stream.fill(asked_, 0);
 }
 
 SeenVoxels::Found SeenVoxels::find(PassContext& context, const GBuffer& gbuffer, const SurfaceVoxels& voxels,
-                                   const VoxelPatches& patches, uint32_t steps) const {
+                                   const VoxelPatches& patches, uint32_t reach, uint32_t steps) const {
     CommandStream& stream = context.stream;
     Found found;
-    found.voxels = Buffer(context.device, "voxels that come into view", uints(voxels.voxelCount));
-    const Buffer count(context.device, "how many come into view", uints(1));
-    const auto counted = [&] { return stream.readAs<uint32_t>(count, 1)[0]; };
-    stream.fill(count, 0);
+    const auto counted = [&] { return stream.readAs<uint32_t>(count_, 1)[0]; };
+    stream.fill(count_, 0);
     const glm::uvec2 texels = gbufferExtent(context.frame, gbuffer.samples);
     stream.dispatch(mark_,
                     voxels.bindings({{"position", gbuffer.position, sampler_},
                                      {"asked", asked_},
-                                     {"found", found.voxels},
-                                     {"count", count}}),
-                    MarkPush{voxels.grid, texels}, pixelGroups(texels.x, texels.y));
+                                     {"found", found_},
+                                     {"count", count_}}),
+                    MarkPush{voxels.grid, texels, int32_t(reach)}, pixelGroups(texels.x, texels.y));
     found.voxelCount = counted();
     if (found.voxelCount == 0) return found;
 
-    found.sides = Buffer(context.device, "sides that come into view", uints(patches.sideCount));
-    const Buffer reached(context.device, "sides that were reached", uints(patches.sideCount));
-    stream.fill(count, 0);
-    stream.fill(reached, 0);
+    stream.fill(count_, 0);
+    stream.fill(reached_, 0);
     stream.dispatch(listSides_,
-                    {{"found", found.voxels},
+                    {{"found", found_},
                      {"firstSide", patches.firstSide},
                      {"sides", patches.sides},
-                     {"reached", reached},
-                     {"listed", found.sides},
-                     {"count", count}},
+                     {"reached", reached_},
+                     {"listed", listed_},
+                     {"count", count_}},
                     found.voxelCount, linearGroups(found.voxelCount));
     found.sidesWithin = {counted()};
     uint32_t first = 0;
@@ -86,9 +86,9 @@ SeenVoxels::Found SeenVoxels::find(PassContext& context, const GBuffer& gbuffer,
         stream.dispatch(spread_,
                         {{"firstNeighbour", patches.firstNeighbour},
                          {"NeighboursAt", patches.neighbours.at()},
-                         {"reached", reached},
-                         {"listed", found.sides},
-                         {"count", count}},
+                         {"reached", reached_},
+                         {"listed", listed_},
+                         {"count", count_}},
                         SpreadPush{first, end - first}, linearGroups(end - first));
         found.sidesWithin.push_back(counted());
         first = end;

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "tests/physics/cluster_graph.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -207,6 +208,27 @@ TEST(GatherClusters, OfSeenVoxelsShowWhatThoseOfAllShow) {
     EXPECT_EQ(found(), first);
     expectTheSame("in other light");
     std::printf("%.0f of %.0f voxels came into view, then %.0f\n", first, voxels, second);
+    // Buffers stay from frame to frame: what is read back of counts is all that it takes besides
+    const std::vector<Graph::PassInfo> passes = seen->graph().passes();
+    const auto pass = std::ranges::find(passes, "gather_clusters", &Graph::PassInfo::id);
+    EXPECT_LT(seen->graph().memory().at(size_t(pass - passes.begin())).scratchBytes, 64u << 10);
+}
+
+TEST(GatherClusters, OfSeenVoxelsReachAsFarAsTheLookup) {
+    // Lookups double their radius twice where little surface is near; seven_tap looks one voxel further.
+    for (const auto& [lookup, reach] :
+         {std::pair<std::string, int>{"radius: 2", 8}, {"radius: 0.7", 3}, {"lookup: seven_tap", 5}}) {
+        const auto image = [&](const std::string& update) {
+            std::vector<std::string> graph = clusterGraph("rays_per_light: 65536, bounces: 0", "target: 200",
+                                                          "rays: 16", "0", update, "32");
+            graph.back() += ", " + lookup;
+            return Chain("cornell", "{lights: point}", graphYaml(graph), 24, 24).image("indirect").data;
+        };
+        const auto seen = [&](int voxels) { return image("update: seen, reach: " + std::to_string(voxels)); };
+        EXPECT_EQ(seen(reach), image("update: all")) << lookup;
+        EXPECT_CONTAINS(errorOf([&] { seen(reach - 1); }),
+                        "set the 'reach' of gather_clusters to " + std::to_string(reach));
+    }
 }
 
 TEST(GatherClusters, AgreeWithTheReferenceOnCornell) {

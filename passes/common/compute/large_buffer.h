@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <string>
 
 #include "vulkan/memory.h"
@@ -24,5 +25,14 @@ class LargeBuffer : public Buffer {
  private:
     Buffer at_;
 };
+
+/// Makes a buffer of so many bytes, or keeps the one that is there where it has as many; another one goes
+/// first. Its content is undefined.
+template <std::derived_from<Buffer> T>
+void makeOrKeep(T& buffer, Device& device, const std::string& name, uint64_t bytes) {
+    if (buffer && buffer.bytes() == bytes) return;
+    buffer = {};
+    buffer = T(device, name, bytes);
+}
 
 }  // namespace voxray

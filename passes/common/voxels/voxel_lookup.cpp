@@ -1,5 +1,8 @@
 #include "passes/common/voxels/voxel_lookup.h"
 
+#include <cmath>
+
+#include "base/error.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/view/frame_image.h"
 
@@ -22,7 +25,22 @@ void VoxelLookupPass::declare(PassBuilder& builder) {
     reflected_ = builder.write<FrameImage>(portName_, portHelp_);
 }
 
+uint32_t VoxelLookupPass::reach() const {
+    const float radius = params_.lookup == VoxelLookup::BilinearFace ? 1.0f : params_.radius;
+    const uint32_t tap = params_.lookup == VoxelLookup::SevenTap ? 1 : 0;
+    // Of voxels whose centers are nearer than the radius, which voxel_irradiance.glsl doubles twice, to a
+    // point anywhere in its own
+    return uint32_t(std::ceil(4 * radius + 0.5f)) - 1 + tap;
+}
+
 void VoxelLookupPass::plan(PassPlan& plan) {
+    const std::optional<uint32_t> known = plan.get(irradiance_).reach;
+    if (known && *known < reach())
+        throw Error(
+            "the lookup reads voxels up to {} from what the camera sees, and light is gathered for those up "
+            "to "
+            "{}; set the 'reach' of gather_clusters to {}",
+            reach(), *known, reach());
     if (flux_ == &VoxelIrradiance::indirect)
         plan.get(reflected_).lightBounces = plan.get(irradiance_).lightBounces;
     plan.image(plan.get(reflected_).image, portName_, frameImageDesc(plan.frame));

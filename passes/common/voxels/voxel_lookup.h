@@ -50,6 +50,9 @@ class VoxelLookupPass : public Pass {
         : params_(params), portName_(std::move(port)), portHelp_(std::move(help)), flux_(flux) {}
 
  private:
+    /// Voxels along each axis round that of a point that are read for it, at most.
+    uint32_t reach() const;
+
     Params params_;
     std::string portName_, portHelp_;
     LargeBuffer VoxelIrradiance::*flux_;

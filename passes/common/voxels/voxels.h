@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "graph/pass.h"
@@ -62,6 +63,9 @@ struct VoxelIrradiance : Resource {
     LargeBuffer indirect;  ///< W, after one bounce or more; likewise.
     Buffer area;           ///< In units of a voxel's face: kAreaWords a voxel.
     uint64_t version = 0;  ///< Another one whenever the light has been measured again.
+    /// Of voxels that lie as many along each axis round what the camera sees alone; nullopt: of all. Set in
+    /// plan().
+    std::optional<uint32_t> reach;
 
     static uint64_t bytes(uint32_t voxelCount) {
         return uint64_t(voxelCount) * (2 * kFluxWords + kAreaWords) * sizeof(uint32_t);
