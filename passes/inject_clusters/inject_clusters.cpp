@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/compute/random_seed.h"
 
@@ -33,6 +34,7 @@ void InjectClusters::declare(PassBuilder& builder) {
         irradiance_ = builder.read<VoxelIrradiance>("irradiance", "light that arrives at voxels' surfaces");
     else
         surfels_ = builder.read<Surfels>("surfels", "points where irradiance is measured");
+    if (testsPoints()) clusters_ = builder.read<VoxelClusters>("clusters", "where voxels are");
     patches_ = builder.read<VoxelPatches>("patches", "surfaces by the open space that they look into");
     visibility_ = builder.read<ClusterVisibility>("cluster_visibility", "which clusters each patch sees");
     light_ = builder.write<ClusterLight>("cluster_light", "what clusters send");
@@ -51,9 +53,19 @@ void InjectClusters::plan(PassPlan& plan) {
     }
     plan.get(light_).lightBounces = params_.bounces;
     sources_ = requireLightSources(*plan.frame.scene, kName);
-    surfelLight_.plan(plan, Surfels::kChunk);
-    plan.scratchBuffer(direct_, "direct irradiance of surfels", Surfels::kChunk * kIrradianceBytes);
     plan.reserveScratch("irradiance of surfels (estimated)", plan.get(surfels_).maxCount * sizeof(glm::vec3));
+    if (!testsPoints()) {
+        surfelLight_.plan(plan, Surfels::kChunk);
+        plan.scratchBuffer(direct_, "direct irradiance of surfels", Surfels::kChunk * kIrradianceBytes);
+        return;
+    }
+    if (std::ranges::any_of(sources_, [](const LightSource& s) { return s.kind != LightSource::Punctual; }))
+        throw Error(
+            "{}: 'lit_test: points' looks for lights that are points or directions, and the scene has "
+            "emissive "
+            "surfaces or an environment; set 'lit_test: surfels'",
+            kName);
+    litPoints_.plan(plan);
 }
 
 void InjectClusters::prepare(PassSetup& setup) {
@@ -66,8 +78,12 @@ void InjectClusters::prepare(PassSetup& setup) {
     if (params_.direct == ClusterDirect::Injected) {
         injected_ = program("injected");
     } else {
-        surfelLight_.prepare(setup);
-        place_ = program("place");
+        if (testsPoints()) {
+            litPoints_.prepare(setup);
+        } else {
+            surfelLight_.prepare(setup);
+            place_ = program("place");
+        }
         mean_ = program("mean");
     }
     reflectSides_ = program("reflect");
@@ -86,10 +102,7 @@ void InjectClusters::record(PassContext& context) {
     ClusterLight& light = context.get(light_);
     ++light.version;
     const auto make = [&](auto& buffer, const char* name, uint64_t count) {
-        const uint64_t bytes = ClusterLight::bytes(count);
-        if (buffer && buffer.bytes() == bytes) return;
-        buffer = {};
-        buffer = std::remove_reference_t<decltype(buffer)>(context.device, name, bytes);
+        makeOrKeep(buffer, context.device, name, ClusterLight::bytes(count));
     };
     make(light.parts, "radiosity of parts", uint64_t(kFaces) * patches.partCount);
     make(light.patches, "radiosity of patches", patches.patchCount);
@@ -134,15 +147,12 @@ void InjectClusters::measure(PassContext& context, const ClusterLight& light) {
     CommandStream& stream = context.stream;
     const LargeBuffer ofSurfels(context.device, "irradiance of surfels",
                                 std::max(patches.surfelCount, 1u) * sizeof(glm::vec3));
-    const uint32_t seed = randomSeed(context.frame, context.frameIndex);
-    uint32_t first = 0;
-    for (const Surfels::Chunk& chunk : context.get(surfels_).chunks) {
-        surfelLight_.measure(context, sources_, chunk.surfels, chunk.count, params_.lightSamples, seed,
-                             direct_);
-        stream.dispatch(
-            place_, {{"direct", direct_}, {"PlacesAt", patches.places.at()}, {"PlacedAt", ofSurfels.at()}},
-            PlacePush{chunk.count, first}, linearGroups(chunk.count));
-        first += chunk.count;
+    if (testsPoints()) {
+        stream.fill(ofSurfels, 0);
+        litPoints_.measure(context, sources_, context.get(voxels_), context.get(clusters_), patches,
+                           ofSurfels);
+    } else {
+        traceSurfels(context, ofSurfels);
     }
     stream.dispatch(mean_,
                     {{"sides", patches.sides},
@@ -152,6 +162,20 @@ void InjectClusters::measure(PassContext& context, const ClusterLight& light) {
                     patches.sideCount, linearGroups(patches.sideCount));
     stream.copy(light.direct, arriving_, light.direct.bytes());
     stream.finish();
+}
+
+void InjectClusters::traceSurfels(PassContext& context, const LargeBuffer& ofSurfels) {
+    const VoxelPatches& patches = context.get(patches_);
+    const uint32_t seed = randomSeed(context.frame, context.frameIndex);
+    uint32_t first = 0;
+    for (const Surfels::Chunk& chunk : context.get(surfels_).chunks) {
+        surfelLight_.measure(context, sources_, chunk.surfels, chunk.count, params_.lightSamples, seed,
+                             direct_);
+        context.stream.dispatch(
+            place_, {{"direct", direct_}, {"PlacesAt", patches.places.at()}, {"PlacedAt", ofSurfels.at()}},
+            PlacePush{chunk.count, first}, linearGroups(chunk.count));
+        first += chunk.count;
+    }
 }
 
 void InjectClusters::reflect(PassContext& context, bool hasBounced) {

@@ -9,6 +9,7 @@
 #include "passes/common/lights/light_sources.h"
 #include "passes/common/surfels/surfel_light.h"
 #include "passes/common/surfels/surfels.h"
+#include "passes/inject_clusters/lit_points.h"
 
 namespace voxray {
 
@@ -18,6 +19,14 @@ template <>
 struct EnumNames<ClusterDirect> {
     static constexpr std::array names{std::pair{ClusterDirect::Injected, "injected"},
                                       std::pair{ClusterDirect::ShadowRays, "shadow_rays"}};
+};
+
+/// What tells whether a surface sees a light.
+enum class LitTest { Surfels, Points };
+template <>
+struct EnumNames<LitTest> {
+    static constexpr std::array names{std::pair{LitTest::Surfels, "surfels"},
+                                      std::pair{LitTest::Points, "points"}};
 };
 
 /// Light of voxels, summed up to what their clusters send, and bounced from face to face by the lists of what
@@ -34,6 +43,7 @@ class InjectClusters final : public Pass {
     struct Params {
         uint32_t bounces = 0;
         ClusterDirect direct = ClusterDirect::Injected;
+        LitTest litTest = LitTest::Surfels;
         uint32_t lightSamples = 4;
         static constexpr auto schema() {
             return std::tuple{
@@ -44,6 +54,13 @@ class InjectClusters final : public Pass {
                 field("direct", &Params::direct,
                       "injected: the light that an injection left in the voxels. shadow_rays: direct light "
                       "of the surfels (place_surfels) by rays to the lights, without an injection."),
+                field(
+                    "lit_test", &Params::litTest,
+                    "surfels: each surfel is lit where its own shadow ray arrives. points: all surfels of a "
+                    "voxel are where a light sees one of 18 points 1.5 voxels round its center and no "
+                    "surface in the next voxel towards the light looks away from it (the paper's); for "
+                    "punctual lights.")
+                    .onlyWith(oneOf(&Params::direct, {ClusterDirect::ShadowRays})),
                 field("light_samples", &Params::lightSamples,
                       "Shadow rays from each surfel to the emissive surfaces, and to the environment.", 1u,
                       256u)
@@ -58,9 +75,14 @@ class InjectClusters final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    bool testsPoints() const {
+        return params_.direct == ClusterDirect::ShadowRays && params_.litTest == LitTest::Points;
+    }
     /// Direct light of each patch, and all that arrives before the first bounce in arriving_.
     void readInjected(PassContext& context, const ClusterLight& light);
     void measure(PassContext& context, const ClusterLight& light);
+    /// Irradiance of the surfels of each side, by their shadow rays.
+    void traceSurfels(PassContext& context, const LargeBuffer& ofSurfels);
     /// What is sent of arriving_ and of what has bounced so far.
     void reflect(PassContext& context, bool hasBounced);
 
@@ -68,11 +90,13 @@ class InjectClusters final : public Pass {
     Port<const SurfaceVoxels> voxels_;
     Port<const VoxelIrradiance> irradiance_;
     Port<const Surfels> surfels_;
+    Port<const VoxelClusters> clusters_;
     Port<const VoxelPatches> patches_;
     Port<const ClusterVisibility> visibility_;
     Port<ClusterLight> light_;
     std::vector<LightSource> sources_;
     SurfelLight surfelLight_;
+    LitPoints litPoints_;
     ClusterGather gather_;
     Program injected_, place_, mean_, reflectSides_, sumParts_;
     LargeBuffer arriving_, bounced_;
