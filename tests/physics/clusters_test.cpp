@@ -211,9 +211,12 @@ TEST(ClusterVisibility, DoNotLeakThroughWallsThinnerThanAVoxel) {
         std::printf("near %s: %.5f inside of what is outside\n", near.c_str(), leak);
         EXPECT_LT(leak, 0.01);
     }
-    // What injected light and rays through voxels do there.
+    // What injected light, rays through voxels and points round voxels do there.
     EXPECT_GT(leakIntoARoom("exact", "injected", "4"), 0.01);
     EXPECT_GT(leakIntoARoom("voxels", "shadow_rays", "4"), 0.01);
+    const double byPoints = leakIntoARoom("exact", "shadow_rays, lit_test: points", "4");
+    std::printf("points round voxels: %.5f\n", byPoints);
+    EXPECT_GT(byPoints, 0.01);
 }
 
 TEST(ClusterVisibility, LookAlongTheNormalOfEachWallOfACorner) {

@@ -234,13 +234,18 @@ TEST(GatherClusters, OfSeenVoxelsReachAsFarAsTheLookup) {
 TEST(GatherClusters, AgreeWithTheReferenceOnCornell) {
     Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 512, bounces: 3"}));
     const double expected = mean(reference.image("indirect"));
-    for (const std::string visibility : {"voxels", "exact", "bresenham"}) {
-        Chain chain("cornell", "{lights: point}",
-                    graphYaml(clusterGraph(kDirect, "target: 800", "rays: 128, visibility: " + visibility,
-                                           "2", "filter_passes: 2, filter_size: 3", "48")));
+    for (const auto& [visibility, direct] : {std::pair<std::string, std::string>{"voxels", "injected"},
+                                             {"exact", "injected"},
+                                             {"bresenham", "injected"},
+                                             {"exact", "shadow_rays"},
+                                             {"exact", "shadow_rays, lit_test: points"}}) {
+        Chain chain(
+            "cornell", "{lights: point}",
+            graphYaml(clusterGraph(kDirect, "target: 800", "rays: 128, visibility: " + visibility,
+                                   "2, direct: " + direct, "filter_passes: 2, filter_size: 3", "48")));
         const double ratio = mean(chain.image("indirect")) / expected;
-        std::printf("%s: %.4f of the reference\n", visibility.c_str(), ratio);
-        EXPECT_NEAR(ratio, 1, 0.05) << visibility;
+        std::printf("%s, %s: %.4f of the reference\n", visibility.c_str(), direct.c_str(), ratio);
+        EXPECT_NEAR(ratio, 1, 0.05) << visibility << direct;
     }
 }
 
