@@ -10,7 +10,8 @@ add_library(sanitized_readers OBJECT
   ${SCENE}/gltf_check.cpp ${SCENE}/gltf_file.cpp ${SCENE}/gltf_material.cpp ${SCENE}/gltf_mesh.cpp
   ${SCENE}/gltf_nodes.cpp ${SCENE}/load.cpp ${SCENE}/mesh_repair.cpp ${SCENE}/tiny_gltf.cpp
   ${CONFIG}/config.cpp ${CONFIG}/measure_settings.cpp ${CONFIG}/overrides.cpp ${CONFIG}/scene_additions.cpp
-  ${CONFIG}/scene_settings.cpp ${CONFIG}/sweep.cpp ${CONFIG}/value_labels.cpp ${CONFIG}/yaml.cpp ${CONFIG}/yaml_faults.cpp)
+  ${CONFIG}/scene_settings.cpp ${CONFIG}/sweep.cpp ${CONFIG}/value_labels.cpp ${CONFIG}/yaml.cpp
+  ${CONFIG}/yaml_faults.cpp)
 target_link_libraries(sanitized_readers PRIVATE voxray_options fmt::fmt glm::glm TBB::tbb Vulkan::Headers
   nlohmann_json::nlohmann_json yaml-cpp PkgConfig::XXHASH)
 # Not optimized: the compiler takes longer than the test.
