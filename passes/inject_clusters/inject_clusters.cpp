@@ -34,7 +34,8 @@ void InjectClusters::declare(PassBuilder& builder) {
         irradiance_ = builder.read<VoxelIrradiance>("irradiance", "light that arrives at voxels' surfaces");
     else
         surfels_ = builder.read<Surfels>("surfels", "points where irradiance is measured");
-    if (testsPoints()) clusters_ = builder.read<VoxelClusters>("clusters", "where voxels are");
+    if (params_.litTest == LitTest::Points)
+        clusters_ = builder.read<VoxelClusters>("clusters", "where voxels are");
     patches_ = builder.read<VoxelPatches>("patches", "surfaces by the open space that they look into");
     visibility_ = builder.read<ClusterVisibility>("cluster_visibility", "which clusters each patch sees");
     light_ = builder.write<ClusterLight>("cluster_light", "what clusters send");
