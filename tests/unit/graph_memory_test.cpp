@@ -150,7 +150,6 @@ TEST_F(GraphMemory, WhatIsTakenBeyondThemNamesThePass) {
     expectError("reserve_scratch: 1024, record_kept: 1024", 1024, "kept", 0);
 }
 
-<<<<<<< HEAD
 TEST_F(GraphMemory, WhatIsTooLargeNamesThePassAndWhatToLower) {
     Registry registry;
     registry.add<Hoard>();
@@ -184,7 +183,8 @@ TEST_F(GraphMemory, WhatIsTooLargeNamesThePassAndWhatToLower) {
     EXPECT_EQ(made.find("g.yaml:3: greedy: 'kept' needs 8.0 MiB"), 0u) << made;
     EXPECT_NE(made.find(": " + advice), std::string::npos) << made;
     stream_.discard();
-=======
+}
+
 TEST_F(GraphMemory, WhatIsCountedMayTakeWhatTheLimitLeaves) {
     const uint64_t limit = (2 * 256 + 1024 + 512) * kKiB;  // What is described and reserved, and 512 KiB.
     EXPECT_EQ(run("reserve_counted: 1024, record_kept: 1536", limit).bytes, (256 + 1536) * kKiB);
@@ -195,7 +195,6 @@ TEST_F(GraphMemory, WhatIsCountedMayTakeWhatTheLimitLeaves) {
     // Not for what is reserved otherwise.
     EXPECT_NE(errorOf("reserve_kept: 1024, record_kept: 1536", limit).find("takes 1572864 bytes"),
               std::string::npos);
->>>>>>> b7e3d8f (Lists of what patches see may outgrow what is expected, within the memory limit)
 }
 
 TEST(PlanMemo, AsksASceneOnceForAllItsVariants) {
