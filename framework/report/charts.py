@@ -14,6 +14,7 @@ from report.names import Names
 from report.style import Style
 from report.svg import FONT_SIZE, STAND_INS, drawing, to_svg
 
+_MAX_COVERED = 0.1  # of a label, by others
 _SIDES = ((1, 0), (1, 1), (-1, -1), (1, -1), (-1, 0), (-1, 1), (0, 1), (0, -1))  # of a point, the best first
 
 
@@ -37,6 +38,7 @@ class Chart:
     svg: str
     caption: str
     not_drawn: list[str]
+    unlabelled: int  # points whose label would lie on another one
 
 
 def cost_error_chart(results: Results, metric: Metric, light: str, with_build: bool, styles: dict[str, Style],
@@ -69,10 +71,10 @@ def cost_error_chart(results: Results, metric: Metric, light: str, with_build: b
         _draw_levels(axes, levels)
         _draw_curves(axes, points, curves, styles)
         front = _draw_points(axes, points, styles, chart_id)
-        _place_labels(axes, points, front, levels)
+        unlabelled = _place_labels(axes, points, front, levels)
         titles = [f"{names.full(p.name)}: {p.cost:.3g} ms, {p.error:.3g}" for p in points]
         svg = to_svg(figure, chart_id, caption, titles)
-    return Chart(svg, caption, not_drawn)
+    return Chart(svg, caption, not_drawn, unlabelled)
 
 
 def _points(results, column, with_build, labels, anchors) -> tuple[list[Point], list[str]]:
@@ -145,8 +147,9 @@ def _draw_points(axes, points: list[Point], styles: dict[str, Style], chart_id: 
     return front
 
 
-def _place_labels(axes, points: list[Point], front: list[Point], levels) -> None:
-    # Each label takes the side of its point where it covers least of what is drawn already.
+def _place_labels(axes, points: list[Point], front: list[Point], levels) -> int:
+    """Each label takes the side of its point where it covers least of what is drawn already. @return how many were left
+    out, since they would lie on others."""
     frame = axes.get_window_extent()
     centers = [axes.transData.transform((p.cost, p.error)) for p in points]
     taken = [_Box(x - 5, y - 5, x + 5, y + 5) for x, y in centers]
@@ -157,6 +160,7 @@ def _place_labels(axes, points: list[Point], front: list[Point], levels) -> None
     steps = [axes.transData.transform((p.cost, p.most)) for p in front]
     for (x0, y0), (x1, y1) in zip(steps, steps[1:]):
         taken += [_Box(x0, y0 - 2, x1, y0 + 2), _Box(x1 - 2, y1, x1 + 2, y0)]
+    labels: list[_Box] = []
     for point, (x, y) in zip(points, centers):
         width, height = 0.56 * FONT_SIZE * len(point.label), FONT_SIZE
         best, best_cost = None, math.inf
@@ -169,9 +173,13 @@ def _place_labels(axes, points: list[Point], front: list[Point], levels) -> None
             cost = sum(box.overlap(other) for other in taken) + 4 * outside + 0.5 * preference
             if cost < best_cost:
                 best, best_cost = box, cost
+        if sum(best.overlap(label) for label in labels) > _MAX_COVERED * best.area():
+            continue
         taken.append(best)
+        labels.append(best)
         axes.annotate(point.label, (best.x0, best.y0), xycoords="figure pixels", color=STAND_INS["fg"],
                       fontsize=FONT_SIZE, va="bottom", annotation_clip=False)
+    return len(points) - len(labels)
 
 
 @dataclass(frozen=True)

@@ -53,14 +53,23 @@ class SpeedUp:
 
     @property
     def bound(self) -> str:
-        """"more than " where path tracing does not reach the error at all."""
-        return "more than " if self.reached.bound else ""
+        """"more than " where path tracing does not reach the error at all, "at most " where all of it has less."""
+        return {"": "", ">": "more than ", "<": "at most "}[self.reached.bound]
+
+    @property
+    def is_faster(self) -> bool:
+        return self.reached.bound != "<" and self.factor > 1
+
+    @property
+    def is_open(self) -> bool:
+        """Whether a bound leaves open which of the two is faster."""
+        return self.reached.bound == ("<" if self.factor > 1 else ">")
 
 
 def speed_up(results: Results, light: str, metric: Metric, families: list[Family]) -> SpeedUp | None:
-    """Of the methods next to path tracing, the one that saves most time at equal error; None where the run has no
-    path-traced family or no method that is faster at its error. `results` are of one scene and reference: others don't
-    compare."""
+    """Of the methods next to path tracing, the one that saves most time at equal error. Where none saves any, one of which
+    that is open; where it is of none, the one that loses least. None where the run has no path-traced family or nothing
+    next to it. `results` are of one scene and reference: others don't compare."""
     column = LIGHTS[light] + metric.key
     rows = results.ok.set_index("variant", drop=False)
     usable = {name for name in rows.index if rows.loc[name, "frame_ms_median"] > 0 and rows.loc[name, column] > 0}
@@ -68,27 +77,33 @@ def speed_up(results: Results, light: str, metric: Metric, families: list[Family
     traced = {name for family in rivals for name in family.variants}
     curves = [(family, [(rows.loc[name, "frame_ms_median"], rows.loc[name, column])
                         for name in family.variants if name in usable]) for family in rivals]
-    best, best_factor = None, 1.0
-    for name in rows.index:
+    found = []
+    for name in rows.index if rivals else ():
         if name in traced or name not in usable or beaten_by(results, metric, column, rows.loc[name]):
             continue
         ms = rows.loc[name, "frame_ms_median"]
-        rival, reached = _fastest(rows.loc[name, column], curves)
-        if rival and reached.bound != "<" and reached.milliseconds / ms > best_factor:
-            best, best_factor = (name, ms, rival, reached), reached.milliseconds / ms
-    return SpeedUp(*best, _ends(rows.loc[best[0]], column, best[1], curves)) if best else None
+        found.append(SpeedUp(name, ms, *_fastest(rows.loc[name, column], curves), _ends(rows.loc[name], column, ms, curves)))
+    return max(found, key=lambda entry: (entry.is_faster, entry.is_open, entry.factor), default=None)
 
 
 def sentence(found: SpeedUp, results: Results, light: str, metric: Metric, names: Names) -> str:
-    """What a frame of the faster method and of the fastest path-traced family take, and the build of the method."""
+    """What a frame of the method and of the fastest path-traced family take, and the build of a method that is faster."""
+    head = f"At equal {metric.label} of the {light} light"
+    ms, rival_ms = text.figures(found.ms), text.figures(found.reached.milliseconds)
+    if found.is_open:
+        of, has = ("fastest", "less") if found.bound == "at most " else ("slowest", "more")
+        return (f"{head} it is open whether path tracing is faster than {names.full(found.variant)}, {ms} ms a frame: the {of} "
+                f"variant of {found.rival.name} takes {rival_ms} ms and has {has} error.")
+    if not found.is_faster:
+        return (f"{head} path tracing is as fast as all other methods or faster: a frame of {names.full(found.variant)} takes "
+                f"{ms} ms, one of {found.rival.name} {found.bound}{rival_ms} ms.")
     who, short = f"one of {found.rival.name}", ""
     if found.bound:
         who, short = "path tracing", " (all its variants have a higher error)"
     build = results.ok.set_index("variant").loc[found.variant, "build_ms"]
     apart = f". Its build, once for each scene or light, takes {text.figures(build)} ms more" if build > 0 else ""
     within = f" ({text.span(*found.ends)} within the error's interval)" if found.ends else ""
-    return (f"At equal {metric.label} of the {light} light: a frame of {names.full(found.variant)} takes "
-            f"{text.figures(found.ms)} ms, {who} {found.bound}{text.figures(found.reached.milliseconds)} ms: {found.bound}"
+    return (f"{head}: a frame of {names.full(found.variant)} takes {ms} ms, {who} {found.bound}{rival_ms} ms: {found.bound}"
             f"{text.figures(found.factor, 2)} times as long{short}{within}{apart}.")
 
 

@@ -82,6 +82,12 @@ class Results:
         """The variants that finished."""
         return self.variants[self.variants["status"] == "ok"]
 
+    @property
+    def missing(self) -> list[str]:
+        """The variants that the manifest plans and that have no row, in its order."""
+        known = set(self.variants["variant"])
+        return [name for name in section(self.manifest, "variants") if name not in known]
+
     def lights(self) -> list[str]:
         """Which of "total" and "indirect" have any score or image, always with "total"."""
         def present(light: str) -> bool:

@@ -20,10 +20,12 @@ class Family:
 
 @dataclass(frozen=True)
 class Names:
-    """For each variant its number in the table, and its short name."""
+    """For each variant its number in the table, and its short name. `tell_values`: short names consist of the values that
+    the sweep varied."""
 
     numbers: dict[str, str]
     short: dict[str, str]
+    tell_values: bool = False
 
     def full(self, variant: str) -> str:
         """Number and short name, as sentences call it."""
@@ -49,9 +51,10 @@ def names_of(results: Results) -> Names:
     variants = list(results.variants["variant"])
     keys = [key for key in results.sweep_keys if results.variants[key].nunique() > 1]
     short = {row["variant"]: _short(results, row, keys) for _, row in results.variants.iterrows()}
-    if len(set(short.values())) < len(variants) or "" in short.values():
+    tell_values = len(set(short.values())) == len(variants) and "" not in short.values()
+    if not tell_values:
         short = {name: name for name in variants}
-    return Names({name: str(i) for i, name in enumerate(variants, 1)}, short)
+    return Names({name: str(i) for i, name in enumerate(variants, 1)}, short, tell_values)
 
 
 def families_of(results: Results, names: Names) -> list[Family]:

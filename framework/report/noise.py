@@ -25,8 +25,10 @@ def sentences(results: Results, light: str, names: Names) -> list[str]:
     noisy = [name for name in bias.index if noise[name] > bias[name]]
     if not noisy:
         return ["Bias is the larger part of every variant's error: more rays don't lower it."]
-    rest = "; of the others it is bias, which more rays don't lower" if len(noisy) < int(bias.notna().sum()) else ""
-    return [f"Noise is the larger part of the error of {names.listed(noisy)}{rest}. {_advice(results, light, noisy)}"]
+    said = f"Noise is the larger part of the error of {names.listed(noisy)}{_advice(results, light, noisy)}"
+    if len(noisy) < int(bias.notna().sum()):
+        said += " Bias is the larger part of the others' error: more rays don't lower it."
+    return [said]
 
 
 def parameters_of(results: Results, light: str, variant: str) -> list[str]:
@@ -42,8 +44,8 @@ def _advice(results: Results, light: str, noisy: list[str]) -> str:
         for path in parameters_of(results, light, variant):
             values.setdefault(path, []).append(_value(results, variant, path))
     if not values:
-        return "./voxray passes PASS says what makes a pass noisy."
-    return f"It falls where these are larger: {', '.join(_with_values(*entry) for entry in values.items())}."
+        return ". ./voxray passes PASS says what makes a pass noisy."
+    return f"; it falls as these rise: {', '.join(_with_values(*entry) for entry in values.items())}."
 
 
 def _value(results: Results, variant: str, path: str):

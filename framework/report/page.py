@@ -14,7 +14,7 @@ from report import bars, charts, images, parts, style, table, text, values
 from report.load import IMAGES, LIGHTS, Metric, ReportError, Results, section
 from report.names import families_of, names_of
 from report.setting import setting_of
-from report.summary import summary
+from report.summary import summary, unfinished
 
 _HERE = Path(__file__).parent
 _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's row numbers
@@ -68,7 +68,7 @@ def render(results: Results) -> str:
     anchors = {name: f"variant-{number}" for name, number in names.numbers.items()}
     styles, legends, curves = style.variant_styles(results, families)
     colors = style.pass_colors(results)
-    columns = table.columns_of(results, lights)
+    columns = table.columns_of(results, lights, names)
     chart_groups, not_drawn = _charts(results, lights, styles, names, anchors, curves)
     variants = [_variant(results, row, lights, colors, names, anchors, warnings)
                 for _, row in results.variants.iterrows()]
@@ -77,13 +77,13 @@ def render(results: Results) -> str:
     environment.filters["breakable"] = text.breakable
     return environment.get_template("template.html.j2").render(
         title=_title(results), setting=setting_of(results), lights=lights, light=lights[-1],
-        is_finished=bool(results.manifest.get("finished")) or not results.manifest,
+        unfinished=unfinished(results),
         summaries={light: summary(results, light, families, names) for light in lights},
         columns=columns, metrics=[*results.metrics, *_split(results, columns)],
         rows=table.variant_rows(results, columns, names, anchors),
         baselines=table.baseline_rows(results, columns), noises=table.noise_rows(results, columns),
         charts=chart_groups, not_drawn=not_drawn, legends=legends, markers=style.MARKERS, pass_colors=colors,
-        joined=bool(curves),
+        joined=bool(curves), unlabelled=any(chart.unlabelled for group in chart_groups for chart in group["charts"]),
         thumbnails=_thumbnails(results, lights, variants),
         regions=parts.regions(results, lights, names, anchors,
                               lambda folder, name: _picture(results, folder, name, images.embed, warnings)),

@@ -11,6 +11,7 @@ from report.names import Family, Names, families_of, names_of
 from report.ranking import beaten_by, score_marks
 
 _TENTH_DB = 10.0  # a tenth of a squared error, in dB
+_MAX_MISSING = 6  # variants that are listed by name
 
 
 def summary(results: Results, light: str, families: list[Family], names: Names) -> list[str]:
@@ -23,8 +24,8 @@ def summary(results: Results, light: str, families: list[Family], names: Names) 
         return ["No variant has finished yet."]
     sentences = []
     if failed := total - finished:
-        sentences.append(f"{finished} of {_count(total, 'variant')} finished. {_count(failed, 'variant')} failed; the "
-                         "reason stands below the table.")
+        of = "" if unfinished(results) else f"{finished} of {_count(total, 'variant')} finished. "
+        sentences.append(f"{of}{_count(failed, 'variant')} failed; the reason stands below the table.")
     metric = results.metrics[0] if results.metrics else None
     compared = comparisons(results)
     if len(compared) > 1:
@@ -33,11 +34,24 @@ def summary(results: Results, light: str, families: list[Family], names: Names) 
         return sentences + _worse_than_nothing(results, light, names)
     if metric:
         sentences += _lowest_error(results, light, metric, names)
-        faster = equal_error.speed_up(results, light, metric, families)
-        sentences += [equal_error.sentence(faster, results, light, metric, names)] if faster else []
+        found = equal_error.speed_up(results, light, metric, families)
+        sentences += [equal_error.sentence(found, results, light, metric, names)] if found else []
         sentences += noise.sentences(results, light, names)
     sentences += _fastest(results, light, names)
     return sentences + _worse_than_nothing(results, light, names)
+
+
+def unfinished(results: Results) -> str:
+    """What of a run that has not ended is there and what is missing; "" of one that has."""
+    if not results.manifest or results.manifest.get("finished"):
+        return ""
+    said, missing = "The run had not ended when this page was made.", results.missing
+    if total := len(results.variants) + len(missing):
+        said += f" {len(results.ok)} of {_count(total, 'variant')} {'is' if total == 1 else 'are'} finished"
+        more = len(missing) - _MAX_MISSING
+        said += f"; missing: {', '.join(missing[:_MAX_MISSING])}" if missing else ""
+        said += f" and {more} more." if more > 0 else "."
+    return said
 
 
 def _by_scene(compared: list[tuple[str, Results]], light: str, metric, names: Names) -> list[str]:
@@ -53,10 +67,11 @@ def _by_scene(compared: list[tuple[str, Results]], light: str, metric, names: Na
         ties = _ties(results, light, metric)
         also = f" (ties with {len(ties) - 1} more)" if best in ties and len(ties) > 1 else ""
         said = f"{scene}: lowest {metric.label} {text.figures(scores[best])}, {own.full(best)}{also}."
-        faster = equal_error.speed_up(results, light, metric, families_of(results, own))
-        if faster:
-            said += (f" For the error of {own.full(faster.variant)} path tracing takes {faster.bound}"
-                     f"{text.figures(faster.factor, 2)} times as long as its {text.figures(faster.ms)} ms a frame.")
+        found = equal_error.speed_up(results, light, metric, families_of(results, own))
+        if found:
+            said += (f" For the error of {own.full(found.variant)} path tracing takes {found.bound}"
+                     f"{text.figures(found.factor, 2)} times as long as its {text.figures(found.ms)} ms a frame"
+                     f"{'' if found.is_faster or found.is_open else ', and no other method is faster'}.")
         sentences.append(said)
     if sentences and metric.meaning:
         sentences[0] = f"Of the {light} light, {sentences[0]} {metric.label}: {metric.meaning.split(';')[0]}."
@@ -80,8 +95,9 @@ def _lowest_error(results: Results, light: str, metric, names: Names) -> list[st
     explained = f" {metric.label}: {metric.meaning.split(';')[0]}." if metric.meaning else ""
     if not ties:
         return [f"Lowest {metric.label} of the {light} light: {names.full(best)}, {text.figures(scores[best])}.{explained}"]
-    found = (f"Lowest {metric.label} of the {light} light: {names.listed(ties)} tie, from "
-             f"{text.figures(scores[ties].min())} to {text.figures(scores[ties].max())}.")
+    ends = dict.fromkeys(map(text.figures, (scores[ties].min(), scores[ties].max())))
+    span = f" at {next(iter(ends))}" if len(ends) == 1 else f", from {' to '.join(ends)}"
+    found = f"Lowest {metric.label} of the {light} light: {names.listed(ties)} tie{span}."
     advice = _what_tells_apart(results, light, ties) if 2 * len(ties) > len(scores) else ""
     return [found + advice + explained]
 

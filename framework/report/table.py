@@ -69,7 +69,7 @@ class Row:
     full_name: str = ""
 
 
-def columns_of(results: Results, lights: list[str]) -> list[Column]:
+def columns_of(results: Results, lights: list[str], names: Names) -> list[Column]:
     """The columns after the number and the name, without scores that no variant and no baseline has: time, error, its
     bias and noise, and energy first, then the other scores and costs, last what the sweep varied."""
     metrics = results.metrics[:1] + results.seed_metrics
@@ -81,8 +81,10 @@ def columns_of(results: Results, lights: list[str]) -> list[Column]:
                 for key in ("device", "tracer") if results.variants[key].nunique() > 1]
     if len(results.sweep_keys) < 2:  # its values are the variants' names
         return columns
-    return columns + [Column(key, key, "varied by the sweep", align_text=not ranking.is_numeric(results.variants[key]))
-                      for key in results.sweep_keys]
+    # Numbers are there to sort by; words stand in the names
+    numeric = [key for key in results.sweep_keys if ranking.is_numeric(results.variants[key])]
+    shown = numeric if names.tell_values else results.sweep_keys
+    return columns + [Column(key, key, "varied by the sweep", align_text=key not in numeric) for key in shown]
 
 
 def score_columns(results: Results, lights: list[str], metrics: tuple[Metric, ...], region: str = "") -> list[Column]:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from report_support import NRMSE, ROOT, Page, ReportTest, made_up
 
-from report import bars, names, page, ranking, style, table
+from report import bars, charts, names, page, ranking, style, table
 from report.load import load
 from PIL import Image
 
@@ -51,7 +51,8 @@ class FullRun(unittest.TestCase):
         self.assertEqual(named.listed(list(named.numbers)), "1, 2, 3, 4, 5, 6 and 1 more")
 
     def test_the_table_begins_with_time_error_and_energy(self):
-        columns = [column.heading for column in table.columns_of(load(self.directory), ["indirect"])]
+        results = load(self.directory)
+        columns = [column.heading for column in table.columns_of(results, ["indirect"], names.names_of(results))]
         self.assertEqual([heading.split("\u00a0")[0] for heading in columns[:4]],
                          ["frame, ms", "nRMSE", "mean ratio", "relMSE"])
 
@@ -140,6 +141,41 @@ class PartOfARun(ReportTest):
         self.assertIn("No variant has finished yet", shown.text)
         self.assertIn("had not ended", shown.text)
 
+    def test_what_is_missing_of_a_run_that_was_cut_short_is_named(self):
+        rows = [made_up.variant("a", 10, 0.3), made_up.failed("b", "lost device")]
+        run = made_up.manifest([]) | {"finished": None, "variants": {name: [] for name in "abcdefghij"}}
+        shown = self.make(rows, run, images=False)
+        for words in ("had not ended when this page was made. 1 of 10 variants are finished; missing: c, d, e, f, g, h and 2 more.",
+                      "1 variant failed; the reason"):
+            self.assertIn(words, shown.text)
+        self.assertNotIn("1 of 2", shown.text)
+        run["variants"] = {"a": [], "b": [], "c": []}
+        self.assertIn("1 of 3 variants are finished; missing: c.", self.make(rows, run, images=False).text)
+        self.assertNotIn("missing: ", self.make(rows, run | {"finished": "2026-01-01T10:03:00Z"}, images=False).text)
+
+    def test_words_of_the_sweep_stand_in_names_alone(self):
+        rows = [made_up.variant(f"{n}-{word}", n, 0.3, size=n, method=word) for n in (8, 16) for word in ("a", "b")]
+        results = load(made_up.write_results(self.directory, rows, made_up.manifest(["size", "method"]), images=False))
+        named = names.names_of(results)
+        self.assertEqual([column.key for column in table.columns_of(results, [], named)][-2:], ["rays", "size"])
+        # Names that don't tell them leave them to columns.
+        named = names.Names(named.numbers, {name: name for name in named.short})
+        self.assertEqual([column.key for column in table.columns_of(results, [], named)][-2:], ["size", "method"])
+
+    def test_labels_that_would_lie_on_others_are_left_out(self):
+        def drawn(ms):
+            rows = [made_up.variant(f"variant {i}", time, 0.3) for i, time in enumerate(ms)]
+            results = load(made_up.write_results(self.directory, rows, made_up.manifest([]), images=False))
+            named, all_names = names.names_of(results), list(results.variants["variant"])
+            chart = charts.cost_error_chart(results, NRMSE, "total", False, dict.fromkeys(all_names, style.Style("c0", "o")),
+                                            named.short, dict.fromkeys(all_names, "x"), "chart", [], named)
+            return chart.unlabelled, sum(f">{name}<" in re.sub(r"<title>.*?</title>", "", chart.svg) for name in all_names)
+
+        self.assertEqual(drawn((1, 10, 100)), (0, 3))
+        left_out, labels = drawn([10 + 0.001 * i for i in range(12)])
+        self.assertGreater(left_out, 0)
+        self.assertEqual(labels, 12 - left_out)
+
     def test_zero_and_infinite_scores_are_named_not_drawn(self):
         perfect = made_up.variant("perfect", 10, 0.0)
         perfect["psnr_db"] = "inf"
@@ -180,8 +216,8 @@ class PartOfARun(ReportTest):
         run = made_up.manifest([])
         shown = self.make(rows, run, indirect=False)
         for words in ("bias\u00a0↓", "noise\u00a0↓", "0.390",
-                      "Noise is the larger part of the error of 2 (grainy) and 3 (rough); of the others it is bias",
-                      "./voxray passes PASS says what makes a pass noisy", "what noise measures"):
+                      "Noise is the larger part of the error of 2 (grainy) and 3 (rough). ./voxray passes PASS",
+                      "Bias is the larger part of the others' error: more rays don't lower it.", "./voxray passes PASS says what makes a pass noisy", "what noise measures"):
             self.assertIn(words, shown.text)
 
         # The parameters that lower it, of the noisy variants alone, with their values
@@ -193,7 +229,7 @@ class PartOfARun(ReportTest):
                       "rough": ["inject.paths_per_point", "odd.rays"]},
             "indirect": {"grainy": ["indirect.rays"]}}
         shown = self.make(rows, run, indirect=False)
-        self.assertIn("It falls where these are larger: place_surfels.points_per_voxel (now 4), "
+        self.assertIn("(rough); it falls as these rise: place_surfels.points_per_voxel (now 4), "
                       "inject.paths_per_point (now 1 to 2), odd.rays.", shown.text)
         for row in rows:
             row.update(noise_nrmse=0.01)

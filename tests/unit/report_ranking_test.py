@@ -35,6 +35,9 @@ class Comparing(ReportTest):
             noise = made_up.manifest([])["reference"] | {"psnr_db_noise": floor}
             said = self.summary(self.results(rows, reference=noise))[0]
             self.assertEqual(("voxray explain" in said, "raise reference.spp" in said), (explains, not explains), said)
+        # Ties that look alike have one number.
+        alike = [dict(row, nrmse=0.2 + 0.0001 * i) for i, row in enumerate(rows[:2])]
+        self.assertIn(": 1 (a) and 2 (b) tie at 0.200.", self.summary(self.results(alike))[0])
         # Told apart, and without intervals: one is the best.
         del rows[1]
         self.assertEqual(ranking.score_marks(self.results(rows), NRMSE, "nrmse"), {"a": "best"})
@@ -128,6 +131,23 @@ class Comparing(ReportTest):
             rows[0] |= {"nrmse": error}
             said = [s for s in self.summary(self.results(rows, sweep_keys=["method"], variants=graphs)) if "equal" in s]
             self.assertEqual([s.endswith(expected) for s in said], [True] if expected else [])
+
+        # Slower: by 0.3 in 111 ms, by the error of the fastest path in its 10 ms. Open: faster or slower than all of them.
+        def said_of(ms, error):
+            rows[0] |= {"frame_ms_median": ms, "nrmse": error}
+            results = self.results(rows, sweep_keys=["method"], variants=graphs)
+            return [said for said in self.summary(results) if "At equal" in said]
+
+        head = "At equal nRMSE of the total light "
+        slower = head + "path tracing is as fast as all other methods or faster: a frame of 1 (lookup) takes "
+        is_open = head + "it is open whether path tracing is faster than 1 (lookup), "
+        # At an error above that of every path, too, unless it is no better than a constant image (0.9)
+        for row in rows[1:]:
+            row["nrmse"] *= 0.5
+        self.assertEqual(said_of(200, 0.15), [slower + "200 ms, one of paths 111 ms."])
+        self.assertEqual(said_of(20, 0.6), [slower + "20.0 ms, one of paths at most 10.0 ms."])
+        self.assertEqual(said_of(5, 0.6), [is_open + "5.00 ms a frame: the fastest variant of paths takes 10.0 ms and has less error."])
+        self.assertEqual(said_of(400, 0.01), [is_open + "400 ms a frame: the slowest variant of paths takes 160 ms and has more error."])
 
     def test_scenes_are_told_one_by_one(self):
         # The hall is slower and harder than the room, path tracing takes 4 and 8 times as long in them.
