@@ -52,7 +52,7 @@ int explain(const ExplainArguments& arguments) {
     options.scenes = arguments.scenes;
     options.sourceRoot = sourceRoot();
     const RunSummary summary = runExperiment(plan.experiment, options, registry);
-    if (options.dryRun) return 0;
+    if (options.dryRun) return summary.exitStatus();
     if (summary.interrupted)
         fmt::print(stderr, "voxray: interrupted; finished variants are kept in {}, --resume goes on\n",
                    summary.out.string());

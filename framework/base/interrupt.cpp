@@ -1,7 +1,11 @@
 #include "base/interrupt.h"
 
+#include <unistd.h>
+
 #include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <string_view>
 
 namespace voxray {
 namespace {
@@ -20,8 +24,19 @@ void install(void (*handler)(int), int flags) {
     sigaction(SIGTERM, &action, nullptr);
 }
 
+/// Async-signal-safe. A progress line may stand there without its end.
+void say(std::string_view line) {
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
+}
+
 void onSignal(int number) {
-    if (!requested.exchange(true)) return;
+    const int error = errno;
+    if (!requested.exchange(true)) {
+        say("\nvoxray: stopping; a second Ctrl-C ends the program at once\n");
+        errno = error;
+        return;
+    }
+    say("\nvoxray: ended\n");
     if (const pid_t process = child.load(); process > 0) ::kill(process, SIGINT);
     install(SIG_DFL, 0);
     ::raise(number);

@@ -12,12 +12,12 @@ class Interrupted : public Error {
     Interrupted() : Error("interrupted") {}
 };
 
-/// Whether SIGINT or SIGTERM came while an InterruptScope lives. Long work (a reference's tiles, frames) asks
-/// now and then and throws Interrupted.
+/// Whether SIGINT or SIGTERM came while an InterruptScope lives. Long work (a reference's paths, rays on the
+/// processor, what waits for the device) asks now and then and throws Interrupted.
 bool interruptRequested();
 
 /// While it lives, SIGINT and SIGTERM set a flag instead of ending the process; a second signal ends it, and
-/// the InterruptedChild with it. One at a time.
+/// the InterruptedChild with it. Both say so on the standard error. One at a time.
 class InterruptScope {
  public:
     InterruptScope();

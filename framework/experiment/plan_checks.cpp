@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "base/interrupt.h"
 #include "config/overrides.h"
 #include "experiment/addition_check.h"
 #include "experiment/idle_motion.h"
@@ -158,6 +159,7 @@ std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader,
     std::string key;
     PreparedScene prepared;
     for (WiredVariant& variant : wired.variants) {
+        if (interruptRequested()) throw Interrupted();
         const auto say = [&](const std::vector<std::string>& texts) {
             for (const std::string& text : texts) notices[text].push_back(variant.name);
         };

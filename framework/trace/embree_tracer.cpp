@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "base/interrupt.h"
+
 namespace voxray {
 namespace {
 
-/// Rays of one staged copy.
-constexpr uint32_t kRaysPerCopy = 1u << 20;
+/// Rays between two looks for an interrupt, and of one staged copy.
+constexpr uint32_t kRaysPerPart = 1u << 20;
 
 }  // namespace
 
@@ -14,12 +16,17 @@ template <typename Result>
 void EmbreeTracer::trace(CommandStream& stream, const Buffer& rays, const Buffer& results, uint32_t count,
                          const std::function<void(std::span<const Ray>, std::span<Result>)>& traceRays) {
     stream.finish();
-    if (rays.mapped() && results.mapped())
-        return traceRays(rays.mappedAs<const Ray>().first(count), results.mappedAs<Result>().first(count));
+    const bool isMapped = rays.mapped() && results.mapped();
+    for (uint32_t first = 0, part = 0; first < count; first += part) {
+        if (interruptRequested()) throw Interrupted();
+        part = std::min(kRaysPerPart, count - first);
+        if (isMapped) {
+            traceRays(rays.mappedAs<const Ray>().subspan(first, part),
+                      results.mappedAs<Result>().subspan(first, part));
+            continue;
+        }
 
-    // Device memory that the host doesn't see: read, trace and upload part by part.
-    for (uint32_t first = 0; first < count; first += std::min(kRaysPerCopy, count - first)) {
-        const uint32_t part = std::min(kRaysPerCopy, count - first);
+        // Device memory that the host doesn't see
         const std::vector<std::byte> bytes = stream.read(rays, part * sizeof(Ray), first * sizeof(Ray));
         std::vector<Result> traced(part);
         traceRays({reinterpret_cast<const Ray*>(bytes.data()), part}, traced);

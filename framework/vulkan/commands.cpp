@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "vulkan/commands_impl.h"
 #include "vulkan/structure.h"
 
@@ -76,6 +77,7 @@ VkCommandBuffer CommandStream::Impl::next() {
 }
 
 void CommandStream::Impl::finish() {
+    if (interruptRequested()) throw Interrupted();
     if (!recording) return;
     for (size_t i = 0; i < labels.size(); ++i) endLabel(commands);
     memoryBarrier(commands, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr uint32_t kTile = 16;  ///< A multiple of every momentsPixels(): no two tiles share a block.
 constexpr uint32_t kBatches = 2;
+constexpr uint64_t kPathsPerReport = 4096;  ///< Some hundredths of a second on one core.
 
 /// Turns points of the image plane into rays.
 class PinholeCamera {
@@ -96,6 +98,26 @@ struct Packet {
     }
 };
 
+/// Counts followed paths and asks the caller whether to go on.
+class ProgressReporter {
+ public:
+    ProgressReporter(const ProgressCallback& callback, uint64_t paths) : callback_(callback), paths_(paths) {}
+
+    bool isStopped() const { return stopped_; }
+    void add(uint64_t paths) {
+        if (!callback_) return;
+        const std::lock_guard lock(mutex_);
+        finished_ += paths;
+        if (!stopped_ && !callback_(double(finished_) / double(paths_))) stopped_ = true;
+    }
+
+ private:
+    const ProgressCallback& callback_;
+    uint64_t paths_, finished_ = 0;
+    std::mutex mutex_;
+    std::atomic<bool> stopped_{false};
+};
+
 /// Everything that the tiles share.
 struct Job {
     const Integrator& integrator;
@@ -104,6 +126,7 @@ struct Job {
     std::array<uint32_t, kBatches> batchSizes{};
     uint32_t batches = 1;
     PathTraceResult& result;
+    ProgressReporter& reporter;
 
     /// Adds what a path tells of the irradiance at its first hit, `place` in [0, 1)² of the pixel.
     void addIrradiance(uint32_t x, uint32_t y, glm::vec2 place, const PathSample& path) const {
@@ -126,12 +149,12 @@ struct Job {
             }
     }
 
-    /// Renders a tile; returns the rays that it took.
+    /// Renders a tile, or a part of it where the caller stops that; returns the rays that it took.
     uint64_t renderTile(glm::uvec2 first) const {
         const glm::uvec2 last = glm::min(first + kTile, glm::uvec2(options.width, options.height));
         std::array<PixelSums, kTile * kTile> totals, indirects;
         Packet packet;
-        uint64_t rays = 0;
+        uint64_t rays = 0, unreported = 0;
         const auto trace = [&] {
             packet.trace(integrator);
             for (size_t i = 0; i < packet.size; ++i) {
@@ -150,6 +173,8 @@ struct Job {
                     addIrradiance(place.pixel.x, place.pixel.y, place.inPixel, path);
                 rays += path.rays;
             }
+            unreported += packet.size;
+            if (unreported >= kPathsPerReport) reporter.add(std::exchange(unreported, 0));
             packet.size = 0;
         };
 
@@ -159,13 +184,14 @@ struct Job {
                                               y * options.width + x);
                 for (uint32_t batch = 0; batch < batches; ++batch) {
                     const uint32_t sequence = hashOf(pixel, batch);
-                    for (uint32_t i = 0; i < batchSizes[batch]; ++i) {
+                    for (uint32_t i = 0; i < batchSizes[batch] && !reporter.isStopped(); ++i) {
                         packet.add(camera, {{x, y}, {}, batch}, SobolSampler(sequence, i));
                         if (packet.size == Integrator::kPacket) trace();
                     }
                 }
             }
         if (packet.size > 0) trace();
+        reporter.add(unreported);
 
         for (uint32_t y = first.y; y < last.y; ++y)
             for (uint32_t x = first.x; x < last.x; ++x) {
@@ -176,25 +202,6 @@ struct Job {
             }
         return rays;
     }
-};
-
-/// Counts finished tiles and asks the caller whether to go on.
-class ProgressReporter {
- public:
-    ProgressReporter(const ProgressCallback& callback, size_t tiles) : callback_(callback), tiles_(tiles) {}
-
-    bool isStopped() const { return stopped_; }
-    void finishTile() {
-        if (!callback_) return;
-        const std::lock_guard lock(mutex_);
-        if (!stopped_ && !callback_(double(++finished_) / double(tiles_))) stopped_ = true;
-    }
-
- private:
-    const ProgressCallback& callback_;
-    size_t tiles_, finished_ = 0;
-    std::mutex mutex_;
-    std::atomic<bool> stopped_{false};
 };
 
 }  // namespace
@@ -217,7 +224,12 @@ PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const
     const PinholeCamera pinhole(camera, width, height);
 
     // Divide the samples among independent batches.
-    Job job{.integrator = integrator, .camera = pinhole, .options = options, .result = result};
+    ProgressReporter reporter(progress, uint64_t(width) * height * options.spp);
+    Job job{.integrator = integrator,
+            .camera = pinhole,
+            .options = options,
+            .result = result,
+            .reporter = reporter};
     job.batches = std::min(options.spp, kBatches);
     for (uint32_t b = 0; b < job.batches; ++b) {
         result.totalHalves[b] = result.indirectHalves[b] = ImageF(width, height, 3);
@@ -227,13 +239,11 @@ PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const
 
     // Every pixel is computed alone, so tiles may run in any order.
     const size_t tilesX = (width + kTile - 1) / kTile, tiles = tilesX * ((height + kTile - 1) / kTile);
-    ProgressReporter reporter(progress, tiles);
     std::atomic<uint64_t> rays{0};
     parallelRanges(tiles, 1, [&](size_t begin, size_t end) {
         for (size_t tile = begin; tile < end && !reporter.isStopped(); ++tile) {
             const auto x0 = uint32_t(tile % tilesX) * kTile, y0 = uint32_t(tile / tilesX) * kTile;
             rays += job.renderTile({x0, y0});
-            reporter.finishTile();
         }
     });
     if (reporter.isStopped()) throw Error("path tracing was stopped");
