@@ -85,6 +85,18 @@ void writeFileAtomically(const fs::path& path, std::string_view content) {
     });
 }
 
+std::string whyNotWritable(const fs::path& folder) {
+    const fs::path probe = folder / (".writable-" + std::to_string(::getpid()));
+    std::error_code ignored;
+    try {
+        writeFileAtomically(probe, std::string(1 << 16, ' '));  // A full disk may take an empty file.
+        fs::remove(probe, ignored);
+        return {};
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+}
+
 fs::path cacheFolder() {
     if (const char* folder = std::getenv("VOXRAY_CACHE"); folder && *folder) return folder;
     if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder)

@@ -26,6 +26,9 @@ bool isTemporaryName(const std::filesystem::path& path);
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path&)>& write);
 
+/// Makes the folder and writes a file there for a moment. @return what went wrong, with the path, or "".
+std::string whyNotWritable(const std::filesystem::path& folder);
+
 /// Where Voxray keeps what it can make again (SPIR-V, references):
 /// $VOXRAY_CACHE, else $XDG_CACHE_HOME/voxray, else ~/.cache/voxray.
 std::filesystem::path cacheFolder();

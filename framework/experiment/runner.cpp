@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "base/files.h"
 #include "base/interrupt.h"
@@ -53,6 +54,7 @@ class Run {
     void runVariant(size_t index, Progress& progress);
     const PreparedReference* referenceOf(const WiredVariant& variant, Progress& progress);
     void writeTables();
+    void printWarnings(Progress& progress);
     void printValidationMessages(Progress& progress);
     VariantInputs inputsOf(const WiredVariant& variant);
     std::string outcome(const VariantResult& result) const;
@@ -67,6 +69,7 @@ class Run {
     std::optional<ResultsFolder> folder_;
     ManifestData manifest_;
     std::vector<std::string> warnings_;        ///< More than the session's own.
+    std::set<std::string> printed_;            ///< Of the warnings.
     std::vector<std::string> notes_;           ///< What a reader of the results should know, a line each.
     std::map<size_t, VariantResult> results_;  ///< By index into variants_.
     std::optional<PreparedReference> reference_;
@@ -76,13 +79,16 @@ class Run {
 
 RunSummary Run::execute() {
     const InterruptScope interruptScope;
-    openSession();
-    if (options_.dryRun) {
-        printPlan();
-        return summary_;
-    }
     summary_.out = options_.out.empty() ? std::filesystem::path("results") / experiment_.setup.general.name
                                         : options_.out;
+    try {
+        openSession();
+        if (options_.dryRun) {
+            printPlan();
+            return summary_;
+        }
+    } catch (const Interrupted&) {
+    }
     if ((summary_.interrupted = interruptRequested())) return summary_;  // An earlier run's results stay.
     folder_.emplace(summary_.out, experiment_.setup.general.name, options_.resume);
     if (options_.resume) takeOverFinished();
@@ -113,8 +119,7 @@ RunSummary Run::execute() {
 void Run::renderMissing() {
     writeTables();
     Progress progress(variants_.size() - results_.size(), options_.quiet);
-    for (const std::string& warning : session_->warnings()) progress.warn(warning);
-    for (const std::string& warning : warnings_) progress.warn(warning);
+    printWarnings(progress);
     for (const std::string& note : notes_) progress.note(note);
     for (size_t i = 0; i < variants_.size() && !summary_.interrupted; ++i)
         if (!results_.count(i)) runVariant(i, progress);
@@ -157,9 +162,13 @@ void Run::openSession() {
 }
 
 void Run::printPlan() {
+    Progress progress(variants_.size(), options_.quiet);
+    printWarnings(progress);
+    for (const std::string& note : notes_) progress.note(note);
     fmt::print("{}: {} variant{} on {}\n", experiment_.setup.general.name, variants_.size(),
                variants_.size() == 1 ? "" : "s", session_->device().info().name);
     for (WiredVariant& variant : variants_) {
+        if (interruptRequested()) throw Interrupted();
         const PreparedScene prepared = session_->loader().prepare(variant.setup.scene);
         const Frame frame = frameOf(variant.setup, prepared, variant.setup.general.seed);
         fmt::print("{} (tracer {}, {} x {})\n", variant.name, session_->tracerName(variant.setup),
@@ -232,23 +241,21 @@ const PreparedReference* Run::referenceOf(const WiredVariant& variant, Progress&
     // Masks first: a name that is wrong shows before anything is rendered
     std::vector<PixelSelection> masks = session_->selectPixels(experiment_, variant.setup, 0);
     for (const PixelSelection& mask : masks)
-        if (mask.count == 0) {
+        if (mask.count == 0)
             warnings_.push_back(fmt::format("mask '{}' selects no pixel of '{}': it has no scores there",
                                             mask.name, variant.name));
-            progress.warn(warnings_.back());
-        }
+    printWarnings(progress);
     const ReferenceImages& images = session_->reference(wired_, variant.setup, registry_,
                                                         [&](double fraction) { progress.update(fraction); });
 
     const std::vector<float>& radiance = images.final.mean.data;
-    if (std::ranges::all_of(radiance, [](float value) { return value == 0; })) {
+    if (std::ranges::all_of(radiance, [](float value) { return value == 0; }))
         warnings_.push_back(
             fmt::format("the reference of '{}' is black: no light reaches what the camera sees; './voxray "
                         "scene' tells where "
                         "the scene is, and what shines",
                         variant.name));
-        progress.warn(warnings_.back());
-    }
+    printWarnings(progress);
 
     // The first reference is "reference"; each other one gets its own folder
     auto& records = manifest_.references;
@@ -315,6 +322,11 @@ void Run::runVariant(size_t index, Progress& progress) {
     writeTables();
     printValidationMessages(progress);
     progress.end(outcome(results_[index]));
+}
+
+void Run::printWarnings(Progress& progress) {
+    for (const std::string& warning : warnings())
+        if (printed_.insert(warning).second) progress.warn(warning);
 }
 
 void Run::printValidationMessages(Progress& progress) {

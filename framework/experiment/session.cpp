@@ -11,9 +11,16 @@ Session::Session(const DeviceOptions& device, const std::filesystem::path& sourc
                  std::vector<std::filesystem::path> sceneFolders)
     : device_(device),
       stream_(device_),
+      cacheError_(whyNotWritable(cacheFolder())),
       compiler_(sourceRoot, cacheFolder() / "spirv"),
       loader_(std::move(sceneFolders)),
-      cache_(cacheFolder() / "references") {}
+      cache_(cacheFolder() / "references") {
+    if (!cacheError_.empty())
+        warnings_.push_back(fmt::format(
+            "{}: shaders and references are not cached, which costs time; point VOXRAY_CACHE to a folder "
+            "that can be written",
+            cacheError_));
+}
 
 std::string Session::tracerName(const Setup& setup) const {
     const TracerKind kind = resolveTracer(setup.general.tracer, device_);
@@ -119,10 +126,12 @@ const ReferenceImages& Session::reference(const WiredExperiment& experiment, con
 }
 
 void Session::store(const ReferenceImages& reference) {
+    if (!cacheError_.empty()) return;
     try {
         cache_.store(reference);
     } catch (const Error& error) {
-        warnings_.push_back(std::string("the reference could not be cached: ") + error.what());
+        cacheError_ = error.what();
+        warnings_.push_back(fmt::format("{}: references are not cached, which costs time", cacheError_));
     }
 }
 

@@ -76,6 +76,7 @@ class Session {
 
     Device device_;
     CommandStream stream_;
+    std::string cacheError_;  ///< Why nothing more is stored on disk, or "".
     ShaderCompiler compiler_;
     SceneLoader loader_;
     ReferenceCache cache_;

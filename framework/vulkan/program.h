@@ -57,8 +57,8 @@ class ShaderCompiler {
 
     /// The stage follows from the extension: .comp .vert .geom .frag .rgen .rmiss .rchit .rahit.
     /// @param file relative to the source root.
-    /// @throws Error with "file:line: message" of each compile error, of the file in which it is; or where
-    /// the cache can't be written.
+    /// @throws Error with "file:line: message" of each compile error, of the file in which it is. A cache
+    /// that can't be written is left alone.
     ShaderModule compile(const std::string& file, const Defines& defines = {}) const;
 
  private:

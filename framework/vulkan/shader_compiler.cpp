@@ -142,15 +142,15 @@ std::vector<uint32_t> readCached(const std::filesystem::path& path) {
     return spirv;
 }
 
+/// A cache that can't be written costs time, not results.
 void writeCached(const std::filesystem::path& path, const std::vector<uint32_t>& spirv) {
     std::string content = Hasher().add(spirv.data(), spirv.size() * 4).hex();
     content.append(reinterpret_cast<const char*>(spirv.data()), spirv.size() * 4);
     try {
         std::filesystem::create_directories(path.parent_path());
         writeFileAtomically(path, std::string_view(content));
-    } catch (const std::exception& error) {
-        throw Error("can't cache shaders: {}; point VOXRAY_CACHE to a folder that can be written",
-                    error.what());
+    } catch (const std::exception&) {
+        return;
     }
 }
 

@@ -102,6 +102,14 @@ class Results(Run):
             self.assertIn(variant, done.stdout)
         self.assertFalse(os.path.exists(self.path("out", "results.csv")))
 
+    def test_dry_run_warns_as_a_run_does(self):
+        self.write("tiny.yaml", TINY.replace("builtin: cornell", "builtin: cornell, keep_file_lights: false"))
+        words = "voxray: warning: tiny.yaml"
+        dry, said = (self.expect(0, "run", "tiny.yaml", "--out", "out", *more).stderr for more in (["--dry-run"], []))
+        self.assertIn(words, dry)
+        self.assertEqual([line for line in dry.splitlines() if words in line],
+                         [line for line in said.splitlines() if words in line])
+
     def test_profile_and_set(self):
         self.run_tiny("out", "--profile", "smaller", "--set", "measure.frames=1")
         self.assertEqual(self.json("out", "manifest.json")["image"], {"width": 16, "height": 12})
@@ -200,6 +208,17 @@ class Resume(Run):
         self.assertTrue(os.path.exists(self.path("out", "report.html")), "a report of what was finished")
         self.finish(finished)
 
+    def test_ctrl_c_within_a_reference(self):
+        self.write("tiny.yaml", TINY)
+        process = self.start_until(lambda: os.path.exists(self.path("out", "manifest.json")),
+                                   "run", "tiny.yaml", "--out", "out", "--set", "reference.spp=1048576")
+        time.sleep(1)  # Its paths would take hours.
+        process.send_signal(signal.SIGINT)
+        errors = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertIn("voxray: stopping; a second Ctrl-C ends the program at once\n", errors)
+        self.check_whole()
+
     def interrupt_report(self, signals):
         """Signals to the whole process group, as a terminal's Ctrl-C, while the report of a whole run is made."""
         self.write("tiny.yaml", TINY)
@@ -209,8 +228,9 @@ class Resume(Run):
         for _ in range(signals):
             time.sleep(0.05)
             os.killpg(process.pid, signal.SIGINT)
-        process.communicate(timeout=60)
+        said = process.communicate(timeout=60)[1]
         self.assertEqual([row["status"] for row in self.rows("out", "results.csv")], ["ok"] * 2)
+        self.assertEqual("voxray: ended\n" in said, signals == 2, said)
         return process.returncode
 
     def test_ctrl_c_while_the_report_is_made(self):
@@ -248,6 +268,14 @@ class Disk(Run):
         done = self.expect(2, "run", "tiny.yaml", "--out", "file/out")
         self.assertIn("file/out", done.stderr)
         self.assertEqual(self.bytes("file"), b"")
+
+    def test_unwritable_cache(self):
+        self.write("file", "")
+        self.environment["VOXRAY_CACHE"] = self.path("file", "cache")
+        said = self.run_tiny().stderr
+        self.assertEqual(said.count("are not cached"), 1, said)
+        self.assertIn("file/cache: Not a directory", said)
+        self.assertEqual([row["status"] for row in self.rows("out", "results.csv")], ["ok", "ok"])
 
     def test_full_disk_loses_no_finished_variant(self):
         self.run_tiny()
