@@ -62,12 +62,29 @@ void checkOwnValues(const Experiment& experiment, const Registry& registry) {
             registry.require(name->scalar, name->where).resolve(entry, passId(entry), Graph::reservedKeys());
 }
 
+/// The id of a pass in the place of the pass `id`: a chain's last one takes that over.
+std::string idInChain(const Value& pass, bool isLast, const std::string& id) {
+    return isLast ? id : pass.isMap() ? passId(pass) : pass.scalar;
+}
+
+/// Whether a variant runs no pass that stands in the place of `id`: a parameter's pass, or a swept pass or
+/// chain.
+bool runsNothingOf(const WiredVariant& variant, const std::string& id, const Value& value) {
+    const std::vector<Value> chain = value.isList() ? value.items : std::vector{value};
+    for (size_t i = 0; i < chain.size(); ++i)
+        if (std::ranges::count(variant.leftOut, idInChain(chain[i], i + 1 == chain.size(), id)) == 0)
+            return false;
+    return true;
+}
+
 /// Why an axis changes nothing in a variant: no image depends on its pass, or other parameters leave the
 /// swept one without effect. Empty where it has one.
-std::string whyWithoutEffect(const WiredVariant& variant, const std::string& axis) {
+/// @param chosen the variant's value of the axis.
+std::string whyWithoutEffect(const WiredVariant& variant, const std::string& axis, const Value& chosen) {
     const size_t dot = axis.find('.');
     const std::string id = axis.substr(0, dot);
-    if (dot != std::string::npos && std::ranges::count(variant.leftOut, id) > 0)
+    const bool isPass = dot == std::string::npos;
+    if (runsNothingOf(variant, id, isPass ? chosen : Value()))
         return fmt::format("no image depends on '{}'", id);
     for (const IdlePath& idle : variant.idle)
         if (idle.path == axis) return idle.parameter.why;
@@ -121,19 +138,28 @@ void checkLightsGoOff(const SceneSettings& scene, const MeasureSettings& measure
                              i, light.offAt, measure.frames - 1);
 }
 
-/// A swept parameter that has no effect in a variant: such variants come once.
+/// A swept parameter or pass that has no effect in a variant: such variants come once.
 /// @throws UsageError with file and line for an axis that changes nothing in any variant.
 void leaveOutEqual(WiredExperiment& wired) {
     const std::vector<std::string> keys = sweepKeys(wired.experiment);
+    std::vector<std::vector<std::string>> labels;  // Of each axis, as its values.
+    std::vector<std::vector<Value>> values;
+    for (const auto& [key, axis] : wired.experiment.sweep.members) {
+        labels.push_back(sweepLabels(axis));
+        values.push_back(sweepValues(axis));
+    }
     std::set<std::vector<std::string>> seen;
     VariantNames names(wired.experiment);
     std::vector<std::string> reasons(keys.size());
     std::erase_if(wired.variants, [&](WiredVariant& variant) {
-        for (size_t a = 0; a < keys.size(); ++a)
-            if (const std::string why = whyWithoutEffect(variant, keys[a]); !why.empty()) {
-                variant.values[a] = kNoValue;
-                reasons[a] = why;
-            }
+        for (size_t a = 0; a < keys.size(); ++a) {
+            const size_t chosen = size_t(std::ranges::find(labels[a], variant.values[a]) - labels[a].begin());
+            if (chosen == labels[a].size()) continue;  // It has none.
+            const std::string why = whyWithoutEffect(variant, keys[a], values[a][chosen]);
+            if (why.empty()) continue;
+            variant.values[a] = kNoValue;
+            reasons[a] = why;
+        }
         if (!seen.insert(variant.values).second) return true;
         variant.name = names.next(variant.values);
         return false;

@@ -57,6 +57,18 @@ TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
     EXPECT_EQ(names, (std::vector<std::string>{"b-constant", "b-veil_value-4", "b-veil_value-5"}));
     EXPECT_EQ(wired.variants[0].values, (std::vector<std::string>{"constant", "-"}));
 
+    // A whole pass neither, where nothing of what stands in its place runs
+    const auto swapped = wireExperiment(
+        parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: a}\n"
+                        "  - {pass: constant, id: b}\nsweep:\n  a: {x: {pass: constant, value: 4}, y: "
+                        "[layers, constant]}\n"
+                        "  b: [constant, veil]\n",
+                        "x.yaml"),
+        registry);
+    names.clear();
+    for (const WiredVariant& variant : swapped.variants) names.push_back(variant.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"b-constant", "a-x_b-veil", "a-y_b-constant", "a-y_b-veil"}));
+
     // One that changes nothing anywhere is a mistake
     expectError(
         "graph:\n  - {pass: constant, id: unseen}\n  - {pass: constant}\nsweep:\n  unseen.value: [1, 2]\n",
