@@ -132,10 +132,54 @@ std::string hintOf(const std::string& message) {
     return {};
 }
 
+/// A '{' or '[' that is open where a line begins.
+struct OpenBrace {
+    char brace;
+    int line;  ///< In which it stands.
+};
+
+/// The innermost one.
+std::optional<OpenBrace> openBrace(const std::string& text, int line) {
+    std::vector<OpenBrace> open;
+    char before = '\n', quote = 0;  // The last character that is no space; that of a text in quotes.
+    int number = 1;
+    for (size_t i = 0; i < text.size() && number < line; ++i) {
+        const char c = text[i];
+        number += c == '\n';
+        const bool beginsValue = std::string_view("\n:-,{[").find(before) != std::string_view::npos;
+        if (quote != 0) {
+            if (c == '\\' && quote == '"') ++i;
+            if (c == quote) quote = 0;
+        } else if (c == '#' && (i == 0 || text[i - 1] == ' ' || text[i - 1] == '\n')) {
+            while (i + 1 < text.size() && text[i + 1] != '\n') ++i;
+            continue;
+        } else if ((c == '"' || c == '\'') && beginsValue) {
+            quote = c;
+        } else if ((c == '{' || c == '[') && (beginsValue || !open.empty())) {
+            open.push_back({c, number});
+        } else if ((c == '}' || c == ']') && !open.empty()) {
+            open.pop_back();
+        }
+        if (c != ' ') before = c;
+    }
+    return open.empty() ? std::nullopt : std::optional(open.back());
+}
+
+/// Whether the parser stopped within braces.
+bool isOfBraces(const std::string& message) {
+    constexpr std::array<std::string_view, 3> kMessages{
+        "end of map flow not found", "end of sequence flow not found", "illegal block entry"};
+    return std::ranges::count(kMessages, message) > 0;
+}
+
 }  // namespace
 
 YamlFault yamlFault(const std::string& text, int line, const std::string& message) {
     if (const auto fault = otherSpace(text)) return *fault;
+    if (const auto open = isOfBraces(message) ? openBrace(text, line) : std::nullopt)
+        return {open->line, fmt::format("the '{}' in this line is not closed: a '{}' is missing, or a comma "
+                                        "before line {}",
+                                        open->brace, open->brace == '{' ? '}' : ']', line)};
     const std::vector<Line> lines = linesUpTo(text, line);
     const bool isThere = !lines.empty() && lines.back().number == line;
     if (const auto fault = isThere && isOfBlocks(message) ? indentation(lines) : std::nullopt) return *fault;

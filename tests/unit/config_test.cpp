@@ -335,7 +335,9 @@ TEST(Yaml, KeysThatAreIndentedUnlikeTheirNeighbours) {
                     "f.yaml:3: bad YAML: a dash is missing before 'pass', as in line 2: write '- pass: ...'");
 
     // What is wrong otherwise, and what is right
-    EXPECT_CONTAINS(failure("a: {b: 1,\n    c: 2\nd: 3\n"), "a comma or the '}' is missing");
+    EXPECT_CONTAINS(
+        failure("a: {b: 1,\n    c: 2\nd: 3\n"),
+        ":1: bad YAML: the '{' in this line is not closed: a '}' is missing, or a comma before line 3");
     EXPECT_NO_THROW(parseYaml("a: >\n  text\n    b: 1\nc:\n  - d: 1\n    e:\n        f: 2\n", "f.yaml"));
 }
 
