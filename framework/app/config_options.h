@@ -29,7 +29,7 @@ inline void addConfigOptions(CLI::App& command, ConfigArguments& arguments) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_option("--scenes", arguments.scenes, "Folder in which scene files are looked for first.")
         ->type_name("DIR")
-        ->check(CLI::ExistingDirectory);
+        ->check(CLI::ExistingDirectory.description(""));
 }
 
 /// Refuses the name of a file to write that says another format than the file will have.

@@ -6,6 +6,8 @@
 #include "app/commands.h"
 #include "app/config_options.h"
 #include "app/source_root.h"
+#include "base/error.h"
+#include "config/overrides.h"
 #include "experiment/scene_setup.h"
 #include "scene/load.h"
 
@@ -23,6 +25,10 @@ void exportScene(const ExportArguments& arguments) {
     SceneLoader loader(sceneFolders(arguments.scenes, sourceRoot(), arguments.file));
     const PreparedScene scene = loader.prepare(experiment.setup.scene);
     for (const std::string& warning : loader.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
+    if (scene.state.scene->environment.radiance != glm::vec3(0.0f))
+        throw UsageError(placeOf(experiment.config, "scene.environment"),
+                         "scene.environment: glTF can't carry one: leave it out of the file with --set "
+                         "scene.environment=none");
     exportGlb(scene.state, arguments.target);
     fmt::print("{}: {} triangles, {} lights\n", arguments.target.string(),
                scene.state.geometry.triangles.size(), scene.state.lights.size());

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -45,7 +46,11 @@ std::string unknownArguments(const CLI::App& app) {
         for (const CLI::Option* option : command->get_options())
             for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     const std::string option = first.substr(0, first.find('='));
-    const std::string near = option.starts_with('-') ? nearest(option, names) : "";
+    std::string near = option.starts_with('-') ? nearest(option, names) : "";
+
+    // A single letter: options have no short names here
+    const auto begins = [&](const std::string& name) { return name.starts_with("-" + option); };
+    if (option.size() == 2 && std::ranges::any_of(names, begins)) near = *std::ranges::find_if(names, begins);
     return fmt::format("unknown {} '{}'{}", option.starts_with('-') ? "option" : "argument", option,
                        near.empty() ? "; see voxray --help" : fmt::format("; did you mean '{}'?", near));
 }

@@ -89,7 +89,8 @@ void addRunCommand(CLI::App& app, int& status) {
         "--aovs", options.aovs,
         "Write what passes offer to look at in frame 0 (position, normals, albedo, depth, ids) into "
         "aovs.PASS.exr of each variant.");
-    command->add_flag("!--no-report", options.report, "Write result files alone, no report.html.");
+    command->add_flag_callback(
+        "--no-report", [&options] { options.report = false; }, "Write result files alone, no report.html.");
     command->add_flag("--validate", options.validation,
                       "Turn Vulkan's validation layer on: its messages are printed and fail the run (exit "
                       "status 1). Times are then not the method's.");

@@ -71,13 +71,6 @@ void checkSweep(const Value& sweep) {
                                  key, values.text());
 }
 
-/// What configs of other tools say, and the option of the command line that says it here.
-constexpr std::pair<const char*, const char*> kOptions[] = {{"output", "--out DIR"},
-                                                            {"out", "--out DIR"},
-                                                            {"results", "--out DIR"},
-                                                            {"device", "--device NAME"},
-                                                            {"scenes", "--scenes DIR"}};
-
 /// A key of the config that stands in one of its blocks: mostly it is indented too far.
 /// A built-in scene may have a parameter of that name.
 void checkBlocks(const Value& config) {
@@ -114,10 +107,9 @@ void checkTopLevel(const Value& config) {
                              path.substr(0, path.find('.')));
         if (const std::string pass = passWith(config, key); !pass.empty())
             throw UsageError(value.where, "unknown key '{}'; it stands in the pass '{}'", key, pass);
-        for (const auto& [word, option] : kOptions)
-            if (key == word)
-                throw UsageError(value.where, "unknown key '{}'; it is said on the command line: {}", key,
-                                 option);
+        if (const std::string option = optionFor(key); !option.empty())
+            throw UsageError(value.where, "unknown key '{}'; it is said on the command line: {}", key,
+                             option);
         throw UsageError(value.where, "unknown key '{}'{}", key, didYouMean(key, keys));
     }
     checkBlocks(config);
@@ -223,9 +215,15 @@ Experiment readExperiment(Value config) {
         experiment.sweep = *sweep;
     }
     if (const Value* reference = config.find("reference"); reference && !reference->isNull()) {
-        if (!reference->isMap() || passId(*reference).empty())
-            throw UsageError(reference->where,
-                             "reference: expected a map with 'pass', as in {{pass: path_trace, spp: 64}}");
+        if (!reference->isMap() || passId(*reference).empty()) {
+            const Value* file = reference->find("file");
+            throw UsageError(
+                file ? file->where : reference->where,
+                "reference: expected a map with 'pass', as in {{pass: path_trace, spp: 64}}{}",
+                file ? fmt::format("; './voxray compare final.exr {}' compares a result with a picture",
+                                   file->text())
+                     : "");
+        }
         experiment.reference = *reference;
     }
     experiment.config = std::move(config);

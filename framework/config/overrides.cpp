@@ -1,6 +1,7 @@
 #include "config/overrides.h"
 
 #include <algorithm>
+#include <map>
 
 #include "base/suggest.h"
 #include "config/settings.h"
@@ -43,7 +44,11 @@ void setAlong(Value& root, std::string_view path, const std::string& whole, cons
             child = &parent->set(key, made);
         }
         if (!child->isMap())
-            throw UsageError(value.where, "{}: '{}' is {}, which has no keys", whole, key, child->text());
+            throw UsageError(value.where, "{}: '{}' is {}, which has no keys{}", whole, key, child->text(),
+                             child->isList() ? fmt::format("; give it as a whole: in a sweep write a list of "
+                                                           "lists, as in {}: [[...], [...]]",
+                                                           whole.substr(0, whole.size() - path.size() - 1))
+                                             : "");
         parent = child;
     }
     if (path.empty()) throw UsageError(value.where, "'{}': a path must not end in a dot", whole);
@@ -139,6 +144,16 @@ const std::vector<std::string>& configKeys() {
     return keys;
 }
 
+std::string optionFor(const std::string& key) {
+    static const std::map<std::string, std::string> options{{"output", "--out DIR"},
+                                                            {"out", "--out DIR"},
+                                                            {"results", "--out DIR"},
+                                                            {"device", "--device NAME"},
+                                                            {"scenes", "--scenes DIR"}};
+    const auto option = options.find(key);
+    return option == options.end() ? "" : option->second;
+}
+
 bool hasTarget(const Value& config, const std::string& path) {
     const std::string first = path.substr(0, path.find('.'));
     if (std::find(configKeys().begin(), configKeys().end(), first) != configKeys().end()) return true;
@@ -187,7 +202,8 @@ void applyOverride(Value& config, const std::string& path, const Value& value, M
     // A key of the config
     if (std::find(configKeys().begin(), configKeys().end(), first) == configKeys().end())
         throw UsageError(value.where, "'{}': neither a key of the config nor a pass of its graph{}", first,
-                         nearestPath(config, path, first, candidates));
+                         optionFor(first).empty() ? nearestPath(config, path, first, candidates)
+                                                  : "; it is said on the command line: " + optionFor(first));
     setAlong(config, path, path, value, merge);
 }
 

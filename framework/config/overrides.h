@@ -19,6 +19,10 @@ const std::vector<std::string>& configKeys();
 /// The id of an entry of `graph`: its `id`, else its `pass`; "" where it has neither.
 std::string passId(const Value& entry);
 
+/// The option of the command line that says what configs of other tools say with that key; "" for other
+/// words.
+std::string optionFor(const std::string& key);
+
 /// Whether what `path` begins with is there: a key of the config, or a pass of its graph.
 bool hasTarget(const Value& config, const std::string& path);
 

@@ -15,6 +15,26 @@ glm::vec3 direction(const glm::vec3& vector, const Value& at, const std::string&
     return vector / length;
 }
 
+/// What other tools call parts of a light.
+void checkLightKeys(const Value& entry, const std::string& what) {
+    constexpr std::array<std::string_view, 9> kStrengths{
+        "power", "color", "colour", "lumens", "lumen", "strength", "watts", "radiance", "brightness"};
+    const bool isDirectional = entry.find("directional") != nullptr;
+    for (const auto& [key, value] : entry.members) {
+        if (std::ranges::count(kStrengths, key) > 0)
+            throw UsageError(value.where, "{}: unknown parameter '{}'; how bright it is: write {}", what, key,
+                             isDirectional ? "irradiance: [r, g, b], in W/m² on a surface that faces it"
+                                           : "intensity: [r, g, b], in W/sr");
+        if (key == "target")
+            throw UsageError(value.where, "{}: unknown parameter 'target'; {}", what,
+                             isDirectional ? "'directional' is the way that its light travels"
+                             : entry.find("spot")
+                                 ? "write direction: [x, y, z], the target less the light's place"
+                                 : "a point light shines all round; write spot in place of "
+                                   "point, and direction: [x, y, z]");
+    }
+}
+
 // Light entries are named by the key that says their type.
 ConfigLight readLight(const Value& entry, size_t index) {
     const std::string what = fmt::format("scene.lights[{}]", index);
@@ -28,6 +48,8 @@ ConfigLight readLight(const Value& entry, size_t index) {
     read.where = entry.where;
     Light& light = read.light;
     light.name = fmt::format("config light {}", index);
+    if (std::ranges::any_of(kinds, [&](const std::string& kind) { return entry.find(kind); }))
+        checkLightKeys(entry, what);
     if (const Value* axis = entry.find("directional")) {
         const auto p = readParams<DirectionalLightSettings>(entry, what);
         light.type = LightType::Directional;
@@ -147,6 +169,10 @@ SceneSettings readSceneSettings(const Value& map) {
     if (!map.isMap())
         throw UsageError(map.where,
                          "scene: expected a map such as {{builtin: cornell}} or {{file: sponza.glb}}");
+    if (const Value* lights = map.find("lights"); lights && lights->isScalar() && lights->scalar == "none")
+        throw UsageError(lights->where,
+                         "scene.lights: for none of its punctual lights write 'keep_file_lights: false'; "
+                         "'override: {{MATERIAL: {{emission: 0}}}}' puts out a surface that shines");
     SceneSettings settings;
     settings.where = map.where;
     settings.source = readSceneSource(map, "scene", sceneKeys());

@@ -96,7 +96,12 @@ std::vector<std::string> lightWarnings(const SceneSettings& scene, const SceneSt
     std::vector<std::string> warnings;
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         const ConfigLight& entry = scene.lights[i];
-        if (entry.light.intensity == glm::vec3(0.0f) || entry.move != glm::vec3(0.0f)) continue;
+        if (entry.light.intensity == glm::vec3(0.0f)) {
+            warnings.push_back(
+                UsageError(entry.where, "scene.lights[{}]: it is black and lights nothing", i).what());
+            continue;
+        }
+        if (entry.move != glm::vec3(0.0f)) continue;
         const Met met = whatIsMet(entry.light, state, tracer);
         if (met == Met::Fronts) continue;
         warnings.push_back(

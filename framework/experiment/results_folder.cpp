@@ -17,8 +17,9 @@ void orError(const fs::path& path, const Work& work) {
     try {
         work();
     } catch (const fs::filesystem_error& error) {
-        throw Failure("{}: {}; choose another folder with --out or make room", path.string(),
-                      error.code().message());
+        const bool isFull = error.code() == std::errc::no_space_on_device;
+        throw Failure("{}: {}; choose another folder with --out{}", path.string(), error.code().message(),
+                      isFull ? " or make room" : "");
     }
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import difflib
 import json
 import math
 import subprocess
@@ -122,9 +123,11 @@ class Trials:
             return None
         for target in self.targets:
             if target.column not in row or row[target.column] == "":
-                raise Mistake(f"--target {target.column}: no such column of results.csv: "
-                              + ", ".join(column for column in row if column.removeprefix("indirect_") in
-                                          (*ERRORS, *HIGHER_IS_BETTER, *NEAR_ONE)))
+                columns = [column for column in row
+                           if column.removeprefix("indirect_") in (*ERRORS, *HIGHER_IS_BETTER, *NEAR_ONE)]
+                near = difflib.get_close_matches(target.column, columns, n=1)
+                raise Mistake(f"--target {target.column}: no such column of results.csv; "
+                              + (f"did you mean '{near[0]}'? " if near else "") + "one of: " + ", ".join(columns))
         values = [float(row[target.column]) for target in self.targets]
         self.values[rung, name] = values
         excess = max(target.excess(value) for target, value in zip(self.targets, values))

@@ -22,7 +22,10 @@ def linear(display):
 class Usage(CommandTest):
     def test_help_and_version(self):
         self.assertIn("validate", self.expect(0, "--help").stdout)
-        self.assertIn("--resume", self.expect(0, "run", "--help").stdout)
+        told = self.expect(0, "run", "--help").stdout
+        self.assertIn("--resume", told)
+        for internal in ("{false}", "DIR:DIR"):
+            self.assertNotIn(internal, told)
         self.assertRegex(self.expect(0, "--version").stdout, r"^voxray \d+\.\d+\.\d+\n$")
 
     def test_no_command_shows_help(self):
@@ -240,7 +243,7 @@ class Validate(CommandTest):
         self.assertIn("out of range", self.expect(2, "validate", "tiny.yaml", "--set", "image.width=0").stderr)
 
     def test_bad_yaml(self):
-        self.bad("{width: 32, height: 24}", "{width: 32, height: 24", "bad YAML", line=4)
+        self.bad("{width: 32, height: 24}", "{width: 32, height: 24", "bad YAML")
 
     def test_tab(self):
         self.bad("  - {pass: gbuffer}", "\t- {pass: gbuffer}", "a tab in the indentation", line=6)
@@ -387,6 +390,8 @@ class ExportScene(CommandTest):
         self.write("tiny.yaml", TINY)
         self.assertIn("tiny.yaml", self.expect(1, "export-scene", "tiny.yaml", "tiny.yaml/out.glb").stderr)
         self.expect(2, "export-scene", "nowhere.yaml", "out.glb")
+        sky = self.expect(2, "export-scene", "tiny.yaml", "out.glb", "--set", "scene.environment=1").stderr
+        self.assertIn("glTF can't carry one", sky)
 
 
 if __name__ == "__main__":

@@ -29,8 +29,8 @@ struct LightPathParams : WriteParams {
             WriteParams::schema(),
             std::tuple{
                 field("secondary", &LightPathParams::secondary,
-                      "How rays continue after a hit: none gives direct light only; mirror is the "
-                      "thesis's, about the normal and times the albedo; diffuse is a Lambert "
+                      "How rays continue after a hit: none gives direct light only; mirror is that of "
+                      "Magalhães 2020, about the normal and times the albedo; diffuse is a Lambert "
                       "surface's, with Russian roulette by albedo; material goes by the surface's "
                       "own lobes, so that mirrors and glossy surfaces throw light at others."),
                 field("bounces", &LightPathParams::bounces, "Bounces after a ray's first hit.", 0u, 64u)
