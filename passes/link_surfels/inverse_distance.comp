@@ -16,6 +16,9 @@ layout(push_constant) uniform Push {
     float voxelSize;  // m
 } push;
 
+// Voxels. What is nearer counts as that near: in a corner a single ray would decide alone. Chosen.
+const float MIN_DISTANCE = 1.0 / 64.0;
+
 void main() {
     const uint i = linearIndex();
     if (i >= push.surfelCount) return;
@@ -24,7 +27,7 @@ void main() {
     float sum = 0.0;
     for (uint ray = 0u; ray < push.raysPerSurfel; ++ray) {
         const Hit hit = hits.data[i * push.raysPerSurfel + ray];
-        if (hit.triangle != NO_HIT) sum += push.voxelSize / max(hit.t, push.voxelSize / 64.0);
+        if (hit.triangle != NO_HIT) sum += push.voxelSize / max(hit.t, MIN_DISTANCE * push.voxelSize);
     }
     inverseDistances.data[slot] = sum / float(push.raysPerSurfel);
 }

@@ -57,8 +57,8 @@ std::shared_ptr<const SceneState> ledge() {
     return std::make_shared<SceneState>(evaluate(scene.finish(), 0.0));
 }
 
-// Mean of the rows of pixels in which the wall is 0.06 to 0.4 m above the ledge.
-double meanAbove(const ImageF& image) {
+// Green, summed over the pixels in which the wall is 0.06 to 0.4 m above the ledge.
+double lightAbove(const ImageF& image) {
     double sum = 0;
     for (uint32_t y = 29; y < 39; ++y)
         for (uint32_t x = 8; x < 56; ++x) sum += image.pixel(x, y)[1];
@@ -67,16 +67,16 @@ double meanAbove(const ImageF& image) {
 
 TEST(SurfelDistance, LightOfANarrowLedgeStaysNearIt) {
     const std::shared_ptr<const SceneState> state = ledge();
-    const double truth =
-        meanAbove(Chain(state, graphYaml({"path_trace, spp: 512, bounces: 1"}), 64, 64, 1).image("indirect"));
+    const double truth = lightAbove(
+        Chain(state, graphYaml({"path_trace, spp: 512, bounces: 1"}), 64, 64, 1).image("indirect"));
     const double looked =
-        meanAbove(Chain(state,
-                        graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 16",
-                                   "place_surfels, points_per_voxel: 32, sides: all",
-                                   "link_surfels, rays_per_surfel: 64", "inject_radiosity, bounces: 1",
-                                   "gather_surfels"}),
-                        64, 64, 1)
-                      .image("indirect"));
+        lightAbove(Chain(state,
+                         graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 16",
+                                    "place_surfels, points_per_voxel: 32, sides: all",
+                                    "link_surfels, rays_per_surfel: 64", "inject_radiosity, bounces: 1",
+                                    "gather_surfels"}),
+                         64, 64, 1)
+                       .image("indirect"));
     std::printf("light above the ledge over the reference's: %.3f\n", looked / truth);
     EXPECT_NEAR(looked / truth, 1.0, 0.2);
 }
