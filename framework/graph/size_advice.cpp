@@ -18,13 +18,13 @@ bool reads(const GraphNode& reader, const GraphNode& writer) {
 std::string sizeAdvice(const std::vector<GraphNode>& nodes, const GraphNode& node) {
     std::vector<std::string> paths;
     const auto add = [&](const GraphNode& other) {
-        for (const std::string& count : other.counts) paths.push_back(other.id + "." + count);
+        for (const std::string& count : other.counts)
+            paths.push_back(fmt::format("{}.{}, ", other.id, count));
     };
     add(node);
     for (const GraphNode& writer : nodes)
         if (&writer != &node && reads(node, writer)) add(writer);
-    paths.push_back("image.width, image.height");
-    return fmt::format("lower what it grows with, of {}", fmt::join(paths, ", "));
+    return fmt::format("lower what it grows with, of {}image.width, image.height", fmt::join(paths, ""));
 }
 
 }  // namespace voxray
