@@ -107,7 +107,10 @@ struct MeasureSettings {
                   "reference of its own time, and temporal error is reported.",
                   0u, 100000u),
             field("build_repeats", &MeasureSettings::buildRepeats,
-                  "Timed runs of the build passes, after one that is not timed.", 1u, 1000u),
+                  "Timed runs of the build passes, after one that is not timed. 0: that first one is timed, "
+                  "with "
+                  "all that only a first run takes.",
+                  0u, 1000u),
             field("second_seed", &MeasureSettings::secondSeed,
                   "Render each variant once more with other random numbers, not timed: splits its error into "
                   "bias and noise."),

@@ -109,9 +109,10 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
                     result.values.push_back({pass.id, v.name, frameIndex, v.value});
     };
 
-    // Build: once cold and checked, then timed
+    // Build: once cold and checked, then timed; without repeats the cold run counts
     PhaseSamples build, frames;
     std::vector<PassSample> last = run(Phase::Build, 0, true);
+    if (settings.buildRepeats == 0) build.add(last);
     for (uint32_t i = 0; i < settings.buildRepeats; ++i) build.add(last = run(Phase::Build, 0, false));
     keepValues(Phase::Build, std::nullopt, last);
 

@@ -65,7 +65,8 @@ struct GraphTarget {
 /// The pass under whose name the time of GraphTarget::goToFrame stands.
 inline constexpr const char* kSceneUpdate = "scene";
 
-/// Runs a prepared graph: the build passes once untimed and then `buildRepeats` times, warm-up frames,
+/// Runs a prepared graph: the build passes once untimed and then `buildRepeats` times (with 0 repeats the
+/// first run is timed), warm-up frames,
 /// measured frames. Measured frames are numbered from 0, warm-up frames from 1,000,000, so that frame 0 does
 /// not depend on how many frames are measured. A frame's camera stands as many times
 /// `cameraMove` from the target frame's as the frame is after frame 0. Where the target has `goToFrame`, it

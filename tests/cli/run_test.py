@@ -117,6 +117,14 @@ class Results(Run):
                       self.expect(2, "run", "tiny.yaml", "--profile", "smalller").stderr)
         self.assertIn("did you mean", self.expect(2, "run", "tiny.yaml", "--set", "image.widht=3").stderr)
 
+    def test_build_timed_at_its_only_run(self):
+        self.run_tiny("once", "--profile", "smaller", "--set", "measure.build_repeats=0")
+        self.run_tiny("again", "--profile", "smaller")
+        once, again = self.rows("once", "results.csv")[0], self.rows("again", "results.csv")[0]
+        self.assertGreater(float(once["build_ms"]), 0)
+        self.assertEqual(once["nrmse"], again["nrmse"])
+        self.assertEqual(once["rays"], again["rays"])
+
     def test_default_folder_and_quiet(self):
         self.write("tiny.yaml", TINY)
         done = self.expect(0, "run", "tiny.yaml", "--quiet", "--profile", "smaller")
