@@ -34,8 +34,8 @@ class GatherClusters final : public Pass {
     struct Params {
         GatherUpdate update = GatherUpdate::All;
         uint32_t reach = 4;
-        uint32_t filterPasses = 2;
-        uint32_t filterSize = 5;
+        uint32_t filterPasses = 1;
+        uint32_t filterSize = 3;
         static constexpr auto schema() {
             return std::tuple{
                 field("update", &Params::update,
@@ -51,7 +51,10 @@ class GatherClusters final : public Pass {
                     1u, 64u)
                     .onlyWith(oneOf(&Params::update, {GatherUpdate::Seen})),
                 field("filter_passes", &Params::filterPasses,
-                      "Times that faces are averaged with the same faces of the sides round them.", 0u, 8u),
+                      "Times that faces are averaged with the same faces of the sides round them. The paper: "
+                      "2, "
+                      "of size 5.",
+                      0u, 8u),
                 field(
                     "filter_size", &Params::filterSize,
                     "Voxels along each edge of the filter's cube, with binomial weights (about a Gaussian). "
