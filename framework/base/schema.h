@@ -10,6 +10,7 @@
 
 #include "base/field.h"
 #include "base/field_text.h"
+#include "base/hex_color.h"
 #include "base/suggest.h"
 #include "base/value.h"
 
@@ -54,13 +55,16 @@ void readInto(T& out, const Value& value, const std::string& what) {
         out = T(value.asNumber(what));
     } else if constexpr (std::is_same_v<T, glm::vec3>) {
         if (value.isScalar() && !value.isNumber()) {
-            throw UsageError(value.where, "{}: expected a number, not '{}', or three, as in [1, 1, 1]", what,
-                             value.scalar);
+            const std::string linear = linearTriple(value.scalar);
+            throw UsageError(
+                value.where, "{}: expected a number, not '{}', or three{}", what, value.scalar,
+                linear.empty() ? ", as in [1, 1, 1]" : fmt::format(": write {}, its linear values", linear));
         } else if (value.isScalar()) {
             out = glm::vec3(float(value.asNumber(what)));
         } else {
             if (!value.isList() || value.items.size() != 3)
-                throw UsageError(value.where, "{}: expected three numbers, as in [1, 1, 1]", what);
+                throw UsageError(value.where, "{}: expected three numbers, as in [1, 1, 1]{}", what,
+                                 value.isNull() ? "; nothing is written here: '#' begins a comment" : "");
             for (int i = 0; i < 3; ++i) out[i] = float(value.items[size_t(i)].asNumber(what));
         }
     } else {

@@ -4,6 +4,7 @@
 #include <glm/trigonometric.hpp>
 #include <string_view>
 
+#include "base/hex_color.h"
 #include "config/settings.h"
 
 namespace voxray {
@@ -129,7 +130,7 @@ void readEnvironment(const Value& value, SceneSettings& settings) {
         environment.scale = glm::vec3(0.0f);
     } else {
         // A number or a triple is a radiance; any other text is a file
-        const bool isNumber = value.isList() || value.isNumber();
+        const bool isNumber = value.isList() || value.isNumber() || !linearTriple(value.scalar).empty();
         const bool isFile = value.isScalar() && value.scalar.find('.') != std::string::npos;
         if (!isNumber && !isFile)
             throw UsageError(

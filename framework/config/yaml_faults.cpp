@@ -165,6 +165,18 @@ std::optional<OpenBrace> openBrace(const std::string& text, int line) {
     return open.empty() ? std::nullopt : std::optional(open.back());
 }
 
+/// "; what follows '#' there is a comment" where it takes the brace's end with it, as an unquoted #ff8800
+/// does; else "".
+std::string afterComment(const std::string& text, const OpenBrace& open) {
+    std::istringstream lines(text);
+    std::string line;
+    for (int number = 1; number <= open.line; ++number) std::getline(lines, line);
+    const size_t comment = line.find(" #");
+    const bool takesEnd = comment != std::string::npos &&
+                          line.find(open.brace == '{' ? '}' : ']', comment) != std::string::npos;
+    return takesEnd ? "; what follows '#' there is a comment" : "";
+}
+
 /// Whether the parser stopped within braces.
 bool isOfBraces(const std::string& message) {
     constexpr std::array<std::string_view, 3> kMessages{
@@ -177,9 +189,10 @@ bool isOfBraces(const std::string& message) {
 YamlFault yamlFault(const std::string& text, int line, const std::string& message) {
     if (const auto fault = otherSpace(text)) return *fault;
     if (const auto open = isOfBraces(message) ? openBrace(text, line) : std::nullopt)
-        return {open->line, fmt::format("the '{}' in this line is not closed: a '{}' is missing, or a comma "
-                                        "before line {}",
-                                        open->brace, open->brace == '{' ? '}' : ']', line)};
+        return {open->line,
+                fmt::format("the '{}' in this line is not closed: a '{}' is missing, or a comma "
+                            "before line {}{}",
+                            open->brace, open->brace == '{' ? '}' : ']', line, afterComment(text, *open))};
     const std::vector<Line> lines = linesUpTo(text, line);
     const bool isThere = !lines.empty() && lines.back().number == line;
     if (const auto fault = isThere && isOfBlocks(message) ? indentation(lines) : std::nullopt) return *fault;

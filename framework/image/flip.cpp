@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "image/color.h"
+#include "base/srgb.h"
 #include "image/flip_tone.h"
 #include "image/metrics.h"
 #include "image/plane.h"

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/parallel.h"
-#include "image/color.h"
+#include "base/srgb.h"
 #include "image/file_check.h"
 
 namespace voxray {

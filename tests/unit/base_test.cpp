@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/files.h"
+#include "base/hex_color.h"
 #include "base/interrupt.h"
 #include "base/schema.h"
 #include "base/suggest.h"
@@ -180,6 +181,15 @@ TEST(Schema, ErrorsNamePlaceKeyAndNearestWord) {
     for (const char* edge : {"0", "3", "16"})
         EXPECT_EQ(paramsError(mapOf({{"edge", edge}})),
                   fmt::format("f.yaml:3: demo.edge: {} is not allowed; one of: 1, 2, 4, 8", edge));
+}
+
+TEST(HexColor, IsDecodedToLinearValues) {
+    EXPECT_EQ(linearTriple("#ff8000"), "[1, 0.2159, 0]");  // ((128 / 255 + 0.055) / 1.055)^2.4
+    EXPECT_EQ(linearTriple("#FF8000"), linearTriple("#ff8000"));
+    EXPECT_EQ(linearTriple("#f80"), linearTriple("#ff8800"));
+    EXPECT_EQ(linearTriple("#0a0000"), "[0.003035, 0, 0]");  // 10 / 255 / 12.92
+    for (const char* other : {"", "#", "red", "ff8000", "#ff80", "#ff80000", "#gg8000", "#-f8000", "# f8000"})
+        EXPECT_EQ(linearTriple(other), "") << other;
 }
 
 TEST(Schema, KnowsParametersWithoutEffect) {
