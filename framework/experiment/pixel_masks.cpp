@@ -74,11 +74,26 @@ bool isMet(const MaskCondition& condition, const SceneState& state, const Hit& h
     return metallic >= condition.minMetallic && roughness <= condition.maxRoughness;
 }
 
+/// Whether any triangle may meet the condition. A texture lowers metallic and roughness, to 0 at most.
+bool isMetSomewhere(const MaskCondition& condition, const SceneState& state) {
+    const Geometry& geometry = state.geometry;
+    for (uint32_t t = 0; t < geometry.triangles.size(); ++t) {
+        const uint32_t number = geometry.triangleMaterials[t];
+        const Material& material = state.scene->materials[number];
+        const bool hasTexture = material.metallicRoughnessTexture.texture >= 0;
+        if (condition.materials[number] && condition.instances[instanceOf(geometry, t)] &&
+            material.metallic >= condition.minMetallic &&
+            (hasTexture ? 0.0f : material.roughness) <= condition.maxRoughness)
+            return true;
+    }
+    return false;
+}
+
 /// Calls body(x, y, hit) for each pixel of an image, with what its center sees; rows in parallel.
 template <typename Body>
 void forEachPixel(const SceneState& state, const Camera& camera, uint32_t width, uint32_t height,
                   const Body& body) {
-    const EmbreeScene scene(state);
+    const EmbreeScene scene(state, RaysToCome::Few);
     const CameraRays rays = cameraRays(camera, width, height);
     parallelRanges(height, 4, [&](size_t begin, size_t end) {
         for (size_t y = begin; y < end; ++y)
@@ -120,6 +135,30 @@ std::vector<PixelSelection> selectPixels(const std::vector<MaskSettings>& masks,
     for (PixelSelection& selection : selections)
         selection.count = size_t(std::ranges::count(selection.pixels, uint8_t(1)));
     return selections;
+}
+
+std::vector<std::string> maskWarnings(const std::vector<MaskSettings>& masks, const SceneState& state,
+                                      const Camera& camera, uint32_t width, uint32_t height) {
+    std::vector<std::string> warnings;
+    const std::vector<PixelSelection> selections = selectPixels(masks, state, camera, width, height);
+    for (size_t m = 0; m < masks.size(); ++m) {
+        const std::string name = "measure.masks." + masks[m].name;
+        if (selections[m].count == 0)
+            warnings.push_back(
+                UsageError(masks[m].where, "{}: it selects no pixel and has no scores: {}", name,
+                           isMetSomewhere(conditionOf(masks[m], *state.scene), state)
+                               ? "what meets its conditions is out of sight, or fills no whole pixel"
+                               : "no surface of the scene meets all of its conditions")
+                    .what());
+        if (selections[m].count == size_t(width) * height)
+            warnings.push_back(
+                UsageError(masks[m].where,
+                           "{}: it selects every pixel, so that its scores are those of the whole image: "
+                           "write a condition that some of what is in view does not meet, or leave it out",
+                           name)
+                    .what());
+    }
+    return warnings;
 }
 
 std::vector<PrimaryHit> primaryHits(const SceneState& state, const Camera& camera, uint32_t width,

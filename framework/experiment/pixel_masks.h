@@ -29,6 +29,10 @@ void checkMaskNames(const std::vector<MaskSettings>& masks, const Scene& scene);
 std::vector<PixelSelection> selectPixels(const std::vector<MaskSettings>& masks, const SceneState& state,
                                          const Camera& camera, uint32_t width, uint32_t height);
 
+/// What to say, with file and line, of masks that select no pixel of an image, or all.
+std::vector<std::string> maskWarnings(const std::vector<MaskSettings>& masks, const SceneState& state,
+                                      const Camera& camera, uint32_t width, uint32_t height);
+
 /// What the camera sees through the center of a pixel.
 struct PrimaryHit {
     float depth = 0;        ///< Distance along the camera's axis, m; +inf where nothing is hit.

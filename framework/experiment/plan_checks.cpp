@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "base/interrupt.h"
 #include "config/overrides.h"
@@ -158,6 +159,7 @@ std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader,
     IdleMotion motion(experiment.measure);
     std::string key;
     PreparedScene prepared;
+    std::set<std::string> seen;  // Scenes and sizes of images that masks were looked at in.
     for (WiredVariant& variant : wired.variants) {
         if (interruptRequested()) throw Interrupted();
         const auto say = [&](const std::vector<std::string>& texts) {
@@ -171,6 +173,11 @@ std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader,
             say(checkView(variant.setup, prepared, registry.preview));
             say(additionWarnings(variant.setup.scene, prepared, loader));
         }
+        const ImageSettings& image = variant.setup.image;
+        if (!experiment.measure.masks.empty() && !wired.reference.isNull() &&
+            seen.insert(fmt::format("{} {} {}", key, image.width, image.height)).second)
+            say(maskWarnings(experiment.measure.masks, prepared.state, prepared.camera, image.width,
+                             image.height));
         motion.look(variant, *prepared.state.scene);
         say(lightsThatStay(variant, *prepared.state.scene));
         say(spheresThatStay(variant));

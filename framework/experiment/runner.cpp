@@ -238,13 +238,7 @@ const PreparedReference* Run::referenceOf(const WiredVariant& variant, Progress&
     const std::string& hash = manifest_.referenceHashes.at(variant.name);
     if (reference_ && reference_->images.hash == hash) return &*reference_;
 
-    // Masks first: a name that is wrong shows before anything is rendered
     std::vector<PixelSelection> masks = session_->selectPixels(experiment_, variant.setup, 0);
-    for (const PixelSelection& mask : masks)
-        if (mask.count == 0)
-            warnings_.push_back(fmt::format("mask '{}' selects no pixel of '{}': it has no scores there",
-                                            mask.name, variant.name));
-    printWarnings(progress);
     const ReferenceImages& images = session_->reference(wired_, variant.setup, registry_,
                                                         [&](double fraction) { progress.update(fraction); });
 

@@ -34,6 +34,8 @@ VOXELIZE = "  - {pass: voxelize, resolution: 16}"
 GRAPH = CONFIG[CONFIG.index("graph:"):CONFIG.index("reference:")]
 SWEEP = CONFIG[CONFIG.index("sweep:"):CONFIG.index("measure:")]
 REFERENCE_TO_MASKS = CONFIG[CONFIG.index("reference:"):CONFIG.index("profiles:")].rstrip()
+VIEW_TO_MASKS = CONFIG[CONFIG.index("fov_deg"):CONFIG.index("profiles:")]
+NARROW_VIEW = VIEW_TO_MASKS.replace("fov_deg: 50", "fov_deg: 20")
 
 # What is written in place of what; the line that is named; words of the message.
 MISTAKES = {
@@ -289,6 +291,12 @@ WARNINGS = {
     "lights that the scene lacks": ("  lights:", "  keep_file_lights: false\n  lights:", 5, "the scene has no punctual lights"),
     "spheres that have no time to move": ("  lights:", "  moving_spheres: {count: 1, center: [0, 1, 0]}\n  lights:", 5,
                                           "they stand still; for ones that move write 'time_step'"),
+    "a mask of what is not in view": (VIEW_TO_MASKS, NARROW_VIEW.replace("material: grey", "material: lamp"), 21,
+                                      "measure.masks.floor: it selects no pixel and has no scores: what meets its conditions is out of sight"),
+    "a mask of what no surface is": ("masks: {floor: {material: grey}}", "masks: {floor: {material: grey, min_metallic: 0.5}}", 21,
+                                     "no surface of the scene meets all of its conditions"),
+    "a mask of all that is in view": (VIEW_TO_MASKS, NARROW_VIEW.replace("material: grey", "max_roughness: 1"), 21,
+                                      "measure.masks.floor: it selects every pixel, so that its scores are those of the whole image"),
     "a variant that needs more memory": (
         SWEEP + "measure: {frames: 2", "sweep:\n  voxelize.resolution: [16, 512]\nmeasure: {memory_limit_mb: 40, frames: 2", 21,
         "too few for 1 of 2 variants: resolution-512 takes"),

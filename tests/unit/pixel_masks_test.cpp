@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "experiment/pixel_masks.h"
 #include "scene/shapes.h"
+#include "tests/support/errors.h"
 
 namespace voxray {
 namespace {
@@ -69,6 +70,27 @@ TEST(PixelMasks, SelectByMaterialObjectAndMirror) {
 TEST(PixelMasks, PixelsThatMixSurfacesAreInNeither) {
     EXPECT_EQ(picture(mask("wood"), 5), rows(".....", "##..."));
     EXPECT_EQ(picture(mask("mirror"), 5), rows(".....", "...##"));
+}
+
+TEST(PixelMasks, ThatSelectNothingOrAllAreWarnedOf) {
+    const SceneState state = twoWalls();
+    const auto warnings = [&](const MaskSettings& settings, Camera camera) {
+        return maskWarnings({settings}, state, camera, 6, kHeight);
+    };
+    const Camera& sky = state.cameras.at(0);
+    Camera closer = sky;
+    closer.position.z = 0.5f;  // Within half a metre of the walls, which fill its view.
+    EXPECT_TRUE(warnings(mask("wood"), sky).empty());
+    EXPECT_TRUE(warnings(mask("", "", 0, 1), sky).empty());
+    EXPECT_EQ(warnings(mask("", "", 0, 1), closer).size(), 1u);
+    EXPECT_CONTAINS(warnings(mask("", "", 0, 1), closer).at(0), "measure.masks.m: it selects every pixel");
+
+    // Out of sight, or nowhere
+    Camera left = closer;
+    left.position.x = -5;
+    EXPECT_CONTAINS(warnings(mask("mirror"), left).at(0), "is out of sight");
+    for (const MaskSettings& nowhere : {mask("wood", "right"), mask("", "", 0.9f, 0.01f)})
+        EXPECT_CONTAINS(warnings(nowhere, sky).at(0), "no surface of the scene meets all of its conditions");
 }
 
 TEST(PixelMasks, UnknownNamesAreErrors) {
