@@ -7,6 +7,7 @@
 
 #include "config/overrides.h"
 #include "experiment/reference.h"
+#include "graph/wiring.h"
 
 namespace voxray {
 namespace {
@@ -55,11 +56,41 @@ void checkPassNames(const Experiment& experiment, const Registry& registry) {
             }
 }
 
+/// @param source what `inputs` of a pass says for a port: "id" or "id.port".
+/// @throws UsageError where no variant has a pass of that id, or none that writes it.
+void checkSource(const std::string& reader, const std::string& port, const Value& source,
+                 const std::vector<WiredVariant>& variants, const Registry& registry) {
+    const std::string what = fmt::format("{}.inputs.{}", reader, port);
+    const std::string text = source.asString(what);
+    const size_t dot = text.find('.');
+    const std::string id = text.substr(0, dot);
+    const std::string output = dot == std::string::npos ? port : text.substr(dot + 1);
+    std::set<std::string> ids, outputs;
+    for (const WiredVariant& variant : variants)
+        for (const Value& pass : variant.setup.graph.items) {
+            ids.insert(passId(pass));
+            if (passId(pass) != id) continue;
+            for (const PortDoc& doc : registry.require(pass.find("pass")->scalar, pass.where).ports)
+                if (doc.output) outputs.insert(doc.name);
+        }
+    if (!ids.contains(id))
+        throw UsageError(source.where, "{}: no pass has the id '{}' in any variant{}", what, id,
+                         didYouMean(id, std::vector(ids.begin(), ids.end())));
+    if (!outputs.contains(output))
+        throw UsageError(source.where, "{}: '{}' writes no '{}' in any variant{}", what, id, output,
+                         didYouMean(output, std::vector(outputs.begin(), outputs.end())));
+}
+
 /// Values in the graph that a sweep replaces in every variant are read here alone.
-void checkOwnValues(const Experiment& experiment, const Registry& registry) {
-    for (const Value& entry : experiment.setup.graph.items)
-        if (const Value* name = entry.find("pass"))
-            registry.require(name->scalar, name->where).resolve(entry, passId(entry), Graph::reservedKeys());
+void checkOwnValues(const Experiment& experiment, const std::vector<WiredVariant>& variants,
+                    const Registry& registry) {
+    for (const Value& entry : experiment.setup.graph.items) {
+        if (!entry.find("pass")) continue;
+        checkEntry(registry, entry, Graph::reservedKeys());
+        if (const Value* inputs = entry.find("inputs"))
+            for (const auto& [port, source] : inputs->members)
+                checkSource(passId(entry), port, source, variants, registry);
+    }
 }
 
 /// The id of a pass in the place of the pass `id`: a chain's last one takes that over.
@@ -204,7 +235,7 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
         wired.variants.push_back(
             {std::move(variant), std::move(graph), std::move(resolved), std::move(leftOut), std::move(idle)});
     }
-    checkOwnValues(experiment, registry);
+    checkOwnValues(experiment, wired.variants, registry);
     if (!experiment.reference.isNull()) {
         const Value* pass = experiment.reference.find("pass");
         registry.require(pass->scalar, pass->where)

@@ -157,6 +157,11 @@ std::optional<size_t> outputNamed(const GraphNode& node, const std::string& name
     return {};
 }
 
+void checkEntry(const Registry& registry, const Value& entry, const std::vector<std::string>& reservedKeys) {
+    const GraphNode node = readNode(registry, entry, reservedKeys);
+    if (const Value* inputs = entry.find("inputs")) checkInputKeys({}, node, *inputs);
+}
+
 std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList,
                                  const std::vector<std::string>& reservedKeys) {
     if (!passList.isList() || passList.items.empty())

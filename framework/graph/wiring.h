@@ -28,6 +28,10 @@ struct GraphNode {
 /// The number of a node's output port of that name.
 std::optional<size_t> outputNamed(const GraphNode& node, const std::string& name);
 
+/// Checks an entry of a pass list by itself: its pass, its parameters and which inputs it names.
+/// @throws UsageError with file and line.
+void checkEntry(const Registry& registry, const Value& entry, const std::vector<std::string>& reservedKeys);
+
 /// Reads a config's pass list, binds every port and sorts passes so that writers come before readers.
 /// Passes that don't depend on each other keep the list's order.
 /// @throws UsageError with file and line.

@@ -34,6 +34,7 @@ VOXELIZE = "  - {pass: voxelize, resolution: 16}"
 GRAPH = CONFIG[CONFIG.index("graph:"):CONFIG.index("reference:")]
 SWEEP = CONFIG[CONFIG.index("sweep:"):CONFIG.index("measure:")]
 REFERENCE_TO_MASKS = CONFIG[CONFIG.index("reference:"):CONFIG.index("profiles:")].rstrip()
+INPUT_TO_SWEEP = CONFIG[CONFIG.index("{noisy_irradiance"):CONFIG.index("measure:")]
 VIEW_TO_MASKS = CONFIG[CONFIG.index("fov_deg"):CONFIG.index("profiles:")]
 NARROW_VIEW = VIEW_TO_MASKS.replace("fov_deg: 50", "fov_deg: 20")
 
@@ -69,6 +70,9 @@ MISTAKES = {
     "voxels between light and its reader": ("  - {pass: gather_rays, id: gather}", "  - {pass: voxelize, id: finer, resolution: 32}\n  - {pass: gather_rays, id: gather}", 15, "write 'inputs: {voxels: voxelize}' here"),
     "the same id twice": ("id: gather}", "id: inject}", 14, "two passes have the id 'inject'"),
     "an input from a pass that isn't there": ("noisy_irradiance: gather", "noisy_irradiance: gathr", 15, "did you mean 'gather'?"),
+    "an input, misspelt, of a pass that a sweep replaces": (
+        INPUT_TO_SWEEP, INPUT_TO_SWEEP.replace("gather", "gathr", 1).replace("inject.rays_per_light: [4096, 8192]", "indirect: [filter_irradiance]"),
+        15, "indirect.inputs.noisy_irradiance: no pass has the id 'gathr' in any variant; did you mean 'gather'?"),
     "an input that the pass lacks": ("{noisy_irradiance: gather}", "{noisy: gather}", 15, "did you mean 'noisy_irradiance'?"),
     "an input of another type": ("noisy_irradiance: gather", "noisy_irradiance: inject", 15, "'inject' writes no 'noisy_irradiance'"),
     "a pass is missing": ("  - {pass: gbuffer}\n", "", 12, "these can: gbuffer"),

@@ -123,6 +123,17 @@ TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
     expectError(
         "graph:\n  - {pass: constant, id: c}\nsweep:\n  c: [constant, {pass: constnat}]\n  c.value: [1]\n",
         {"x.yaml:6: ", "unknown pass 'constnat'", "did you mean 'constant'?"});
+    // Inputs of a pass that no variant runs as it is written
+    const auto expectInputError = [](const std::string& input, std::initializer_list<const char*> parts) {
+        expectError("graph:\n  - {pass: witness}\n  - {pass: constant, id: c, inputs: {" + input +
+                        "}}\nsweep: {c: [constant]}\n",
+                    parts);
+    };
+    expectInputError("testimony: witnes",
+                     {"x.yaml:5: ", "no pass has the id 'witnes' in any variant", "did you mean 'witness'?"});
+    expectInputError("testimony: witness.truth",
+                     {"x.yaml:5: ", "'witness' writes no 'truth' in any variant", "one of: testimony"});
+    expectInputError("testimoni: witness", {"x.yaml:5: ", "did you mean 'testimony'?"});
     expectError("graph:\n  - {pass: constant}\nreference: {pass: truth, ssp: 3}\n",
                 {"x.yaml:5: ", "did you mean 'spp'?"});
     expectError("graph:\n  - {pass: constant}\nreference: {pass: constant}\n",
