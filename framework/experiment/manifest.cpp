@@ -92,6 +92,9 @@ std::string manifestJson(const ManifestData& data) {
     json["commit"] = data.commit;
     json["started"] = data.started;
     json["finished"] = data.finished.empty() ? Json(nullptr) : Json(data.finished);
+    json["sessions"] = Json::array();
+    for (const auto& [began, variants] : data.sessions)
+        json["sessions"].push_back({{"started", began}, {"variants", variants}});
     json["device"] = data.device.name;
     json["driver"] = data.device.driver;
     json["tracer"] = data.tracer;

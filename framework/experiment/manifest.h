@@ -39,6 +39,8 @@ struct ManifestData {
     bool validation = false;
     std::string version, commit;
     std::string started, finished;  ///< UTC, ISO 8601; `finished` is empty until the run is.
+    /// Start of each process that measured variants, as `started` -> these variants.
+    std::map<std::string, std::vector<std::string>> sessions;
     std::vector<ReferenceRecord> references;
     std::map<std::string, std::string> referenceHashes;  ///< Variant -> its reference's hash.
     std::vector<std::string> warnings;                   ///< What may make a result misleading.

@@ -193,6 +193,7 @@ std::string resultJson(const VariantResult& r, const VariantInputs& inputs) {
     json["device"] = r.device;
     json["tracer"] = r.tracer;
     json["sweep_values"] = r.sweepValues;
+    json["session"] = r.session;
     json["build_ms"] = r.buildMs;
     json["frame_ms"] = percentilesJson(r.frameMs);
     json["memory_bytes"] = r.memoryBytes;
@@ -230,6 +231,7 @@ std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text)
         r.device = json.at("device").get<std::string>();
         r.tracer = json.at("tracer").get<std::string>();
         r.sweepValues = json.at("sweep_values").get<std::vector<std::string>>();
+        r.session = json.value("session", std::string());
         r.buildMs = json.at("build_ms").get<double>();
         r.frameMs = percentilesFrom(json.at("frame_ms"));
         r.memoryBytes = json.at("memory_bytes").get<uint64_t>();

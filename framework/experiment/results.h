@@ -25,6 +25,7 @@ struct VariantResult {
     std::string device;
     std::string tracer;
     std::vector<std::string> sweepValues;
+    std::string session;  ///< When the process that measured it began: UTC, ISO 8601; empty: unknown.
     double buildMs = 0;
     Percentiles frameMs;
     uint64_t memoryBytes = 0;  ///< As in Measurement, likewise peakBytes.

@@ -300,6 +300,7 @@ void Run::runVariant(size_t index, Progress& progress) {
                              [&](const auto& path) { writeReferenceImages(path, *reference_, stops); });
     referenceIsWritten_ = true;
     if (rendered) {
+        rendered->result.session = manifest_.started;
         const VariantInputs inputs = inputsOf(variant);
         folder_->writeImages(variant.name, [&](const auto& path) {
             writeVariantImages(path, *rendered, stops);
@@ -311,6 +312,7 @@ void Run::runVariant(size_t index, Progress& progress) {
         failed.device = session_->device().info().name;
         failed.tracer = session_->tracerName(variant.setup);
         failed.sweepValues = variant.values;
+        failed.session = manifest_.started;
         results_[index] = failed;
     }
     writeTables();
@@ -351,7 +353,11 @@ std::vector<std::string> Run::warnings() const {
 
 void Run::writeTables() {
     std::vector<VariantResult> rows;
-    for (const auto& [index, result] : results_) rows.push_back(result);
+    manifest_.sessions.clear();
+    for (const auto& [index, result] : results_) {
+        rows.push_back(result);
+        manifest_.sessions[result.session].push_back(result.variant);
+    }
     manifest_.warnings = warnings();
     manifest_.notes = notes_;
     folder_->writeText("manifest.json", manifestJson(manifest_));

@@ -88,6 +88,16 @@ class Results:
         known = set(self.variants["variant"])
         return [name for name in section(self.manifest, "variants") if name not in known]
 
+    def sessions(self) -> list[tuple[str, list[str]]]:
+        """Of each process that measured variants which finished: when it began (UTC, "" where that is unknown), and
+        these variants. More than one where the run was resumed."""
+        listed = self.manifest.get("sessions")
+        finished = set(self.ok["variant"])
+        found = [(str(entry.get("started", "")), [name for name in entry["variants"] if name in finished])
+                 for entry in (listed if isinstance(listed, list) else [])
+                 if isinstance(entry, dict) and isinstance(entry.get("variants"), list)]
+        return [(began, names) for began, names in found if names]
+
     def lights(self) -> list[str]:
         """Which of "total" and "indirect" have any score or image, always with "total"."""
         def present(light: str) -> bool:

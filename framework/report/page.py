@@ -21,7 +21,7 @@ _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's r
 _MAX_NAMED_POINTS = 12
 # Of the manifest:
 _SHOWN_ELSEWHERE = ("config", "metrics", "seed_metrics", "temporal_metrics", "warnings", "baselines", "reference", "references", "variants",
-                    "noise_parameters")
+                    "noise_parameters", "sessions")
 
 
 @dataclass(frozen=True)
@@ -207,4 +207,5 @@ def _provenance(results: Results) -> list[tuple[str, str]]:
     for key, value in results.manifest.items():
         if key not in _SHOWN_ELSEWHERE:
             facts.append((key.replace("_", " "), text.plain(value)))
-    return facts
+    sessions = results.sessions()
+    return facts + [(f"session of {began}", ", ".join(names)) for began, names in sessions if len(sessions) > 1]

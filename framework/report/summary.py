@@ -12,6 +12,7 @@ from report.ranking import beaten_by, score_marks
 
 _TENTH_DB = 10.0  # a tenth of a squared error, in dB
 _MAX_MISSING = 6  # variants that are listed by name
+_MAX_SESSIONS = 4  # that are told apart
 
 
 def summary(results: Results, light: str, families: list[Family], names: Names) -> list[str]:
@@ -31,13 +32,13 @@ def summary(results: Results, light: str, families: list[Family], names: Names) 
     if len(compared) > 1:
         sentences += _by_scene(compared, light, metric, names) if metric else []
         sentences += noise.sentences(results, light, names) if metric else []
-        return sentences + _worse_than_nothing(results, light, names)
+        return sentences + _sessions(results) + _worse_than_nothing(results, light, names)
     if metric:
         sentences += _lowest_error(results, light, metric, names)
         found = equal_error.speed_up(results, light, metric, families)
         sentences += [equal_error.sentence(found, results, light, metric, names)] if found else []
         sentences += noise.sentences(results, light, names)
-    sentences += _fastest(results, light, names)
+    sentences += _fastest(results, light, names) + _sessions(results)
     return sentences + _worse_than_nothing(results, light, names)
 
 
@@ -131,6 +132,17 @@ def _fastest(results: Results, light: str, names: Names) -> list[str]:
     ties = [name for name, ms in times.items() if ms <= reach and name != times.idxmin()]
     tied = f"; within its spread {names.listed(ties)}" if ties else ""
     return [f"Fastest frame{but}: {names.full(times.idxmin())}, {text.figures(times.min())} ms{tied}."]
+
+
+def _sessions(results: Results) -> list[str]:
+    """Where times come from, if the run was resumed: the machine may have been busier in one session."""
+    sessions = results.sessions()
+    if len(sessions) < 2:
+        return []
+    told = [f"{_count(len(names), 'variant')} of {began or 'an unknown time'}" for began, names in sessions[:_MAX_SESSIONS]]
+    more = f" and {len(sessions) - _MAX_SESSIONS} more" if len(sessions) > _MAX_SESSIONS else ""
+    return [f"Times come from {len(sessions)} sessions, for the run was resumed ({', '.join(told)}{more}): compare those of "
+            "different sessions only where the machine was equally idle."]
 
 
 def _worse_than_nothing(results: Results, light: str, names: Names) -> list[str]:

@@ -283,6 +283,34 @@ TEST_F(RunTest, ResumeRepeatsNothingThatWasFinished) {
     EXPECT_FALSE(fs::exists(root_ / "out" / "images" / ".tmp-value-0.25"));
 }
 
+TEST_F(RunTest, VariantsTellTheSessionThatMeasuredThem) {
+    const auto manifest = [&] {
+        return nlohmann::json::parse(readTextFile(root_ / "out" / "manifest.json"));
+    };
+    run("sweep: {constant.value: [1, 0.5]}\n");
+    const auto first = manifest();
+    ASSERT_EQ(first["sessions"].size(), 1u);
+    EXPECT_EQ(first["sessions"][0]["started"], first["started"]);
+    EXPECT_EQ(first["sessions"][0]["variants"], (std::vector<std::string>{"value-1", "value-0.5"}));
+
+    // The second one is taken over from an earlier session
+    const fs::path file = root_ / "out" / "images" / "value-0.5" / "result.json";
+    auto result = nlohmann::ordered_json::parse(readTextFile(file));
+    EXPECT_EQ(result["session"], first["started"]);
+    result["session"] = "2020-02-20T20:20:20Z";
+    writeFileAtomically(file, result.dump());
+    fs::remove_all(root_ / "out" / "images" / "value-1");
+    RunOptions o = options();
+    o.resume = true;
+    EXPECT_EQ(run("sweep: {constant.value: [1, 0.5]}\n", o).resumed, 1u);
+    const auto second = manifest();
+    ASSERT_EQ(second["sessions"].size(), 2u);
+    EXPECT_EQ(second["sessions"][0]["started"], "2020-02-20T20:20:20Z");
+    EXPECT_EQ(second["sessions"][0]["variants"], std::vector<std::string>{"value-0.5"});
+    EXPECT_EQ(second["sessions"][1]["started"], second["started"]);
+    EXPECT_EQ(second["sessions"][1]["variants"], std::vector<std::string>{"value-1"});
+}
+
 TEST_F(RunTest, ResumeRefusesAnotherExperimentAndNamesTheDifference) {
     run("");
     RunOptions o = options();

@@ -239,6 +239,7 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     r.ok = true;
     r.variant = "odd \"name\" \xc3\xa9\n";
     r.sweepValues = {"1", "[2, 3]"};
+    r.session = "2026-01-01T10:00:00Z";
     r.buildMs = 1.0 / 3;
     r.frameMs = {0.1, 0.2, 0.3};
     r.memoryBytes = uint64_t(1) << 40;
@@ -251,6 +252,7 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     const auto [back, backInputs] = parseResultJson(resultJson(r, inputs));
     EXPECT_EQ(back.variant, r.variant);
     EXPECT_EQ(back.sweepValues, r.sweepValues);
+    EXPECT_EQ(back.session, r.session);
     EXPECT_EQ(back.buildMs, r.buildMs);
     EXPECT_EQ(back.frameMs.p95, 0.3);
     EXPECT_EQ(back.memoryBytes, r.memoryBytes);

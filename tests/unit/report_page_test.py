@@ -153,6 +153,18 @@ class PartOfARun(ReportTest):
         self.assertIn("1 of 3 variants are finished; missing: c.", self.make(rows, run, images=False).text)
         self.assertNotIn("missing: ", self.make(rows, run | {"finished": "2026-01-01T10:03:00Z"}, images=False).text)
 
+    def test_times_of_several_sessions_are_told(self):
+        rows = [made_up.variant("a", 10, 0.3), made_up.variant("b", 20, 0.2), made_up.failed("c", "lost device")]
+        run = made_up.manifest([])
+        sessions = [{"started": f"2026-01-0{day}T10:00:00Z", "variants": list(names)} for day, names in ((1, "a"), (2, "bc"))]
+        shown = self.make(rows, run | {"sessions": sessions}, indirect=False)
+        for words in ("Times come from 2 sessions, for the run was resumed (1 variant of 2026-01-01T10:00:00Z, 1 variant of "
+                      "2026-01-02T10:00:00Z): compare", "session of 2026-01-02T10:00:00Z"):
+            self.assertIn(words, shown.text)
+        # One session, one of which nothing is left, a manifest without them
+        for of in (sessions[:1], [sessions[0], {"started": "", "variants": ["c"]}], [], "odd"):
+            self.assertNotIn("sessions", re.sub("Whole manifest.*", "", self.make(rows, run | {"sessions": of}, indirect=False).text, flags=re.S))
+
     def test_words_of_the_sweep_stand_in_names_alone(self):
         rows = [made_up.variant(f"{n}-{word}", n, 0.3, size=n, method=word) for n in (8, 16) for word in ("a", "b")]
         results = load(made_up.write_results(self.directory, rows, made_up.manifest(["size", "method"]), images=False))
