@@ -184,6 +184,19 @@ def errors_at_equal_time(scene: Scene, cost: str) -> dict[str, list[Factor]]:
     return found
 
 
+def on_front(scenes: list[Scene], cost: str) -> dict[str, int]:
+    """By method, in how many scenes it is on the Pareto front of cost and upper end of the error, most first: among the
+    variants of one machine that are better than a black or a constant image."""
+    counts: dict[str, int] = {}
+    for scene in scenes:
+        usable = [m for m in scene.measured if m.costs[cost] > 0 and m.error > 0 and not m.is_worse_than_nothing]
+        by_machine = [[m for m in usable if m.machine == machine] for machine in dict.fromkeys(m.machine for m in usable)]
+        for method in dict.fromkeys(own[i].method for own in by_machine
+                                    for i in pareto_front([(m.costs[cost], m.high) for m in own])):
+            counts[method] = counts.get(method, 0) + 1
+    return dict(sorted(counts.items(), key=lambda entry: -entry[1]))
+
+
 def dominated(scenes: list[Scene], cost: str) -> list[str]:
     """Methods that are surely beaten in every scene that they were measured in: each of their variants costs no less
     than another method's whose error's interval lies below theirs."""

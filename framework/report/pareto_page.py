@@ -18,6 +18,7 @@ from report.svg import STAND_INS, drawing, to_svg
 
 _HERE = Path(__file__).resolve().parent
 _SAMPLES = (4, 16)  # of filtered path tracing, at whose errors the best method is looked for
+_MAX_ON_FRONT = 3  # methods that are named
 _WORST_OF = ("nrmse", "relmse")  # the metric that shows least gain counts
 _QUALITY = ("ssim", "nrmse", "relmse", "mean_ratio")
 CHARTED = (*pareto.TIMES, "memory")
@@ -41,6 +42,7 @@ def render(runs: list[Results], metric: Metric, light: str) -> str:
         legend=list(styles.items()), markers=MARKERS, tables=[(cost, _savings(rivalled, cost)) for cost in pareto.TIMES],
         equal_time=_equal_time(rivalled, "frame"), best_points=_best_points(rivalled), gains=_gains(both),
         worst_of=_WORST_OF, scene_names=[scene.name for scene in rivalled],
+        winners=[_winners(scenes, both, cost) for cost in pareto.TIMES],
         dominated={cost: pareto.dominated(scenes, cost) for cost in pareto.TIMES},
         words={cost: _words_of(cost) for cost in pareto.TIMES},
         runs=[str(run.directory) for run in runs])
@@ -70,12 +72,32 @@ def _savings(scenes: list[Scene], cost: str) -> list[tuple[str, list[str], str, 
     return rows
 
 
+def _sampled(views: list[list[Scene]]) -> list[tuple[Scene, ...]]:
+    """The scenes in which filtered path tracing was measured with all of _SAMPLES, each by several metrics."""
+    return [scene for scene in zip(*views) if {m.spp for m in scene[0].measured} >= set(_SAMPLES)]
+
+
+def _winners(scenes: list[Scene], views: list[list[Scene]], cost: str) -> str:
+    """A sentence on who wins by a time: at the errors of filtered path tracing, or else who is on the front."""
+    wins: dict[str, list[str]] = {}  # by method: scenes
+    for scene in _sampled(views):
+        found = pareto.best_at(list(scene), cost, _SAMPLES)
+        who = "filtered path tracing itself" if found is None or found[1].high < 1 else found[0] if found[1].is_told else "open"
+        factor = "" if found is None or found[1].high < 1 else f" {_range([found[1]])}×"
+        wins.setdefault(who, []).append(scene[0].name + factor)
+    if wins:
+        listed = [f"{who} ({', '.join(names)})" for who, names in sorted(wins.items(), key=lambda entry: -len(entry[1]))]
+        return (f"By the time of {_words_of(cost)}, fastest at the errors of filtered path tracing with "
+                f"{' and '.join(map(str, _SAMPLES))} samples a pixel: {'; '.join(listed)}.")
+    front = list(pareto.on_front(scenes, cost).items())[:_MAX_ON_FRONT]
+    told = "; ".join(f"{method} ({count} of {len(scenes)} scene{'s' * (len(scenes) > 1)})" for method, count in front)
+    return f"By the time of {_words_of(cost)}, most often on the Pareto front: {told or 'none'}."
+
+
 def _gains(views: list[list[Scene]]) -> list[tuple[str, str, str, str]]:
     """Rows of each scene and time: the factor of the method that gains most, and the method."""
     rows = []
-    for scene in zip(*views):
-        if not {m.spp for m in scene[0].measured} >= set(_SAMPLES):
-            continue
+    for scene in _sampled(views):
         for cost in pareto.TIMES:
             found = pareto.best_at(list(scene), cost, _SAMPLES)
             rows.append((scene[0].name, _words_of(cost), _range([found[1]]) if found else "–", found[0] if found else ""))

@@ -11,7 +11,7 @@ sys.dont_write_bytecode = True
 sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "framework"), str(Path(__file__).resolve().parent)]
 
 import report_results as made_up  # noqa: E402
-from report import make_pareto, pareto  # noqa: E402
+from report import make_pareto, pareto, pareto_page  # noqa: E402
 from report.load import load  # noqa: E402
 
 RAYS = ("gbuffer", "voxelize", "inject_light_rays", "gather_rays", "filter_irradiance")
@@ -126,6 +126,31 @@ class Pareto(unittest.TestCase):
             rows = list(csv.DictReader(file))
         self.assertEqual([row["method"] for row in rows], ["path_trace", "inject_light_rays + gather_rays"])
         self.assertEqual(float(rows[1]["frame"]), 10)
+
+    def test_the_page_opens_with_who_wins(self):
+        # Without filtered path tracing of known samples: who is on the front
+        runs = [load(self.run_of(name, {"p": (PATHS, 100, error), "r": (RAYS, 90, 0.05)})) for name, error in (("room", 0.1), ("hall", 0.01))]
+        metric = runs[0].metrics[0]
+        self.assertEqual(pareto.on_front(pareto.scenes_of(runs, metric, "indirect"), "frame"),
+                         {"inject_light_rays + gather_rays": 2, "path_trace": 1})
+        page = pareto_page.render(runs, metric, "indirect")
+        wins, loses = (page.index(words) for words in (
+            "most often on the Pareto front: inject_light_rays + gather_rays (2 of 2 scenes); path_trace (1 of 2 scenes).",
+            "beaten in every scene"))
+        self.assertLess(wins, loses)
+
+        # At its errors: four times as fast in one scene, a quarter of that in the other
+        rays = lambda speed: {f"r{spp}": (RAYS, 25 * spp / speed, 0.4 / math.sqrt(spp)) for spp in (4, 16, 64)}
+        paths = {f"p{spp}": (PATHS, 25 * spp, 0.4 / math.sqrt(spp)) for spp in (4, 16)}
+        runs = [load(self.run_of(name, paths | rays(speed))) for name, speed in (("attic", 4), ("cellar", 0.25))]
+        for run in runs:
+            for entry in ("p4", "p16"):
+                run.manifest["variants"][entry][1]["spp"] = int(entry[1:])
+        page = pareto_page.render(runs, metric, "indirect")
+        words = ("By the time of one frame, fastest at the errors of filtered path tracing with 4 and 16 samples a pixel: "
+                 "inject_light_rays + gather_rays (attic 4.0×); filtered path tracing itself (cellar).")
+        self.assertIn(words, page)
+        self.assertLess(page.index(words), page.index("beaten in every scene"))
 
     def test_what_cannot_be_read(self):
         folder = self.run_of("room", {"p": (PATHS, 100, 0.1)})
