@@ -149,6 +149,41 @@ void checkEmptyBlocks(const Value& root, const Value& config) {
                              key);
 }
 
+/// Whether the config has that value without the axis of the sweep, too. A whole pass is swapped without its
+/// parameters.
+bool isWritten(const Value& config, const std::string& path, const Value& value) {
+    const Value* written = valueAt(config, path);
+    if (!written || path.find('.') != std::string::npos || !written->find("pass"))
+        return written && *written == value;
+    Value own = *written, other = value.isScalar() ? Value::map() : value;
+    if (value.isScalar()) other.set("pass", value);
+    own.erase("id");
+    other.erase("id");
+    return own == other;
+}
+
+/// What to say of axes of the config's text whose only value is written in the graph or the scene as well.
+/// Those that a profile or --set leaves a single value keep their column on purpose.
+std::vector<std::string> idleAxes(const Value& root, const Experiment& experiment) {
+    std::vector<std::string> warnings;
+    const Value* sweep = root.find("sweep");
+    for (const auto& [path, axis] : sweep ? sweep->members : std::vector<Value::Member>()) {
+        const Value* own = experiment.sweep.find(path);
+        const size_t values = axis.items.size() + axis.members.size();
+        if (values != 1 || !own || own->where.str() != axis.where.str()) continue;
+        const Value& value = axis.isMap() ? axis.members[0].value : axis.items[0];
+        if (isWritten(experiment.config, path, value))
+            warnings.push_back(
+                UsageError(
+                    axis.where,
+                    "sweep.{}: its one value, {}, is the one that is written anyway, so that it varies "
+                    "nothing: write more values, or leave it out",
+                    path, value.text())
+                    .what());
+    }
+    return warnings;
+}
+
 /// A config's file. @throws UsageError where it is a scene.
 Value readConfig(const std::filesystem::path& path) {
     const std::filesystem::path ending = path.extension();
@@ -177,6 +212,7 @@ Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
     for (const std::string& assignment : options.assignments) applyAssignment(config, assignment);
     Experiment experiment = readExperiment(std::move(config));
     checkEmptyBlocks(root, experiment.config);
+    experiment.warnings = idleAxes(root, experiment);
     return experiment;
 }
 

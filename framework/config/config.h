@@ -23,8 +23,9 @@ struct Experiment {
     Value config;                ///< The whole config, without `profiles`.
     Setup setup;
     MeasureSettings measure;
-    Value reference;             ///< One entry of a graph, or null: no reference, no metrics.
-    Value sweep = Value::map();  ///< Path -> non-empty list, in the file's order.
+    Value reference;                    ///< One entry of a graph, or null: no reference, no metrics.
+    Value sweep = Value::map();         ///< Path -> non-empty list, in the file's order.
+    std::vector<std::string> warnings;  ///< What may not be meant, with file and line.
 };
 
 struct ConfigOptions {

@@ -163,6 +163,25 @@ bool hasTarget(const Value& config, const std::string& path) {
                        [&](const Value& entry) { return passId(entry) == first; });
 }
 
+const Value* valueAt(const Value& config, const std::string& path) {
+    const Value* found = &config;
+    size_t from = 0;
+    const std::string first = path.substr(0, path.find('.'));
+    if (const Value* graph = config.find("graph")) {
+        const auto pass = std::ranges::find(graph->items, first, passId);
+        if (pass != graph->items.end()) {
+            found = &*pass;
+            from = first.size() + 1;
+        }
+    }
+    while (found && from < path.size()) {
+        const size_t dot = std::min(path.find('.', from), path.size());
+        found = found->find(path.substr(from, dot - from));
+        from = dot + 1;
+    }
+    return found;
+}
+
 TextLocation placeOf(const Value& config, const std::string& path) {
     const Value* found = &config;
     for (size_t from = 0; from < path.size();) {

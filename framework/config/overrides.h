@@ -26,6 +26,9 @@ std::string optionFor(const std::string& key);
 /// Whether what `path` begins with is there: a key of the config, or a pass of its graph.
 bool hasTarget(const Value& config, const std::string& path);
 
+/// What `path` names: a key, a pass of the graph, or a parameter of one; nullptr where nothing is written.
+const Value* valueAt(const Value& config, const std::string& path);
+
 enum class Merge {
     Maps,    ///< A map is merged into the map that is there, key by key (profiles, --set).
     Replace  ///< The new value stands alone (sweeps).

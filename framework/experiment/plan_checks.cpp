@@ -114,6 +114,20 @@ std::vector<std::string> spheresThatStay(const WiredVariant& variant) {
                 .what()};
 }
 
+/// What to say of a reference whose halves have different numbers of samples; else "".
+std::string unequalHalves(const Experiment& experiment) {
+    const Value* spp = experiment.reference.find("spp");
+    if (!spp) return {};
+    const int64_t samples = spp->asInteger("reference.spp");
+    if (samples % 2 == 0) return {};
+    return UsageError(
+               spp->where,
+               "reference.spp: of {} samples a pixel one half of the reference has {}, the other {}, and "
+               "both count the same: write an even number, best a power of two",
+               samples, samples / 2, samples - samples / 2)
+        .what();
+}
+
 /// A variant and the memory that it takes.
 struct Need {
     std::string variant;
@@ -197,7 +211,8 @@ std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader,
     }
     motion.refuse();
 
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings = experiment.warnings;
+    if (std::string text = unequalHalves(experiment); !text.empty()) warnings.push_back(std::move(text));
     if (std::string text = overTheLimit(experiment, std::move(needs)); !text.empty())
         warnings.push_back(std::move(text));
     for (const auto& [id, count] : variantsWithout(wired))

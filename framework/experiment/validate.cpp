@@ -248,8 +248,10 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
         wired.reference = graph.resolved();
         // Of a single sample there are no halves, which tell the reference's noise
         if (const Value* spp = experiment.reference.find("spp"); spp && spp->asInteger("reference.spp") < 2)
-            throw UsageError(spp->where,
-                             "reference.spp: 2 or more; from its halves comes the reference's noise");
+            throw UsageError(
+                spp->where,
+                "reference.spp: 2 or more, best a power of two, as in spp: 64: from its two halves "
+                "comes the reference's noise");
         if (const Value* light = experiment.reference.find("light"); light && light->scalar != "all")
             throw UsageError(light->where,
                              "reference.light: 'all', or left out: direct and indirect light are compared");

@@ -252,6 +252,29 @@ TEST(Config, BlocksWithoutEffectAreRefusedInTheFileAlone) {
     parseExperiment(kValid, "x", {"", {"sweep.voxelize.resolution=null"}});
 }
 
+TEST(Config, AnAxisWhoseOneValueIsWrittenIsWarnedOf) {
+    const auto warnings = [](const std::string& axis, const ConfigOptions& options = {}) {
+        return parseExperiment(replaced(kValid, "voxelize.resolution: [32, 64]", axis), "demo.yaml", options)
+            .warnings;
+    };
+    ASSERT_EQ(warnings("voxelize.resolution: [64]").size(), 1u);
+    EXPECT_CONTAINS(warnings("voxelize.resolution: [64]")[0],
+                    "demo.yaml:14: sweep.voxelize.resolution: its one value, 64, is the one that is written");
+    EXPECT_EQ(warnings("scene.camera.fov_deg: {as it is: 40}").size(), 1u);
+    EXPECT_EQ(warnings("gbuffer: [gbuffer]").size(), 1u);
+    EXPECT_EQ(warnings("gbuffer: [{pass: gbuffer}]").size(), 1u);
+
+    // Another value, a pass without the written one's parameters, what a profile or --set makes of it
+    for (const char* other :
+         {"voxelize.resolution: [64, 128]", "voxelize.resolution: [65]", "voxelize.method: [exact]",
+          "inject: [inject_light_rays]", "gbuffer: [[gbuffer]]", "scene.lights: [[]]"})
+        EXPECT_TRUE(warnings(other).empty()) << other;
+    const std::string several = "voxelize.resolution: [32, 64]";
+    EXPECT_TRUE(warnings(several, {"", {"sweep.voxelize.resolution=[64]"}}).empty());
+    EXPECT_EQ(warnings("voxelize.resolution: [64]", {"", {"image.width=8"}}).size(), 1u);
+    EXPECT_TRUE(warnings("voxelize.resolution: [64]", {"small", {}}).empty());
+}
+
 TEST(Config, PlacesOfPaths) {
     const Value config = parseExperiment(kValid, "demo.yaml").config;
     EXPECT_EQ(placeOf(config, "scene.camera.fov_deg").line, 5);
