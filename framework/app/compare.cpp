@@ -80,6 +80,15 @@ void printJson(const std::vector<Row>& rows, const CompareOptions& options, cons
     fmt::print("{}\n", out.json());
 }
 
+/// @throws UsageError for a file that is no whole image.
+ImageF readGiven(const std::filesystem::path& path) {
+    try {
+        return readImage(path);
+    } catch (const Error& error) {
+        throw UsageError("{}", error.what());
+    }
+}
+
 /// The halves of a reference X.exr, X_a.exr and X_b.exr next to it, as `run` writes them; empty where they
 /// aren't there. @throws Error where their mean isn't the reference.
 std::vector<ImageF> readHalves(const std::filesystem::path& path, const ImageF& reference) {
@@ -89,7 +98,7 @@ std::vector<ImageF> readHalves(const std::filesystem::path& path, const ImageF& 
         paths.push_back(path.parent_path() / (path.stem().string() + end + path.extension().string()));
         if (!std::filesystem::exists(paths.back())) return {};
     }
-    for (const std::filesystem::path& half : paths) halves.push_back(readImage(half));
+    for (const std::filesystem::path& half : paths) halves.push_back(readGiven(half));
     double difference = 0, sum = 0;
     const bool fits = std::ranges::all_of(
         halves, [&](const ImageF& half) { return half.data.size() == reference.data.size(); });
@@ -108,8 +117,8 @@ void compare(const CompareOptions& options) {
     for (const std::filesystem::path& file : {options.test, options.reference})
         if (!std::filesystem::exists(file))
             throw UsageError("no file '{}'{}", file.string(), didYouMeanFile(file));
-    const ImageF test = readImage(options.test);
-    const ImageF reference = readImage(options.reference);
+    const ImageF test = readGiven(options.test);
+    const ImageF reference = readGiven(options.reference);
     if (test.width != reference.width || test.height != reference.height)
         throw UsageError("{} is {}x{} and {} is {}x{}: images to compare are of one size",
                          options.test.string(), test.width, test.height, options.reference.string(),

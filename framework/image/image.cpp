@@ -120,7 +120,8 @@ ImageF readImage(const fs::path& path) {
         const OIIO::ImageSpec config = openOptions();
         const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &config);
         if (!input)
-            throw Error("{}: not an image that Voxray can read: {}", name, reasonOr(OIIO::geterror()));
+            throw Error("{}: is no image that Voxray reads (EXR, HDR, PNG or JPEG); OpenImageIO says: {}",
+                        name, reasonOr(OIIO::geterror()));
         const OIIO::ImageSpec spec = input->spec();
         checkSpec(spec, name);
         const ColourChannels colour = colourChannels(spec);

@@ -122,10 +122,14 @@ class Compare(CommandTest):
     def test_bad_images(self):
         self.image("a.png", 90)
         self.image("b.png", 90, (10, 10))
-        self.write("broken.png", "not an image")
         self.assertIn("40x30", self.expect(2, "compare", "a.png", "b.png").stderr)
         self.assertIn("missing.exr", self.expect(2, "compare", "a.png", "missing.exr").stderr)
-        self.assertIn("broken.png", self.expect(1, "compare", "a.png", "broken.png").stderr)
+        for name, text in (("broken.png", "not an image"), ("table.csv", "a,b\n1,2\n"), ("notes", "")):
+            self.write(name, text)
+            for files in (("a.png", name), (name, "a.png")):
+                self.assertIn(f"voxray: error: {name}: is no image that Voxray reads (EXR, HDR, PNG or JPEG)",
+                              self.expect(2, "compare", *files).stderr)
+        self.assertIn(": is a folder, not a file", self.expect(2, "compare", "a.png", ".").stderr)
         self.assertIn("a.png", self.expect(1, "compare", "a.png", "a.png", "--flip-map", "a.png/map.png").stderr)
 
 

@@ -148,7 +148,7 @@ MISTAKES = {
     "a file below the home folder": ("builtin: cornell", "file: ~/room.glb", 3, "write the whole path"),
     "a scene file that holds no scene": ("builtin: cornell", "file: mine.yaml", 3, "its JSON is broken"),
     "a folder for a scene file": ("builtin: cornell", "file: .", 3, "is a folder"),
-    "an environment that is no image": ("  lights:", "  environment: mine.yaml\n  lights:", 5, "not an image"),
+    "an environment that is no image": ("  lights:", "  environment: mine.yaml\n  lights:", 5, "is no image that Voxray reads"),
     "a file and a built-in scene": ("builtin: cornell", "builtin: cornell\n  file: mine.yaml", 2, "take one out"),
     "a path of Windows in quotes": ("builtin: cornell", 'file: "C:\\scenes\\room.glb"', 3, "write paths with '/'"),
     # References
