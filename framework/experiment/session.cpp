@@ -4,6 +4,8 @@
 
 #include "base/files.h"
 #include "base/interrupt.h"
+#include "experiment/scene_size.h"
+#include "vulkan/size_error.h"
 
 namespace voxray {
 
@@ -45,6 +47,10 @@ SceneOnDevice& Session::scene(const Setup& setup) {
         scene_->gpu = makeGpuScene(device_, stream_, scene_->prepared.state);
         scene_->tracer = makeRayTracer(setup.general.tracer, device_, compiler_, scene_->prepared.state);
         stream_.finish();
+    } catch (const SizeError& error) {
+        const std::string advice = sceneSizeAdvice(setup.scene, scene_->prepared.state);
+        scene_.reset();
+        throw Error(setup.scene.where, "scene: {}; {}", error.what(), advice);
     } catch (...) {
         scene_.reset();
         throw;

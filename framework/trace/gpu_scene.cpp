@@ -149,11 +149,22 @@ ImageF environmentImage(const Environment& environment) {
 
 uint64_t gpuSceneBytes(const SceneState& state) {
     const Geometry& g = state.geometry;
-    uint64_t bytes = g.positions.size() * (sizeof(glm::vec3) + sizeof(VertexAttributes)) +
-                     g.triangles.size() * (sizeof(glm::uvec3) + sizeof(uint32_t)) +
-                     state.scene->materials.size() * sizeof(gpu::GpuMaterial);
-    for (const Texture& texture : state.scene->textures) bytes += imageBytes(describe(texture));
+    const uint64_t bytes = g.positions.size() * (sizeof(glm::vec3) + sizeof(VertexAttributes)) +
+                           g.triangles.size() * (sizeof(glm::uvec3) + sizeof(uint32_t)) +
+                           state.scene->materials.size() * sizeof(gpu::GpuMaterial);
+    return bytes + gpuTextureBytes(*state.scene);
+}
+
+uint64_t gpuTextureBytes(const Scene& scene) {
+    uint64_t bytes = 0;
+    for (const Texture& texture : scene.textures) bytes += imageBytes(describe(texture));
     return bytes;
+}
+
+uint64_t gpuEnvironmentBytes(const Environment& environment) {
+    ImageDesc desc;
+    if (environment.map) desc.extent = {environment.map->width, environment.map->height, 1};
+    return imageBytes(desc);
 }
 
 std::vector<Binding> GpuScene::bindings(std::vector<Binding> more) const {

@@ -37,8 +37,11 @@ struct GpuScene {
     }
 };
 
-/// Bytes that makeGpuScene will allocate.
+/// Bytes that makeGpuScene will allocate, but for the environment.
 uint64_t gpuSceneBytes(const SceneState& state);
+/// Those of its textures, and those of its environment.
+uint64_t gpuTextureBytes(const Scene& scene);
+uint64_t gpuEnvironmentBytes(const Environment& environment);
 
 /// Uploads a scene. @throws Error over the memory limit, or for more textures than the device can bind.
 GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& state);

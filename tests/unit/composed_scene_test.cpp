@@ -4,6 +4,8 @@
 
 #include "experiment/addition_check.h"
 #include "experiment/scene_setup.h"
+#include "experiment/scene_size.h"
+#include "experiment/session.h"
 #include "experiment_fakes.h"
 #include "scene/load.h"
 #include "tests/support/errors.h"
@@ -25,6 +27,9 @@ const Material& materialOf(const PreparedScene& prepared, const std::string& nam
         if (material.name == name) return material;
     throw Error("no material '{}'", name);
 }
+
+/// With a cache of its own.
+class SceneSize : public RunTest {};
 
 }  // namespace
 
@@ -175,4 +180,47 @@ TEST(ComposedSceneLoader, WarnsOfAdditionsInAnotherUnit) {
     EXPECT_CONTAINS(said[1], "transform: {scale: 0.99}");
     EXPECT_CONTAINS(said[2], "scene.add[3]: ");
     EXPECT_CONTAINS(said[2], "and 348 m away");
+}
+
+TEST_F(SceneSize, AdviceNamesWhatTheLargestPartGrowsWith) {
+    SceneLoader loader({});
+    const auto adviceOn = [&](const SceneSettings& settings) {
+        return sceneSizeAdvice(settings, loader.prepare(settings).state);
+    };
+    EXPECT_CONTAINS(adviceOn(settingsOf("  subdivide: 1\n  add: [{builtin: mirror_row}]\n")),
+                    ": lower scene.subdivide, or place fewer copies in scene.add, or take another --device");
+    const SceneSettings row =
+        parseExperiment("name: x\nscene: {builtin: mirror_row}\ngraph: [{pass: a}]\n", "x").setup.scene;
+    EXPECT_CONTAINS(adviceOn(row), ": lower scene.count, or take another --device");
+
+    // Textures and a map that take more than triangles
+    PreparedScene prepared = loader.prepare(row);
+    auto scene = std::make_shared<Scene>(*prepared.state.scene);
+    for (const uint32_t width : {512u, 2048u})
+        scene->textures.push_back({fmt::format("bark {}", width), width, 512,
+                                   std::vector<uint8_t>(size_t(width) * 512 * 4), true, Wrap::Repeat,
+                                   Wrap::Repeat});
+    prepared.state.scene = scene;
+    EXPECT_CONTAINS(sceneSizeAdvice(row, prepared.state),
+                    ": make its textures smaller; the largest is 'bark 2048' of 2048 x 512, or take");
+    scene->environment.map = std::make_shared<const ImageF>(2048u, 1024u, 3u);
+    EXPECT_CONTAINS(sceneSizeAdvice(row, prepared.state),
+                    "its environment 32.0 MiB: take a smaller map for scene.environment");
+}
+
+TEST_F(SceneSize, ASceneThatTheDeviceHasNoRoomForIsToldWithAdvice) {
+    Session session({}, test::sourceRoot(), {});
+    const voxray::Setup setup =
+        parseExperiment("name: x\nscene: {builtin: cornell, subdivide: 4}\ngraph: [{pass: a}]\n", "x.yaml")
+            .setup;
+    const uint64_t limit = session.device().memoryLimitBytes();
+    session.device().setMemoryLimitBytes(session.device().memoryUsedBytes() + 1024);
+    const std::string error = errorOf([&] { session.scene(setup); });
+    EXPECT_CONTAINS(error, "x.yaml:2: scene: 'scene positions' needs ");
+    EXPECT_CONTAINS(error, "its 9216 triangles take ");
+    EXPECT_CONTAINS(error, "lower scene.subdivide");
+
+    // With room again it is there
+    session.device().setMemoryLimitBytes(limit);
+    EXPECT_EQ(session.scene(setup).gpu.triangleCount, 9216u);
 }
