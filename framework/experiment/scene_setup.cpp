@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "base/files.h"
+#include "base/interrupt.h"
 #include "base/suggest.h"
 #include "image/image.h"
 #include "scene/compose.h"
@@ -80,6 +81,8 @@ template <typename Read>
 auto readAt(const TextLocation& where, const Read& read) {
     try {
         return read();
+    } catch (const Interrupted&) {
+        throw;
     } catch (const Error& error) {
         throw UsageError(where, "{}", error.what());
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/interrupt.h"
 #include "base/parallel.h"
 #include "scene/gltf_values.h"
 
@@ -152,7 +153,7 @@ void MaterialReader::decodeTextures() {
     std::vector<DecodedImage> decoded(images.size());
     std::vector<std::string> errors(images.size());
     parallelRanges(images.size(), 1, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
+        for (size_t i = begin; i < end && !interruptRequested(); ++i) {
             const size_t image = size_t(images[i]);
             const std::string name =
                 shortLine(fmt::format("image {} '{}'", image, file_.model().images[image].name));
@@ -166,6 +167,7 @@ void MaterialReader::decodeTextures() {
             }
         }
     });
+    if (interruptRequested()) throw Interrupted();
     for (const std::string& error : errors)
         if (!error.empty()) file_.fail("{}", error);
 

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "base/interrupt.h"
 #include "scene/content_hash.h"
 #include "scene/gltf_file.h"
 #include "scene/gltf_material.h"
@@ -48,6 +49,7 @@ std::shared_ptr<const Scene> load(const std::filesystem::path& path) {
     for (size_t i = 0; i < fileNodes.size(); ++i) {
         const tinygltf::Node& node = file.model().nodes[size_t(fileNodes[i])];
         readCameraAndLight(file, node, int32_t(i), *scene);
+        if (interruptRequested()) throw Interrupted();
         if (node.mesh < 0) continue;
         if (!meshes.contains(node.mesh)) meshes[node.mesh] = readMesh(file, node.mesh, materials, *scene);
         const MeshRange& range = meshes[node.mesh];

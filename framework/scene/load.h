@@ -14,7 +14,7 @@ namespace voxray {
 
 /// Loads a .glb or .gltf file. One clear line for a broken, truncated or hostile file, never a crash.
 /// Features that are left out (skins, morph targets, unknown extensions) are named in Scene::warnings.
-/// @throws Error naming the file and what is wrong with it.
+/// @throws Error naming the file and what is wrong with it, Interrupted.
 std::shared_ptr<const Scene> loadGltf(const std::filesystem::path& path);
 
 /// Writes a scene at one time as .glb: geometry, materials, textures, lights, cameras, exactly as rendered

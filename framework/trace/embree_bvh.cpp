@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "trace/texture_lookup.h"
 
 namespace voxray {
@@ -123,6 +124,8 @@ void EmbreeBvh::buildPart(Part& part, RTCBuildQuality quality) {
     part.scene = rtcNewScene(device);
     rtcSetSceneFlags(part.scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(part.scene, quality);
+    rtcSetSceneProgressMonitorFunction(
+        part.scene, [](void*, double) { return !interruptRequested(); }, nullptr);
     attach(part, part.opaque, 0, quality);
     attach(part, part.masked, 1, quality);
     commit(part);
@@ -133,6 +136,8 @@ void EmbreeBvh::commit(const Part& part) {
     switch (rtcGetDeviceError(device)) {
         case RTC_ERROR_NONE:
             break;
+        case RTC_ERROR_CANCELLED:
+            throw Interrupted();
         case RTC_ERROR_OUT_OF_MEMORY:
             throwEmbreeError("out of memory");
             break;

@@ -39,9 +39,9 @@ struct EmbreeBvh {
     EmbreeBvh& operator=(const EmbreeBvh&) = delete;
 
     /// Once. `state` must outlive this object. The qualities are those of `still` and of `moving`.
-    /// @throws Error where Embree refuses (out of memory).
+    /// @throws Error where Embree refuses (out of memory), Interrupted.
     void build(const SceneState& state, RTCBuildQuality ofStill, RTCBuildQuality ofMoving);
-    /// Takes over where the state's moving instances are now. @throws Error where Embree refuses.
+    /// Takes over where the state's moving instances are now. @throws as build().
     void update();
 
     RTCDevice device = nullptr;

@@ -4,11 +4,13 @@
 
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <limits>
 #include <random>
 #include <vector>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "tests/support/errors.h"
 #include "trace/texture_lookup.h"
 
@@ -50,6 +52,19 @@ struct Soup {
         state.geometry.triangleMaterials.push_back(material);
     }
 };
+
+TEST(EmbreeScene, AnInterruptStopsItsBuild) {
+    Soup soup;
+    for (int i = 0; i < 100000; ++i) soup.add({0, 0, float(-i)}, {4, 0, float(-i)}, {0, 4, float(-i)});
+    for (const RaysToCome rays : {RaysToCome::Many, RaysToCome::Few}) {
+        const InterruptScope scope;
+        testing::internal::CaptureStderr();
+        std::raise(SIGINT);
+        EXPECT_EQ(errorOf<Interrupted>([&] { const EmbreeScene scene(soup.state, rays); }), "interrupted");
+        EXPECT_CONTAINS(testing::internal::GetCapturedStderr(), "voxray: stopping");
+    }
+    EXPECT_EQ(EmbreeScene(soup.state).closestHit({{1, 2, -2.5f}, 0, {0, 0, -1}, kInfinity}).triangle, 3u);
+}
 
 TEST(EmbreeScene, HitsReportDistanceTriangleAndBarycentrics) {
     Soup soup;
