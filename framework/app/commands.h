@@ -12,6 +12,8 @@ void addSchemaCommand(CLI::App& app, int& status);
 void addSceneCommand(CLI::App& app, int& status);
 void addExportSceneCommand(CLI::App& app, int& status);
 void addCompareCommand(CLI::App& app, int& status);
+void addJobsCommand(CLI::App& app, int& status);
+void addMergeCommand(CLI::App& app, int& status);
 void addParetoCommand(CLI::App& app, int& status);
 void addExplainCommand(CLI::App& app, int& status);
 void addTuneCommand(CLI::App& app, int& status);

@@ -42,9 +42,8 @@ inline CLI::Validator endsWith(const std::string& ending) {
         "");
 }
 
-/// What every command that renders variants takes besides.
-inline void addRunOptions(CLI::App& command, RunOptions& options, const std::string& outHelp) {
-    command.add_option("--out", options.out, outHelp)->type_name("DIR");
+/// What every command takes besides that asks a device for what it can.
+inline void addDeviceOptions(CLI::App& command, RunOptions& options) {
     command
         .add_option("--device", options.deviceName,
                     "Part of a Vulkan device's name; default: the best that qualifies.")
@@ -53,6 +52,12 @@ inline void addRunOptions(CLI::App& command, RunOptions& options, const std::str
         .add_option("--tracer", options.tracer,
                     "Ray tracer in place of the config's: auto, ray_query, ray_pipeline or embree.")
         ->type_name("NAME");
+}
+
+/// What every command that renders variants takes besides.
+inline void addRunOptions(CLI::App& command, RunOptions& options, const std::string& outHelp) {
+    command.add_option("--out", options.out, outHelp)->type_name("DIR");
+    addDeviceOptions(command, options);
     command.add_flag("--resume", options.resume, "Keep what an earlier run of the same experiment finished.");
     command.add_flag("--dry-run", options.dryRun,
                      "Print variants, passes and predicted memory; render nothing.");

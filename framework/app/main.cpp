@@ -65,6 +65,8 @@ int main(int argc, char** argv) {
 
     int status = 0;
     addRunCommand(app, status);
+    addJobsCommand(app, status);
+    addMergeCommand(app, status);
     addValidateCommand(app, status);
     addSchemaCommand(app, status);
     addSceneCommand(app, status);

@@ -8,19 +8,13 @@
 
 #include "app/commands.h"
 #include "app/config_options.h"
+#include "app/run_summary.h"
 #include "app/source_root.h"
 #include "experiment/runner.h"
 #include "experiment/validate.h"
 #include "passes/register_passes.h"
 
 namespace voxray {
-
-namespace {
-
-struct RunArguments : ConfigArguments {
-    std::vector<std::filesystem::path> configs;
-    RunOptions options;
-};
 
 void printSummary(const RunSummary& summary, const RunOptions& options) {
     if (options.dryRun) return;
@@ -32,13 +26,21 @@ void printSummary(const RunSummary& summary, const RunOptions& options) {
     if (summary.interrupted)
         fmt::print(stderr, "voxray: interrupted; finished variants are kept in {}, --resume goes on\n",
                    summary.out.string());
-    if (options.quiet) return;
-    fmt::print("{} of {} variants done{}{}\n", summary.ok, summary.total,
+    if (options.quiet || summary.total == 0) return;
+    fmt::print("{} of {} variants done{}{}{}\n", summary.ok, summary.total,
                summary.resumed > 0 ? fmt::format(", {} of them by an earlier run", summary.resumed) : "",
-               summary.failed > 0 ? fmt::format("; {} failed, results.csv says why", summary.failed) : "");
+               summary.failed > 0 ? fmt::format("; {} failed, results.csv says why", summary.failed) : "",
+               summary.missing > 0 ? fmt::format("; {} missing", summary.missing) : "");
     if (options.report && summary.reportError.empty() && summary.ok + summary.failed > 0)
         fmt::print("Report: {}\n", (summary.out / "report.html").string());
 }
+
+namespace {
+
+struct RunArguments : ConfigArguments {
+    std::vector<std::filesystem::path> configs;
+    RunOptions options;
+};
 
 /// Runs the configs one after the other. @return the exit status.
 int run(const RunArguments& arguments) {
@@ -52,6 +54,8 @@ int run(const RunArguments& arguments) {
         for (const std::string& profile : profileNames(config))
             wireExperiment(loadExperiment(config, {profile, {}}), registry);
     }
+    if (!arguments.options.part.empty() && experiments.size() > 1)
+        throw UsageError("--part: it is of one config, and {} are given", experiments.size());
     const auto nameOf = [&](size_t i) { return experiments[i].experiment.setup.general.name; };
     for (size_t i = 0; i < experiments.size(); ++i)
         for (size_t j = 0; j < i; ++j)
@@ -91,6 +95,12 @@ void addRunCommand(CLI::App& app, int& status) {
         "aovs.PASS.exr of each variant.");
     command->add_flag_callback(
         "--no-report", [&options] { options.report = false; }, "Write result files alone, no report.html.");
+    command
+        ->add_option("--part", options.part,
+                     "Do one part of the experiment alone, next to others in other processes, by its id in "
+                     "'voxray jobs'.")
+        ->type_name("ID")
+        ->excludes("--dry-run");
     command->add_flag("--validate", options.validation,
                       "Turn Vulkan's validation layer on: its messages are printed and fail the run (exit "
                       "status 1). Times are then not the method's.");

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <random>
 
 #include "base/error.h"
 #include "base/suggest.h"
@@ -26,6 +27,29 @@ void syncPath(const fs::path& path) {
     const int reason = errno;
     ::close(descriptor);
     if (result != 0 && reason != EINVAL) throw Error("{}: {}", path.string(), std::strerror(reason));
+}
+
+// For names that no other process takes, on no machine that shares the folder: process ids are of one
+// machine.
+std::string randomNumber() {
+    std::random_device random;
+    return std::to_string((uint64_t(random()) << 32) | random());
+}
+
+// Puts a folder where another one may be. Of two processes that do so at once the last one's stays.
+void replaceFolder(const fs::path& from, const fs::path& to) {
+    constexpr int kTries = 100;
+    for (int attempt = 0; attempt < kTries; ++attempt) {
+        std::error_code code, ignored;
+        fs::rename(from, to, code);
+        if (!code) return;
+        if (code != std::errc::directory_not_empty && code != std::errc::file_exists)
+            throw fs::filesystem_error("rename", to, code);
+        const fs::path old = from.parent_path() / (kTemporaryFolder + ("old-" + randomNumber()));
+        fs::rename(to, old, ignored);
+        fs::remove_all(old, ignored);
+    }
+    throw Error("{}: other processes replace it again and again", to.string());
 }
 
 }  // namespace
@@ -61,8 +85,8 @@ void writeFileAtomically(const fs::path& path, const std::function<void(const fs
     if (path.has_parent_path()) fs::create_directories(path.parent_path(), code);
     if (code) throw Error("{}: {}", path.parent_path().string(), code.message());
     const fs::path temporary =
-        path.parent_path() / fs::path("." + path.stem().string() + "." + std::to_string(::getpid()) + ".tmp" +
-                                      path.extension().string());
+        path.parent_path() /
+        fs::path("." + path.stem().string() + "." + randomNumber() + ".tmp" + path.extension().string());
     try {
         write(temporary);
         syncPath(temporary);
@@ -85,8 +109,22 @@ void writeFileAtomically(const fs::path& path, std::string_view content) {
     });
 }
 
+void writeFolderAtomically(const fs::path& folder, const std::function<void(const fs::path&)>& write) {
+    const fs::path temporary =
+        folder.parent_path() / (kTemporaryFolder + folder.filename().string() + "-" + randomNumber());
+    std::error_code ignored;
+    try {
+        fs::create_directories(temporary);
+        write(temporary);
+        replaceFolder(temporary, folder);
+    } catch (...) {
+        fs::remove_all(temporary, ignored);
+        throw;
+    }
+}
+
 std::string whyNotWritable(const fs::path& folder) {
-    const fs::path probe = folder / (".writable-" + std::to_string(::getpid()));
+    const fs::path probe = folder / (".writable-" + randomNumber());
     std::error_code ignored;
     try {
         writeFileAtomically(probe, std::string(1 << 16, ' '));  // A full disk may take an empty file.

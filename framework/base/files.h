@@ -14,8 +14,8 @@ namespace voxray {
 std::vector<uint8_t> readFile(const std::filesystem::path& path);
 std::string readTextFile(const std::filesystem::path& path);
 
-/// Writes a file whole or not at all: a temporary file next to it (`.stem.PID.tmp.ext`), flushed to disk,
-/// then renamed.
+/// Writes a file whole or not at all: a temporary file next to it (`.stem.NUMBER.tmp.ext`), flushed to disk,
+/// then renamed. Many processes may write it at once, on many machines too: whichever comes last stays.
 /// @throws Error naming the file and the system's reason (full disk, no permission).
 void writeFileAtomically(const std::filesystem::path& path, std::string_view content);
 
@@ -25,6 +25,12 @@ bool isTemporaryName(const std::filesystem::path& path);
 /// The same for writers that need a path: `write` gets a temporary path with the same extension.
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path&)>& write);
+
+/// The same for a folder that `write` fills, under a temporary name next to it (kTemporaryFolder and more).
+/// A folder that was there is replaced.
+void writeFolderAtomically(const std::filesystem::path& folder,
+                           const std::function<void(const std::filesystem::path&)>& write);
+inline constexpr const char* kTemporaryFolder = ".tmp-";
 
 /// Makes the folder and writes a file there for a moment. @return what went wrong, with the path, or "".
 std::string whyNotWritable(const std::filesystem::path& folder);

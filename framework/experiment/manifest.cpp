@@ -1,10 +1,12 @@
 #include "experiment/manifest.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
+#include <utility>
 
 #include "base/files.h"
 #include "image/seed_error.h"
@@ -45,7 +47,8 @@ Json exposuresJson(const FlipExposures& e) {
     return {{"start", e.start}, {"stop", e.stop}, {"count", e.count}};
 }
 
-Json referenceJson(const ReferenceRecord& r, const Value& pass) {
+/// An entry of `references`, but for the variants.
+Json entryJson(const ReferenceRecord& r, const Value& pass) {
     Json json;
     if (pass.isMap()) json = Json::parse(pass.json());
     json["folder"] = r.folder;
@@ -54,26 +57,50 @@ Json referenceJson(const ReferenceRecord& r, const Value& pass) {
     json["cached"] = r.cached;
     json["mask_fractions"] = r.maskFractions;
     json.update(scoresJson(r.noise, kNoiseSuffix));
+    json["flip_exposures"] = exposuresJson(r.exposures);
+    json["indirect_flip_exposures"] = exposuresJson(r.indirectExposures);
+    json["baselines"] = {{"black", scoresJson(r.black)}, {"constant", scoresJson(r.constant)}};
     return json;
 }
 
-Scores scoresFrom(const Json& json) {
-    Scores scores;
-    for (const auto& [column, value] : json.items())
-        scores[column] = value.is_number() ? value.get<double>() : std::stod(value.get<std::string>());
-    return scores;
+void setSessions(Json& manifest, const Sessions& sessions) {
+    manifest["sessions"] = Json::array();
+    for (const auto& [began, variants] : sessions)
+        manifest["sessions"].push_back({{"started", began}, {"variants", variants}});
 }
 
-Scores noiseFrom(const Json& record) {
-    Scores noise;
-    const std::string suffix = kNoiseSuffix;
-    for (const auto& [key, value] : record.items())
-        if (key.ends_with(suffix)) noise[key.substr(0, key.size() - suffix.size())] = value.get<double>();
-    return noise;
+/// Writes `references`, and on top what most runs have: one reference.
+void setReferences(Json& manifest, const std::vector<ReferenceEntry>& references) {
+    manifest["references"] = Json::array();
+    for (const ReferenceEntry& reference : references) {
+        Json entry = Json::parse(reference.text);
+        entry["folder"] = reference.folder;
+        entry["variants"] = Json::array();
+        for (const auto& [variant, inputs] : manifest["inputs"].items())
+            if (inputs.at("reference").get<std::string>() == reference.hash)
+                entry["variants"].push_back(variant);
+        manifest["references"].push_back(std::move(entry));
+    }
+    if (references.empty()) return;
+    Json first = manifest["references"][0];
+    for (const char* key : {"flip_exposures", "baselines"}) manifest[key] = first[key];
+    for (const char* key : {"flip_exposures", "indirect_flip_exposures", "baselines", "variants"})
+        first.erase(key);
+    manifest["reference"] = std::move(first);
 }
 
-FlipExposures exposuresFrom(const Json& json) {
-    return {json.at("start").get<double>(), json.at("stop").get<double>(), json.at("count").get<int>()};
+/// Where two nodes differ first: a path and both values.
+std::string firstDifference(const Json& a, const Json& b, const std::string& path) {
+    if (a == b) return {};
+    if (!a.is_object() || !b.is_object()) return fmt::format("{}: {} and {}", path, a.dump(), b.dump());
+    for (const auto& [key, value] : a.items()) {
+        const std::string below = path + "." + key;
+        if (!b.contains(key)) return fmt::format("{}: {} and nothing", below, value.dump());
+        if (std::string text = firstDifference(value, b.at(key), below); !text.empty()) return text;
+    }
+    for (const auto& [key, value] : b.items())
+        if (!a.contains(key)) return fmt::format("{}.{}: nothing and {}", path, key, value.dump());
+    return {};  // In another order.
 }
 
 std::string cpuName() {
@@ -92,9 +119,7 @@ std::string manifestJson(const ManifestData& data) {
     json["commit"] = data.commit;
     json["started"] = data.started;
     json["finished"] = data.finished.empty() ? Json(nullptr) : Json(data.finished);
-    json["sessions"] = Json::array();
-    for (const auto& [began, variants] : data.sessions)
-        json["sessions"].push_back({{"started", began}, {"variants", variants}});
+    setSessions(json, data.sessions);
     json["device"] = data.device.name;
     json["driver"] = data.device.driver;
     json["tracer"] = data.tracer;
@@ -114,60 +139,72 @@ std::string manifestJson(const ManifestData& data) {
     json["seed_metrics"] = metricsJson(seedMetrics());
     json["temporal_metrics"] = metricsJson(temporalMetrics());
 
-    // What most runs have: one reference
-    if (!data.references.empty()) {
-        const ReferenceRecord& first = data.references[0];
-        json["flip_exposures"] = exposuresJson(first.exposures);
-        json["reference"] = referenceJson(first, data.referencePass);
-        json["baselines"] = {{"black", scoresJson(first.black)}, {"constant", scoresJson(first.constant)}};
-    }
-    json["references"] = Json::array();
-    for (const ReferenceRecord& r : data.references) {
-        Json entry = referenceJson(r, data.referencePass);
-        entry["variants"] = Json::array();
-        for (const auto& [variant, hash] : data.referenceHashes)
-            if (hash == r.hash) entry["variants"].push_back(variant);
-        entry["flip_exposures"] = exposuresJson(r.exposures);
-        entry["indirect_flip_exposures"] = exposuresJson(r.indirectExposures);
-        entry["baselines"] = {{"black", scoresJson(r.black)}, {"constant", scoresJson(r.constant)}};
-        json["references"].push_back(entry);
-    }
     json["auto"] = {{"tracer", data.tracer}, {"device", data.device.name}};
     json["requested"] = {{"tracer", schema_detail::textOf(experiment.setup.general.tracer)},
                          {"device", data.requestedDevice.empty() ? "best" : data.requestedDevice}};
     json["variants"] = Json::object();
     for (const auto& [name, graph] : data.graphs) json["variants"][name] = Json::parse(graph.json());
+    json["inputs"] = Json::object();
+    for (const auto& [name, graph] : data.graphs)
+        json["inputs"][name] = {{"scene", data.sceneKeys.at(name)},
+                                {"reference", data.referenceHashes.at(name)}};
     json["noise_parameters"] = data.noiseParameters;
     json["warnings"] = data.warnings;
     json["notes"] = data.notes;
     json["versions"] = {{"voxray", data.version}, {"driver", data.device.driver}, {"compiler", __VERSION__}};
     json["machine"] = {{"cpu", cpuName()}, {"cores", std::thread::hardware_concurrency()}};
+    setReferences(json, data.references);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::vector<ReferenceRecord> referencesOf(const std::string& manifestText) {
-    std::vector<ReferenceRecord> records;
-    try {
-        const Json manifest = Json::parse(manifestText);
-        for (const Json& json : manifest.at("references")) {
-            ReferenceRecord r;
-            r.folder = json.at("folder").get<std::string>();
-            r.hash = json.at("hash").get<std::string>();
-            r.seconds = json.at("seconds").get<double>();
-            r.cached = json.at("cached").get<bool>();
-            r.maskFractions = json.at("mask_fractions").get<std::map<std::string, double>>();
-            r.noise = noiseFrom(json);
-            r.exposures = exposuresFrom(json.at("flip_exposures"));
-            r.indirectExposures = exposuresFrom(json.at("indirect_flip_exposures"));
-            const Json& baselines = json.at("baselines");
-            r.black = scoresFrom(baselines.at("black"));
-            r.constant = scoresFrom(baselines.at("constant"));
-            records.push_back(r);
-        }
-    } catch (const std::exception&) {
-        return {};
+std::string referenceJson(const ReferenceRecord& record, const Value& pass) {
+    return entryJson(record, pass).dump(2) + "\n";
+}
+
+std::vector<ReferenceEntry> referencesIn(const fs::path& images) {
+    std::vector<ReferenceEntry> entries;
+    std::error_code code;
+    for (const auto& at : fs::directory_iterator(images, code)) {
+        const std::string folder = at.path().filename().string();
+        if (!folder.starts_with("reference") || !fs::exists(at.path() / "reference.json", code)) continue;
+        std::string text = readTextFile(at.path() / "reference.json");
+        const Json json = Json::parse(text, nullptr, false);
+        if (json.is_object() && json.contains("hash"))
+            entries.push_back({folder, json["hash"].get<std::string>(), std::move(text)});
     }
-    return records;
+    // reference, reference.2, ..., reference.10
+    std::ranges::sort(entries, {}, [](const ReferenceEntry& entry) {
+        return std::pair(entry.folder.size(), entry.folder);
+    });
+    return entries;
+}
+
+std::string manifestDifference(const std::string& first, const std::string& second) {
+    const Json a = Json::parse(first, nullptr, false), b = Json::parse(second, nullptr, false);
+    for (const Json* manifest : {&a, &b})
+        if (!manifest->is_object() || !manifest->contains("inputs"))
+            throw Error("the manifest is broken, or of an older version of Voxray");
+    for (const char* key : {"voxray_version", "commit", "config", "inputs"})
+        if (std::string text = firstDifference(a.at(key), b.at(key), key); !text.empty()) return text;
+    return {};
+}
+
+Sessions sessionsOf(const std::vector<VariantResult>& results) {
+    Sessions sessions;
+    for (const VariantResult& result : results) sessions[result.session].push_back(result.variant);
+    return sessions;
+}
+
+std::string mergedManifest(const std::string& first, const std::vector<ReferenceEntry>& references,
+                           const Sessions& sessions, const std::vector<std::string>& warnings,
+                           const std::vector<std::string>& notes, bool isWhole) {
+    Json json = Json::parse(first);
+    json["finished"] = isWhole ? Json(utcNow()) : Json(nullptr);
+    json["warnings"] = warnings;
+    json["notes"] = notes;
+    setReferences(json, references);
+    setSessions(json, sessions);
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string commitOf(const fs::path& sourceRoot) {

@@ -25,6 +25,18 @@ struct ReferenceRecord {
     std::map<std::string, double> maskFractions;  ///< By mask: of the image's pixels, those that it selects.
 };
 
+/// A reference whose images lie in a results folder.
+struct ReferenceEntry {
+    std::string folder;  ///< Below images/.
+    std::string hash;
+    std::string text;  ///< Of its reference.json.
+};
+
+/// When each process that measured variants began (VariantResult::session) -> these variants.
+using Sessions = std::map<std::string, std::vector<std::string>>;
+
+Sessions sessionsOf(const std::vector<VariantResult>& results);
+
 /// What `manifest.json` records.
 struct ManifestData {
     const Experiment* experiment = nullptr;
@@ -39,9 +51,9 @@ struct ManifestData {
     bool validation = false;
     std::string version, commit;
     std::string started, finished;  ///< UTC, ISO 8601; `finished` is empty until the run is.
-    /// Start of each process that measured variants, as `started` -> these variants.
-    std::map<std::string, std::vector<std::string>> sessions;
-    std::vector<ReferenceRecord> references;
+    Sessions sessions;
+    std::vector<ReferenceEntry> references;
+    std::map<std::string, std::string> sceneKeys;        ///< Variant -> SceneLoader::key() of its scene.
     std::map<std::string, std::string> referenceHashes;  ///< Variant -> its reference's hash.
     std::vector<std::string> warnings;                   ///< What may make a result misleading.
     std::vector<std::string> notes;                      ///< What a reader may want to know besides.
@@ -50,8 +62,22 @@ struct ManifestData {
 /// @return the text of manifest.json.
 std::string manifestJson(const ManifestData& data);
 
-/// The references that an older manifest records; empty for text that manifestJson didn't write.
-std::vector<ReferenceRecord> referencesOf(const std::string& manifestText);
+/// @return the text of reference.json, which lies with a reference's images.
+/// @param pass with every default filled in.
+std::string referenceJson(const ReferenceRecord& record, const Value& pass);
+/// Reads the references below images/, in the order of their folders; what isn't whole is left out.
+std::vector<ReferenceEntry> referencesIn(const std::filesystem::path& images);
+
+/// What keeps results of two manifests from being those of one experiment: config, version or scenes, as
+/// "config.seed: 7 and 8"; empty where nothing does.
+/// @throws Error for text that manifestJson didn't write.
+std::string manifestDifference(const std::string& first, const std::string& second);
+
+/// The manifest of results that were put together. @param first one of theirs.
+/// @param warnings, notes of all of them. @param isWhole whether no variant is missing.
+std::string mergedManifest(const std::string& first, const std::vector<ReferenceEntry>& references,
+                           const Sessions& sessions, const std::vector<std::string>& warnings,
+                           const std::vector<std::string>& notes, bool isWhole);
 
 /// The commit that a source folder has checked out, "unknown" outside of git.
 std::string commitOf(const std::filesystem::path& sourceRoot);

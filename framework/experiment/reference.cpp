@@ -1,7 +1,7 @@
 #include "experiment/reference.h"
 
-#include <unistd.h>
-
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -18,17 +18,23 @@ namespace {
 /// Raise it when the reference's meaning changes: older caches are then left alone.
 constexpr int kReferenceVersion = 2;
 
-struct Part {
-    const char* name;  ///< Of the port and of the cached file.
+/// One light of one half of the samples.
+struct Half {
+    const char* name;  ///< Of the cached file.
     ReferenceLight ReferenceImages::*light;
     ImageF ReferenceLight::*half;
+    std::array<SampleSums, 2> ReferenceSums::*lightSums;
+    size_t number;
     ImageF& of(ReferenceImages& reference) const { return reference.*light.*half; }
     const ImageF& of(const ReferenceImages& reference) const { return reference.*light.*half; }
+    SampleSums& of(ReferenceSums& sums) const { return (sums.*lightSums)[number]; }
+    const SampleSums& of(const ReferenceSums& sums) const { return (sums.*lightSums)[number]; }
 };
-constexpr Part kParts[] = {{"final_a", &ReferenceImages::final, &ReferenceLight::a},
-                           {"final_b", &ReferenceImages::final, &ReferenceLight::b},
-                           {"indirect_a", &ReferenceImages::indirect, &ReferenceLight::a},
-                           {"indirect_b", &ReferenceImages::indirect, &ReferenceLight::b}};
+constexpr Half kHalves[] = {
+    {"final_a", &ReferenceImages::final, &ReferenceLight::a, &ReferenceSums::final, 0},
+    {"final_b", &ReferenceImages::final, &ReferenceLight::b, &ReferenceSums::final, 1},
+    {"indirect_a", &ReferenceImages::indirect, &ReferenceLight::a, &ReferenceSums::indirect, 0},
+    {"indirect_b", &ReferenceImages::indirect, &ReferenceLight::b, &ReferenceSums::indirect, 1}};
 
 void setMeans(ReferenceImages& reference) {
     for (ReferenceLight* light : {&reference.final, &reference.indirect}) {
@@ -52,13 +58,11 @@ uint64_t referenceSeed(uint64_t seed) {
 }
 
 std::vector<std::string> referencePorts() {
-    std::vector<std::string> names;
-    for (const Part& part : kParts) names.emplace_back(part.name);
-    return names;
+    return {"sums"};
 }
 
-ReferenceImages renderReference(Graph& graph, const GraphTarget& target, uint32_t frameIndex,
-                                const std::function<void(double)>& progress) {
+RenderedPart renderReference(Graph& graph, const GraphTarget& target, uint32_t frameIndex,
+                             const std::function<void(double)>& progress) {
     Frame frame = target.frame;
     frame.progress = [&](double part) {
         progress(part);
@@ -69,17 +73,38 @@ ReferenceImages renderReference(Graph& graph, const GraphTarget& target, uint32_
         graph.run(phase, frame, target.device, target.stream, target.tracer, target.scene, frameIndex, true);
         if (interruptRequested()) throw Interrupted();
     }
+    const auto* sums = graph.resource<ReferenceSums>("sums");
+    if (!sums || sums->final[0].data.empty())
+        throw Error("the reference wrote no 'sums': path_trace needs 'spp: 2' or more and 'light: all'");
+    return {*sums, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+}
+
+void RenderedPart::add(const RenderedPart& other) {
+    seconds += other.seconds;
+    for (const Half& half : kHalves) half.of(sums).add(half.of(other.sums));
+}
+
+ReferenceImages imagesOf(const RenderedPart& whole) {
     ReferenceImages reference;
-    reference.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    for (const Part& part : kParts) {
-        const Image* image = graph.image(part.name);
-        if (!image || !*image)
-            throw Error("the reference wrote no '{}': path_trace needs 'spp: 2' or more and 'light: all'",
-                        part.name);
-        part.of(reference) = downloadImage(target.device, target.stream, *image);
+    reference.seconds = whole.seconds;
+    for (const Half& half : kHalves) {
+        const SampleSums& sum = half.of(whole.sums);
+        if (sum.samples == 0) throw Error("the reference has no sample in its half '{}'", half.name);
+        half.of(reference) = sum.mean();
     }
     setMeans(reference);
     return reference;
+}
+
+RenderedPart partOf(const ReferenceImages& reference) {
+    RenderedPart part;
+    part.seconds = reference.seconds;
+    for (const Half& half : kHalves) {
+        const ImageF& image = half.of(reference);
+        SampleSums& sums = half.of(part.sums) = SampleSums(image.width, image.height, 1);
+        std::ranges::copy(image.data, sums.data.begin());
+    }
+    return part;
 }
 
 std::string referenceHash(const std::string& sceneKey, const Value& resolvedPass, const ImageSettings& image,
@@ -89,20 +114,24 @@ std::string referenceHash(const std::string& sceneKey, const Value& resolvedPass
     return hasher.addPlain(image.width).addPlain(image.height).addPlain(seed).hex();
 }
 
+bool ReferenceCache::has(const std::string& hash) const {
+    std::error_code code;
+    return fs::exists(folder_ / hash / "reference.json", code);
+}
+
 std::optional<ReferenceImages> ReferenceCache::load(const std::string& hash, uint32_t width,
                                                     uint32_t height) const {
+    if (!has(hash)) return {};
     const fs::path folder = folder_ / hash;
-    std::error_code code;
-    if (!fs::exists(folder / "reference.json", code)) return {};
     try {
         ReferenceImages reference;
         reference.hash = hash;
         reference.cached = true;
-        for (const Part& part : kParts) {
-            ImageF image = readImage(folder / (std::string(part.name) + ".exr"));
+        for (const Half& half : kHalves) {
+            ImageF image = readImage(folder / (std::string(half.name) + ".exr"));
             if (image.width != width || image.height != height || image.channels != 3 || !isFinite(image))
                 return {};
-            part.of(reference) = std::move(image);
+            half.of(reference) = std::move(image);
         }
         setMeans(reference);
         reference.seconds =
@@ -115,24 +144,19 @@ std::optional<ReferenceImages> ReferenceCache::load(const std::string& hash, uin
 }
 
 void ReferenceCache::store(const ReferenceImages& reference) const {
+    // Another process may have been faster; what is damaged is replaced
+    const ImageF& image = reference.final.mean;
+    if (load(reference.hash, image.width, image.height)) return;
     const fs::path folder = folder_ / reference.hash;
-    const fs::path temporary = folder_ / (".tmp-" + reference.hash + "-" + std::to_string(::getpid()));
-    std::error_code ignored;
     try {
-        fs::remove_all(temporary);
-        fs::create_directories(temporary);
-        for (const Part& part : kParts)
-            writeExr(temporary / (std::string(part.name) + ".exr"), part.of(reference));
-        const nlohmann::json meta{{"seconds", reference.seconds}};
-        writeFileAtomically(temporary / "reference.json", meta.dump(1) + "\n");
-        fs::remove_all(folder);
-        fs::rename(temporary, folder);
+        writeFolderAtomically(folder, [&](const fs::path& temporary) {
+            for (const Half& half : kHalves)
+                writeExr(temporary / (std::string(half.name) + ".exr"), half.of(reference));
+            const nlohmann::json meta{{"seconds", reference.seconds}};
+            writeFileAtomically(temporary / "reference.json", meta.dump(1) + "\n");
+        });
     } catch (const fs::filesystem_error& error) {
-        fs::remove_all(temporary, ignored);
         throw Error("{}: {}", folder.string(), error.code().message());
-    } catch (...) {
-        fs::remove_all(temporary, ignored);
-        throw;
     }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiment/measure.h"
+#include "graph/reference_sums.h"
 #include "image/image.h"
 #include "image/score.h"
 
@@ -32,20 +33,36 @@ uint64_t referenceSeed(uint64_t seed);
 /// The outputs that a reference's pass must write.
 std::vector<std::string> referencePorts();
 
-/// Renders a one-pass graph, prepared, that writes the halves final_a, final_b, indirect_a and indirect_b.
-/// @param frameIndex of a sequence: frames draw random numbers of their own, so that their noise is
+/// A part of a reference, or several parts together.
+struct RenderedPart {
+    ReferenceSums sums;
+    double seconds = 0;  ///< That rendering took.
+
+    /// Adds another part of the same reference.
+    void add(const RenderedPart& other);
+};
+
+/// Renders a one-pass graph, prepared, that writes ReferenceSums: of the samples that the target's frame asks
+/// for. @param frameIndex of a sequence: frames draw random numbers of their own, so that their noise is
 /// independent. @param progress called with the fraction done. @throws Interrupted; Error of the pass.
-ReferenceImages renderReference(Graph& graph, const GraphTarget& target, uint32_t frameIndex,
-                                const std::function<void(double)>& progress);
+RenderedPart renderReference(Graph& graph, const GraphTarget& target, uint32_t frameIndex,
+                             const std::function<void(double)>& progress);
+
+/// The images of all parts together. @throws Error where a half has no sample.
+ReferenceImages imagesOf(const RenderedPart& whole);
+/// A reference as the only part of itself, of which imagesOf() gives the same bits again.
+RenderedPart partOf(const ReferenceImages& reference);
 
 /// Key of a reference: the scene (SceneLoader::key), the resolved pass, image size and seed.
 std::string referenceHash(const std::string& sceneKey, const Value& resolvedPass, const ImageSettings& image,
                           uint64_t seed);
 
-/// Keeps references under <folder>/<hash>/, each folder whole or absent.
+/// Keeps references under <folder>/<hash>/, each folder whole or absent, for many processes at once.
 class ReferenceCache {
  public:
     explicit ReferenceCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    /// Whether there is a reference, which load() may yet find damaged.
+    bool has(const std::string& hash) const;
     /// Empty where it isn't there, or is damaged or of another size: it is then rendered again.
     std::optional<ReferenceImages> load(const std::string& hash, uint32_t width, uint32_t height) const;
     /// @throws Error where it can't be written.

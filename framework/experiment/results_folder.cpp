@@ -1,15 +1,20 @@
 #include "experiment/results_folder.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "config/sweep.h"
+#include "experiment/reference_parts.h"
 
 namespace voxray {
 namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kTemporaryPrefix = ".tmp-";
+constexpr const char* kLock = ".lock";
+constexpr const char* kManifest = "manifest.json";
+constexpr const char* kParts = ReferenceParts::kFolder;
 
 // Turns the standard library's exceptions into one line that says what to do.
 template <typename Failure = Error, typename Work>
@@ -29,32 +34,51 @@ bool startsWith(const std::string& text, const char* prefix) {
 
 }  // namespace
 
-ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, bool resume)
+ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, FolderUse use)
     : path_(std::move(path)) {
+    const bool isPart = use == FolderUse::Part;
     orError<UsageError>(path_, [&] {
         if (fs::exists(path_) && !fs::is_directory(path_))
             throw UsageError("{}: is not a folder", path_.string());
         if (fs::exists(path_)) checkOwner(experiment);
         fs::create_directories(path_ / "images");
-        lock_.emplace(path_);
+        lock_.emplace(path_ / kLock, isPart ? ProcessLock::Kind::Shared : ProcessLock::Kind::Alone, path_);
         checkOwner(experiment);  // Again: another process may have had it until now.
     });
+    if (isPart) return;
     const fs::path probe = ".writable";
     writeText(probe.string(), "x");
     orError(path_, [&] {
         fs::remove(path_ / probe);
         std::vector<fs::path> left;
-        for (const auto& entry : fs::directory_iterator(path_))
-            if (isTemporaryName(entry.path())) left.push_back(entry.path());
+        for (const fs::path& folder : {path_, path_ / kParts})
+            if (fs::exists(folder))
+                for (const auto& entry : fs::directory_iterator(folder))
+                    if (isTemporaryName(entry.path()) || entry.path().extension() == kLock)
+                        left.push_back(entry.path());  // A killed part's lock is nobody's.
         for (const fs::path& file : left) fs::remove(file);
         for (const auto& entry : fs::directory_iterator(path_ / "images"))
-            if (startsWith(entry.path().filename().string(), kTemporaryPrefix)) fs::remove_all(entry.path());
-        if (!resume) removeOldRun();
+            if (startsWith(entry.path().filename().string(), kTemporaryFolder)) fs::remove_all(entry.path());
+        if (use == FolderUse::Fresh) removeOldRun();
     });
 }
 
+ProcessLock ResultsFolder::lockPart(const std::string& id) const {
+    orError<UsageError>(path_, [&] { fs::create_directories(path_ / kParts); });
+    return {path_ / kParts / ("." + id + ".lock"), ProcessLock::Kind::Alone, path_ / kParts / id};
+}
+
+void ResultsFolder::claim(const std::string& manifest) const {
+    const fs::path file = path_ / kManifest;
+    if (!fs::exists(file)) writeText(kManifest, manifest);
+    // Again: another process may have written it at the same time
+    if (const std::string what = manifestDifference(readTextFile(file), manifest); !what.empty())
+        throw UsageError("{}: holds parts of another experiment: {}; choose another folder with --out",
+                         path_.string(), what);
+}
+
 void ResultsFolder::checkOwner(const std::string& experiment) const {
-    const fs::path manifest = path_ / "manifest.json";
+    const fs::path manifest = path_ / kManifest;
     if (fs::exists(manifest)) {
         const auto json = nlohmann::json::parse(readTextFile(manifest), nullptr, false);
         const bool hasName = json.is_object() && json.contains("config") && json["config"].is_object() &&
@@ -68,7 +92,7 @@ void ResultsFolder::checkOwner(const std::string& experiment) const {
     }
     for (const auto& entry : fs::directory_iterator(path_))
         if (const fs::path name = entry.path().filename();
-            name != "images" && name != FolderLock::kFileName && !isTemporaryName(entry.path()))
+            name != "images" && name != kLock && !isTemporaryName(entry.path()))
             throw UsageError(
                 "{}: is not empty and holds no results of Voxray; choose another folder with --out",
                 path_.string());
@@ -80,10 +104,15 @@ void ResultsFolder::checkOwner(const std::string& experiment) const {
 void ResultsFolder::removeOldRun() const {
     for (const char* file : {"results.csv", "passes.csv", "values.csv", "frames.csv", "report.html"})
         fs::remove(path_ / file);
+    fs::remove_all(path_ / kParts);
+    removeReferences();
     for (const auto& entry : fs::directory_iterator(path_ / "images"))
-        if (fs::exists(entry.path() / "result.json") ||
-            startsWith(entry.path().filename().string(), "reference"))
-            fs::remove_all(entry.path());
+        if (fs::exists(entry.path() / "result.json")) fs::remove_all(entry.path());
+}
+
+void ResultsFolder::removeReferences() const {
+    for (const auto& entry : fs::directory_iterator(path_ / "images"))
+        if (startsWith(entry.path().filename().string(), "reference")) fs::remove_all(entry.path());
 }
 
 std::optional<VariantResult> ResultsFolder::finished(const std::string& variant,
@@ -107,24 +136,28 @@ std::optional<VariantResult> ResultsFolder::finished(const std::string& variant,
 void ResultsFolder::writeImages(const std::string& name,
                                 const std::function<void(const fs::path&)>& write) const {
     const fs::path folder = path_ / "images" / name;
-    const fs::path temporary = path_ / "images" / (kTemporaryPrefix + name);
-    try {
-        orError(folder, [&] {
-            fs::remove_all(temporary);
-            fs::create_directories(temporary);
-            write(temporary);
-            fs::remove_all(folder);
-            fs::rename(temporary, folder);
-        });
-    } catch (...) {
-        std::error_code code;
-        fs::remove_all(temporary, code);
-        throw;
-    }
+    orError(folder, [&] { writeFolderAtomically(folder, write); });
 }
 
-void ResultsFolder::remove(const std::string& name) const {
-    fs::remove(path_ / name);
+std::vector<ReferenceEntry> ResultsFolder::references() const {
+    return referencesIn(path_ / "images");
+}
+
+void ResultsFolder::writeTables(const std::vector<VariantResult>& rows, const Experiment& experiment) const {
+    const MeasureSettings& measure = experiment.measure;
+    writeText("results.csv", resultsCsv(rows, sweepKeys(experiment), measure));
+    writeText("passes.csv", passesCsv(rows));
+
+    // Tables that not every run has; what isn't written now may be there of a run that this one goes on with
+    const auto writeIf = [&](bool has, const char* name, const auto& text) {
+        if (has)
+            writeText(name, text());
+        else
+            fs::remove(path_ / name);
+    };
+    writeIf(std::ranges::any_of(rows, [](const VariantResult& r) { return !r.values.empty(); }), "values.csv",
+            [&] { return valuesCsv(rows); });
+    writeIf(measure.compareEvery > 0, "frames.csv", [&] { return framesCsv(rows, measure); });
 }
 
 void ResultsFolder::writeText(const std::string& name, const std::string& content) const {

@@ -5,22 +5,35 @@
 #include <optional>
 #include <string>
 
-#include "base/folder_lock.h"
+#include "base/process_lock.h"
+#include "config/config.h"
+#include "experiment/manifest.h"
 #include "experiment/results.h"
 
 namespace voxray {
+
+/// Who writes into a results folder: a whole run in place of an older one, one that goes on with it, or a
+/// part of a run, next to others in other processes.
+enum class FolderUse { Fresh, Resume, Part };
 
 /// The folder that a run writes into. Every file in it appears whole or not at all; a variant's images appear
 /// together with its result.json, by one rename.
 class ResultsFolder {
  public:
-    /// Makes the folder, locks it and checks that it can be written. An older run of the same experiment is
-    /// kept for `resume`, else removed; what a killed run left half-written is removed.
-    /// @throws UsageError where another process writes into it, or it holds anything but results of this
-    /// experiment; Error where it can't be written.
-    ResultsFolder(std::filesystem::path path, const std::string& experiment, bool resume);
+    /// Makes the folder, locks it and checks that it can be written. What a killed run left half-written is
+    /// removed, but by parts: it may be another one's.
+    /// @throws UsageError where another process writes into it (parts don't exclude each other), or it holds
+    /// anything but results of this experiment; Error where it can't be written.
+    ResultsFolder(std::filesystem::path path, const std::string& experiment, FolderUse use);
 
     const std::filesystem::path& path() const { return path_; }
+
+    /// Keeps other processes from the same part while the lock lives. @throws UsageError where one has it.
+    ProcessLock lockPart(const std::string& id) const;
+
+    /// Writes the manifest where there is none, so that all parts of a folder are of one experiment.
+    /// @throws UsageError that tells what differs from the one that is there.
+    void claim(const std::string& manifest) const;
 
     /// A finished variant of an older run. @throws UsageError naming what differs where it was run with other
     /// inputs.
@@ -30,17 +43,24 @@ class ResultsFolder {
     void writeImages(const std::string& name,
                      const std::function<void(const std::filesystem::path&)>& write) const;
 
+    /// The references whose images are there, in the order of their folders' names.
+    std::vector<ReferenceEntry> references() const;
+
+    /// Removes the images of all references.
+    void removeReferences() const;
+
+    /// Writes results.csv and the other tables, a row for each of these variants.
+    void writeTables(const std::vector<VariantResult>& rows, const Experiment& experiment) const;
+
     /// Replaces a file of the folder.
     void writeText(const std::string& name, const std::string& content) const;
-    /// Removes a file if it is there.
-    void remove(const std::string& name) const;
 
  private:
     void checkOwner(const std::string& experiment) const;
     void removeOldRun() const;
 
     std::filesystem::path path_;
-    std::optional<FolderLock> lock_;
+    std::optional<ProcessLock> lock_;
 };
 
 }  // namespace voxray

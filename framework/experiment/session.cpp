@@ -117,9 +117,9 @@ const ReferenceImages& Session::reference(const WiredExperiment& experiment, con
     if (reference_ && reference_->hash == hash) return *reference_;
     if (const auto failed = failedReferences_.find(hash); failed != failedReferences_.end())
         throw Error("{}", failed->second);
-    reference_ = cache_.load(hash, setup.image.width, setup.image.height);
-    if (reference_) return *reference_;
     try {
+        reference_ = stored(hash, setup);
+        if (reference_) return *reference_;
         reference_ = makeReference(hash, experiment, setup, registry, 0, progress);
     } catch (const std::exception& error) {
         if (interruptRequested()) throw Interrupted();
@@ -129,6 +129,20 @@ const ReferenceImages& Session::reference(const WiredExperiment& experiment, con
     // The same bits whether they come from memory or from the cache
     store(*reference_);
     return *reference_;
+}
+
+bool Session::hasReference(const std::string& hash) const {
+    return cache_.has(hash) || (parts_ && parts_->isWhole(hash));
+}
+
+std::optional<ReferenceImages> Session::stored(const std::string& hash, const Setup& setup) {
+    const uint32_t width = setup.image.width, height = setup.image.height;
+    if (auto cached = cache_.load(hash, width, height)) return cached;
+    if (!parts_ || !parts_->isWhole(hash)) return {};
+    ReferenceImages merged = imagesOf(parts_->load(hash, width, height));
+    merged.hash = hash;
+    store(merged);
+    return merged;
 }
 
 void Session::store(const ReferenceImages& reference) {
@@ -145,7 +159,7 @@ ReferenceImages Session::frameReference(const WiredExperiment& experiment, const
                                         const Registry& registry, uint32_t number,
                                         const std::function<void(double)>& progress) {
     const std::string hash = referenceHashOf(experiment, setup, number);
-    if (auto cached = cache_.load(hash, setup.image.width, setup.image.height)) return std::move(*cached);
+    if (auto known = stored(hash, setup)) return std::move(*known);
     ReferenceImages rendered = makeReference(hash, experiment, setup, registry, number, progress);
     store(rendered);
     return rendered;
@@ -154,15 +168,32 @@ ReferenceImages Session::frameReference(const WiredExperiment& experiment, const
 ReferenceImages Session::makeReference(const std::string& hash, const WiredExperiment& experiment,
                                        const Setup& setup, const Registry& registry, uint32_t number,
                                        const std::function<void(double)>& progress) {
-    const Frame frame = enterFrame(setup, number, referenceSeed(setup.general.seed));
+    ReferenceImages reference = imagesOf(renderPart(experiment, setup, registry, number, {}, progress));
+    reference.hash = hash;
+    return reference;
+}
+
+RenderedPart Session::referencePart(const WiredExperiment& experiment, const Setup& setup,
+                                    const Registry& registry, uint32_t number, SamplePart samples,
+                                    const std::function<void(double)>& progress) {
+    if (samples.parts == 1)
+        if (const auto cached = cache_.load(referenceHashOf(experiment, setup, number), setup.image.width,
+                                            setup.image.height))
+            return partOf(*cached);
+    return renderPart(experiment, setup, registry, number, samples, progress);
+}
+
+RenderedPart Session::renderPart(const WiredExperiment& experiment, const Setup& setup,
+                                 const Registry& registry, uint32_t number, SamplePart samples,
+                                 const std::function<void(double)>& progress) {
+    Frame frame = enterFrame(setup, number, referenceSeed(setup.general.seed));
+    frame.samples = samples;
     SceneOnDevice& onDevice = *scene_;
     Graph graph = referenceGraph(experiment.experiment, registry);
     plan(graph, frame, 0);
     graph.prepare(frame, device_, compiler_, stream_);
-    ReferenceImages reference = renderReference(
-        graph, {frame, device_, stream_, *onDevice.tracer, onDevice.gpu, {}}, number, progress);
-    reference.hash = hash;
-    return reference;
+    return renderReference(graph, {frame, device_, stream_, *onDevice.tracer, onDevice.gpu, {}}, number,
+                           progress);
 }
 
 std::vector<std::string> Session::warnings() const {

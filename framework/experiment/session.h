@@ -9,6 +9,7 @@
 
 #include "experiment/pixel_masks.h"
 #include "experiment/reference.h"
+#include "experiment/reference_parts.h"
 #include "experiment/scene_setup.h"
 #include "experiment/validate.h"
 
@@ -50,14 +51,22 @@ class Session {
     /// @param limitMb the config's limit for the graph in MiB, 0: none.
     std::vector<PassMemory> plan(Graph& graph, const Frame& frame, uint64_t limitMb);
 
-    /// The reference of a variant: from memory, from the cache on disk, or rendered now.
+    /// A folder of parts that references are merged from where the cache hasn't them.
+    void takeParts(ReferenceParts parts) { parts_ = std::move(parts); }
+    /// The reference of a variant: from memory, from the cache on disk, from its parts, or rendered now.
     /// A reference that failed fails again at once. @throws Error, Interrupted.
     const ReferenceImages& reference(const WiredExperiment& experiment, const Setup& setup,
                                      const Registry& registry, const std::function<void(double)>& progress);
-    /// The reference of another frame of a sequence (see standsStill); from the cache or rendered, not kept.
+    /// The reference of another frame of a sequence (see standsStill); likewise, not kept in memory.
     ReferenceImages frameReference(const WiredExperiment& experiment, const Setup& setup,
                                    const Registry& registry, uint32_t number,
                                    const std::function<void(double)>& progress);
+    /// Renders a part of a reference, or takes a whole one out of the cache. @throws Error, Interrupted.
+    RenderedPart referencePart(const WiredExperiment& experiment, const Setup& setup,
+                               const Registry& registry, uint32_t number, SamplePart samples,
+                               const std::function<void(double)>& progress);
+    /// Whether a reference can be had without rendering it.
+    bool hasReference(const std::string& hash) const;
     /// A reference's hash, "" where the experiment has none.
     std::string referenceHashOf(const WiredExperiment& experiment, const Setup& setup, uint32_t number = 0);
 
@@ -69,6 +78,9 @@ class Session {
     std::vector<std::string> warnings() const;
 
  private:
+    std::optional<ReferenceImages> stored(const std::string& hash, const Setup& setup);
+    RenderedPart renderPart(const WiredExperiment& experiment, const Setup& setup, const Registry& registry,
+                            uint32_t number, SamplePart samples, const std::function<void(double)>& progress);
     ReferenceImages makeReference(const std::string& hash, const WiredExperiment& experiment,
                                   const Setup& setup, const Registry& registry, uint32_t number,
                                   const std::function<void(double)>& progress);
@@ -80,6 +92,7 @@ class Session {
     ShaderCompiler compiler_;
     SceneLoader loader_;
     ReferenceCache cache_;
+    std::optional<ReferenceParts> parts_;
     std::optional<SceneOnDevice> scene_;
     bool sceneMoved_ = false;  ///< Out of the compared frame.
     std::optional<ReferenceImages> reference_;

@@ -60,6 +60,12 @@ Measurement runGraph(Graph graph, const Setup& setup, uint64_t seed, const Measu
 
 }  // namespace
 
+uint64_t graphRuns(const Experiment& experiment) {
+    const MeasureSettings& measure = experiment.measure;
+    const bool withSecond = measure.secondSeed && !experiment.reference.isNull();
+    return uint64_t(runsOf(measure) + (withSecond ? runsOf(untimed(measure)) : 0));
+}
+
 RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experiment, Session& session,
                               const PreparedReference* reference,
                               const std::function<FrameReference(uint32_t)>& referenceOf,

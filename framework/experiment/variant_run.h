@@ -18,6 +18,9 @@ struct RenderedVariant {
     std::vector<AovImage> aovs;
 };
 
+/// How often the graph of a variant runs until it is measured.
+uint64_t graphRuns(const Experiment& experiment);
+
 /// Plans, prepares, runs, measures and scores a variant; takes its graph.
 /// @param reference of frame 0; nullptr: no scores. @param referenceOf the references of other frames, where
 /// frames are compared and not all show the same. @param registry for the graph of its second seed. @param

@@ -13,6 +13,7 @@
 #include "base/schema.h"
 #include "graph/memory_plan.h"
 #include "graph/plan_memo.h"
+#include "image/sample_sums.h"
 #include "scene/geometry.h"
 #include "trace/gpu_scene.h"
 #include "trace/ray_tracer.h"
@@ -125,6 +126,8 @@ struct Frame {
     uint32_t width = 0;
     uint32_t height = 0;
     uint64_t seed = 0;
+    /// The part of its samples that a pass takes which writes their sums (ReferenceSums).
+    SamplePart samples;
     /// Where surfaces came, went or moved since the build phase ran last (old and new bounds of what moves,
     /// each instance apart); nullopt: everything is new.
     std::optional<std::vector<Box>> changed;

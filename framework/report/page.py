@@ -21,7 +21,7 @@ _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's r
 _MAX_NAMED_POINTS = 12
 # Of the manifest:
 _SHOWN_ELSEWHERE = ("config", "metrics", "seed_metrics", "temporal_metrics", "warnings", "baselines", "reference", "references", "variants",
-                    "noise_parameters", "sessions")
+                    "noise_parameters", "sessions", "inputs")
 
 
 @dataclass(frozen=True)

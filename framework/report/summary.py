@@ -135,14 +135,14 @@ def _fastest(results: Results, light: str, names: Names) -> list[str]:
 
 
 def _sessions(results: Results) -> list[str]:
-    """Where times come from, if the run was resumed: the machine may have been busier in one session."""
+    """Where times come from, if the run was resumed or done in parts: the machine may have been busier during one."""
     sessions = results.sessions()
     if len(sessions) < 2:
         return []
     told = [f"{_count(len(names), 'variant')} of {began or 'an unknown time'}" for began, names in sessions[:_MAX_SESSIONS]]
     more = f" and {len(sessions) - _MAX_SESSIONS} more" if len(sessions) > _MAX_SESSIONS else ""
-    return [f"Times come from {len(sessions)} sessions, for the run was resumed ({', '.join(told)}{more}): compare those of "
-            "different sessions only where the machine was equally idle."]
+    return [f"Times come from {len(sessions)} processes, for the run was resumed or done in parts ({', '.join(told)}{more}): compare those of "
+            "different ones only where the machine was equally idle."]
 
 
 def _worse_than_nothing(results: Results, light: str, names: Names) -> list[str]:

@@ -1,5 +1,7 @@
 #include "passes/path_trace/path_trace_pass.h"
 
+#include <utility>
+
 #include "base/error.h"
 #include "passes/common/view/frame_image.h"
 
@@ -39,6 +41,8 @@ void PathTracePass::declare(PassBuilder& builder) {
           [](const Result& r) -> const ImageF& { return r.indirectHalves[1]; });
     noisy_ = builder.write<NoisyIrradiance>("noisy_irradiance",
                                             "irradiance of indirect light, before the first hit reflects it");
+    sums_ =
+        builder.write<ReferenceSums>("sums", "sums over its samples by half, of which references are made");
 }
 
 void PathTracePass::plan(PassPlan& plan) {
@@ -48,7 +52,9 @@ void PathTracePass::plan(PassPlan& plan) {
                 .height = plan.frame.height,
                 .spp = params_.spp,
                 .bounces = params_.bounces,
-                .light = params_.light};
+                .light = params_.light,
+                .samples = plan.frame.samples,
+                .keepSums = plan.get(sums_).isRead && params_.light == PathLight::All && params_.spp > 1};
     uint64_t largest = 0;
     for (const RenderedImage& image : images_) plan.get(image.port).lightBounces = params_.bounces;
     for (const RenderedImage& image : images_)
@@ -79,7 +85,7 @@ void PathTracePass::record(PassContext& context) {
     options_.seed = frame.seed + context.frameIndex;
     context.stream.finish();
     if (frame.changed && !frame.changed->empty()) embree_->update();
-    const PathTraceResult result = pathTrace(*frame.scene, *embree_, frame.camera, options_, frame.progress);
+    PathTraceResult result = pathTrace(*frame.scene, *embree_, frame.camera, options_, frame.progress);
     context.extraRays = result.rays;
     for (const RenderedImage& image : images_)
         if (const FrameImage& to = context.get(image.port); to.isRead && isRendered(image))
@@ -88,6 +94,9 @@ void PathTracePass::record(PassContext& context) {
         upload(context.stream, result.irradiance, noisy.irradiance);
         context.stream.upload(noisy.moments, result.moments);
     }
+    ReferenceSums& sums = context.get(sums_);
+    sums.final = std::move(result.totalSums);
+    sums.indirect = std::move(result.indirectSums);
 }
 
 }  // namespace voxray

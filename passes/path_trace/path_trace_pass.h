@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 
+#include "graph/reference_sums.h"
 #include "passes/common/filter/noisy_irradiance.h"
 #include "passes/path_trace/path_tracer.h"
 #include "trace/embree_scene.h"
@@ -70,6 +71,7 @@ class PathTracePass final : public Pass {
     Port<const GBuffer> gbuffer_;
     std::vector<RenderedImage> images_;
     Port<NoisyIrradiance> noisy_;
+    Port<ReferenceSums> sums_;
     PathTraceOptions options_;
     std::unique_ptr<EmbreeScene> embree_;
 };

@@ -56,9 +56,16 @@ struct PixelSums {
         for (uint32_t b = 0; b < batches; ++b) {
             sum += batch[b];
             samples += sizes[b];
-            for (int c = 0; c < 3; ++c) halves[b].pixel(x, y)[c] = float(batch[b][c] / sizes[b]);
+            for (int c = 0; c < 3; ++c)
+                halves[b].pixel(x, y)[c] = float(batch[b][c] / std::max(sizes[b], 1u));
         }
         for (int c = 0; c < 3; ++c) all.pixel(x, y)[c] = float(sum[c] / samples);
+    }
+
+    /// Keeps the sums of the batches as they are.
+    void write(uint32_t batches, uint32_t x, uint32_t y, std::array<SampleSums, kBatches>& sums) const {
+        for (uint32_t b = 0; b < batches; ++b)
+            for (int c = 0; c < 3; ++c) sums[b].pixel(x, y)[c] = batch[b][c];
     }
 };
 
@@ -123,7 +130,8 @@ struct Job {
     const Integrator& integrator;
     const PinholeCamera& camera;
     const PathTraceOptions& options;
-    std::array<uint32_t, kBatches> batchSizes{};
+    /// Of each batch's samples, which are numbered on their own: the first one that is taken, and how many.
+    std::array<uint32_t, kBatches> batchFirst{}, batchSizes{};
     uint32_t batches = 1;
     PathTraceResult& result;
     ProgressReporter& reporter;
@@ -185,7 +193,8 @@ struct Job {
                 for (uint32_t batch = 0; batch < batches; ++batch) {
                     const uint32_t sequence = hashOf(pixel, batch);
                     for (uint32_t i = 0; i < batchSizes[batch] && !reporter.isStopped(); ++i) {
-                        packet.add(camera, {{x, y}, {}, batch}, SobolSampler(sequence, i));
+                        packet.add(camera, {{x, y}, {}, batch},
+                                   SobolSampler(sequence, batchFirst[batch] + i));
                         if (packet.size == Integrator::kPacket) trace();
                     }
                 }
@@ -199,6 +208,9 @@ struct Job {
                 finishIrradiance(x, y);
                 totals[inTile].write(batchSizes, batches, x, y, result.total, result.totalHalves);
                 indirects[inTile].write(batchSizes, batches, x, y, result.indirect, result.indirectHalves);
+                if (!options.keepSums) continue;
+                totals[inTile].write(batches, x, y, result.totalSums);
+                indirects[inTile].write(batches, x, y, result.indirectSums);
             }
         return rays;
     }
@@ -212,6 +224,10 @@ PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const
     if (width == 0 || height == 0)
         throw Error("path tracing: the image size {}x{} has no pixels", width, height);
     if (options.spp == 0) throw Error("path tracing: spp must be at least 1");
+    const SamplePart& part = options.samples;
+    const uint64_t first = part.first(options.spp), end = part.end(options.spp);
+    if (first == end)
+        throw Error("path tracing: {} samples can't be divided into {} parts", options.spp, part.parts);
 
     PathTraceResult result;
     result.total = result.indirect = ImageF(width, height, 3);
@@ -223,8 +239,8 @@ PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const
     const Integrator integrator(state, tracer, options.bounces, strategy, options.light);
     const PinholeCamera pinhole(camera, width, height);
 
-    // Divide the samples among independent batches.
-    ProgressReporter reporter(progress, uint64_t(width) * height * options.spp);
+    // Divide the samples among independent batches: of two the first takes the odd numbers.
+    ProgressReporter reporter(progress, uint64_t(width) * height * (end - first));
     Job job{.integrator = integrator,
             .camera = pinhole,
             .options = options,
@@ -233,8 +249,11 @@ PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const
     job.batches = std::min(options.spp, kBatches);
     for (uint32_t b = 0; b < job.batches; ++b) {
         result.totalHalves[b] = result.indirectHalves[b] = ImageF(width, height, 3);
-        job.batchSizes[b] = uint32_t((uint64_t(options.spp) * (b + 1)) / job.batches -
-                                     (uint64_t(options.spp) * b) / job.batches);
+        const auto before = [&](uint64_t number) { return uint32_t((number + b) / job.batches); };
+        job.batchFirst[b] = before(first);
+        job.batchSizes[b] = before(end) - before(first);
+        if (!options.keepSums) continue;
+        result.totalSums[b] = result.indirectSums[b] = SampleSums(width, height, job.batchSizes[b]);
     }
 
     // Every pixel is computed alone, so tiles may run in any order.

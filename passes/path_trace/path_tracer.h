@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "image/sample_sums.h"
 #include "scene/geometry.h"
 #include "shaders/filter/ray_moments.h"
 #include "trace/embree_scene.h"
@@ -24,6 +25,8 @@ struct PathTraceOptions {
     uint32_t bounces = 8;  ///< Scattering events after direct light at the first hit.
     uint64_t seed = 0;     ///< Another seed: another, independent estimate.
     PathLight light = PathLight::All;
+    SamplePart samples{};   ///< Which of the spp samples of each pixel are taken.
+    bool keepSums = false;  ///< Whether the sums over them are wanted.
     /// Texels along a pixel's edge at which the irradiance of indirect light is estimated; 0: it is not.
     uint32_t irradianceTexels = 0;
 
@@ -33,11 +36,13 @@ struct PathTraceOptions {
 
 /// Radiance, 3 channels, W/(m² sr), and the means of two halves of the samples, randomised independently:
 /// their difference tells the noise, of low-discrepancy samples too. With 1 spp there is no second half: it
-/// is empty.
+/// is empty. Of a part of the samples everything is the mean over that part; a half of which it holds no
+/// sample is black.
 struct PathTraceResult {
     ImageF total;
     ImageF indirect;  ///< Total less emission and direct light at the first hit.
     std::array<ImageF, 2> totalHalves, indirectHalves;
+    std::array<SampleSums, 2> totalSums, indirectSums;  ///< Of the halves; empty without keepSums.
     uint64_t rays = 0;
 
     /// Indirect light that arrives at first hits, before they reflect it. 4 channels, irradianceTexels texels

@@ -98,6 +98,30 @@ struct HandScene {
     }
 };
 
+/// A room with a lamp, a glossy floor and a metal cube.
+inline HandScene glossyRoom() {
+    HandScene s;
+    const uint32_t white = s.lambert({0.7f, 0.6f, 0.5f});
+    Material glossy;
+    glossy.baseColor = {0.8f, 0.7f, 0.6f, 1};
+    glossy.metallic = 0;
+    glossy.roughness = 0.4f;
+    Material metal = glossy;
+    metal.metallic = 1;
+    metal.roughness = 0.6f;
+    s.cube({0, 1, 0}, 1, white, 1);
+    s.quad({-0.99f, 0.01f, -0.99f}, {0, 0, 1.98f}, {1.98f, 0, 0}, s.material(glossy));
+    s.cube({0.3f, 0.4f, 0.2f}, 0.3f, s.material(metal), -1);
+    s.quad({-0.5f, 1.9f, -0.5f}, {1, 0, 0}, {0, 0, 1}, s.lambert({}, {4, 3, 2}));
+    return s;
+}
+
+inline Camera roomCamera() {
+    Camera camera;
+    camera.position = {0, 1, 0.95f};
+    return camera;
+}
+
 /// Looks straight down from `height` onto the origin, up in the image is -Z; the image is 2 * `half` m wide
 /// there.
 inline Camera downCamera(float height, float half) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "base/files.h"
 #include "experiment/runner.h"
 #include "graph/graph.h"
+#include "graph/reference_sums.h"
 #include "tests/support/places.h"
 
 /// Tiny passes that write constant images, and a folder for each test.
@@ -107,7 +109,8 @@ class Constant : public Pass {
     Image notToBeCleared_;
 };
 
-/// A reference of radiance 1, whose halves are 1 - noise and 1 + noise.
+/// A reference of radiance 1, whose halves are 1 - noise and 1 + noise. Of an odd number of samples the
+/// second half has one more.
 class Truth : public Pass {
  public:
     static constexpr const char* kName = "truth";
@@ -125,26 +128,29 @@ class Truth : public Pass {
 
     explicit Truth(const Params& params) : params_(params) {}
     Phase phase() const override { return Phase::Frame; }
-    void declare(PassBuilder& b) override {
-        for (int i = 0; i < 4; ++i) images_[i] = b.write<FrameImage>(kNames[i], "A constant.");
-    }
-    void plan(PassPlan& plan) override {
-        for (int i = 0; i < 4; ++i) planImage(plan, images_[i], kNames[i]);
-    }
+    void declare(PassBuilder& b) override { sums_ = b.write<ReferenceSums>("sums", "A constant."); }
+    void plan(PassPlan&) override {}
     void prepare(PassSetup&) override {}
     void record(PassContext& context) override {
         ++runs;
         seeds.push_back(context.frame.seed + context.frameIndex);
-        for (int i = 0; i < 4; ++i) {
-            const float v = (i < 2 ? 1.0f : 0.5f) * (1 + (i % 2 ? params_.noise : -params_.noise));
-            context.stream.clear(context.get(images_[i]).image, {{v, v, v, 1}});
+        const Frame& frame = context.frame;
+        const uint64_t first = frame.samples.first(params_.spp), end = frame.samples.end(params_.spp);
+        for (uint64_t half = 0; half < 2; ++half) {
+            const uint64_t samples = (end + half) / 2 - (first + half) / 2;
+            const double value = 1 + (half ? params_.noise : -params_.noise);
+            const auto fill = [&](SampleSums& sums, double mean) {
+                sums = SampleSums(frame.width, frame.height, samples);
+                std::ranges::fill(sums.data, mean * double(samples));
+            };
+            fill(context.get(sums_).final[half], value);
+            fill(context.get(sums_).indirect[half], 0.5 * value);
         }
     }
 
  private:
-    static constexpr const char* kNames[] = {"final_a", "final_b", "indirect_a", "indirect_b"};
     Params params_;
-    Port<FrameImage> images_[4];
+    Port<ReferenceSums> sums_;
 };
 
 /// Reads final and indirect and writes them again: something to wire.

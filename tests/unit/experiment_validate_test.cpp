@@ -137,7 +137,7 @@ TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
     expectError("graph:\n  - {pass: constant}\nreference: {pass: truth, ssp: 3}\n",
                 {"x.yaml:5: ", "did you mean 'spp'?"});
     expectError("graph:\n  - {pass: constant}\nreference: {pass: constant}\n",
-                {"x.yaml:5: ", "writes no 'final_a'"});
+                {"x.yaml:5: ", "writes no 'sums'"});
     expectError("graph:\n  - {pass: relay, inputs: {extra: relay}}\n", {"x.yaml:4: "});
 }
 

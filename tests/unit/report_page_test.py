@@ -158,12 +158,12 @@ class PartOfARun(ReportTest):
         run = made_up.manifest([])
         sessions = [{"started": f"2026-01-0{day}T10:00:00Z", "variants": list(names)} for day, names in ((1, "a"), (2, "bc"))]
         shown = self.make(rows, run | {"sessions": sessions}, indirect=False)
-        for words in ("Times come from 2 sessions, for the run was resumed (1 variant of 2026-01-01T10:00:00Z, 1 variant of "
+        for words in ("Times come from 2 processes, for the run was resumed or done in parts (1 variant of 2026-01-01T10:00:00Z, 1 variant of "
                       "2026-01-02T10:00:00Z): compare", "session of 2026-01-02T10:00:00Z"):
             self.assertIn(words, shown.text)
         # One session, one of which nothing is left, a manifest without them
         for of in (sessions[:1], [sessions[0], {"started": "", "variants": ["c"]}], [], "odd"):
-            self.assertNotIn("sessions", re.sub("Whole manifest.*", "", self.make(rows, run | {"sessions": of}, indirect=False).text, flags=re.S))
+            self.assertNotIn("processes, for", re.sub("Whole manifest.*", "", self.make(rows, run | {"sessions": of}, indirect=False).text, flags=re.S))
 
     def test_words_of_the_sweep_stand_in_names_alone(self):
         rows = [made_up.variant(f"{n}-{word}", n, 0.3, size=n, method=word) for n in (8, 16) for word in ("a", "b")]

@@ -1,4 +1,4 @@
-#include "base/folder_lock.h"
+#include "base/process_lock.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -6,20 +6,21 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "base/error.h"
 
 namespace voxray {
 namespace {
 
-struct flock wholeFile() {
+struct flock wholeFile(ProcessLock::Kind kind) {
     struct flock lock {};
-    lock.l_type = F_WRLCK;
+    lock.l_type = kind == ProcessLock::Kind::Alone ? F_WRLCK : F_RDLCK;
     lock.l_whence = SEEK_SET;
     return lock;
 }
 
-// Whether the open file is still the one of that name: its owner removes it at the end.
+// Whether the open file is still the one of that name: its last holder removes it.
 bool isCurrent(int descriptor, const std::filesystem::path& file) {
     struct stat open {
     }, named{};
@@ -29,18 +30,19 @@ bool isCurrent(int descriptor, const std::filesystem::path& file) {
 
 }  // namespace
 
-FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / kFileName) {
+ProcessLock::ProcessLock(std::filesystem::path file, Kind kind, const std::filesystem::path& what)
+    : file_(std::move(file)) {
     constexpr int kTries = 100;
     for (int attempt = 0; attempt < kTries; ++attempt) {
         descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
         if (descriptor_ < 0) throw Error("{}: {}", file_.string(), std::strerror(errno));
-        struct flock lock = wholeFile();
+        struct flock lock = wholeFile(kind);
         const bool isLocked = ::fcntl(descriptor_, F_SETLK, &lock) == 0;
         const int reason = errno;
         if (isLocked && isCurrent(descriptor_, file_)) return;
 
         // Who has it; nobody any more where it was freed in between
-        lock = wholeFile();
+        lock = wholeFile(kind);
         const bool isHeld = !isLocked && (reason == EACCES || reason == EAGAIN);
         if (isHeld) ::fcntl(descriptor_, F_GETLK, &lock);
         ::close(descriptor_);
@@ -48,15 +50,17 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / kFi
             throw UsageError(
                 "{}: process {} is writing results there; wait until it ends or choose another "
                 "folder with --out",
-                folder.string(), lock.l_pid);
+                what.string(), lock.l_pid);
         if (!isLocked && !isHeld)
             throw Error("{}: cannot be locked: {}", file_.string(), std::strerror(reason));
     }
     throw Error("{}: cannot be locked: other processes take it again and again", file_.string());
 }
 
-FolderLock::~FolderLock() {
-    ::unlink(file_.c_str());
+ProcessLock::~ProcessLock() {
+    // Who can have it alone is the last one
+    struct flock lock = wholeFile(Kind::Alone);
+    if (::fcntl(descriptor_, F_SETLK, &lock) == 0) ::unlink(file_.c_str());
     ::close(descriptor_);
 }
 

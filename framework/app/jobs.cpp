@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "app/commands.h"
+#include "app/config_options.h"
+#include "app/source_root.h"
+#include "experiment/parts.h"
+#include "passes/register_passes.h"
+
+namespace voxray {
+
+namespace {
+
+struct JobsArguments : ConfigArguments {
+    std::filesystem::path file;
+    RunOptions options;
+    uint32_t referenceParts = 1;
+    bool json = false;
+};
+
+void listJobs(JobsArguments arguments) {
+    Registry registry;
+    registerPasses(registry);
+    RunOptions& options = arguments.options;
+    options.scenes = arguments.scenes;
+    options.sourceRoot = sourceRoot();
+    PreparedExperiment prepared(wireExperiment(loadExperiment(arguments.file, arguments.config), registry),
+                                options, registry);
+    for (const std::string& warning : prepared.warnings())
+        fmt::print(stderr, "voxray: warning: {}\n", warning);
+    fmt::print("{}", describeParts(prepared, arguments.referenceParts, arguments.json));
+}
+
+}  // namespace
+
+void addJobsCommand(CLI::App& app, int&) {
+    auto arguments = std::make_shared<JobsArguments>();
+    CLI::App* command = app.add_subcommand(
+        "jobs",
+        "List the parts of an experiment for an engine that runs them: what each comes after, the memory and "
+        "cost that are predicted. 'voxray run CONFIG --part ID --out DIR' does one.");
+    command->add_option("CONFIG", arguments->file, "Config file.")->required();
+    command->add_flag("--json", arguments->json, "Print JSON.");
+    command
+        ->add_option("--reference-parts", arguments->referenceParts,
+                     "How many parts each reference's samples are divided into.")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    addConfigOptions(*command, *arguments);
+    addDeviceOptions(*command, arguments->options);
+    command->callback([arguments] { listJobs(*arguments); });
+}
+
+}  // namespace voxray

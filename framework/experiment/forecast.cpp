@@ -1,0 +1,63 @@
+#include "experiment/forecast.h"
+
+#include "base/interrupt.h"
+
+namespace voxray {
+namespace {
+
+constexpr double kMiB = 1024.0 * 1024.0;
+
+void print(const Forecast& forecast) {
+    if (!forecast.error.empty()) {
+        fmt::print("  would fail: {}\n", forecast.error);
+        return;
+    }
+    uint64_t kept = 0;
+    for (size_t i = 0; i < forecast.passes.size(); ++i) {
+        const PassMemory& memory = forecast.memory[i];
+        fmt::print("  {:24} {:6} {:10.1f} MiB", forecast.passes[i].id,
+                   forecast.passes[i].phase == Phase::Build ? "build" : "frame", double(memory.bytes) / kMiB);
+        if (memory.scratchBytes > 0)
+            fmt::print(" and {:.1f} MiB of scratch", double(memory.scratchBytes) / kMiB);
+        fmt::print("\n");
+        kept += memory.bytes;
+    }
+    fmt::print("  {:24} {:6} {:10.1f} MiB, {:.1f} MiB with the largest scratch; the scene {:.1f} MiB\n",
+               "sum", "", double(kept) / kMiB, double(peakBytes(forecast.memory)) / kMiB,
+               double(forecast.sceneBytes) / kMiB);
+}
+
+}  // namespace
+
+Forecast forecast(WiredVariant& variant, PreparedExperiment& prepared) {
+    Session& session = prepared.session();
+    const PreparedScene scene = session.loader().prepare(variant.setup.scene);
+    const Frame frame = frameOf(variant.setup, scene, variant.setup.general.seed);
+    Forecast own;
+    try {
+        own.memory = session.plan(variant.graph, frame, prepared.experiment().measure.memoryLimitMb);
+        own.passes = variant.graph.passes();
+        own.sceneBytes = gpuSceneBytes(scene.state);
+    } catch (const Error& error) {
+        own.error = error.what();
+    }
+    return own;
+}
+
+size_t printForecasts(PreparedExperiment& prepared) {
+    const size_t count = prepared.variants().size();
+    fmt::print("{}: {} variant{} on {}\n", prepared.experiment().setup.general.name, count,
+               count == 1 ? "" : "s", prepared.session().device().info().name);
+    size_t failed = 0;
+    for (WiredVariant& variant : prepared.variants()) {
+        if (interruptRequested()) throw Interrupted();
+        fmt::print("{} (tracer {}, {} x {})\n", variant.name, prepared.session().tracerName(variant.setup),
+                   variant.setup.image.width, variant.setup.image.height);
+        const Forecast own = forecast(variant, prepared);
+        print(own);
+        failed += own.error.empty() ? 0 : 1;
+    }
+    return failed;
+}
+
+}  // namespace voxray

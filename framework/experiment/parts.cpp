@@ -1,0 +1,186 @@
+#include "experiment/parts.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/interrupt.h"
+#include "base/suggest.h"
+#include "experiment/forecast.h"
+#include "experiment/variant_run.h"
+
+namespace voxray {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kMerge = "merge";
+constexpr double kMiB = 1024.0 * 1024.0;
+
+uint32_t samplesOf(const PreparedExperiment& prepared) {
+    const Value* spp = prepared.manifest().referencePass.find("spp");
+    return spp ? uint32_t(spp->asInteger("reference.spp")) : 1;
+}
+
+/// The measured frames that have a reference of their own.
+std::vector<uint32_t> referenceFrames(const PreparedExperiment& prepared, const Setup& setup) {
+    if (prepared.experiment().reference.isNull()) return {};
+    const MeasureSettings& measure = prepared.experiment().measure;
+    std::vector<uint32_t> frames{0};
+    if (measure.compareEvery > 0 && !standsStill(setup.scene))
+        for (uint32_t i = 1; i < comparedFrames(measure); ++i) frames.push_back(i * measure.compareEvery);
+    return frames;
+}
+
+std::vector<std::string> idsOf(const std::string& hash, uint32_t parts) {
+    std::vector<std::string> ids;
+    for (uint32_t i = 0; i < parts; ++i) ids.push_back(ReferenceParts::id(hash, {i, parts}));
+    return ids;
+}
+
+/// How many parts a reference has that the id names a part of; 1 for other ids.
+uint32_t partsIn(const std::string& id) {
+    const size_t at = id.rfind('-');
+    uint32_t parts = 1;
+    if (id.starts_with("reference.") && at != id.npos)
+        std::from_chars(id.data() + at + 1, id.data() + id.size(), parts);
+    return std::max(parts, 1u);
+}
+
+/// What a part takes.
+struct Need {
+    uint64_t bytes = 0;
+    uint64_t cost = 0;
+    const char* unit = "";
+    std::string error;  ///< Why it would fail.
+};
+
+Need needOf(const Part& part, PreparedExperiment& prepared) {
+    if (part.kind == Part::Kind::Merge) return {};
+    WiredVariant& variant = prepared.variants()[part.variant];
+    if (part.kind == Part::Kind::Reference) {
+        // Total and indirect light of two halves, in double
+        const uint64_t pixels = uint64_t(variant.setup.image.width) * variant.setup.image.height;
+        const uint64_t spp = samplesOf(prepared);
+        return {pixels * 4 * 3 * sizeof(double),
+                pixels * (part.samples.end(spp) - part.samples.first(spp)),
+                "paths",
+                {}};
+    }
+    const Forecast own = forecast(variant, prepared);
+    return {peakBytes(own.memory) + own.sceneBytes, graphRuns(prepared.experiment()), "runs of the graph",
+            own.error};
+}
+
+const char* nameOf(Part::Kind kind) {
+    return kind == Part::Kind::Reference ? "reference" : kind == Part::Kind::Variant ? "variant" : kMerge;
+}
+
+Json jobJson(const Part& part, const Need& need) {
+    Json job{{"id", part.id}, {"kind", nameOf(part.kind)}, {"after", part.after}, {"writes", part.writes}};
+    if (!need.error.empty()) job["error"] = need.error;
+    if (part.kind == Part::Kind::Merge || !need.error.empty()) return job;
+    job["memory_bytes"] = need.bytes;
+    job["cost"] = need.cost;
+    job["cost_unit"] = need.unit;
+    return job;
+}
+
+std::string jobLine(const Part& part, const Need& need) {
+    std::vector<std::string> said;
+    if (!need.error.empty())
+        said.push_back("would fail: " + need.error);
+    else if (part.kind != Part::Kind::Merge)
+        said.push_back(fmt::format("{:.1f} MiB, {} {}", double(need.bytes) / kMiB, need.cost, need.unit));
+    if (part.after.size() == 1) said.push_back("after " + part.after[0]);
+    if (part.after.size() > 1)
+        said.push_back(fmt::format("after {} and {} more", part.after[0], part.after.size() - 1));
+    return fmt::format("{}: {}\n", part.id, fmt::join(said, "; "));
+}
+
+}  // namespace
+
+std::vector<Part> partsOf(PreparedExperiment& prepared, uint32_t referenceParts) {
+    if (!prepared.experiment().reference.isNull() && referenceParts > samplesOf(prepared))
+        throw UsageError(prepared.experiment().reference.where,
+                         "reference.spp: {} samples a pixel can't be divided into {} parts",
+                         samplesOf(prepared), referenceParts);
+    std::vector<Part> references, variants;
+    Part merge;
+    std::set<std::string> listed;
+    const auto& wired = prepared.variants();
+    for (size_t v = 0; v < wired.size(); ++v) {
+        Part variant;
+        variant.kind = Part::Kind::Variant;
+        variant.id = "variant." + wired[v].name;
+        variant.writes = "images/" + wired[v].name + "/result.json";
+        variant.variant = v;
+        for (const uint32_t frame : referenceFrames(prepared, wired[v].setup)) {
+            const std::string hash =
+                prepared.session().referenceHashOf(prepared.wired(), wired[v].setup, frame);
+            const std::vector<std::string> ids = idsOf(hash, referenceParts);
+            variant.after.insert(variant.after.end(), ids.begin(), ids.end());
+            if (!listed.insert(hash).second) continue;
+            for (uint32_t i = 0; i < referenceParts; ++i)
+                references.push_back(
+                    {Part::Kind::Reference,
+                     ids[i],
+                     {},
+                     std::string(ReferenceParts::kFolder) + "/" + ids[i] + ReferenceParts::kEnding,
+                     v,
+                     hash,
+                     frame,
+                     {i, referenceParts}});
+        }
+        merge.after.push_back(variant.id);
+        variants.push_back(std::move(variant));
+    }
+    merge.id = kMerge;
+    merge.writes = "results.csv";
+    std::vector<Part> all = std::move(references);
+    all.insert(all.end(), variants.begin(), variants.end());
+    all.push_back(std::move(merge));
+    return all;
+}
+
+Part partNamed(PreparedExperiment& prepared, const std::string& id) {
+    std::vector<std::string> ids;
+    for (Part& part : partsOf(prepared, partsIn(id))) {
+        if (part.id == id) return std::move(part);
+        ids.push_back(part.id);
+    }
+    const std::string near = nearest(id, ids);
+    throw UsageError(
+        "--part: this experiment has no part '{}'{}", id,
+        near.empty() ? "; './voxray jobs' lists them" : fmt::format("; did you mean '{}'?", near));
+}
+
+std::vector<std::string> missingBefore(const Part& part, PreparedExperiment& prepared) {
+    std::vector<std::string> missing;
+    if (part.kind != Part::Kind::Variant) return missing;
+    const Setup& setup = prepared.variants()[part.variant].setup;
+    for (const uint32_t frame : referenceFrames(prepared, setup)) {
+        const std::string hash = prepared.session().referenceHashOf(prepared.wired(), setup, frame);
+        if (!prepared.session().hasReference(hash)) missing.push_back(ReferenceParts::id(hash, {}));
+    }
+    return missing;
+}
+
+std::string describeParts(PreparedExperiment& prepared, uint32_t referenceParts, bool asJson) {
+    Json jobs = Json::array();
+    std::string table;
+    for (const Part& part : partsOf(prepared, referenceParts)) {
+        if (interruptRequested()) throw Interrupted();
+        const Need need = needOf(part, prepared);
+        jobs.push_back(jobJson(part, need));
+        table += jobLine(part, need);
+    }
+    if (!asJson) return table;
+    const Json all{{"experiment", prepared.experiment().setup.general.name}, {"jobs", std::move(jobs)}};
+    return all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace voxray
