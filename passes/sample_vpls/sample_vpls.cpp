@@ -46,6 +46,14 @@ std::vector<uint32_t> orderOfPaths(const std::vector<uint32_t>& pathsOf) {
     return places;
 }
 
+/// The same source among those that shine now, nullptr where it does not.
+const LightSource* find(const std::vector<LightSource>& sources, const LightSource& source) {
+    const auto found = std::ranges::find_if(sources, [&](const LightSource& other) {
+        return other.kind == source.kind && other.light == source.light;
+    });
+    return found == sources.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 void SampleVpls::declare(PassBuilder& builder) {
@@ -58,7 +66,8 @@ void SampleVpls::declare(PassBuilder& builder) {
 }
 
 void SampleVpls::plan(PassPlan& plan) {
-    pathsOf_ = pathsBySource(requireLightSources(*plan.frame.scene, kName), params_.vplsPerBounce);
+    sources_ = requireLightSources(*plan.frame.scene, kName);
+    pathsOf_ = pathsBySource(sources_, params_.vplsPerBounce);
     Vpls& vpls = plan.get(vpls_);
     vpls.paths = std::accumulate(pathsOf_.begin(), pathsOf_.end(), 0u);
     vpls.areaPerPath = float(surfaceArea(plan.frame.scene->geometry) / vpls.paths);
@@ -103,9 +112,12 @@ void SampleVpls::prepare(PassSetup& setup) {
 void SampleVpls::record(PassContext& context) {
     CommandStream& stream = context.stream;
     Vpls& vpls = context.get(vpls_);
-    const std::vector<LightSource> sources = requireLightSources(*context.frame.scene, kName);
-    if (sources.size() != pathsOf_.size())
-        throw Error("{}: a light's power became 0, or ceased to be, after the first frame", kName);
+    const std::vector<LightSource> shining = lightSources(*context.frame.scene);
+    for (const LightSource& source : shining)
+        if (!find(sources_, source))
+            throw Error(
+                "{}: a light began to shine after the first frame, when paths were divided among lights",
+                kName);
     stream.fill(flags_, 0);
     stream.fill(vpls.points, 0);
     RayTracer* furtherTracer = &context.tracer;
@@ -120,10 +132,12 @@ void SampleVpls::record(PassContext& context) {
     }
     const uint64_t voxelRaysBefore = voxelTracer_ ? voxelTracer_->raysTraced() : 0;
 
-    // The paths of each light in batches, hit after hit
+    // The paths of each light in batches, hit after hit. One that was switched off sends none
     uint32_t firstPath = 0;
-    for (uint32_t s = 0; s < sources.size(); ++s) {
-        const auto number = uint32_t(s + (params_.resample ? context.frameIndex * sources.size() : 0));
+    for (uint32_t s = 0; s < sources_.size(); firstPath += pathsOf_[s], ++s) {
+        const LightSource* source = find(shining, sources_[s]);
+        if (!source) continue;
+        const auto number = uint32_t(s + (params_.resample ? context.frameIndex * sources_.size() : 0));
         LightEmission::Batch batch{randomSeed(context.frame, number), pathsOf_[s], 0, 0};
         const bool areHitsKnown = params_.first == FirstVertices::Rsm;
         for (; batch.first < batch.rays; batch.first += batch.count) {
@@ -131,7 +145,7 @@ void SampleVpls::record(PassContext& context) {
             if (areHitsKnown)
                 rsmSampling_.emit(context, context.get(rsm_), s, {rays_, hits_, paths_, batch});
             else
-                emission_.emit(context, sources[s], batch, rays_, paths_);
+                emission_.emit(context, *source, batch, rays_, paths_);
             for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {
                 if (bounce > 0)
                     furtherTracer->closestHit(stream, rays_, hits_, batch.count);
@@ -150,7 +164,6 @@ void SampleVpls::record(PassContext& context) {
                                 linearGroups(batch.count));
             }
         }
-        firstPath += batch.rays;
     }
     if (voxelTracer_) {
         context.extraRays += voxelTracer_->raysTraced() - voxelRaysBefore;
@@ -158,7 +171,7 @@ void SampleVpls::record(PassContext& context) {
     }
     vpls.count = compaction_->run(stream, flags_, vpls.list, uint32_t(flags_.bytes() / sizeof(uint32_t)));
     context.report("vpls", vpls.count);
-    if (vpls.count == 0)
+    if (vpls.count == 0 && !shining.empty())
         throw Error(
             "{}: none of {} rays from the lights hit a surface that reflects light; let lights shine on "
             "the scene, or raise 'vpls_per_bounce'",

@@ -84,7 +84,8 @@ class SampleVpls final : public Pass {
     Port<const Rsm> rsm_;               ///< With FirstVertices::Rsm.
     Port<const SurfaceVoxels> voxels_;  ///< With VplBounce::Svo.
     Port<Vpls> vpls_;
-    std::vector<uint32_t> pathsOf_;  ///< Each source's.
+    std::vector<LightSource> sources_;  ///< Those that shone when paths were divided among them.
+    std::vector<uint32_t> pathsOf_;     ///< Each one's.
     LightEmission emission_;
     RsmSampling rsmSampling_;
     std::optional<VoxelTracer> voxelTracer_;  ///< With VplBounce::Svo.

@@ -68,6 +68,11 @@ void SelectVpls::record(PassContext& context) {
     CommandStream& stream = context.stream;
     const Vpls& candidates = context.get(candidates_);
     Vpls& vpls = context.get(vpls_);
+    if (candidates.count == 0) {  // Every light was switched off.
+        vpls.count = 0;
+        context.report("selected vpls", 0);
+        return;
+    }
 
     // Most go to lights by what they bring to the image, some by their flux.
     const std::vector<glm::vec2> found = importance(context);
