@@ -58,6 +58,19 @@ Measurement runGraph(Graph graph, const Setup& setup, uint64_t seed, const Measu
                         [&](const Frame& now, uint32_t number) { afterFrame(graph, now, number); });
 }
 
+void writeFramePreviews(const std::filesystem::path& folder, const RenderedVariant& variant,
+                        float exposureStops) {
+    if (variant.laterFrames.empty()) return;
+    std::filesystem::create_directories(folder);
+    const auto write = [&](uint32_t frame, const ImageF& final, const std::optional<ImageF>& indirect) {
+        const std::string end = "." + std::to_string(frame) + ".png";
+        writePng(folder / ("final" + end), preview(final, exposureStops));
+        if (indirect) writePng(folder / ("indirect" + end), preview(*indirect, exposureStops));
+    };
+    write(0, variant.final, variant.indirect);
+    for (const FrameImages& later : variant.laterFrames) write(later.frame, later.final, later.indirect);
+}
+
 }  // namespace
 
 uint64_t graphRuns(const Experiment& experiment) {
@@ -122,6 +135,8 @@ RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experimen
     }
     rendered.final = std::move(frames[0].final);
     rendered.indirect = std::move(frames[0].indirect);
+    frames.erase(frames.begin());
+    rendered.laterFrames = std::move(frames);
     result.variant = variant.name;
     result.ok = true;
     result.device = device.info().name;
@@ -135,6 +150,7 @@ void writeVariantImages(const std::filesystem::path& folder, const RenderedVaria
     writePng(folder / "final.png", preview(variant.final, exposureStops));
     if (variant.flip) writePng(folder / "flip.png", *variant.flip);
     writeAovs(folder, variant.aovs);
+    writeFramePreviews(folder / "frames", variant, exposureStops);
     if (!variant.indirect) return;
     writeExr(folder / "indirect.exr", *variant.indirect);
     writePng(folder / "indirect.png", preview(*variant.indirect, exposureStops));

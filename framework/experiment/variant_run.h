@@ -9,13 +9,14 @@
 
 namespace voxray {
 
-/// One rendered variant: its row, and the pictures of frame 0.
+/// One rendered variant: its row, the pictures of frame 0, and those of later frames where they are compared.
 struct RenderedVariant {
     VariantResult result;
     ImageF final;
     std::optional<ImageF> indirect;
     std::optional<ImageF> flip, indirectFlip;  ///< 1 channel, where there is a reference.
     std::vector<AovImage> aovs;
+    std::vector<FrameImages> laterFrames;
 };
 
 /// How often the graph of a variant runs until it is measured.
@@ -32,7 +33,8 @@ RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experimen
                               const Registry& registry, bool withAovs,
                               const std::function<void(double)>& progress);
 
-/// Writes final, indirect and the FLIP maps as EXR and PNG into a folder, AOVs as EXR.
+/// Writes final, indirect and the FLIP maps as EXR and PNG into a folder, AOVs as EXR. Of a sequence,
+/// previews of all compared frames go into its folder `frames`.
 void writeVariantImages(const std::filesystem::path& folder, const RenderedVariant& variant,
                         float exposureStops);
 /// Writes a reference's images, their halves and its masks.

@@ -70,6 +70,13 @@ TEST_F(PartsTest, AlternatingFramesFlickerByAKnownAmount) {
     EXPECT_NEAR(std::stod(rows[2].back()), 0.5, 1e-6);
     EXPECT_EQ(cell("default", "nrmse"), rows[1][2]);
 
+    // A preview of each is kept.
+    const auto hasPreview = [&](int frame) {
+        return fs::exists(root_ / "out/images/default/frames" / ("final." + std::to_string(frame) + ".png"));
+    };
+    EXPECT_TRUE(hasPreview(0) && hasPreview(4));
+    EXPECT_FALSE(hasPreview(5));
+
     // Every second frame is the same image.
     runWith({"constant.flicker=0.25", "measure.frames=5", "measure.compare_every=2"});
     EXPECT_EQ(number("temporal_nrmse"), 0);
@@ -78,6 +85,7 @@ TEST_F(PartsTest, AlternatingFramesFlickerByAKnownAmount) {
     // Without comparison there is no such file, of an earlier run either.
     runWith({});
     EXPECT_FALSE(fs::exists(root_ / "out" / "frames.csv"));
+    EXPECT_FALSE(hasPreview(0));
     EXPECT_EQ(cell("default", "temporal_nrmse"), "absent");
 }
 
