@@ -1,11 +1,12 @@
-# The report needs Debian's Python with numpy, pandas, matplotlib and Jinja2, which is not always the first on PATH.
-foreach(part explain page pareto ranking reading)
+# The report needs Debian's Python with numpy, pandas, matplotlib and Jinja2, which is not always the first on PATH. Parts of `browser`
+# and `large` look at the page in Chromium.
+foreach(part browser explain large page pareto ranking reading selection)
   add_test(NAME report.${part}
     COMMAND /usr/bin/python3 -m unittest -v report_${part}_test
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}/tests/unit)
   set_tests_properties(report.${part} PROPERTIES TIMEOUT 300)
 endforeach()
-foreach(script compare_builds image_sheet mirror_borders rivals_table trials tune)
+foreach(script compare_builds image_sheet mirror_borders notebooks rivals_table trials tune)
   add_test(NAME scripts.${script}
     COMMAND /usr/bin/python3 -m unittest -q ${script}_test
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/unit)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import pandas as pd
-
 from report import text
 from report.load import Results
 from report.names import Names
@@ -46,7 +44,7 @@ def bar_groups(results: Results, colors: dict[str, str], names: Names, anchors: 
             ("Time of the build, once for each scene or light", "build", "build_ms", "ms_median", milliseconds),
             ("Device memory that the passes keep", None, "memory_bytes", "memory_bytes", text.size)):
         rows = results.ok[results.ok[column].fillna(0) > 0]
-        split = {row["variant"]: _by_pass(results, row, phase, column, part) for _, row in rows.iterrows()}
+        split = _by_pass(results, dict(zip(rows["variant"], rows[column])), phase, part)
         longest = max((sum(parts.values()) for parts in split.values()), default=0)
         bars = [Bar(names.numbers[name], names.short[name], anchors[name], write(total),
                     [Segment(colors.get(own, "var(--muted)"), 100 * value / longest, f"{own}: {write(value)}")
@@ -56,13 +54,18 @@ def bar_groups(results: Results, colors: dict[str, str], names: Names, anchors: 
     return [group for group in groups if group.bars]
 
 
-def _by_pass(results: Results, row: pd.Series, phase: str | None, column: str, part: str) -> dict[str, float]:
-    rows = results.passes
-    # By kind: an id may be that of another pass in each variant
-    mine = rows[(rows["variant"] == row["variant"]) & (rows[part] > 0)]
+def _by_pass(results: Results, totals: dict[str, float], phase: str | None, part: str) -> dict[str, dict[str, float]]:
+    """For each variant what each kind of pass takes, and what is left of the total."""
+    rows = results.passes[results.passes[part] > 0]
     if phase:
-        mine = mine[mine["phase"] == phase]
-    values = mine.groupby("kind", sort=False)[part].sum().to_dict()
+        rows = rows[rows["phase"] == phase]
+    # By kind: an id may be that of another pass in each variant
+    split = {variant: {} for variant in totals}
+    for (variant, kind), value in rows.groupby(["variant", "kind"], sort=False)[part].sum().items():
+        if variant in split:
+            split[variant][kind] = value
     # Whatever no pass accounts for is shown as such; a sum of medians can also exceed the whole's median.
-    rest = row[column] - sum(values.values())
-    return {**values, "outside the passes": rest} if rest > 0 else values
+    for variant, values in split.items():
+        if (rest := totals[variant] - sum(values.values())) > 0:
+            values["outside the passes"] = rest
+    return split

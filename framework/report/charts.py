@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 
+import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.ranking import pareto_front
-from report.load import BASELINES, LIGHTS, Metric, Results, interval_of
+from report.ranking import pareto_front, pareto_layers
+from report.load import BASELINES, LIGHTS, Metric, Results, interval_ends
 from report.names import Names
 from report.style import Style
 from report.svg import FONT_SIZE, STAND_INS, drawing, to_svg
 
 _MAX_COVERED = 0.1  # of a label, by others
+_MAX_MARKS = 250  # of more points the ones far from the Pareto front are small dots
+_MAX_LABELS = 80
 _SIDES = ((1, 0), (1, 1), (-1, -1), (1, -1), (-1, 0), (-1, 1), (0, 1), (0, -1))  # of a point, the best first
 
 
@@ -39,6 +43,8 @@ class Chart:
     caption: str
     not_drawn: list[str]
     unlabelled: int  # points whose label would lie on another one
+    marks: int = 0  # points with a mark, a link and bars
+    dots: int = 0  # all others
 
 
 def cost_error_chart(results: Results, metric: Metric, light: str, with_build: bool, styles: dict[str, Style],
@@ -69,26 +75,33 @@ def cost_error_chart(results: Results, metric: Metric, light: str, with_build: b
         axes.set_xlabel(f"time of {time}, ms (median; left is faster)")
         axes.set_ylabel(f"{metric.label}, {light} light (lower is better)")
         _draw_levels(axes, levels)
+        near = sorted(_near_front(points, _MAX_MARKS))
+        marked, dots = [points[i] for i in near], [points[i] for i in set(range(len(points))).difference(near)]
+        _draw_dots(axes, dots, styles)
         _draw_curves(axes, points, curves, styles)
-        front = _draw_points(axes, points, styles, chart_id)
-        unlabelled = _place_labels(axes, points, front, levels)
-        titles = [f"{names.full(p.name)}: {p.cost:.3g} ms, {p.error:.3g}" for p in points]
-        svg = to_svg(figure, chart_id, caption, titles)
-    return Chart(svg, caption, not_drawn, unlabelled)
+        front, drawn = _draw_points(axes, marked, styles, chart_id)
+        labelled = [marked[i] for i in _near_front(marked, _MAX_LABELS)] if len(marked) > _MAX_LABELS else marked
+        unlabelled = len(points) - _place_labels(axes, labelled, marked, front, levels)
+        titles = [f"{names.full(p.name)}: {p.cost:.3g} ms, {p.error:.3g}" for p in drawn]
+        svg = to_svg(figure, chart_id, caption, titles, [p.anchor for p in drawn])
+    return Chart(svg, caption, not_drawn, unlabelled, len(marked), len(dots))
+
+
+def _near_front(points: list[Point], count: int) -> list[int]:
+    return pareto_layers([(p.cost, p.most) for p in points], count)
 
 
 def _points(results, column, with_build, labels, anchors) -> tuple[list[Point], list[str]]:
     points, not_drawn = [], []
-    for _, row in results.ok.iterrows():
-        build = row["build_ms"] if with_build else 0.0
-        cost, error = row["frame_ms_median"] + build, row[column]
+    ok = results.ok
+    build = ok["build_ms"] if with_build else 0.0
+    times = (ok[key] + build for key in ("frame_ms_median", "frame_ms_p05", "frame_ms_p95"))
+    for name, error, least, most, cost, *spread in zip(ok["variant"], ok[column], *interval_ends(ok, column), *times):
         if not (0 < cost < math.inf and 0 < error < math.inf):
-            not_drawn.append(row["variant"])
+            not_drawn.append(name)
             continue
-        low, high = (row[c] + build for c in ("frame_ms_p05", "frame_ms_p95"))
-        low, high = (value if 0 < value < math.inf else cost for value in (low, high))
-        name = row["variant"]
-        points.append(Point(name, labels[name], anchors[name], cost, low, high, error, *interval_of(row, column)))
+        low, high = (value if 0 < value < math.inf else cost for value in spread)
+        points.append(Point(name, labels[name], anchors[name], cost, low, high, error, least, most))
     return points, not_drawn
 
 
@@ -124,75 +137,91 @@ def _draw_levels(axes, levels) -> None:
 
 
 def _draw_curves(axes, points: list[Point], curves: list[list[str]], styles: dict[str, Style]) -> None:
+    places = {p.name: (p.cost, p.error) for p in points}
     for curve in curves:
-        own = sorted((p.cost, p.error) for p in points if p.name in curve)
+        own = sorted(places[name] for name in curve if name in places)
         if own:
             axes.plot(*zip(*own), color=STAND_INS[styles[curve[0]].color], linewidth=1.0, alpha=0.6)
 
 
-def _draw_points(axes, points: list[Point], styles: dict[str, Style], chart_id: str) -> list[Point]:
+def _draw_dots(axes, points: list[Point], styles: dict[str, Style]) -> None:
+    """Small dots: strokes of no length with round ends."""
+    for color, own in _by(points, lambda point: styles[point.name].color).items():
+        _draw_strokes(axes, [((p.cost, p.error), (p.cost, p.error)) for p in own], color=STAND_INS[color], linewidth=2.2,
+                      solid_capstyle="round", alpha=0.6)
+
+
+def _draw_points(axes, points: list[Point], styles: dict[str, Style], chart_id: str) -> tuple[list[Point], list[Point]]:
+    """@return the Pareto front, and the points in the order in which their marks are drawn."""
     # The Pareto front is a staircase of the errors that are surely reached: what lies wholly above it is beaten.
     front = [points[i] for i in pareto_front([(p.cost, p.most) for p in points])]
     axes.step([p.cost for p in front], [p.most for p in front], where="post", color=STAND_INS["muted"],
               linewidth=1.2)
-    for i, point in enumerate(points):
-        ink = STAND_INS[styles[point.name].color]
-        axes.plot([point.low, point.high], [point.error] * 2, color=ink, linewidth=1.0)
-        bottom = max(point.least, axes.get_ylim()[0])  # an interval may begin at 0
-        axes.plot([point.cost] * 2, [bottom, point.most], color=ink, linewidth=1.0)
-        dot = axes.plot(point.cost, point.error, styles[point.name].marker, color=ink, markersize=7,
-                        markeredgecolor=STAND_INS["card"], markeredgewidth=0.8, zorder=3)[0]
-        dot.set_gid(f"{chart_id}-point-{i}")
-        dot.set_url(f"#{point.anchor}")
-    return front
+    for color, own in _by(points, lambda point: styles[point.name].color).items():
+        bottom = axes.get_ylim()[0]  # an interval may begin at 0
+        _draw_strokes(axes, [((p.low, p.error), (p.high, p.error)) for p in own] +
+                      [((p.cost, max(p.least, bottom)), (p.cost, p.most)) for p in own], color=STAND_INS[color], linewidth=1.0)
+    groups = _by(points, lambda point: styles[point.name])
+    for i, (style, own) in enumerate(groups.items()):
+        marks = axes.plot([p.cost for p in own], [p.error for p in own], style.marker, color=STAND_INS[style.color], markersize=7,
+                          markeredgecolor=STAND_INS["card"], markeredgewidth=0.8, zorder=3)[0]
+        marks.set_gid(f"{chart_id}-points-{i}")
+    return front, [point for own in groups.values() for point in own]
 
 
-def _place_labels(axes, points: list[Point], front: list[Point], levels) -> int:
-    """Each label takes the side of its point where it covers least of what is drawn already. @return how many were left
-    out, since they would lie on others."""
+def _draw_strokes(axes, ends, **style) -> None:
+    """Lines between pairs of places, as one path: many paths are slow to draw and large."""
+    gap = (math.nan, math.nan)
+    axes.plot(*zip(*(place for begin, end in ends for place in (begin, end, gap))), **style)
+
+
+def _by(points: list[Point], key: Callable) -> dict[Hashable, list[Point]]:
+    groups = {}
+    for point in points:
+        groups.setdefault(key(point), []).append(point)
+    return groups
+
+
+def _place_labels(axes, points: list[Point], marked: list[Point], front: list[Point], levels) -> int:
+    """Each label of `points` takes the side where it covers least of what is drawn already. @return how many there are:
+    those that would lie on others are left out."""
     frame = axes.get_window_extent()
-    centers = [axes.transData.transform((p.cost, p.error)) for p in points]
-    taken = [_Box(x - 5, y - 5, x + 5, y + 5) for x, y in centers]
+    taken = [(x - 5, y - 5, x + 5, y + 5) for x, y in _places(axes, marked)]
     for name, value, _ in levels:
         y = axes.transData.transform((1, value))[1]
         width = 0.5 * (FONT_SIZE - 1) * len(name)
-        taken += [_Box(frame.x1 - width, y, frame.x1, y + FONT_SIZE), _Box(frame.x0, y - 2, frame.x1, y + 2)]
+        taken += [(frame.x1 - width, y, frame.x1, y + FONT_SIZE), (frame.x0, y - 2, frame.x1, y + 2)]
     steps = [axes.transData.transform((p.cost, p.most)) for p in front]
     for (x0, y0), (x1, y1) in zip(steps, steps[1:]):
-        taken += [_Box(x0, y0 - 2, x1, y0 + 2), _Box(x1 - 2, y1, x1 + 2, y0)]
-    labels: list[_Box] = []
-    for point, (x, y) in zip(points, centers):
+        taken += [(x0, y0 - 2, x1, y0 + 2), (x1 - 2, y1, x1 + 2, y0)]
+    labels = []
+    for point, (x, y) in zip(points, _places(axes, points)):
         width, height = 0.56 * FONT_SIZE * len(point.label), FONT_SIZE
-        best, best_cost = None, math.inf
-        for preference, (dx, dy) in enumerate(_SIDES):
+        sides = []
+        for dx, dy in _SIDES:
             reach = 6 if dx == 0 or dy == 0 else 4
             left = x + dx * reach - (width / 2 if dx == 0 else width if dx < 0 else 0)
             bottom = y + dy * reach - (height / 2 if dy == 0 else height if dy < 0 else 0)
-            box = _Box(left, bottom, left + width, bottom + height)
-            outside = box.area() - box.overlap(_Box(frame.x0, frame.y0, frame.x1, frame.y1))
-            cost = sum(box.overlap(other) for other in taken) + 4 * outside + 0.5 * preference
-            if cost < best_cost:
-                best, best_cost = box, cost
-        if sum(best.overlap(label) for label in labels) > _MAX_COVERED * best.area():
+            sides.append((left, bottom, left + width, bottom + height))
+        outside = width * height - _overlaps(sides, [(frame.x0, frame.y0, frame.x1, frame.y1)])[:, 0]
+        costs = _overlaps(sides, taken).sum(axis=1) + 4 * outside + 0.5 * np.arange(len(sides))
+        best = sides[int(costs.argmin())]
+        if labels and _overlaps([best], labels).sum() > _MAX_COVERED * width * height:
             continue
         taken.append(best)
         labels.append(best)
-        axes.annotate(point.label, (best.x0, best.y0), xycoords="figure pixels", color=STAND_INS["fg"],
+        axes.annotate(point.label, best[:2], xycoords="figure pixels", color=STAND_INS["fg"],
                       fontsize=FONT_SIZE, va="bottom", annotation_clip=False)
-    return len(points) - len(labels)
+    return len(labels)
 
 
-@dataclass(frozen=True)
-class _Box:
-    x0: float
-    y0: float
-    x1: float
-    y1: float
+def _places(axes, points: list[Point]) -> np.ndarray:
+    """Where points lie in the figure, in its pixels: shape (points, 2)."""
+    return axes.transData.transform([(p.cost, p.error) for p in points])
 
-    def area(self) -> float:
-        return (self.x1 - self.x0) * (self.y1 - self.y0)
 
-    def overlap(self, other: _Box) -> float:
-        width = min(self.x1, other.x1) - max(self.x0, other.x0)
-        height = min(self.y1, other.y1) - max(self.y0, other.y0)
-        return max(width, 0.0) * max(height, 0.0)
+def _overlaps(boxes, others) -> np.ndarray:
+    """The areas that boxes (left, bottom, right, top) have in common with others: shape (boxes, others)."""
+    a, b = np.asarray(boxes)[:, None], np.asarray(others)[None]
+    sides = np.minimum(a[..., 2:], b[..., 2:]) - np.maximum(a[..., :2], b[..., :2])
+    return sides.clip(min=0).prod(axis=-1)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from report import text
 from report.load import LIGHTS, Metric, Results, interval_of
 from report.names import Family, Names
-from report.ranking import beaten_by, pareto_front
+from report.ranking import all_beaten, pareto_front
 
 _RIVAL = "path_trace"  # the pass that a user would pick instead
 
@@ -24,7 +24,7 @@ class Reached:
 
 def time_to_reach(error: float, points: list[tuple[float, float]]) -> Reached | None:
     """Interpolates (ms, error) points, logarithm over logarithm, between those that no other one beats."""
-    front = [points[i] for i in pareto_front(points)]
+    front = _front(points)
     if not front:
         return None
     if front[0][1] <= error:
@@ -75,14 +75,15 @@ def speed_up(results: Results, light: str, metric: Metric, families: list[Family
     usable = {name for name in rows.index if rows.loc[name, "frame_ms_median"] > 0 and rows.loc[name, column] > 0}
     rivals = [family for family in families if _RIVAL in family.passes and usable & set(family.variants)]
     traced = {name for family in rivals for name in family.variants}
-    curves = [(family, [(rows.loc[name, "frame_ms_median"], rows.loc[name, column])
-                        for name in family.variants if name in usable]) for family in rivals]
+    curves = [(family, _front([(rows.loc[name, "frame_ms_median"], rows.loc[name, column])
+                               for name in family.variants if name in usable])) for family in rivals]
+    beaten = all_beaten(results, metric, column)
     found = []
-    for name in rows.index if rivals else ():
-        if name in traced or name not in usable or beaten_by(results, metric, column, rows.loc[name]):
+    for row in rows.to_dict("records") if rivals else ():
+        name, ms = row["variant"], row["frame_ms_median"]
+        if name in traced or name not in usable or name in beaten:
             continue
-        ms = rows.loc[name, "frame_ms_median"]
-        found.append(SpeedUp(name, ms, *_fastest(rows.loc[name, column], curves), _ends(rows.loc[name], column, ms, curves)))
+        found.append(SpeedUp(name, ms, *_fastest(row[column], curves), _ends(row, column, ms, curves)))
     return max(found, key=lambda entry: (entry.is_faster, entry.is_open, entry.factor), default=None)
 
 
@@ -105,6 +106,10 @@ def sentence(found: SpeedUp, results: Results, light: str, metric: Metric, names
     within = f" ({text.span(*found.ends)} within the error's interval)" if found.ends else ""
     return (f"{head}: a frame of {names.full(found.variant)} takes {ms} ms, {who} {found.bound}{rival_ms} ms: {found.bound}"
             f"{text.figures(found.factor, 2)} times as long{short}{within}{apart}.")
+
+
+def _front(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    return [points[i] for i in pareto_front(points)]
 
 
 def _fastest(error: float, curves) -> tuple[Family | None, Reached | None]:

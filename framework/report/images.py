@@ -28,14 +28,13 @@ class Picture:
 def embed(path: Path) -> Picture:
     """The PNG as it is. @throws ReportError where it is no PNG."""
     data = path.read_bytes()
-    image = _open(path, data)
-    return Picture(data_uri(data), *image.size)
+    return Picture(data_uri(data), *open_png(path, data).size)
 
 
 def embed_error(path: Path) -> Picture:
     """An 8-bit grey error map (0 to 1) in false colours. @throws ReportError where it is no PNG."""
     # A palette image stays as small as the grey one.
-    grey = _open(path, path.read_bytes()).convert("L")
+    grey = open_png(path).convert("L")
     palette = Image.fromarray(np.asarray(grey), mode="P")
     palette.putpalette(_magma().tobytes())
     out = io.BytesIO()
@@ -53,15 +52,16 @@ def _magma() -> np.ndarray:
     return (matplotlib.colormaps[ERROR_COLORS](np.arange(256))[:, :3] * 255).round().astype(np.uint8)
 
 
-def _open(path: Path, data: bytes) -> Image.Image:
+def open_png(path: Path, data: bytes | None = None) -> Image.Image:
+    """A PNG file, or what was read of it, decoded. @throws ReportError where it is no PNG."""
     try:
-        image = Image.open(io.BytesIO(data), formats=("PNG",))
+        image = Image.open(io.BytesIO(path.read_bytes() if data is None else data), formats=("PNG",))
         image.load()
         return image
     except (UnidentifiedImageError, OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
         raise ReportError(f"{path}: is not a whole PNG file") from error
 
 
-def data_uri(data: bytes) -> str:
-    """A PNG file to embed."""
-    return "data:image/png;base64," + base64.b64encode(data).decode("ascii")
+def data_uri(data: bytes, kind: str = "image/png") -> str:
+    """An image file to embed."""
+    return f"data:{kind};base64," + base64.b64encode(data).decode("ascii")

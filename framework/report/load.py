@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 
@@ -82,6 +84,12 @@ class Results:
         """The variants that finished."""
         return self.variants[self.variants["status"] == "ok"]
 
+    def only(self, variants: Iterable[str]) -> Results:
+        """The same run with these variants alone."""
+        chosen = set(variants)
+        tables = {"variants": self.variants, "passes": self.passes, "values": self.values, "frames": self.frames}
+        return replace(self, **{name: table[table["variant"].isin(chosen)] for name, table in tables.items()})
+
     @property
     def missing(self) -> list[str]:
         """The variants that the manifest plans and that have no row, in its order."""
@@ -116,9 +124,15 @@ class Results:
     def reference_of(self, variant: str) -> dict | None:
         """The record of a variant's reference, None where several are and none names the variant."""
         records = self.references()
-        if len(records) == 1:
-            return records[0]
-        return next((r for r in records if isinstance(r.get("variants"), list) and variant in r["variants"]), None)
+        return records[0] if len(records) == 1 else self._references_by_variant.get(variant)
+
+    @functools.cached_property
+    def _references_by_variant(self) -> dict[str, dict]:
+        found = {}
+        for record in self.references():
+            for variant in record["variants"] if isinstance(record.get("variants"), list) else ():
+                found.setdefault(str(variant), record)
+        return found
 
     def reference_folder(self, variant: str) -> str | None:
         """The folder below images/ of a variant's reference, None where it is unknown."""
@@ -171,6 +185,14 @@ def interval_of(scores, column: str) -> tuple[float, float]:
     value = number(scores.get(column))
     ends = [number(scores.get(name)) for name in interval_columns(column)]
     return (ends[0], ends[1]) if all(map(math.isfinite, ends)) else (value, value)
+
+
+def interval_ends(table: pd.DataFrame, column: str) -> tuple[pd.Series, pd.Series]:
+    """The ends of each row's interval, as interval_of() finds them."""
+    value = table[column]
+    low, high = (table[name] if name in table else value for name in interval_columns(column))
+    are_known = np.isfinite(low) & np.isfinite(high)
+    return low.where(are_known, value), high.where(are_known, value)
 
 
 def number(value) -> float:

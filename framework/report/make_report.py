@@ -1,4 +1,4 @@
-"""Makes report.html from a run's result files: make_report.py RESULTS_DIR."""
+"""Makes report.html from a run's result files: make_report.py RESULTS_DIR [--images front|all|ID...]."""
 
 from __future__ import annotations
 
@@ -29,18 +29,22 @@ def write_whole(path: Path, content: str) -> None:
 
 
 def main(arguments: list[str]) -> int:
-    """Exit status: 0 done, 1 the page could not be written, 2 no results to read."""
+    """Exit status: 0 done, 1 the page could not be written, 2 no results to read, or no such variant."""
     parser = argparse.ArgumentParser(description="Makes one self-contained report.html from a run's results.")
     parser.add_argument("results", type=Path, metavar="RESULTS_DIR", help="the folder that holds results.csv")
-    directory = parser.parse_args(arguments).results
+    parser.add_argument("--images", nargs="+", default=[], metavar="front|all|ID",
+                        help="variants to show with images, passes and graph: those on a Pareto front, all, or numbers or names; "
+                        "without it all where they fit into a page of 60 MB, else those of the fronts that do")
+    options = parser.parse_args(arguments)
+    directory = options.results
     try:
-        results = load(directory)
+        source = page.render(load(directory), options.images)
     except ReportError as error:
         print(f"report: {error}", file=sys.stderr)
         return 2
     target = directory / "report.html"
     try:
-        write_whole(target, page.render(results))
+        write_whole(target, source)
     except OSError as error:
         print(f"report: {target}: cannot write: {error.strerror or error}", file=sys.stderr)
         return 1

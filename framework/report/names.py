@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 
+import pandas as pd
+
 from report.load import Results
 from report.ranking import is_numeric
 
@@ -50,7 +52,9 @@ def names_of(results: Results) -> Names:
     apart, they are the variants' own."""
     variants = list(results.variants["variant"])
     keys = [key for key in results.sweep_keys if results.variants[key].nunique() > 1]
-    short = {row["variant"]: _short(results, row, keys) for _, row in results.variants.iterrows()}
+    columns = {key: _values(results.variants[key], key) for key in keys}
+    short = {name: ", ".join(filter(None, values))
+             for name, values in zip(variants, zip(*columns.values()) if columns else [()] * len(variants))}
     tell_values = len(set(short.values())) == len(variants) and "" not in short.values()
     if not tell_values:
         short = {name: name for name in variants}
@@ -70,15 +74,10 @@ def families_of(results: Results, names: Names) -> list[Family]:
             for key, members in groups.items()]
 
 
-def _short(results: Results, row, keys: list[str]) -> str:
-    parts = []
-    for key in keys:
-        value = row[key]
-        if value == "-":  # the variant does without such a pass
-            continue
-        bare = not is_numeric(results.variants.loc[results.variants[key] != "-", key])
-        parts.append(value if bare else f"{key.rpartition('.')[2]} {value}")
-    return ", ".join(parts)
+def _values(column: pd.Series, key: str) -> list[str]:
+    """What a sweep key's values add to names; "" where a variant does without such a pass."""
+    name = f"{key.rpartition('.')[2]} " if is_numeric(column[column != "-"]) else ""
+    return ["" if value == "-" else name + value for value in column]
 
 
 def _common(members: list[str], names: Names) -> str:

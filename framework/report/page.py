@@ -3,75 +3,45 @@
 from __future__ import annotations
 
 import json
-import math
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import jinja2
-import pandas as pd
 
-from report import bars, charts, images, parts, style, table, text, values
-from report.load import IMAGES, LIGHTS, Metric, ReportError, Results, section
-from report.names import families_of, names_of
+from report import bars, charts, details, images, parts, style, table, text, values
+from report.load import IMAGES, Metric, Results, section
+from report.names import Names, families_of, names_of
+from report.selection import selected
 from report.setting import setting_of
 from report.summary import summary, unfinished
 
 _HERE = Path(__file__).parent
+_SCRIPTS = ("state.js", "table.js", "viewer.js", "pair.js", "keys.js")  # in the order in which they run
 _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's row numbers
 _MAX_NAMED_POINTS = 12
+_MAX_LISTED = 12  # variants that a note names
+_MAX_ROWS = 500  # of the table that are in sight at first: browsers take long to lay out thousands
 # Of the manifest:
 _SHOWN_ELSEWHERE = ("config", "metrics", "seed_metrics", "temporal_metrics", "warnings", "baselines", "reference", "references", "variants",
                     "noise_parameters", "sessions", "inputs")
 
 
-@dataclass(frozen=True)
-class View:
-    """A variant's image and error map under one light; None where the file is absent."""
+def render(results: Results, wanted: list[str] | None = None) -> str:
+    """The whole page. Nothing in it refers to anything outside it.
 
-    light: str
-    image: images.Picture | None
-    error: images.Picture | None
-
-
-@dataclass(frozen=True)
-class Thumbnail:
-    """A small copy of an image that the page shows elsewhere, under the id `image`."""
-
-    light: str
-    image: str
-    anchor: str
-    number: str
-    name: str
-    facts: str
-
-
-@dataclass(frozen=True)
-class Variant:
-    number: str
-    name: str
-    full_name: str
-    anchor: str
-    facts: list[tuple[str, str]]
-    error: str
-    views: list[View]
-    passes: list[dict] = field(default_factory=list)
-    reference: str = ""
-    graph: str = ""
-
-
-def render(results: Results) -> str:
-    """The whole page. Nothing in it refers to anything outside it."""
+    @param wanted The variants to show with their images, as selected() reads it.
+    """
     warnings = list(results.warnings)
     lights = results.lights()
     names = names_of(results)
     families = families_of(results, names)
-    anchors = {name: f"variant-{number}" for name, number in names.numbers.items()}
+    shown = results.only(selected(results, lights, names, wanted or []))
+    anchors = _anchors(names, shown)
     styles, legends, curves = style.variant_styles(results, families)
     colors = style.pass_colors(results)
     columns = table.columns_of(results, lights, names)
     chart_groups, not_drawn = _charts(results, lights, styles, names, anchors, curves)
-    variants = [_variant(results, row, lights, colors, names, anchors, warnings)
-                for _, row in results.variants.iterrows()]
+    variants = details.variants(shown, lights, colors, names, anchors, warnings)
+    manifest = _manifest_of(results, shown)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     environment.filters["breakable"] = text.breakable
@@ -84,19 +54,26 @@ def render(results: Results) -> str:
         baselines=table.baseline_rows(results, columns), noises=table.noise_rows(results, columns),
         charts=chart_groups, not_drawn=not_drawn, legends=legends, markers=style.MARKERS, pass_colors=colors,
         joined=bool(curves), unlabelled=any(chart.unlabelled for group in chart_groups for chart in group["charts"]),
-        thumbnails=_thumbnails(results, lights, variants),
+        dots=max((chart.dots for group in chart_groups for chart in group["charts"]), default=0),
+        thumbnails=details.thumbnails(shown, lights, variants), pictured=_pictured(results, lights, variants),
         regions=parts.regions(results, lights, names, anchors,
-                              lambda folder, name: _picture(results, folder, name, images.embed, warnings)),
-        sequence=parts.sequence(results, lights, styles, names, anchors),
-        values=values.value_table(results, names),
-        value_charts=values.value_charts(results, styles, names),
-        bars=bars.bar_groups(results, colors, names, anchors), reference=_reference(results, lights, warnings),
-        variants=variants,
+                              lambda folder, name: details.picture(results, folder, name, images.embed, warnings)),
+        sequence=parts.sequence(results, shown, lights, styles, names, anchors),
+        values=values.value_table(shown, names),
+        value_charts=values.value_charts(shown, styles, names),
+        bars=bars.bar_groups(shown, colors, names, anchors), reference=_reference(results, lights, warnings),
+        variants=variants, max_rows=_MAX_ROWS, left_out=len(results.variants) - len(variants),
         error_gradient=images.error_gradient(), provenance=_provenance(results),
         config=text.yaml_like(results.manifest["config"]) if results.manifest.get("config") else "",
-        manifest=json.dumps(results.manifest, indent=2, ensure_ascii=False) if results.manifest else "",
+        manifest=json.dumps(manifest, indent=2, ensure_ascii=False) if manifest else "",
         warnings=warnings, style_css=(_HERE / "style.css").read_text(encoding="utf-8"),
-        viewer_js=(_HERE / "viewer.js").read_text(encoding="utf-8"))
+        scripts="\n".join((_HERE / name).read_text(encoding="utf-8") for name in _SCRIPTS))
+
+
+def _anchors(names: Names, shown: Results) -> dict[str, str]:
+    """Where a variant's links lead: to its images, or to its row where the page has none."""
+    in_detail = set(shown.variants["variant"])
+    return {name: f"{'variant' if name in in_detail else 'row'}-{number}" for name, number in names.numbers.items()}
 
 
 def _title(results: Results) -> str:
@@ -126,16 +103,17 @@ def _charts(results: Results, lights, styles, names, anchors, curves) -> tuple[l
                     not_drawn.update(f"{names.full(name)} ({metric.label}, {light})" for name in chart.not_drawn)
             if drawn:
                 groups.append({"light": light, "time": time, "charts": drawn, "numbered": not short})
-    return groups, sorted(not_drawn)
+    more = len(not_drawn) - _MAX_LISTED
+    return groups, sorted(not_drawn)[:_MAX_LISTED] + ([f"and {more} more"] if more > 0 else [])
 
 
-def _picture(results: Results, folder: str, name: str, embed, warnings: list[str]) -> images.Picture | None:
-    path = results.image(folder, name)
-    try:
-        return embed(path) if path else None
-    except (ReportError, OSError) as error:
-        warnings.append(f"An image is not shown: {error}")
-        return None
+def _pictured(results: Results, lights, variants: list[details.Variant]) -> list[tuple[str, str]]:
+    """The references and variants whose images the page has: what ids of these begin with, and a name."""
+    references = [str(record.get("folder") or "reference") for record in results.references()]
+    found = [(folder, folder) for folder in dict.fromkeys(references)
+             if any(results.image(folder, IMAGES[light][0]) for light in lights)]
+    return found + [(variant.anchor, f"{variant.number} {variant.name}") for variant in variants
+                    if any(view.image for view in variant.views)]
 
 
 def _reference(results: Results, lights, warnings) -> dict:
@@ -144,62 +122,26 @@ def _reference(results: Results, lights, warnings) -> dict:
              for key, value in records[0].items()]
     folders = list(dict.fromkeys(str(record.get("folder") or "reference") for record in records))
     views = [{"folder": folder, "light": light,
-              "picture": _picture(results, folder, IMAGES[light][0], images.embed, warnings)}
+              "picture": details.picture(results, folder, IMAGES[light][0], images.embed, warnings)}
              for folder in folders for light in lights]
     if not any(view["picture"] for view in views):
         warnings.append("The reference's image is missing, so variants cannot be compared with it by eye.")
     return {"facts": facts, "views": views}
 
 
-def _thumbnails(results: Results, lights, variants: list[Variant]) -> list[Thumbnail]:
-    """The first reference and each variant under each light, for those that have an image."""
-    folder = str(results.references()[0].get("folder") or "reference")
-    rows = results.variants.set_index("variant")
-    metric = results.metrics[0] if results.metrics else None
-    shown = []
-    for light in lights:
-        if results.image(folder, IMAGES[light][0]):
-            shown.append(Thumbnail(light, f"{folder}-{light}", "reference", "", "reference", ""))
-        for variant in variants:
-            if not any(view.light == light and view.image for view in variant.views):
-                continue
-            ms = f"{text.figures(rows.loc[variant.full_name, 'frame_ms_median'])} ms"
-            score = (f", {metric.label} {text.figures(rows.loc[variant.full_name, LIGHTS[light] + metric.key])}"
-                     if metric else "")
-            shown.append(Thumbnail(light, f"{variant.anchor}-{light}", variant.anchor, variant.number, variant.name,
-                                   ms + score))
-    return shown
+def _manifest_of(results: Results, shown: Results) -> dict:
+    """The manifest, of what it lists for each variant that of the shown ones."""
+    names = set(shown.variants["variant"])
+    if len(names) == len(results.variants):
+        return results.manifest
 
+    def own(entries: dict) -> dict:
+        return {name: entry for name, entry in entries.items() if name in names}
 
-def _variant(results: Results, row: pd.Series, lights, colors, names, anchors, warnings) -> Variant:
-    name = row["variant"]
-    if row["status"] != "ok":
-        return Variant(names.numbers[name], names.short[name], name, anchors[name], [],
-                       row["error"] or f"status is '{row['status']}', with no error text", [])
-    views = [View(light, _picture(results, name, IMAGES[light][0], images.embed, warnings),
-                  _picture(results, name, IMAGES[light][1], images.embed_error, warnings))
-             for light in lights]
-    if not any(view.image for view in views):
-        warnings.append(f"Variant {name} has no image in its results.")
-    facts = [("frame", f"{text.figures(row['frame_ms_median'])} ms (p05 {text.figures(row['frame_ms_p05'])}, "
-              f"p95 {text.figures(row['frame_ms_p95'])})"), ("build", f"{text.figures(row['build_ms'])} ms"),
-             ("memory", f"{text.size(row['memory_bytes'])}, at the most {text.size(row['peak_bytes'])}"),
-             ("rays", text.count(row["rays"]))]
-    graph = section(results.manifest, "variants").get(name)
-    return Variant(names.numbers[name], names.short[name], name, anchors[name], facts, "", views, _pass_rows(results, name, colors),
-                   results.reference_folder(name) or "", text.yaml_like(graph) if graph else "")
-
-
-def _pass_rows(results: Results, name: str, colors) -> list[dict]:
-    rows = results.passes[results.passes["variant"] == name]
-    longest = rows["ms_median"].max() if len(rows) else math.nan
-    return [{"name": row["pass"] if row["pass"] == row["kind"] else f"{row['pass']} ({row['kind']})",
-             "phase": row["phase"], "color": colors[row["kind"]],
-             "percent": 100 * row["ms_median"] / longest if row["ms_median"] > 0 else 0.0,
-             "cells": [*(text.figures(row[key]) for key in ("ms_median", "ms_p05", "ms_p95")),
-                       text.count(row["rays"]), text.count(row["voxel_steps"]),
-                       text.size(row["memory_bytes"]), text.size(row["scratch_bytes"])]}
-            for _, row in rows.iterrows()]
+    noise = {image: own(section(section(results.manifest, "noise_parameters"), image))
+             for image in section(results.manifest, "noise_parameters")}
+    return {key: {"variants": own(section(results.manifest, "variants")), "noise_parameters": noise}.get(key, value)
+            for key, value in results.manifest.items()}
 
 
 def _provenance(results: Results) -> list[tuple[str, str]]:

@@ -57,9 +57,10 @@ def regions(results: Results, lights: list[str], names: Names, anchors: dict[str
     return shown
 
 
-def sequence(results: Results, lights: list[str], styles: dict[str, Style], names: Names,
+def sequence(results: Results, shown: Results, lights: list[str], styles: dict[str, Style], names: Names,
              anchors: dict[str, str]) -> Sequence | None:
-    """Temporal error of each variant and its errors over frames; None where one frame alone was compared."""
+    """Temporal error of each variant, and the errors over frames of those that are `shown`; None where one frame alone
+    was compared."""
     if results.frames.empty or not results.temporal_metrics:
         return None
     columns = table.score_columns(results, lights, results.temporal_metrics)
@@ -67,7 +68,7 @@ def sequence(results: Results, lights: list[str], styles: dict[str, Style], name
     for light in lights:
         for metric in (*results.metrics[:2], results.temporal_metrics[0]):
             key = LIGHTS[light] + metric.key
-            rows = results.frames[results.frames[key].notna() & results.frames["variant"].isin(styles)]
+            rows = shown.frames[shown.frames[key].notna() & shown.frames["variant"].isin(styles)]
             if rows["frame"].nunique() > 1:
                 charts.append(LightChart(light, line_chart(rows, key, f"{metric.label}, {light} light", styles, names,
                                                            f"frames-{light}-{metric.key}")))

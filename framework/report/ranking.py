@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import pandas as pd
 
 from report.comparisons import comparisons
-from report.load import BASELINES, Metric, Results, interval_of
+from report.load import BASELINES, Metric, Results, interval_ends, interval_of
 
 COST_COLUMNS = ("build_ms", "frame_ms_median", "memory_bytes")
 
@@ -32,8 +33,8 @@ def _score_marks(results: Results, metric: Metric, column: str) -> dict[str, str
     best = ranks.idxmin()
     equal = {name for name, rank in ranks.items() if rank == ranks[best]}
     if metric.has_interval:
-        reach = min(interval_of(rows.loc[name], column)[1] for name in ranks.index)
-        ties = {name for name in ranks.index if interval_of(rows.loc[name], column)[0] <= reach}
+        low, high = interval_ends(rows.loc[ranks.index], column)
+        ties = set(low.index[low <= high.min()])
     else:
         floors = {name: metric.rank(results.noise(column, results.reference_of(name))) for name in ranks.index}
         ties = {name for name, rank in ranks.items() if rank <= floors[name]}
@@ -62,7 +63,7 @@ def _cost_marks(results: Results, column: str) -> dict[str, str]:
     return marks
 
 
-def beaten_by(results: Results, metric: Metric, column: str, row: pd.Series) -> list[str]:
+def beaten_by(results: Results, metric: Metric, column: str, row: Mapping) -> list[str]:
     """Which of the black and the constant image score better than a variant against its reference, `row` of
     results.csv; with intervals, those whose interval lies wholly on the better side.
 
@@ -70,10 +71,32 @@ def beaten_by(results: Results, metric: Metric, column: str, row: pd.Series) -> 
     """
     if metric.better == "one" or math.isnan(row[column]):
         return []
-    reference = results.reference_of(row["variant"])
+    limits = _baseline_ranks(results, metric, column, results.reference_of(row["variant"]))
     own = min(map(metric.rank, interval_of(row, column)))
-    return [name for name in BASELINES
-            if max(map(metric.rank, interval_of(results.baseline_scores(name, reference), column))) < own]
+    return [name for name, limit in limits.items() if limit < own]
+
+
+def all_beaten(results: Results, metric: Metric, column: str) -> dict[str, list[str]]:
+    """beaten_by() of each variant that finished, without those that neither image beats."""
+    if metric.better == "one":
+        return {}
+    limits: dict[int, dict[str, float]] = {}  # by reference
+    found = {}
+    for name, value, *ends in zip(results.ok["variant"], results.ok[column], *interval_ends(results.ok, column)):
+        if math.isnan(value):
+            continue
+        reference = results.reference_of(name)
+        if id(reference) not in limits:
+            limits[id(reference)] = _baseline_ranks(results, metric, column, reference)
+        own = min(map(metric.rank, ends))
+        if beaten := [baseline for baseline, limit in limits[id(reference)].items() if limit < own]:
+            found[name] = beaten
+    return found
+
+
+def _baseline_ranks(results: Results, metric: Metric, column: str, reference: dict | None) -> dict[str, float]:
+    """The worse end of what the black and the constant image score."""
+    return {name: max(map(metric.rank, interval_of(results.baseline_scores(name, reference), column))) for name in BASELINES}
 
 
 def pareto_front(points: list[tuple[float, float]]) -> list[int]:
@@ -85,6 +108,18 @@ def pareto_front(points: list[tuple[float, float]]) -> list[int]:
             front.append(index)
             lowest = points[index][1]
     return front
+
+
+def pareto_layers(points: list[tuple[float, float]], count: int) -> list[int]:
+    """The indices of `count` points, or of all where they are fewer: the Pareto front, then the front of what is left,
+    and so on."""
+    left, found = list(range(len(points))), []
+    while left and len(found) < count:
+        front = [left[i] for i in pareto_front([points[i] for i in left])]
+        found += front
+        taken = set(front)
+        left = [i for i in left if i not in taken]
+    return found[:count]
 
 
 def is_numeric(values: pd.Series) -> bool:

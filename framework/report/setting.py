@@ -27,6 +27,14 @@ def scene_of(results: Results, row) -> str:
     return ", ".join(swept) or _scene(section(section(results.manifest, "config"), "scene")) or "scene"
 
 
+def scenes_of(results: Results) -> list[str]:
+    """The same of each variant."""
+    keys = [key for key in results.sweep_keys if key.split(".")[0] == "scene"]
+    if not keys:
+        return [scene_of(results, {})] * len(results.variants)
+    return [scene_of(results, dict(zip(keys, values))) for values in zip(*(results.variants[key] for key in keys))]
+
+
 def _is_swept(results: Results, fact: str) -> bool:
     keys = {"scene": ("scene",), "camera": ("scene", "scene.camera"), "lights": ("scene", "scene.lights")}[fact]
     return any(key in keys or key.startswith(f"{keys[-1]}.") for key in results.sweep_keys)

@@ -72,7 +72,7 @@ def variant_styles(results: Results, families: list[Family]) -> tuple[dict[str, 
     if shape_of:
         legends.append(Legend(keys[1], [LegendEntry(v, Style("muted", m)) for v, m in shape_of.items()]))
     styles = {row["variant"]: Style(colors[row[keys[0]]], shape_of[row[keys[1]]] if shape_of else "o")
-              for _, row in table.iterrows()}
+              for row in table[["variant", *keys]].to_dict("records")}
     return styles, legends, []
 
 

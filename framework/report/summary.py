@@ -8,7 +8,7 @@ from report import equal_error, noise, text
 from report.comparisons import comparisons
 from report.load import LIGHTS, Results
 from report.names import Family, Names, families_of, names_of
-from report.ranking import beaten_by, score_marks
+from report.ranking import all_beaten, score_marks
 
 _TENTH_DB = 10.0  # a tenth of a squared error, in dB
 _MAX_MISSING = 6  # variants that are listed by name
@@ -124,8 +124,8 @@ def _fastest(results: Results, light: str, names: Names) -> list[str]:
     rows = rows[rows["frame_ms_median"].notna()]
     if rows.empty:
         return []
-    usable = [name for name, row in rows.iterrows()
-              if not any(beaten_by(results, metric, LIGHTS[light] + metric.key, row) for metric in results.metrics[:1])]
+    beaten = {name for metric in results.metrics[:1] for name in all_beaten(results, metric, LIGHTS[light] + metric.key)}
+    usable = [name for name in rows.index if name not in beaten]
     times = rows.loc[usable or list(rows.index), "frame_ms_median"]
     but = ", of those better than a constant image" if 0 < len(usable) < len(rows) else ""
     reach = max(times.min(), rows.loc[times.idxmin(), "frame_ms_p95"])
@@ -149,9 +149,8 @@ def _worse_than_nothing(results: Results, light: str, names: Names) -> list[str]
     # By what they fail, so that variants that fail alike stand together.
     worse: dict[str, list[str]] = {}
     for metric in results.metrics[:3]:
-        for _, row in results.ok.iterrows():
-            if beaten_by(results, metric, LIGHTS[light] + metric.key, row):
-                worse.setdefault(row["variant"], []).append(metric.label)
+        for name in all_beaten(results, metric, LIGHTS[light] + metric.key):
+            worse.setdefault(name, []).append(metric.label)
     sentences = []
     for measures in dict.fromkeys(map(tuple, worse.values())):
         found = [name for name, its in worse.items() if tuple(its) == measures]

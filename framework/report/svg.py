@@ -21,6 +21,7 @@ STAND_INS = {name: f"#fe01{index:02x}" for index, name in enumerate(_INKS)}
 _RC = {
     "svg.fonttype": "none",  # text stays text: sharp, small, selectable
     "svg.hashsalt": "voxray",  # the same ids in every run
+    "path.simplify": False,  # it drops strokes of no length
     "text.parse_math": False,  # a name with a dollar sign is no formula
     "font.size": FONT_SIZE,
     "axes.edgecolor": STAND_INS["muted"],
@@ -39,10 +40,12 @@ def drawing():
         yield
 
 
-def to_svg(figure: Figure, chart_id: str, caption: str, titles: list[str]) -> str:
+def to_svg(figure: Figure, chart_id: str, caption: str, titles: list[str], anchors: list[str] | None = None) -> str:
     """The figure as a part of a page: ids unique to the chart, colours the page's.
 
-    @param titles What elements with the group ids "<chart_id>-point-<i>" say when pointed at.
+    @param titles What elements with the group ids "<chart_id>-point-<i>" say when pointed at, or the marks one after another
+        in groups with the ids "<chart_id>-points-<i>".
+    @param anchors The ids that such marks lead to. Matplotlib writes no links at marks.
     """
     figure.patch.set_visible(False)
     for axes in figure.axes:
@@ -59,11 +62,20 @@ def to_svg(figure: Figure, chart_id: str, caption: str, titles: list[str]) -> st
     svg = re.sub(r"<svg[^>]*>", lambda _: opening, svg, count=1)
     svg = re.sub(r"font: ([\d.]+)px [^;\"]*", r"font-size: \1px", svg)
 
-    svg = re.sub(r'(?<= id=")(?!%s-point-)' % re.escape(chart_id), f"{chart_id}-", svg)
+    svg = re.sub(r'(?<= id=")(?!%s-points?-)' % re.escape(chart_id), f"{chart_id}-", svg)
     svg = re.sub(r'(?<=href="#)(?=[mpCDLQPM][0-9a-f]{10}")|(?<=url\(#)', f"{chart_id}-", svg)
     for ink, stand_in in STAND_INS.items():
         svg = svg.replace(stand_in, f"var(--{ink})")
-    for i, title in enumerate(titles):
+    for i, title in enumerate(titles if anchors is None else ()):
         group = f'<g id="{chart_id}-point-{i}">'
         svg = svg.replace(group, f"{group}<title>{escape(title)}</title>")
-    return svg
+    if anchors is None:
+        return svg
+
+    points = iter(zip(titles, anchors))
+
+    def linked(mark: re.Match) -> str:
+        title, anchor = next(points)
+        return f'<a xlink:href="#{escape(anchor)}"><title>{escape(title)}</title>{mark[0]}</a>'
+
+    return re.sub(rf'<g id="{re.escape(chart_id)}-points-\d+">.*?</g>', lambda group: re.sub(r"<use [^>]*/>", linked, group[0]), svg)

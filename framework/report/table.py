@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-
-import pandas as pd
 
 from report import ranking, text
 from report.load import BASELINES, LIGHTS, Metric, Results, interval_columns
@@ -56,10 +54,16 @@ class Cell:
     is_text: bool = False
     interval: str = ""
 
+    @property
+    def css(self) -> str:
+        """Its classes."""
+        return " ".join(filter(None, (f"only-{self.light}" if self.light else "", self.mark, "words" if self.is_text else "")))
+
 
 @dataclass(frozen=True)
 class Row:
-    """`name` is what is shown, `full_name` the variant's own, as in the files."""
+    """`name` is what is shown, `full_name` the variant's own, as in the files. `anchor`: where its images are, or "row-"
+    and its number where the page has none."""
 
     number: str
     name: str
@@ -106,10 +110,12 @@ def score_columns(results: Results, lights: list[str], metrics: tuple[Metric, ..
 def variant_rows(results: Results, columns: list[Column], names: Names, anchors: dict[str, str]) -> list[Row]:
     """The variants' rows, marked with the best of each column, its ties, and what a black image beats."""
     marks = {column.key: _marks(results, column) for column in columns}
+    beaten = {column.key: ranking.all_beaten(results, column.metric, column.key) for column in columns if column.metric}
     rows = []
-    for _, row in results.variants.iterrows():
+    for row in results.variants.to_dict("records"):
         name = row["variant"]
-        cells = [_cell(results, row, column, marks[column.key].get(name, "")) for column in columns]
+        cells = [_cell(row, column, marks[column.key].get(name, ""), beaten.get(column.key, {}).get(name, []))
+                 for column in columns]
         failed = row["status"] != "ok"
         error = (row["error"] or f"status is '{row['status']}', with no error text") if failed else ""
         rows.append(Row(names.numbers[name], names.short[name], anchors[name], cells, error, name))
@@ -122,12 +128,11 @@ def _marks(results: Results, column: Column) -> dict[str, str]:
     return ranking.cost_marks(results, column.key) if column.key in ranking.COST_COLUMNS else {}
 
 
-def _cell(results: Results, row: pd.Series, column: Column, mark: str) -> Cell:
+def _cell(row: Mapping, column: Column, mark: str, beaten_by: list[str]) -> Cell:
     value = row[column.key]
     if column.metric:
-        worse = ranking.beaten_by(results, column.metric, column.key, row)
-        title = f"worse than a {' and a '.join(worse)} image" if worse else ""
-        return Cell(text.figures(value), _sort(value), column.light, "worse" if worse else mark, title,
+        title = f"worse than a {' and a '.join(beaten_by)} image" if beaten_by else ""
+        return Cell(text.figures(value), _sort(value), column.light, "worse" if beaten_by else mark, title,
                     interval=_interval(row, column))
     if column.key in _COSTS:
         spread = f"p05 {text.figures(row['frame_ms_p05'])}, p95 {text.figures(row['frame_ms_p95'])} ms"
@@ -137,7 +142,7 @@ def _cell(results: Results, row: pd.Series, column: Column, mark: str) -> Cell:
     return Cell(value, value, is_text=column.align_text)
 
 
-def _interval(row: pd.Series, column: Column) -> str:
+def _interval(row: Mapping, column: Column) -> str:
     ends = [row.get(name, math.nan) for name in interval_columns(column.key)]
     return text.span(*ends) if all(map(math.isfinite, ends)) else ""
 

@@ -1,0 +1,148 @@
+"""What the page shows of a variant besides its row: images, passes, graph."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import pandas as pd
+
+from report import film, images, text
+from report.load import IMAGES, LIGHTS, ReportError, Results, section
+from report.names import Names
+
+
+@dataclass(frozen=True)
+class View:
+    """A variant's image and error map under one light, and its compared frames as a film; None where a file is absent."""
+
+    light: str
+    image: images.Picture | None
+    error: images.Picture | None
+    film: images.Picture | None = None
+
+
+@dataclass(frozen=True)
+class PassRow:
+    """A pass in a variant's timeline: it begins at `start` percent of the longest phase and takes `percent` of it."""
+
+    name: str
+    phase: str
+    color: str
+    start: float
+    percent: float
+    cells: list[str]
+
+
+@dataclass(frozen=True)
+class Variant:
+    number: str
+    name: str
+    full_name: str
+    anchor: str
+    facts: list[tuple[str, str]]
+    error: str
+    views: list[View]
+    passes: list[PassRow] = field(default_factory=list)
+    reference: str = ""
+    graph: str = ""
+
+
+@dataclass(frozen=True)
+class Thumbnail:
+    """A small copy of an image that the page shows elsewhere, under the id `image`."""
+
+    light: str
+    image: str
+    anchor: str
+    number: str
+    name: str
+    facts: str
+
+
+def picture(results: Results, folder: str, name: str, embed: Callable, warnings: list[str]) -> images.Picture | None:
+    """An image of a folder as `embed` makes it of its path; None, with a warning, where it is none."""
+    path = results.image(folder, name)
+    return _or_warning(lambda: embed(path), warnings) if path else None
+
+
+def variants(results: Results, lights: list[str], colors: dict[str, str], names: Names, anchors: dict[str, str],
+             warnings: list[str]) -> list[Variant]:
+    """All variants of `results`. Films are of the light that the page shows first."""
+    passes = dict(list(results.passes.groupby("variant", sort=False)))
+    return [_variant(results, row, passes.get(row["variant"]), lights, colors, names, anchors, warnings)
+            for row in results.variants.to_dict("records")]
+
+
+def thumbnails(results: Results, lights: list[str], shown: list[Variant]) -> list[Thumbnail]:
+    """The first reference and each variant under each light, for those that have an image."""
+    folder = str(results.references()[0].get("folder") or "reference")
+    rows = results.variants.set_index("variant")
+    metric = results.metrics[0] if results.metrics else None
+    small = []
+    for light in lights:
+        if results.image(folder, IMAGES[light][0]):
+            small.append(Thumbnail(light, f"{folder}-{light}", "reference", "", "reference", ""))
+        for variant in shown:
+            if not any(view.light == light and view.image for view in variant.views):
+                continue
+            ms = f"{text.figures(rows.loc[variant.full_name, 'frame_ms_median'])} ms"
+            score = (f", {metric.label} {text.figures(rows.loc[variant.full_name, LIGHTS[light] + metric.key])}"
+                     if metric else "")
+            small.append(Thumbnail(light, f"{variant.anchor}-{light}", variant.anchor, variant.number, variant.name,
+                                   ms + score))
+    return small
+
+
+def _or_warning(make: Callable, warnings: list[str]) -> images.Picture | None:
+    try:
+        return make()
+    except (ReportError, OSError) as error:
+        warnings.append(f"An image is not shown: {error}")
+        return None
+
+
+def _variant(results: Results, row: Mapping, passes: pd.DataFrame | None, lights: list[str], colors: dict[str, str],
+             names: Names, anchors: dict[str, str], warnings: list[str]) -> Variant:
+    name = row["variant"]
+    if row["status"] != "ok":
+        return Variant(names.numbers[name], names.short[name], name, anchors[name], [],
+                       row["error"] or f"status is '{row['status']}', with no error text", [])
+    views = [View(light, picture(results, name, IMAGES[light][0], images.embed, warnings),
+                  picture(results, name, IMAGES[light][1], images.embed_error, warnings),
+                  _film(results, name, light, warnings) if light == lights[-1] else None)
+             for light in lights]
+    if not any(view.image for view in views):
+        warnings.append(f"Variant {name} has no image in its results.")
+    facts = [("frame", f"{text.figures(row['frame_ms_median'])} ms (p05 {text.figures(row['frame_ms_p05'])}, "
+              f"p95 {text.figures(row['frame_ms_p95'])})"), ("build", f"{text.figures(row['build_ms'])} ms"),
+             ("memory", f"{text.size(row['memory_bytes'])}, at the most {text.size(row['peak_bytes'])}"),
+             ("rays", text.count(row["rays"]))]
+    graph = section(results.manifest, "variants").get(name)
+    return Variant(names.numbers[name], names.short[name], name, anchors[name], facts, "", views,
+                   _timeline(passes, colors) if passes is not None else [],
+                   results.reference_folder(name) or "", text.yaml_like(graph) if graph else "")
+
+
+def _film(results: Results, name: str, light: str, warnings: list[str]) -> images.Picture | None:
+    frames = film.frames_of(results, name, light)
+    return _or_warning(lambda: film.film(frames), warnings) if frames else None
+
+
+def _timeline(passes: pd.DataFrame, colors: dict[str, str]) -> list[PassRow]:
+    """Passes of a phase one after another, as they run, by their median times; both phases on one scale."""
+    longest = passes.groupby("phase")["ms_median"].sum().max()
+    ends: dict[str, float] = {}
+    rows = []
+    for row in passes.to_dict("records"):
+        start = ends.get(row["phase"], 0.0)
+        ms = row["ms_median"] if row["ms_median"] > 0 else 0.0
+        ends[row["phase"]] = start + ms
+        part = 100 / longest if longest > 0 else 0.0
+        name = row["pass"] if row["pass"] == row["kind"] else f"{row['pass']} ({row['kind']})"
+        rows.append(PassRow(name, row["phase"], colors[row["kind"]], part * start, part * ms,
+                            [*(text.figures(row[key]) for key in ("ms_median", "ms_p05", "ms_p95")),
+                             text.count(row["rays"]), text.count(row["voxel_steps"]),
+                             text.size(row["memory_bytes"]), text.size(row["scratch_bytes"])]))
+    return rows

@@ -1,0 +1,226 @@
+"""Tests of the report's page in a browser: what can be clicked, typed and dragged, and what it looks like."""
+
+from __future__ import annotations
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import browser
+import numpy as np
+from PIL import Image
+from report_support import made_up
+
+from report import make_report
+
+if not browser.MISSING:
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+
+SIZE = (320, 180)
+FRAMES = 3
+VISIBLE = "return [...document.querySelectorAll(arguments[0])].filter((e) => e.offsetParent).length"
+ROWS = ("return [...document.querySelector('#results .results').tBodies[0].rows].filter((row) => !row.hidden)"
+        ".map((row) => row.cells[0].textContent)")
+
+
+def pixels(path: Path) -> np.ndarray:
+    with Image.open(path) as image:
+        return np.asarray(image.convert("RGB"), dtype=float) / 255
+
+
+def brighter(display: np.ndarray, stops: float) -> np.ndarray:
+    """sRGB of so many stops more light (IEC 61966-2-1)."""
+    linear = np.where(display <= 0.04045, display / 12.92, ((display + 0.055) / 1.055) ** 2.4) * 2.0 ** stops
+    linear = linear.clip(0, 1)
+    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+
+
+@unittest.skipIf(browser.MISSING, browser.MISSING)
+class InABrowser(unittest.TestCase):
+    """Six finished variants of a sequence and a failed one."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        rows = made_up.sweep_of_two_keys()
+        cls.directory = made_up.write_results(Path(folder.name), rows, made_up.manifest(["voxelize.resolution", "inject"]), size=SIZE)
+        for row in rows[:-1]:
+            for frame in range(FRAMES):
+                made_up.save_image(cls.directory / "images" / row["variant"] / f"frames/indirect.{frame}.png", 0.2 * frame, SIZE)
+        assert make_report.main([str(cls.directory)]) == 0
+        cls.page = cls.directory / "report.html"
+        cls.browser = browser.Browser()
+        cls.addClassCleanup(cls.browser.close)
+
+    def setUp(self):
+        self.browser.resize(1400, 900)
+        self.browser.media()
+        self.open()
+
+    def open(self, address: str = ""):
+        self.browser.open(self.page, address)
+
+    def shown(self) -> dict:
+        return self.browser.run("return {...document.documentElement.dataset, ...page.state}")
+
+    def press(self, *keys: str):
+        ActionChains(self.browser.driver).send_keys(*keys).perform()
+
+    def image(self, variant: str, name: str = "indirect") -> np.ndarray:
+        return pixels(self.directory / "images" / variant / f"{name}.png")
+
+    def stage_of(self, number: int) -> str:
+        return f"#variant-{number} .viewer .canvas"
+
+    def test_says_nothing_and_loads_nothing(self):
+        self.browser.console()
+        self.browser.requests()
+        self.open("light=total&show=difference&zoom=2&exposure=1&filter=rsm&against=variant-2")
+        self.press("f", "l", "z", "s", "d", "+", "-")
+        self.browser.run("window.scrollTo(0, document.body.scrollHeight)")
+        self.browser.settle()
+        self.assertEqual(self.browser.console(), [])
+        asked = set(self.browser.requests()) - {"about:blank"}
+        self.assertEqual({address.partition("#")[0] for address in asked}, {self.page.resolve().as_uri()})
+
+    def test_headings_sort_and_failed_variants_stay_last(self):
+        heading = self.browser.run("return [...document.querySelectorAll('#results th.only-indirect button')]"
+                                   ".find((b) => b.textContent.startsWith('nRMSE'))")
+        for order in ("3625147", "4152637"):
+            heading.click()
+            self.assertEqual("".join(self.browser.run(ROWS)), order)
+        self.assertEqual(self.browser.run("return document.querySelectorAll('#results th[aria-sort]').length"), 1)
+
+    def test_the_filter_keeps_rows_and_what_shows_their_variants(self):
+        field = self.browser.driver.find_element(By.NAME, "filter")
+        self.press("/")
+        self.assertEqual(self.browser.driver.switch_to.active_element, field)
+        field.send_keys("RSM  resolution")
+        self.assertEqual(self.browser.run(ROWS), ["4", "5", "6", "7"])
+        self.assertEqual(self.browser.run("return document.querySelector('.filter output').textContent"), "4 of 7 variants")
+        self.assertEqual(self.browser.run(VISIBLE, "#variants article"), 4)
+        self.assertEqual(self.browser.run(VISIBLE, ".thumbnail"), 4)  # with the reference
+        field.clear()
+        field.send_keys("nrmse<0.55")
+        self.assertEqual(self.browser.run(ROWS), ["2", "3", "6"])
+        self.press("l")  # A letter of the filter, no key
+        self.assertEqual(self.shown()["light"], "indirect")
+        field.send_keys(Keys.ESCAPE)
+        self.assertEqual(len(self.browser.run(ROWS)), 7)
+        # Of the light that is shown
+        self.open("light=total&filter=nrmse%3C0.3")
+        self.assertEqual(self.browser.run(ROWS), ["3", "6"])
+
+    def test_keys_change_the_page_and_its_address(self):
+        for key, name, value in (("f", "show", "variant"), ("f", "show", "other"), ("d", "show", "difference"), ("s", "show", "slider"),
+                                 ("l", "light", "total"), ("l", "light", "indirect"), ("z", "zoom", "2"), ("+", "exposure", "1"),
+                                 ("-", "exposure", "0"), ("-", "exposure", "-1")):
+            self.press(key)
+            self.assertEqual(self.shown()[name], value, key)
+        self.assertEqual(self.browser.run("return location.hash"), "#zoom=2&exposure=-1")
+        self.press(*["-"] * 9)
+        self.assertEqual(self.shown()["exposure"], "-4")
+
+    def test_the_slider_is_dragged_and_moved_by_keys(self):
+        stage = self.browser.driver.find_element(By.CSS_SELECTOR, "#variant-2 .only-indirect .viewer")
+        self.browser.run("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", stage)
+        width = stage.size["width"]
+        actions = ActionChains(self.browser.driver)
+        actions.move_to_element(stage).click_and_hold().move_by_offset(-int(width / 4), 0).release().perform()
+        self.assertAlmostEqual(float(self.shown()["split"]), 25, delta=1)
+        stage.send_keys(Keys.ARROW_RIGHT)
+        self.assertAlmostEqual(float(self.shown()["split"]), 27, delta=1)
+        self.assertEqual(stage.get_attribute("aria-valuenow"), str(round(float(self.shown()["split"]))))
+        # All viewers have it
+        self.open("split=100")
+        right = self.browser.picture(self.stage_of(1))[:, 20:-20].mean(axis=(0, 1))
+        self.open("split=0")
+        left = self.browser.picture(self.stage_of(1))[:, 20:-20].mean(axis=(0, 1))
+        np.testing.assert_allclose(right, self.image("light_rays-64").mean(axis=(0, 1)), atol=0.02)
+        np.testing.assert_allclose(left, self.image("reference").mean(axis=(0, 1)), atol=0.02)
+
+    def test_images_are_shown_in_turns_and_as_their_difference(self):
+        test, reference = self.image("rsm-64"), self.image("reference")
+        for show, expected in (("variant", test), ("other", reference), ("difference", abs(test - reference))):
+            self.open(f"show={show}")
+            np.testing.assert_allclose(self.browser.picture(self.stage_of(4)).mean(axis=(0, 1)), expected.mean(axis=(0, 1)),
+                                       atol=0.015, err_msg=show)
+        self.assertGreater(abs(test - reference).mean(), 0.05)
+
+    def test_any_two_variants_are_compared(self):
+        self.open("show=difference&against=variant-4")
+        self.assertLess(self.browser.picture(self.stage_of(4))[40:].max(), 0.01)
+        np.testing.assert_allclose(self.browser.picture(self.stage_of(1)).mean(axis=(0, 1)),
+                                   abs(self.image("light_rays-64") - self.image("rsm-64")).mean(axis=(0, 1)), atol=0.015)
+        # Side by side
+        self.open("left=variant-3&right=variant-1")
+        for side, variant in (("left", "light_rays-256"), ("right", "light_rays-64")):
+            picture = self.browser.picture(f'.stage[data-side="{side}"] .canvas')
+            np.testing.assert_allclose(picture.mean(axis=(0, 1)), self.image(variant).mean(axis=(0, 1)), atol=0.015)
+
+    def test_exposure_scales_linear_light_of_all_images(self):
+        for stops in (2, -2):
+            self.open(f"show=variant&exposure={stops}&left=reference")
+            for selector, image in ((self.stage_of(1), "light_rays-64"), ('.stage[data-side="left"] .canvas', "reference")):
+                np.testing.assert_allclose(self.browser.picture(selector).mean(axis=(0, 1)),
+                                           brighter(self.image(image), stops).mean(axis=(0, 1)), atol=0.02)
+
+    def test_zoomed_images_move_together(self):
+        self.open("zoom=4")
+        moved = self.browser.run("""
+            const stages = [...document.querySelectorAll(".stage")].filter((stage) => stage.offsetParent);
+            stages[2].dispatchEvent(new Event("pointerenter"));
+            stages[2].scrollTo({ left: 200, top: 100, behavior: "instant" });
+            return stages.length;""")
+        self.browser.settle()
+        places = self.browser.run("""return [...document.querySelectorAll(".stage")].filter((stage) => stage.offsetParent)
+            .map((stage) => [stage.scrollLeft / (stage.scrollWidth - stage.clientWidth), stage.scrollTop / (stage.scrollHeight - stage.clientHeight)])""")
+        self.assertEqual(moved, 2 * 6 + 2)
+        np.testing.assert_allclose(places, [places[2]] * len(places), atol=0.01)
+        self.assertGreater(places[0][0], 0.05)
+
+    def test_points_of_charts_say_their_name_and_lead_to_their_variant(self):
+        point = self.browser.run("""return [...document.querySelectorAll(".chart a")].find((a) => a.getBoundingClientRect().width
+            && a.getAttribute("xlink:href") === "#variant-3")""")
+        self.assertIn("3 (resolution 256, light_rays)", self.browser.run("return arguments[0].querySelector('title').textContent", point))
+        self.browser.run("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", point)
+        ActionChains(self.browser.driver).move_to_element(point).click().perform()
+        self.browser.settle()
+        self.assertEqual(self.browser.run("return location.hash"), "#variant-3")
+        top = self.browser.run("return document.getElementById('variant-3').getBoundingClientRect().top")
+        self.assertTrue(0 <= top < 300, top)
+
+    def test_sequences_play_in_a_loop(self):
+        self.assertEqual(self.browser.run(VISIBLE, ".film img"), 6)
+        self.assertTrue(self.browser.run("return [...document.querySelectorAll('.film img')].every((i) => i.complete && i.naturalWidth === 320)"))
+        before = self.browser.picture("#variant-1 .film img")
+        changes = [abs(self.browser.picture("#variant-1 .film img") - before).max() for _ in range(20)]
+        self.assertGreater(max(changes), 0.05)
+
+    def test_a_phone_shows_the_table_first_and_scrolls_down_alone(self):
+        self.browser.resize(400, 800)
+        self.open()
+        self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), 400)
+        bottom = self.browser.run("return document.querySelectorAll('#results tbody tr')[2].getBoundingClientRect().bottom")
+        self.assertLess(bottom, 800)
+        size = self.browser.run("return parseFloat(getComputedStyle(document.querySelector('#results td')).fontSize)")
+        self.assertGreaterEqual(size, 11)
+
+    def test_the_dark_scheme_is_dark_and_paper_is_white(self):
+        def brightness(selector, key):
+            color = self.browser.run("return getComputedStyle(document.querySelector(arguments[0]))[arguments[1]]", selector, key)
+            return sum(int(part) for part in color[color.index("(") + 1:-1].split(",")[:3]) / 3 / 255
+        for scheme, low, high in (("light", 0.9, 1), ("dark", 0, 0.2)):
+            self.browser.media(scheme=scheme)
+            self.assertTrue(low <= brightness("body", "backgroundColor") <= high, scheme)
+            self.assertGreater(abs(brightness("body", "color") - brightness("body", "backgroundColor")), 0.6)
+        self.browser.media("print", "dark")
+        self.assertGreater(brightness("body", "backgroundColor"), 0.9)
+        self.assertEqual(self.browser.run("return getComputedStyle(document.querySelector('.toolbar')).display"), "none")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,117 @@
+"""Tests of which variants a page shows with their images, and of what stays of the others."""
+
+from __future__ import annotations
+
+import re
+import unittest
+from unittest import mock
+
+from report_support import Page, ReportTest, made_up
+
+from report import charts, details, make_report, names, page, ranking, selection, style
+from report.load import load
+
+
+def five() -> list[dict]:
+    """a, b and d are on the front of time against error; c is beaten by b, e by all."""
+    table = (("a", 10, 0.5), ("b", 20, 0.3), ("c", 25, 0.4), ("d", 40, 0.1), ("e", 50, 0.6))
+    return [made_up.variant(name, ms, error) for name, ms, error in table]
+
+
+class Selection(ReportTest):
+    def selected(self, *wanted: str) -> str:
+        results = load(self.directory)
+        return "".join(selection.selected(results, results.lights(), names.names_of(results), list(wanted)))
+
+    def write(self, rows=None, run=None, **options):
+        made_up.write_results(self.directory, rows or five(), run or made_up.manifest([]), indirect=False, **options)
+
+    def test_all_the_front_or_some_by_number_or_name(self):
+        self.write()
+        for wanted, expected in (("", "abcde"), ("all", "abcde"), ("front", "abd"), ("2 e", "be"), ("front 5", "abde")):
+            self.assertEqual(self.selected(*wanted.split()), expected, wanted)
+
+    def test_what_is_no_variant_is_refused_by_name(self):
+        self.write()
+        self.assertEqual(make_report.main([str(self.directory), "--images", "front", "7"]), 2)
+        self.assertFalse((self.directory / "report.html").exists())
+
+    def test_each_scene_has_a_front_of_its_own(self):
+        rows = five()
+        for row in rows:
+            row["scene"] = "cornell" if row["variant"] in "abd" else "sponza"
+        self.write(rows, made_up.manifest(["scene"]))
+        self.assertEqual(self.selected("front"), "abcd")  # of c and e, c beats e
+
+    def test_a_page_that_would_be_too_large_holds_what_fits_of_the_front(self):
+        self.write()
+        with mock.patch.object(selection, "_bytes", lambda *_: 10.0), mock.patch.object(selection, "_ROW_BYTES", 0):
+            for size, expected in ((60, "abcde"), (59, "abd"), (35, "ab"), (10, "")):  # with a reference
+                with mock.patch.object(selection, "_MAX_BYTES", size):
+                    self.assertEqual(self.selected(), expected, size)
+        with mock.patch.object(selection, "_MAX_VARIANTS", 4):
+            self.assertEqual(self.selected(), "abd")
+
+    def test_others_keep_their_row_and_their_points(self):
+        self.write()
+        self.assertEqual(make_report.main([str(self.directory), "--images", "front"]), 0)
+        source = (self.directory / "report.html").read_text(encoding="utf-8")
+        shown = Page(source)
+        self.assertIn("2 variants are not shown with their images", shown.text)
+        ids, links = shown.attributes("id"), shown.attributes("href") + shown.attributes("xlink:href")
+        self.assertEqual([name for name in ids if name.startswith("variant-") and name.count("-") == 1],
+                         ["variant-1", "variant-2", "variant-4"])
+        self.assertEqual([name for name in ids if name.startswith("row-")], [f"row-{i}" for i in range(1, 6)])
+        self.assertIn("#row-3", links)
+        self.assertLessEqual(set(links), {f"#{name}" for name in ids})
+
+    def test_the_manifest_lists_the_graphs_of_those_that_are_shown(self):
+        run = made_up.manifest([])
+        run["variants"] = {name: [{"pass": f"pass_of_{name}"}] for name in "abcde"}
+        run["noise_parameters"] = {"final": {name: [f"{name}.rays"] for name in "abcde"}}
+        self.write(run=run)
+        source = page.render(load(self.directory), ["b"])
+        self.assertIn("pass_of_b", source)
+        self.assertIn("b.rays", source)
+        for word in ("pass_of_a", "c.rays"):
+            self.assertNotIn(word, source)
+
+
+class Layers(unittest.TestCase):
+    def test_fronts_come_one_after_another(self):
+        points = [(1, 5), (2, 3), (3, 4), (4, 1), (5, 2), (6, 9)]
+        self.assertEqual(ranking.pareto_layers(points, 3), [0, 1, 3])
+        self.assertEqual(ranking.pareto_layers(points, 9), [0, 1, 3, 2, 4, 5])
+        self.assertEqual(ranking.pareto_layers(points, 4), [0, 1, 3, 2])
+
+
+class Timeline(ReportTest):
+    def test_passes_of_a_phase_follow_one_another(self):
+        made_up.write_results(self.directory, [made_up.variant("a", 10, 0.3)], made_up.manifest([]), images=False)
+        results = load(self.directory)
+        named = names.names_of(results)
+        passes = details.variants(results, ["total"], style.pass_colors(results), named, {"a": "x"}, [])[0].passes
+        # Of 20 ms of build 14 and 5.6, of 10 ms a frame 2, 7 and 0.5; the build is the longest phase
+        for row, start, width in zip(passes, (0, 14, 0, 2, 9), (14, 5.6, 2, 7, 0.5)):
+            self.assertAlmostEqual(row.start, 100 * start / 19.6, places=6, msg=row.name)
+            self.assertAlmostEqual(row.percent, 100 * width / 19.6, places=6, msg=row.name)
+
+
+class ManyPoints(ReportTest):
+    def test_those_far_from_the_front_are_dots(self):
+        rows = [made_up.variant(f"v{i}", 10 + i % 20, 0.1 + 0.01 * (i // 20)) for i in range(400)]
+        results = load(made_up.write_results(self.directory, rows, made_up.manifest([]), images=False))
+        named, metric = names.names_of(results), results.metrics[0]
+        everywhere = {row["variant"]: style.Style("c0", "o") for row in rows}
+        anchors = {row["variant"]: row["variant"] for row in rows}
+        chart = charts.cost_error_chart(results, metric, "total", False, everywhere, named.numbers, anchors, "chart", [], named)
+        self.assertEqual((chart.marks, chart.dots), (250, 150))
+        self.assertEqual(chart.svg.count("<title>"), 250)
+        self.assertIn('xlink:href="#v0"', chart.svg)  # the fastest with the least error
+        self.assertNotIn('xlink:href="#v399"', chart.svg)
+        dots = [path for path in re.findall(r' d="([^>]*)', chart.svg) if "stroke-linecap: round" in path]
+        self.assertEqual([path.count("M ") for path in dots], [150])
+
+
+if __name__ == "__main__":
+    unittest.main()
