@@ -11,7 +11,7 @@ from pathlib import Path
 import browser
 import numpy as np
 from PIL import Image
-from report_support import Page, made_up
+from report_support import made_up
 
 from report import make_report
 
@@ -53,7 +53,7 @@ def write(directory: Path, count: int) -> None:
 
 
 class ManyVariants(unittest.TestCase):
-    def report(self, count: int, *arguments: str) -> Page:
+    def report(self, count: int, *arguments: str) -> str:
         """Makes a page, holds its size and prints what it takes to make and to open."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -74,17 +74,15 @@ class ManyVariants(unittest.TestCase):
                 window.close()
         print(said, flush=True)
         self.assertLess(size, MAX_BYTES)
-        return Page(page.read_text(encoding="utf-8"))
+        source = page.read_text(encoding="utf-8")
+        self.assertEqual(source.count(' id="row-'), count)
+        return source
 
     def test_200_variants(self):
-        shown = self.report(200)
-        self.assertEqual(sum(name.startswith("row-") for name in shown.attributes("id")), 200)
-        self.assertGreater(shown.count("div", "viewer"), 10)
+        self.assertGreater(self.report(200).count('class="stage viewer"'), 10)
 
     def test_10000_variants_with_images_of_the_front(self):
-        shown = self.report(10000, "--images", "front")
-        self.assertEqual(sum(name.startswith("row-") for name in shown.attributes("id")), 10000)
-        self.assertGreater(shown.count("div", "viewer"), 2)
+        self.assertGreater(self.report(10000, "--images", "front").count('class="stage viewer"'), 2)
 
 
 if __name__ == "__main__":
