@@ -28,6 +28,21 @@ void orError(const fs::path& path, const Work& work) {
     }
 }
 
+/// What two texts of a map or list differ in, from the entry where they first do to that where they last do:
+/// "bounces: 2" and "bounces: 3" of longer graphs.
+std::pair<std::string, std::string> differingParts(const std::string& a, const std::string& b) {
+    const size_t shorter = std::min(a.size(), b.size());
+    size_t same =
+        size_t(std::mismatch(a.begin(), a.begin() + ptrdiff_t(shorter), b.begin()).first - a.begin());
+    const size_t entry = same == 0 ? std::string::npos : a.find_last_of("{[,", same - 1);
+    same = entry == std::string::npos ? 0 : a.find_first_not_of(' ', entry + 1);
+    size_t end = 0;  // Characters from the end that are the same.
+    while (end < shorter - same && a[a.size() - 1 - end] == b[b.size() - 1 - end]) ++end;
+    const size_t next = a.find_first_of("}],", a.size() - end);
+    end = next == std::string::npos ? 0 : a.size() - next;
+    return {a.substr(same, a.size() - end - same), b.substr(same, b.size() - end - same)};
+}
+
 bool startsWith(const std::string& text, const char* prefix) {
     return text.rfind(prefix, 0) == 0;
 }
@@ -59,7 +74,7 @@ ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, Folde
         for (const fs::path& file : left) fs::remove(file);
         for (const auto& entry : fs::directory_iterator(path_ / "images"))
             if (startsWith(entry.path().filename().string(), kTemporaryFolder)) fs::remove_all(entry.path());
-        if (use == FolderUse::Fresh) removeOldRun();
+        if (use == FolderUse::Fresh) replaced_ = removeOldRun();
     });
 }
 
@@ -101,13 +116,18 @@ void ResultsFolder::checkOwner(const std::string& experiment) const {
                          path_.string());
 }
 
-void ResultsFolder::removeOldRun() const {
+size_t ResultsFolder::removeOldRun() const {
     for (const char* file : {"results.csv", "passes.csv", "values.csv", "frames.csv", "report.html"})
         fs::remove(path_ / file);
     fs::remove_all(path_ / kParts);
     removeReferences();
-    for (const auto& entry : fs::directory_iterator(path_ / "images"))
-        if (fs::exists(entry.path() / "result.json")) fs::remove_all(entry.path());
+    size_t variants = 0;
+    for (const auto& entry : fs::directory_iterator(path_ / "images")) {
+        if (!fs::exists(entry.path() / "result.json")) continue;
+        fs::remove_all(entry.path());
+        ++variants;
+    }
+    return variants;
 }
 
 void ResultsFolder::removeReferences() const {
@@ -124,11 +144,13 @@ std::optional<VariantResult> ResultsFolder::finished(const std::string& variant,
     if (oldInputs == inputs) return result;
     for (const auto& [name, text] : inputs)
         for (const auto& [oldName, oldText] : oldInputs)
-            if (name == oldName && text != oldText)
+            if (name == oldName && text != oldText) {
+                const auto [before, now] = differingParts(oldText, text);
                 throw UsageError(
                     "{}: holds another experiment: '{}' was run with another {} ({}, now {}); choose another "
                     "folder with --out or leave out --resume",
-                    path_.string(), variant, name, oldText, text);
+                    path_.string(), variant, name, before, now);
+            }
     throw UsageError("{}: '{}' was run by another version of Voxray; leave out --resume", path_.string(),
                      variant);
 }

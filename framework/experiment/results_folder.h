@@ -27,6 +27,8 @@ class ResultsFolder {
     ResultsFolder(std::filesystem::path path, const std::string& experiment, FolderUse use);
 
     const std::filesystem::path& path() const { return path_; }
+    /// How many finished variants of an older run were removed for a fresh one.
+    size_t replaced() const { return replaced_; }
 
     /// Keeps other processes from the same part while the lock lives. @throws UsageError where one has it.
     ProcessLock lockPart(const std::string& id) const;
@@ -57,9 +59,11 @@ class ResultsFolder {
 
  private:
     void checkOwner(const std::string& experiment) const;
-    void removeOldRun() const;
+    /// @return how many finished variants it had.
+    size_t removeOldRun() const;
 
     std::filesystem::path path_;
+    size_t replaced_ = 0;
     std::optional<ProcessLock> lock_;
 };
 

@@ -84,6 +84,10 @@ void Run::renderMissing() {
     Progress progress(variants.size() - results_.size(), prepared_.options().quiet);
     parts_.printWarnings(progress);
     for (const std::string& note : manifest_.notes) progress.note(note);
+    if (folder_.replaced() > 0)
+        progress.note(fmt::format("replaces {} finished variant{} of an earlier run; --resume would keep {}",
+                                  folder_.replaced(), folder_.replaced() == 1 ? "" : "s",
+                                  folder_.replaced() == 1 ? "it" : "them"));
     for (size_t i = 0; i < variants.size() && !summary_.interrupted; ++i) {
         if (results_.count(i)) continue;
         if (auto result = parts_.runVariant(variants[i], progress)) {

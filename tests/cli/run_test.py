@@ -188,7 +188,15 @@ class Resume(Run):
         self.write("tiny.yaml", TINY.replace("seed: 7", "seed: 8"))
         before = self.files("out")
         self.assertIn("seed", self.expect(2, "run", "tiny.yaml", "--out", "out", "--resume").stderr)
+        # Of a graph the parameter that differs
+        self.write("tiny.yaml", TINY.replace("rays_per_light: 4096", "rays_per_light: 8192"))
+        self.assertIn("another graph (rays_per_light: 4096, now rays_per_light: 8192)",
+                      self.expect(2, "run", "tiny.yaml", "--out", "out", "--resume").stderr)
         self.assertEqual(self.files("out"), before)
+
+    def test_a_fresh_run_tells_what_it_replaces(self):
+        self.assertNotIn("replaces", self.run_tiny().stdout)
+        self.assertIn("replaces 2 finished variants of an earlier run; --resume would keep them", self.run_tiny().stdout)
 
     def interrupt(self, number, status):
         self.write("slow.yaml", SLOW)
