@@ -166,8 +166,13 @@ std::vector<ReferenceEntry> referencesIn(const fs::path& images) {
     std::error_code code;
     for (const auto& at : fs::directory_iterator(images, code)) {
         const std::string folder = at.path().filename().string();
-        if (!folder.starts_with("reference") || !fs::exists(at.path() / "reference.json", code)) continue;
-        std::string text = readTextFile(at.path() / "reference.json");
+        if (!folder.starts_with("reference")) continue;
+        std::string text;
+        try {
+            text = readTextFile(at.path() / "reference.json");
+        } catch (const Error&) {  // Another process may just replace it.
+            continue;
+        }
         const Json json = Json::parse(text, nullptr, false);
         if (json.is_object() && json.contains("hash"))
             entries.push_back({folder, json["hash"].get<std::string>(), std::move(text)});

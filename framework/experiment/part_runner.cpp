@@ -88,6 +88,8 @@ const PreparedReference* PartRunner::referenceOf(const WiredVariant& variant, Pr
 void PartRunner::writeReference(const WiredVariant& variant) {
     const bool isKnown = reference_ && reference_->images.hash == prepared_.referenceHash(variant);
     if (!isKnown || hasReferenceImages(variant)) return;
+    references_ = folder_.references();  // Another process may have been faster.
+    if (hasReferenceImages(variant)) return;
     const ReferenceRecord& record = reference_->record;
     const float stops = variant.setup.image.exposureStops;
     const std::string text = referenceJson(record, prepared_.manifest().referencePass);

@@ -164,7 +164,8 @@ std::vector<std::string> missingBefore(const Part& part, PreparedExperiment& pre
     const Setup& setup = prepared.variants()[part.variant].setup;
     for (const uint32_t frame : referenceFrames(prepared, setup)) {
         const std::string hash = prepared.session().referenceHashOf(prepared.wired(), setup, frame);
-        if (!prepared.session().hasReference(hash)) missing.push_back(ReferenceParts::id(hash, {}));
+        const std::string id = ReferenceParts::id(hash, {});
+        if (!prepared.session().hasReference(hash)) missing.push_back(id.substr(0, id.rfind('.')));
     }
     return missing;
 }

@@ -30,7 +30,8 @@ std::vector<Part> partsOf(PreparedExperiment& prepared, uint32_t referenceParts)
 /// @throws UsageError for an id that names no part of the experiment, with the nearest one.
 Part partNamed(PreparedExperiment& prepared, const std::string& id);
 
-/// The references that a part needs and that can't be had without rendering them: ids of their parts.
+/// The references that a part needs and that can't be had without rendering them: what the ids of their parts
+/// begin with.
 std::vector<std::string> missingBefore(const Part& part, PreparedExperiment& prepared);
 
 /// What each part is predicted to take, a line each or JSON: id, what it comes after, what it writes,
