@@ -128,11 +128,15 @@ def _marks(results: Results, column: Column) -> dict[str, str]:
     return ranking.cost_marks(results, column.key) if column.key in ranking.COST_COLUMNS else {}
 
 
+def _score(value: float, metric: Metric) -> str:
+    return text.ratio(value) if metric.better == "one" else text.figures(value)
+
+
 def _cell(row: Mapping, column: Column, mark: str, beaten_by: list[str]) -> Cell:
     value = row[column.key]
     if column.metric:
         title = f"worse than a {' and a '.join(beaten_by)} image" if beaten_by else ""
-        return Cell(text.figures(value), _sort(value), column.light, "worse" if beaten_by else mark, title,
+        return Cell(_score(value, column.metric), _sort(value), column.light, "worse" if beaten_by else mark, title,
                     interval=_interval(row, column))
     if column.key in _COSTS:
         spread = f"p05 {text.figures(row['frame_ms_p05'])}, p95 {text.figures(row['frame_ms_p95'])} ms"
@@ -169,7 +173,7 @@ def _reference_row(name: str, columns: list[Column], value_of: Callable[[str], f
     values = {c.key: value_of(c.key) for c in columns if c.light}
     if not any(math.isfinite(value) for value in values.values()):
         return None
-    return Row("", name, "", [Cell(text.figures(values[c.key]) if c.light else "", light=c.light) for c in columns])
+    return Row("", name, "", [Cell(_score(values[c.key], c.metric) if c.light else "", light=c.light) for c in columns])
 
 
 def _sort(value: float) -> str:

@@ -25,6 +25,11 @@ def figures(value: float, digits: int = 3) -> str:
     return f"{value:,.{max(digits - 1 - exponent, 0)}f}".replace(",", "\u202f")
 
 
+def ratio(value: float) -> str:
+    """A value that is best at 1, to three decimals, so that 0.998 and 1.003 can be compared; far from 1 as figures()."""
+    return f"{value:.3f}" if 0.1 <= abs(value) < 10 else figures(value)
+
+
 def span(low: float, high: float) -> str:
     """An interval to two significant digits of its wider end, at least as many as tell its ends apart."""
     digits = next((d for d in (2, 3, 4) if figures(low, d) != figures(high, d)), 4)

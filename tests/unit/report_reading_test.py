@@ -71,6 +71,8 @@ class Writing(ReportTest):
         self.assertEqual((colors[0], colors[2]), ((0, 0, 4), (252, 253, 191)))
 
     def test_numbers_for_a_reader(self):
+        self.assertEqual([text.ratio(x) for x in (0.99831, 1.00259, 0, 0.0123456, 12.345, math.nan)],
+                         ["0.998", "1.003", "0", "0.0123", "12.3", "–"])
         self.assertEqual([text.figures(x) for x in (0.0123456, 12.345, 1234.5, 0, math.nan, math.inf, 1e-9)],
                          ["0.0123", "12.3", "1\u202f234", "0", "–", "∞", "1.00e-09"])
         self.assertEqual(text.size(3 * 2**20), "3.00 MiB")
