@@ -93,7 +93,7 @@ bool isMetSomewhere(const MaskCondition& condition, const SceneState& state) {
 template <typename Body>
 void forEachPixel(const SceneState& state, const Camera& camera, uint32_t width, uint32_t height,
                   const Body& body) {
-    const EmbreeScene scene(state, RaysToCome::Few);
+    const EmbreeScene scene(state);
     const CameraRays rays = cameraRays(camera, width, height);
     parallelRanges(height, 4, [&](size_t begin, size_t end) {
         for (size_t y = begin; y < end; ++y)
