@@ -19,6 +19,7 @@
 #include "passes/gather_merged_rays/gather_merged_rays.h"
 #include "passes/gather_mirror/gather_mirror.h"
 #include "passes/gather_rays/gather_rays.h"
+#include "passes/gather_stepped_cones/gather_stepped_cones.h"
 #include "passes/gather_surfels/gather_surfels.h"
 #include "passes/gather_vpls/gather_vpls.h"
 #include "passes/gbuffer/gbuffer_pass.h"
@@ -69,6 +70,7 @@ void registerPasses(Registry& registry) {
     registry.add<VoxelizeClipmap>();
     registry.add<LightClipmap>();
     registry.add<GatherCones>();
+    registry.add<GatherSteppedCones>();
     registry.add<ProbeIrradiance>();
     registry.add<GatherIrradiance>();
     registry.add<GatherSurfels>();

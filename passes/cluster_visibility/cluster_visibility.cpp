@@ -1,6 +1,7 @@
 #include "passes/cluster_visibility/cluster_visibility.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/error.h"
@@ -25,8 +26,8 @@ struct Proposal {
 constexpr double kSeenByRootOfRays = 4;
 
 struct ListPush {
+    gpu::SeenLayout lists;
     uint32_t patches;
-    uint32_t raysPerPatch;
 };
 
 }  // namespace
@@ -53,7 +54,7 @@ void FindClusterVisibility::plan(PassPlan& plan) {
     const SurfaceVoxels& voxels = plan.get(voxels_);
     ClusterVisibility& visibility = plan.get(visibility_);
     const uint32_t chunk = kChunkRays / params_.rays;
-    visibility.layout = {params_.rays, chunk, 0};
+    visibility.layout = {params_.rays, chunk, 0, uint32_t(std::bit_width(params_.rays - 1)), 32};
     march_.plan(plan, voxels);
     const uint64_t patches = kPatchesPerVoxel * voxels.voxelCount, rays = uint64_t(chunk) * params_.rays;
     const double root = std::ceil(kSeenByRootOfRays * std::sqrt(double(params_.rays)));
@@ -104,16 +105,19 @@ void FindClusterVisibility::record(PassContext& context) {
     version_ = version;
     ++visibility.version;
     visibility.chunks.clear();
+    visibility.entries = 0;
     visibility.addresses = {};
     visibility.patchCount = patches.patchCount;
     visibility.layout.sideTargets = kFaces * patches.partCount;
     const uint64_t targets =
         uint64_t(kFaces) * patches.partCount + (seesPatches() ? uint64_t(patches.patchCount) : 0);
-    if (targets > SEEN_MAX_TARGETS)
+    gpu::SeenLayout& layout = visibility.layout;
+    layout.entryBits = std::max(layout.rayBits + uint32_t(std::bit_width(targets)), 1u);
+    if (layout.entryBits > 32)
         throw Error(
-            "{}: {} faces of clusters and patches don't fit into 22 bits; set 'near_distance: 0', or lower "
-            "cluster_voxels's 'target' or voxelize's 'resolution'",
-            kName, targets);
+            "{}: {} faces of clusters and patches and {} rays don't fit into 32 bits; set "
+            "'near_distance: 0', or lower 'rays', cluster_voxels's 'target' or voxelize's 'resolution'",
+            kName, targets, params_.rays);
 
     CommandStream& stream = context.stream;
     march_.begin(stream, voxels);
@@ -127,12 +131,9 @@ void FindClusterVisibility::record(PassContext& context) {
     faces_ = {};
     context.voxelCounts.push_back(&march_.counts());
 
-    uint64_t seen = 0;
     std::vector<uint64_t> addresses;
-    for (const ClusterVisibility::Chunk& chunk : visibility.chunks) {
-        seen += chunk.seen.bytes() / sizeof(uint32_t);
+    for (const ClusterVisibility::Chunk& chunk : visibility.chunks)
         addresses.insert(addresses.end(), {chunk.first.address(), chunk.seen.address()});
-    }
     if (addresses.empty()) addresses.resize(2);
     visibility.addresses = Buffer(context.device, "addresses of lists", addresses.size() * sizeof(uint64_t));
     stream.upload(visibility.addresses, addresses);
@@ -140,7 +141,7 @@ void FindClusterVisibility::record(PassContext& context) {
     const std::vector<uint32_t> missed = stream.readAs<uint32_t>(missed_, 2);
     const auto percent = [&](uint32_t lost) { return count > 0 ? 100 * lost / rays : 0; };
     context.report("patches", count);
-    context.report("clusters and voxels seen by a patch", count > 0 ? double(seen) / count : 0);
+    context.report("clusters and voxels seen by a patch", count > 0 ? double(visibility.entries) / count : 0);
     context.report("rays that met nothing, %", percent(missed[0]));
     context.report("hits without surfel, % of rays", percent(missed[1]));
     context.report("bytes of the lists", double(visibility.bytes()));
@@ -211,23 +212,26 @@ void FindClusterVisibility::look(PassContext& context, uint32_t first, uint32_t 
         marchRays(context, push);
 
     // Merged by patch, and moved together
-    const ListPush list{count, params_.rays};
+    const ListPush list{visibility.layout, count};
     stream.dispatch(merge_, {{"targets", targets_}, {"counts", counts_}}, list, linearGroups(count + 1));
     ClusterVisibility::Chunk chunk;
     chunk.first = Buffer(context.device, "where patches' lists begin", (count + 1) * sizeof(uint32_t));
     const uint32_t seen = prefixSum_->run(stream, counts_, chunk.first, count + 1);
-    const uint64_t bytes = visibility.bytes() + (uint64_t(count) + 1 + seen) * sizeof(uint32_t);
+    const uint64_t words = (uint64_t(seen) * visibility.layout.entryBits + 31) / 32;
+    const uint64_t bytes = visibility.bytes() + (uint64_t(count) + 1 + words) * sizeof(uint32_t);
     const uint64_t most = listBytes_ + context.spareBytes;
     if (bytes > most)
         throw Error(
             "{}: what {} of {} patches see takes {:.1f} MiB, and the memory limit leaves {:.1f} MiB for all; "
             "lower 'rays', cluster_voxels's 'target' or voxelize's 'resolution', or raise the limit",
             kName, first + count, visibility.patchCount, double(bytes) / (1 << 20), double(most) / (1 << 20));
-    chunk.seen = Buffer(context.device, "what patches see", std::max(seen, 1u) * sizeof(uint32_t));
+    chunk.seen = Buffer(context.device, "what patches see", std::max<uint64_t>(words, 1) * sizeof(uint32_t));
+    stream.fill(chunk.seen, 0);
     stream.dispatch(compact_, {{"targets", targets_}, {"first", chunk.first}, {"seen", chunk.seen}}, list,
                     linearGroups(count));
     stream.finish();
     visibility.chunks.push_back(std::move(chunk));
+    visibility.entries += seen;
 }
 
 }  // namespace voxray

@@ -8,9 +8,9 @@ layout(local_size_x = 64) in;
 
 layout(scalar) buffer Targets { uint data[]; } targets;  // By patch and ray; after it, of each patch first what it sees.
 layout(scalar) writeonly buffer Counts { uint data[]; } counts;
-layout(push_constant) uniform Push {
+layout(push_constant, scalar) uniform Push {
+    SeenLayout lists;
     uint patches;
-    uint raysPerPatch;
 } push;
 
 // Moves the target at `at` of a heap of `count` down to its place.
@@ -40,20 +40,20 @@ void main() {
     if (number > push.patches) return;
     uint merged = 0u;
     if (number < push.patches) {
-        const uint first = number * push.raysPerPatch;
-        heapSort(first, push.raysPerPatch);
+        const uint first = number * push.lists.raysPerPatch;
+        heapSort(first, push.lists.raysPerPatch);
         uint target = targets.data[first], rays = 0u;
-        for (uint i = 0u; i < push.raysPerPatch && target != NO_TARGET; ++i) {
+        for (uint i = 0u; i < push.lists.raysPerPatch && target != NO_TARGET; ++i) {
             const uint next = targets.data[first + i];
             if (next == target) {
                 ++rays;
                 continue;
             }
-            targets.data[first + merged++] = packSeen(target, rays);
+            targets.data[first + merged++] = packSeen(push.lists, target, rays);
             target = next;
             rays = 1u;
         }
-        if (target != NO_TARGET) targets.data[first + merged++] = packSeen(target, rays);
+        if (target != NO_TARGET) targets.data[first + merged++] = packSeen(push.lists, target, rays);
     }
     counts.data[number] = merged;  // One more than there are patches: where the last one ends.
 }

@@ -1,9 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Each cluster asks for the voxels in its reach whose normals are within the angle limit (Cosin and Patow 2022, algorithm 1, lines 4
-// to 12). A voxel goes to the least distance, then to the first seed: a total order, so threads may run in any. Equation 1 is 1 within
-// the limit, though line 7 minimizes: it is read as no distance within the limit, and then whoever comes first in a random order has
-// the voxel.
+// Each cluster asks for the voxels in its reach (Cosin and Patow 2022, algorithm 1, lines 4 to 12). A voxel goes to the least distance,
+// then to the first seed: a total order, so threads may run in any.
+// - nearest: by place and normal, of the clusters whose normals are within the angle limit.
+// - first: by equation 1, which is 1 within the limit though line 7 minimizes: it is read as 0 within the limit and 1 beyond. Of equal
+//   ones whoever comes first in a random order has the voxel. So a voxel that no cluster within the limit reaches goes to another one
+//   (section 4.2: a cluster takes what it tests for the first time, whatever the angle).
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_shader_atomic_int64 : require
 #include "passes/cluster_voxels/neighbourhood.glsl"
@@ -22,8 +24,10 @@ void main() {
     boxWithinReach(seed.center, first, last);
     for (BoxWalk w = walkBox(first, last); nextVoxel(w);) {
         const float cosine = dot(seed.normal, normals.data[w.number]);
-        if (cosine < push.minCosine) continue;
-        const uint away = push.first == 1u ? hash(i) : floatBitsToUint(max(clusterDistance(seed.center, w.voxel, cosine), 0.0));
+        const bool isWithin = cosine >= push.minCosine;
+        if (push.first == 0u && !isWithin) continue;
+        const uint away = push.first == 1u ? (hash(i) >> 1) | (isWithin ? 0u : 0x80000000u)
+                                           : floatBitsToUint(max(clusterDistance(seed.center, w.voxel, cosine), 0.0));
         atomicMin(nearest.data[w.number], (uint64_t(away) << 32) | uint64_t(i));
     }
 }

@@ -34,9 +34,10 @@ uint64_t product(glm::uvec3 v) {
 }  // namespace
 
 glm::uvec3 ClusterGrowth::cells(const gpu::VoxelGrid& grid, uint32_t voxelCount) const {
-    // Cells of w³ voxels. A flat surface leaves w² voxels in each, and `first`, whose clusters take all in
-    // their reach, gives (2w)² to a cluster.
-    double width = std::cbrt(double(product(grid.resolution)) / std::max(params_.initial, 1u));
+    // Cells of w³ voxels, of which the paper's `initial` fill a cube. A flat surface leaves w² voxels in
+    // each, and `first`, whose clusters take all in their reach, gives (2w)² to a cluster.
+    const double longest = std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z});
+    double width = longest / std::cbrt(double(std::max(params_.initial, 1u)));
     if (params_.initial == 0) {
         width = std::sqrt(double(voxelCount) / params_.target);
         if (params_.assign == ClusterAssignment::First) width /= 2;

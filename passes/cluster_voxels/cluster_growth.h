@@ -49,8 +49,9 @@ struct ClusterParams {
         return std::tuple{
             field(
                 "initial", &ClusterParams::initial,
-                "Seeds in the grid's whole volume, about, as the paper counts its clusters before the first "
-                "iteration; most of them have no voxel. 0: as many as `target` asks for.",
+                "Seeds in a cube as wide as the grid's longest axis, about, as the paper counts its clusters "
+                "before the first iteration; those outside of the grid are left out, and most others have no "
+                "voxel. 0: as many as `target` asks for.",
                 0u, 1u << 24),
             field(
                 "target", &ClusterParams::target,
@@ -68,11 +69,14 @@ struct ClusterParams {
                   "and `first` makes fewer, larger clusters.",
                   0.5f, 8.0f),
             field("max_angle", &ClusterParams::maxAngle,
-                  "Largest angle between a cluster's normal and its voxels', degrees.", 1.0f, 89.0f),
+                  "Largest angle between a cluster's normal and its voxels', degrees; with `first` of voxels "
+                  "that a cluster within it reaches.",
+                  1.0f, 89.0f),
             field(
                 "assign", &ClusterParams::assign,
                 "nearest: a voxel goes to the cluster that is nearest by place and normal. first: to the "
-                "first in a random order of clusters, as in the paper, where the order is that of threads."),
+                "first within the angle limit in a random order of clusters, else to the first that reaches "
+                "it, as in the paper, where the order is that of threads."),
             field(
                 "unassigned", &ClusterParams::unassigned,
                 "Voxels that no cluster asked for. own: they form clusters of their own. nearest: they join "

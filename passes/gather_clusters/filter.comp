@@ -25,8 +25,14 @@ float weightAt(vec3 between) {
 
 void addPatches(SurfaceSide side, float weight, inout vec4 sum[6]) {
     uint at = side.firstPatch;
-    for (uint face = 0u; face < 6u; ++face)
-        if (hasPatch(side, face)) sum[face] += weight * vec4(gathered.data[at++], 1.0);
+    for (uint face = 0u; face < 6u; ++face) {
+        if (!hasPatch(side, face)) continue;
+        const vec3 irradiance = gathered.data[at++];
+#ifdef LIT_ALONE
+        if (all(equal(irradiance, vec3(0.0)))) continue;
+#endif
+        sum[face] += weight * vec4(irradiance, 1.0);
+    }
 }
 
 void main() {
@@ -46,5 +52,5 @@ void main() {
     }
     uint at = side.firstPatch;
     for (uint face = 0u; face < 6u; ++face)
-        if (hasPatch(side, face)) filtered.data[at++] = sum[face].rgb / sum[face].w;
+        if (hasPatch(side, face)) filtered.data[at++] = sum[face].w > 0.0 ? sum[face].rgb / sum[face].w : vec3(0.0);
 }

@@ -47,7 +47,8 @@ void GatherClusters::plan(PassPlan& plan) {
 
 void GatherClusters::prepare(PassSetup& setup) {
     version_.reset();
-    const Defines defines = isLazy() ? Defines{{"SEEN", "1"}} : Defines{};
+    Defines defines = isLazy() ? Defines{{"SEEN", "1"}} : Defines{};
+    if (params_.filterOver == FilterOver::Lit) defines.emplace("LIT_ALONE", "1");
     const auto program = [&](const char* name) {
         const std::string file = std::string("passes/gather_clusters/") + name + ".comp";
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));

@@ -19,6 +19,13 @@ struct EnumNames<GatherUpdate> {
                                       std::pair{GatherUpdate::Seen, "seen"}};
 };
 
+/// What the filter averages over.
+enum class FilterOver { All, Lit };
+template <>
+struct EnumNames<FilterOver> {
+    static constexpr std::array names{std::pair{FilterOver::All, "all"}, std::pair{FilterOver::Lit, "lit"}};
+};
+
 /// Indirect light of voxels' faces out of the clusters that they see, filtered over neighbours. Source: Cosin
 /// and Patow 2022, section 4.4.
 class GatherClusters final : public Pass {
@@ -36,6 +43,7 @@ class GatherClusters final : public Pass {
         uint32_t reach = 4;
         uint32_t filterPasses = 1;
         uint32_t filterSize = 3;
+        FilterOver filterOver = FilterOver::All;
         static constexpr auto schema() {
             return std::tuple{
                 field("update", &Params::update,
@@ -60,6 +68,11 @@ class GatherClusters final : public Pass {
                     "Voxels along each edge of the filter's cube, with binomial weights (about a Gaussian). "
                     "Sides that something hides and faces without surfaces don't count.",
                     std::vector{3u, 5u})
+                    .onlyWith(noneOf(&Params::filterPasses, {0u})),
+                field(
+                    "filter_over", &Params::filterOver,
+                    "all: every face in the cube. lit: those that any light reaches, as in the paper; light "
+                    "then spreads into what is dark and none of it is lost for that, so it grows.")
                     .onlyWith(noneOf(&Params::filterPasses, {0u}))};
         }
     };

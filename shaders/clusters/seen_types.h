@@ -1,4 +1,4 @@
-// What a patch sees, in a word: a target, and how many of the patch's rays met it. Shared by C++ and GLSL.
+// What a patch sees: entries of a target and how many of the patch's rays met it. Shared by C++ and GLSL.
 //
 // Targets are faces of clusters' parts, 6 * part + face, and from 6 * parts on patches.
 #ifndef VOXRAY_SHARED_SEEN_TYPES_H
@@ -15,26 +15,27 @@
 VOXRAY_SHARED_BEGIN
 
 #define NO_TARGET 0xffffffffu
-#define SEEN_RAY_BITS 10u
 #define SEEN_MAX_RAYS 1024u
-#define SEEN_MAX_TARGETS 4194304u
 
-// How lists are laid out. Those of patches are held in chunks.
+// How lists are laid out. Those of patches are held in chunks, in which entries follow one another without a gap: bits 0 to
+// entryBits - 1 of a chunk's words are the first entry.
 struct SeenLayout {
     uint raysPerPatch;
     uint patchesPerChunk;
     uint sideTargets;  // Targets from here on are patches, before it faces of parts.
+    uint rayBits;      // Of an entry's bits the lowest, the number of rays less one. The target is above it.
+    uint entryBits;    // 1 to 32.
 };
 
-// `rays`: 1 to 1024.
-VOXRAY_SEEN_FUNCTION uint packSeen(uint target, uint rays) {
-    return (target << SEEN_RAY_BITS) | (rays - 1u);
+// `rays`: 1 to raysPerPatch.
+VOXRAY_SEEN_FUNCTION uint packSeen(SeenLayout lists, uint target, uint rays) {
+    return (target << lists.rayBits) | (rays - 1u);
 }
-VOXRAY_SEEN_FUNCTION uint seenTarget(uint seen) {
-    return seen >> SEEN_RAY_BITS;
+VOXRAY_SEEN_FUNCTION uint seenTarget(SeenLayout lists, uint entry) {
+    return entry >> lists.rayBits;
 }
-VOXRAY_SEEN_FUNCTION uint seenRays(uint seen) {
-    return (seen & (SEEN_MAX_RAYS - 1u)) + 1u;
+VOXRAY_SEEN_FUNCTION uint seenRays(SeenLayout lists, uint entry) {
+    return (entry & ((1u << lists.rayBits) - 1u)) + 1u;
 }
 
 VOXRAY_SHARED_END

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Samples of radiance voxels, whatever their layout.
 #include "shaders/compute/linear_index.glsl"
-#include "tests/gpu/sample_radiance.glsl"
+#include "shaders/radiance/sample_radiance.glsl"
 layout(local_size_x = 64) in;
 
 struct Query {

@@ -44,14 +44,27 @@ inline std::vector<uint32_t> facesOfPatches(const std::vector<gpu::SurfaceSide>&
     return faces;
 }
 
-/// What each patch sees.
-inline std::vector<std::vector<uint32_t>> readSeen(Chain& chain) {
-    std::vector<std::vector<uint32_t>> lists;
-    for (const ClusterVisibility::Chunk& chunk :
-         chain.graph().resource<ClusterVisibility>("cluster_visibility")->chunks) {
-        const auto first = chain.read<uint32_t>(chunk.first), seen = chain.read<uint32_t>(chunk.seen);
-        for (size_t i = 0; i + 1 < first.size(); ++i)
-            lists.emplace_back(seen.begin() + first[i], seen.begin() + first[i + 1]);
+struct Seen {
+    uint32_t target, rays;
+};
+
+/// What each patch sees: entries of a chunk lie end to end, the first one in its lowest bits.
+inline std::vector<std::vector<Seen>> readSeen(Chain& chain) {
+    const auto* visibility = chain.graph().resource<ClusterVisibility>("cluster_visibility");
+    const gpu::SeenLayout& layout = visibility->layout;
+    std::vector<std::vector<Seen>> lists;
+    for (const ClusterVisibility::Chunk& chunk : visibility->chunks) {
+        const auto first = chain.read<uint32_t>(chunk.first), words = chain.read<uint32_t>(chunk.seen);
+        const auto entry = [&](uint32_t number) {
+            uint32_t bits = 0;
+            for (uint32_t i = 0, at = number * layout.entryBits; i < layout.entryBits; ++i, ++at)
+                bits |= (words[at / 32] >> at % 32 & 1u) << i;
+            return Seen{gpu::seenTarget(layout, bits), gpu::seenRays(layout, bits)};
+        };
+        for (size_t i = 0; i + 1 < first.size(); ++i) {
+            lists.emplace_back();
+            for (uint32_t k = first[i]; k < first[i + 1]; ++k) lists.back().push_back(entry(k));
+        }
     }
     return lists;
 }

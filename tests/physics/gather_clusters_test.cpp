@@ -43,7 +43,7 @@ TEST(GatherClusters, KeepTheEnergyOfAFurnace) {
             ASSERT_EQ(lists.size(), faces.size());
             for (size_t patch = 0; patch < lists.size(); ++patch) {
                 uint32_t rays = 0;
-                for (const uint32_t seen : lists[patch]) rays += gpu::seenRays(seen);
+                for (const Seen& seen : lists[patch]) rays += seen.rays;
                 const glm::vec3 at = glm::abs(sides[faces[patch] / 6].raised);
                 const bool isInside = std::max({at.x, at.y, at.z}) < 1;
                 EXPECT_EQ(rays, isInside ? 64 : 0) << "patch " << patch;
@@ -138,6 +138,22 @@ TEST(GatherClusters, KeepTheFluxOfALamp) {
         std::printf("%d voxels: %.4f of the flux\n", resolution, ratio);
         EXPECT_NEAR(ratio, 1, 1.0 / resolution);
     }
+}
+
+TEST(GatherClusters, FilterOverAllOrOverWhatIsLit) {
+    // A lamp in a room lights all walls: the same image. The sun through a window leaves most of what the
+    // room's patches see dark: what spreads into these is light that nothing lost.
+    const auto light = [](const std::string& scene, const std::string& parameters, const std::string& over) {
+        Chain chain(scene, parameters,
+                    graphYaml(clusterGraph(kDirect, "target: 200", "rays: 16", "0",
+                                           "filter_passes: 2, filter_size: 5, filter_over: " + over)));
+        return mean(chain.image("indirect"));
+    };
+    EXPECT_EQ(light("white_room", "{}", "lit"), light("white_room", "{}", "all"));
+    const double all = light("window_room", "{slats: 0}", "all"),
+                 lit = light("window_room", "{slats: 0}", "lit");
+    std::printf("window_room: %.3f times the light of a filter over all\n", lit / all);
+    EXPECT_GT(lit, 1.02 * all);
 }
 
 TEST(GatherClusters, AreLinearInLightAndTheSameTwice) {

@@ -64,7 +64,7 @@ class Content {
                 for (int x = 0; x < size.x; ++x) visit({x, y, z});
     }
 
-    /// What sampleRadiance() must answer: tests/gpu/sample_radiance.glsl, in doubles.
+    /// What sampleRadiance() must answer: shaders/radiance/sample_radiance.glsl, in doubles.
     glm::dvec4 sample(glm::dvec3 position, double footprint, glm::dvec3 direction) const {
         const double voxel = grid.voxelSize;
         const double level = std::clamp(std::log2(footprint / voxel), 0.0, double(levels.size() - 1));

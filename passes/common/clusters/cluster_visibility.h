@@ -17,11 +17,12 @@ struct ClusterVisibility : Resource {
     /// What patches see that follow one another by number.
     struct Chunk {
         Buffer first;  ///< Where each patch's list begins in `seen`, and where the last one ends.
-        Buffer seen;   ///< A uint each: gpu::seenTarget() and gpu::seenRays(), by target.
+        Buffer seen;   ///< Entries of `layout.entryBits`: gpu::seenTarget() and gpu::seenRays(), by target.
     };
     std::vector<Chunk> chunks;
     Buffer addresses;          ///< Of `first` and `seen`, by chunk.
-    gpu::SeenLayout layout{};  ///< Rays and patches of a chunk are known from plan() on.
+    gpu::SeenLayout layout{};  ///< Rays, their bits and patches of a chunk are known from plan() on.
+    uint64_t entries = 0;      ///< Of all lists.
     uint32_t patchCount = 0;   ///< That have a list.
     uint64_t version = 0;      ///< Another one whenever the lists are.
 

@@ -1,4 +1,4 @@
-// Radiance voxels at any footprint: what tests and benchmarks ask of every layout. A layout's own words are sampleLevel().
+// Radiance voxels at any footprint: what cones in free steps, tests and benchmarks ask of every layout.
 #ifndef VOXRAY_SAMPLE_RADIANCE_GLSL
 #define VOXRAY_SAMPLE_RADIANCE_GLSL
 
