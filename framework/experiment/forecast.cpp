@@ -1,11 +1,10 @@
 #include "experiment/forecast.h"
 
+#include "base/byte_units.h"
 #include "base/interrupt.h"
 
 namespace voxray {
 namespace {
-
-constexpr double kMiB = 1024.0 * 1024.0;
 
 void print(const Forecast& forecast) {
     if (!forecast.error.empty()) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/byte_units.h"
 #include "base/interrupt.h"
 #include "base/suggest.h"
 #include "experiment/forecast.h"
@@ -18,7 +19,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kMerge = "merge";
-constexpr double kMiB = 1024.0 * 1024.0;
 
 uint32_t samplesOf(const PreparedExperiment& prepared) {
     const Value* spp = prepared.manifest().referencePass.find("spp");

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "base/byte_units.h"
 #include "base/interrupt.h"
 #include "config/overrides.h"
 #include "experiment/addition_check.h"
@@ -18,8 +19,6 @@
 
 namespace voxray {
 namespace {
-
-constexpr double kMiB = 1024.0 * 1024.0;
 
 /// Where light begins in a variant: its first pass with a parameter `bounces`, with its place in the config.
 struct Bounces {

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 
+#include "base/byte_units.h"
 #include "scene/load.h"
 #include "trace/gpu_scene.h"
 
 namespace voxray {
 namespace {
-
-constexpr double kMiB = 1024.0 * 1024.0;
 
 /// Settings that the number of triangles grows with.
 std::vector<std::string> fewerTriangles(const SceneSettings& settings) {

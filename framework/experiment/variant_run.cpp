@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
+#include "base/byte_units.h"
+
 namespace voxray {
 
 namespace {
 
-constexpr double kGiB = 1024.0 * 1024.0 * 1024.0;
 constexpr double kMaxImagesGiB = 8;  ///< Of the frames that are kept until they are scored.
 
 void checkHostMemory(const MeasureSettings& measure, const ImageSettings& image) {

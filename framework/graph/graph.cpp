@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "base/byte_units.h"
 #include "graph/finite_check.h"
 #include "graph/left_out.h"
 #include "graph/memory_book.h"
@@ -187,7 +188,6 @@ std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device
             largestPass = &node;
         }
     }
-    constexpr double kMiB = 1024.0 * 1024.0;
     if (const uint64_t peak = peakBytes(memory); peak > memoryLimitBytes)
         throw Error(
             largestPass->where,

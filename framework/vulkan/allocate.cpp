@@ -3,13 +3,13 @@
 #include <bit>
 #include <optional>
 
+#include "base/byte_units.h"
 #include "vulkan/size_error.h"
 #include "vulkan/structure.h"
 
 namespace voxray {
 namespace {
 
-constexpr double kMiB = 1024.0 * 1024.0;
 constexpr VkMemoryPropertyFlags kHost =
     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 

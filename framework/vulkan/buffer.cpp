@@ -1,16 +1,12 @@
 #include <utility>
 
+#include "base/byte_units.h"
 #include "vulkan/allocate.h"
 #include "vulkan/memory.h"
 #include "vulkan/size_error.h"
 #include "vulkan/structure.h"
 
 namespace voxray {
-namespace {
-
-constexpr double kMiB = 1024.0 * 1024.0;
-
-}  // namespace
 
 // Delegating first makes the destructor clean up where the rest throws.
 Buffer::Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind,

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <mutex>
 
+#include "base/byte_units.h"
 #include "vulkan/size_error.h"
 #include "vulkan/structure.h"
 #include "vulkan/support.h"
@@ -11,7 +12,6 @@
 namespace voxray {
 namespace {
 
-constexpr double kMiB = 1024.0 * 1024.0;
 constexpr uint32_t kMaxTextures = 4096;
 
 std::string lower(std::string text) {
