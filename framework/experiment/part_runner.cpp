@@ -11,18 +11,20 @@
 namespace voxray {
 namespace {
 
-/// One line for the terminal.
+/// One line for the terminal: costs, then the two scores that come first in tables. Those of the indirect
+/// light, which methods differ in, stand before those of the whole image.
 std::string outcome(const VariantResult& r) {
     if (!r.ok) return fmt::format("{}: failed: {}", r.variant, r.error);
     std::string line =
         fmt::format("{}: build {:.1f} ms, frame {:.1f} ms", r.variant, r.buildMs, r.frameMs.median);
-    for (const Metric& metric : metrics().first(2))
-        if (const auto value = r.scores.find(metric.name); value != r.scores.end()) {
-            line += fmt::format(", {} {:.4g}", metric.label, value->second);
-            if (const auto own = r.scores.find(std::string(kLightPrefixes[1]) + metric.name);
-                own != r.scores.end())
-                line += fmt::format(" (indirect light {:.4g})", own->second);
-        }
+    for (const Metric& metric : metrics().first(2)) {
+        const auto total = r.scores.find(metric.name);
+        if (total == r.scores.end()) continue;
+        const auto indirect = r.scores.find(std::string(kLightPrefixes[1]) + metric.name);
+        line += indirect == r.scores.end() ? fmt::format(", {} {:.4g}", metric.label, total->second)
+                                           : fmt::format(", indirect {} {:.4g} (total {:.4g})", metric.label,
+                                                         indirect->second, total->second);
+    }
     return line;
 }
 
