@@ -89,31 +89,62 @@ Met whatIsMet(const Light& light, const SceneState& state, const EmbreeScene& tr
     return met;
 }
 
+/// The way from a point to a light, inactive where it does not shine there.
+Ray rayFrom(const SeenPoint& point, const Light& light, float offset) {
+    constexpr float kShorter = 1 - 1e-4f;
+    const Ray inactive{point.position, 0, light.direction, -1};
+    glm::vec3 way = -light.direction;
+    float distance = std::numeric_limits<float>::infinity();
+    if (light.type != LightType::Directional) {
+        distance = glm::length(light.position - point.position);
+        if (!(distance > offset)) return inactive;
+        way = (light.position - point.position) / distance;
+    }
+    const bool isInCone =
+        light.type != LightType::Spot || glm::dot(-way, light.direction) > std::cos(light.outerConeAngle);
+    if (!isInCone || glm::dot(way, point.normal) <= 0) return inactive;
+    return {point.position, offset, way, kShorter * distance};
+}
+
+bool isInSight(const Light& light, std::span<const SeenPoint> seen, const Geometry& g,
+               const EmbreeScene& tracer) {
+    const float offset = 1e-5f * glm::length(g.boundsMax - g.boundsMin);
+    return std::ranges::any_of(seen, [&](const SeenPoint& point) {
+        const Ray ray = rayFrom(point, light, offset);
+        return ray.tMax > ray.tMin && !tracer.occluded(ray);
+    });
+}
+
 }  // namespace
 
 std::vector<std::string> lightWarnings(const SceneSettings& scene, const SceneState& state,
-                                       const EmbreeScene& tracer) {
+                                       const EmbreeScene& tracer, std::span<const SeenPoint> seen,
+                                       const std::function<bool(const Light&)>& isFound) {
     std::vector<std::string> warnings;
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         const ConfigLight& entry = scene.lights[i];
+        const auto warn = [&](const char* what) {
+            warnings.push_back(UsageError(entry.where, "scene.lights[{}]: {}", i, what).what());
+        };
         if (entry.light.intensity == glm::vec3(0.0f)) {
-            warnings.push_back(
-                UsageError(entry.where, "scene.lights[{}]: it is black and lights nothing", i).what());
+            warn("it is black and lights nothing");
             continue;
         }
         if (entry.move != glm::vec3(0.0f)) continue;
         const Met met = whatIsMet(entry.light, state, tracer);
-        if (met == Met::Fronts) continue;
-        warnings.push_back(
-            UsageError(entry.where,
-                       "scene.lights[{}]: it lights {}; is its direction the way that the light "
-                       "travels, and are its numbers metres?",
-                       i,
-                       met == Met::Nothing
-                           ? "nothing: no surface lies where it shines"
-                           : "the backs of surfaces alone, from outside of a room or within a "
-                             "solid")
-                .what());
+        if (met == Met::Nothing)
+            warn(
+                "it lights nothing: no surface lies where it shines; is its direction the way that the light "
+                "travels, and are its numbers metres?");
+        else if (met == Met::Backs)
+            warn(
+                "it lights the backs of surfaces alone, from outside of a room or within a solid; is its "
+                "direction the way that the light travels, and are its numbers metres?");
+        else if (!isInSight(entry.light, seen, state.geometry, tracer) && !isFound(entry.light))
+            warn(
+                "none of its light comes to what the camera sees: does it stand inside of an object, or "
+                "behind "
+                "a wall?");
     }
     return warnings;
 }

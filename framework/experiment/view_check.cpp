@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 
+#include "experiment/exposure_check.h"
 #include "experiment/facing.h"
 #include "experiment/light_check.h"
 #include "scene/camera_rays.h"
@@ -46,6 +47,7 @@ bool isBlack(const ImageF& image) {
 /// What the rays of a small image meet.
 struct Seen {
     size_t backs = 0, fronts = 0, nothing = 0;
+    std::vector<SeenPoint> points;
 
     double part() const { return double(backs + fronts) / double(backs + fronts + nothing); }
 };
@@ -59,12 +61,30 @@ Seen lookThrough(const SceneState& state, const EmbreeScene& tracer, const Camer
                 rays.direction((float(x) + 0.5f) / float(size.width), (float(y) + 0.5f) / float(size.height));
             const Hit hit =
                 tracer.closestHit({rays.origin, 0, direction, std::numeric_limits<float>::infinity()});
-            if (hit.triangle == Hit::kMiss)
+            if (hit.triangle == Hit::kMiss) {
                 ++seen.nothing;
-            else
-                ++(showsBack(state.geometry, hit.triangle, direction) ? seen.backs : seen.fronts);
+                continue;
+            }
+            ++(showsBack(state.geometry, hit.triangle, direction) ? seen.backs : seen.fronts);
+            seen.points.push_back(
+                {rays.origin + hit.t * direction, normalTowards(state.geometry, hit.triangle, direction)});
         }
     return seen;
+}
+
+/// What nothing shines in but one light; without textures.
+SceneState litAlone(const SceneState& state, const Light& light) {
+    auto scene = std::make_shared<Scene>();
+    scene->materials = state.scene->materials;
+    for (Material& material : scene->materials) {
+        material.emission = glm::vec3(0.0f);
+        material.baseColorTexture = material.metallicRoughnessTexture = {};
+        material.normalTexture = material.emissiveTexture = {};
+    }
+    SceneState alone = state;
+    alone.scene = std::move(scene);
+    alone.lights = {light};
+    return alone;
 }
 
 TextLocation cameraPlace(const SceneSettings& scene) {
@@ -117,19 +137,36 @@ std::vector<std::string> checkView(const Setup& setup, const PreparedScene& prep
     if (!preview) return {};
 
     const EmbreeScene tracer(state, RaysToCome::Few);
-    std::vector<std::string> warnings = lightWarnings(scene, state, tracer);
-    if (std::string text = radians(scene); !text.empty()) warnings.push_back(std::move(text));
     const Seen seen = lookThrough(state, tracer, camera, shrunk(setup.image, std::end(kLooks)[-1].size));
-    if (seen.part() < kMinSeen) {
+    const bool isEmpty = seen.part() < kMinSeen;
+    const auto look = [&](const SceneState& lit, const Look& how) {
+        const Size size = shrunk(setup.image, how.size);
+        return preview(lit, tracer, camera, size.width, size.height, how.spp, how.bounces);
+    };
+    const auto isFound = [&](const Light& light) {
+        if (isEmpty) return true;  // By whoever turns the camera to it.
+        const SceneState alone = litAlone(state, light);
+        return std::ranges::any_of(kLooks, [&](const Look& how) { return !isBlack(look(alone, how)); });
+    };
+    std::vector<std::string> warnings = lightWarnings(scene, state, tracer, seen.points, isFound);
+    if (std::string text = radians(scene); !text.empty()) warnings.push_back(std::move(text));
+    if (isEmpty) {
         warnings.push_back(mostlyEmpty(scene, state.geometry, camera));
         return warnings;
     }
 
-    const auto isDark = [&](const Look& look) {
-        const Size size = shrunk(setup.image, look.size);
-        return isBlack(preview(state, tracer, camera, size.width, size.height, look.spp, look.bounces));
-    };
-    if (!std::ranges::all_of(kLooks, isDark)) return warnings;
+    ImageF view;
+    for (const Look& how : kLooks)
+        if (view = look(state, how); !isBlack(view)) break;
+    if (!isBlack(view)) {
+        const bool hasSky = state.scene->environment.radiance != glm::vec3(0.0f);
+        const double filled = hasSky ? 1 : seen.part();
+        // Few paths may miss what is bright
+        if (isDarkAt(setup.image.exposureStops, view, filled)) view = look(state, std::end(kLooks)[-1]);
+        if (std::string text = exposureWarning(setup, view, filled); !text.empty())
+            warnings.push_back(std::move(text));
+        return warnings;
+    }
     if (seen.backs > seen.fronts)
         throw UsageError(cameraPlace(scene),
                          "scene.camera: it sees the backs of surfaces, and no light: it stands outside of "

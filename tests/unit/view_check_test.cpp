@@ -11,9 +11,11 @@ namespace voxray {
 namespace {
 
 /// What is said of a scene's view.
-std::string saidOf(const std::string& scene) {
+std::string saidOf(const std::string& scene, int exposureStops = 0) {
     const Experiment experiment = parseExperiment(
-        "name: x\nscene: {" + scene + "}\nimage: {width: 64, height: 36}\ngraph: [{pass: gbuffer}]\n",
+        fmt::format("name: x\nscene: {{{}}}\nimage: {{width: 64, height: 36, exposure_stops: {}}}\n"
+                    "graph: [{{pass: gbuffer}}]\n",
+                    scene, exposureStops),
         "x.yaml");
     SceneLoader loader({});
     Registry registry;
@@ -95,6 +97,44 @@ TEST(ViewCheck, WarnsOfLightsThatLightNothing) {
     EXPECT_EQ(saidOfLight("{spot: [0, 1, 0], direction: [0, 1, 0], outer_deg: 1}"), "");
     EXPECT_EQ(saidOfLight("{point: [0, 1, 1000]}, {directional: [0, 0, -1]}"), "");
     EXPECT_EQ(saidOfLight("{spot: [0, 1, 3], direction: [0, 0, 1], move: [0, 0, -1]}"), "");
+}
+
+TEST(ViewCheck, WarnsOfLightThatDoesNotComeToTheView) {
+    // Inside of the taller box, while the lamp at the ceiling shines
+    const std::string hidden = saidOf("builtin: cornell, lights: [{point: [-0.35, 0.6, -0.3]}]");
+    EXPECT_CONTAINS(hidden, "x.yaml:2: scene.lights[0]: none of its light comes to what the camera sees");
+    // Behind the taller box, where it lights the wall that the camera sees by that wall alone
+    EXPECT_EQ(saidOf("builtin: cornell, lights: [{point: [-0.35, 0.4, -0.9]}]"), "");
+    // The sun above the ceiling of a closed room, and one that shines into the open box
+    EXPECT_CONTAINS(saidOf("builtin: white_room, environment: 0.1, lights: [{directional: [0, -1, 0]}]"),
+                    "scene.lights[0]: it lights the backs of surfaces alone");
+    EXPECT_EQ(saidOf("builtin: cornell, lights: [{directional: [0, -0.5, -1]}]"), "");
+}
+
+TEST(ViewCheck, WarnsOfViewsThatAreWhiteOrBlack) {
+    const std::string lamp =
+        "builtin: white_room, keep_file_lights: false, lights: [{point: [0, 0, 0], intensity: ";
+    const std::string bright = saidOf(lamp + "80000}]");
+    EXPECT_CONTAINS(bright, "x.yaml:2: scene.lights[0]: nearly all of the view is white: ");
+    EXPECT_CONTAINS(bright, "1 is white at exposure_stops: 0; divide it by about ");
+    const std::string dark = saidOf(lamp + "1e-7}]");
+    EXPECT_CONTAINS(dark, "x.yaml:2: scene.lights[0]: nearly all of the view is black: ");
+    EXPECT_CONTAINS(dark, "multiply it by about ");
+    EXPECT_EQ(saidOf(lamp + "1}]"), "");
+
+    // The exposure that it names shows the view
+    const auto stopsIn = [](const std::string& said) {
+        const std::string key = "{exposure_stops: ";
+        return std::stoi(said.substr(said.find(key) + key.size()));
+    };
+    EXPECT_EQ(saidOf(lamp + "80000}]", stopsIn(bright)), "");
+    EXPECT_EQ(saidOf(lamp + "1e-7}]", stopsIn(dark)), "");
+
+    // A sky by its color in bytes; one of 1 is white, and no brighter
+    const std::string sky = saidOf("builtin: cornell, environment: [135, 206, 235]");
+    EXPECT_CONTAINS(sky, "x.yaml:2: scene.environment: nearly all of the view is white");
+    EXPECT_CONTAINS(sky, "as a color of 0 to 255 it is [0.2423, 0.6172, 0.8308]");
+    EXPECT_EQ(saidOf("builtin: cornell, environment: 1"), "");
 }
 
 }  // namespace

@@ -1,0 +1,115 @@
+#include "experiment/exposure_check.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <numeric>
+
+#include "base/hex_color.h"
+
+namespace voxray {
+namespace {
+
+constexpr float kWhite = 1.1f;      ///< White is 1; noise and rounding pass it a little.
+constexpr double kNearlyAll = 0.9;  ///< Of what the view shows.
+constexpr double kMiddle = 0.2;     ///< A radiance that previews show well.
+constexpr double kStepsOfBlack = 0.5;
+constexpr double kSlopeAtBlack = 12.92;  ///< Of the sRGB curve.
+
+double scaleOf(float exposureStops) {
+    return std::exp2(double(exposureStops));
+}
+
+double meanOf(const ImageF& view, double filled) {
+    return std::accumulate(view.data.begin(), view.data.end(), 0.0) / double(view.data.size()) / filled;
+}
+
+/// The darkest channel of each pixel, in rising order.
+std::vector<float> darkestChannels(const ImageF& view) {
+    std::vector<float> darkest;
+    for (size_t i = 0; i < view.data.size(); i += 3)
+        darkest.push_back(std::min({view.data[i], view.data[i + 1], view.data[i + 2]}));
+    std::ranges::sort(darkest);
+    return darkest;
+}
+
+/// "; as a color of 0 to 255 it is [0.242, 0.617, 0.831]" for a radiance that looks like one; else "".
+std::string fromBytes(const glm::vec3& radiance) {
+    const bool isOne = glm::all(glm::equal(radiance, glm::round(radiance))) &&
+                       glm::all(glm::lessThanEqual(radiance, glm::vec3(255.0f)));
+    if (!isOne) return {};
+    return fmt::format(
+        "; as a color of 0 to 255 it is {}",
+        linearTriple(fmt::format("#{:02x}{:02x}{:02x}", int(radiance.x), int(radiance.y), int(radiance.z))));
+}
+
+/// What shines by the config, and where that stands.
+struct Shining {
+    std::vector<std::string> names;
+    TextLocation where;
+    std::string hint;
+};
+
+Shining shiningIn(const SceneSettings& scene) {
+    Shining shining;
+    const auto add = [&](std::string name, const TextLocation& where) {
+        if (shining.names.empty()) shining.where = where;
+        shining.names.push_back(std::move(name));
+    };
+    if (scene.environment && scene.environment->scale != glm::vec3(0.0f)) {
+        add("scene.environment", scene.environmentWhere);
+        if (scene.environment->map.empty()) shining.hint = fromBytes(scene.environment->scale);
+    }
+    for (size_t i = 0; i < scene.lights.size(); ++i)
+        if (scene.lights[i].light.intensity != glm::vec3(0.0f))
+            add(fmt::format("scene.lights[{}]", i), scene.lights[i].where);
+    if (shining.names.empty()) add("scene", scene.where);
+    return shining;
+}
+
+/// A factor to one digit, without an exponent where that stays short.
+std::string roundly(double factor) {
+    const double digit = std::pow(10.0, std::floor(std::log10(factor)));
+    const double rounded = std::round(factor / digit) * digit;
+    return rounded < 1e6 ? fmt::format("{:.6g}", rounded) : fmt::format("{:.0e}", rounded);
+}
+
+std::string warning(const Setup& setup, double radiance, const char* color) {
+    constexpr float kMostStops = 30;
+    const Shining shining = shiningIn(setup.scene);
+    const float stops = setup.image.exposureStops;
+    const double factor = radiance * scaleOf(stops) / kMiddle;
+    std::vector<std::string> ways;
+    if (shining.names.front() != "scene")
+        ways.push_back(fmt::format("{} it by about {}", factor > 1 ? "divide" : "multiply",
+                                   roundly(std::max(factor, 1 / factor))));
+    if (const double wanted = std::round(double(stops) - std::log2(factor)); std::abs(wanted) <= kMostStops)
+        ways.push_back(fmt::format("write image: {{exposure_stops: {}}}", int(wanted)));
+    return UsageError(shining.where,
+                      "{}: nearly all of the view is {}: its radiance is about {:.2g} W/(m² sr), and {:.3g} "
+                      "is white at exposure_stops: {:g}; {}{}",
+                      fmt::join(shining.names, ", "), color, radiance, 1 / scaleOf(stops), stops,
+                      fmt::join(ways, ", or "), factor > 1 ? shining.hint : "")
+        .what();
+}
+
+}  // namespace
+
+bool isDarkAt(float exposureStops, const ImageF& view, double filled) {
+    return meanOf(view, filled) * scaleOf(exposureStops) < kStepsOfBlack / 255 / kSlopeAtBlack;
+}
+
+std::string exposureWarning(const Setup& setup, const ImageF& view, double filled) {
+    const float stops = setup.image.exposureStops;
+    if (isDarkAt(stops, view, filled)) return warning(setup, meanOf(view, filled), "black");
+    const std::vector<float> darkest = darkestChannels(view);
+    const auto isWhite = [&](float value) { return double(value) * scaleOf(stops) > double(kWhite); };
+    const auto white = std::ranges::find_if(darkest, isWhite);
+    const size_t count = size_t(darkest.end() - white);
+    if (double(count) < kNearlyAll * filled * double(darkest.size())) return {};
+    return warning(setup, double(white[std::ptrdiff_t(count / 2)]), "white");
+}
+
+}  // namespace voxray
