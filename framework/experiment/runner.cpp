@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "base/interrupt.h"
+#include "config/overrides.h"
+#include "experiment/disturbances.h"
 #include "experiment/forecast.h"
 #include "experiment/merge.h"
 #include "experiment/part_runner.h"
@@ -11,6 +13,11 @@
 
 namespace voxray {
 namespace {
+
+/// Whether each measured frame of a variant does what the one before it did.
+bool isAtRest(PreparedExperiment& prepared, size_t variant) {
+    return prepared.experiment().measure.warmup > 0 && standsStill(prepared.variants()[variant].setup.scene);
+}
 
 /// One run: the state that its steps share.
 class Run {
@@ -30,6 +37,8 @@ class Run {
     void takeOverFinished();
     void renderMissing();
     void writeTables();
+    std::string buildOf(size_t variant);
+    std::vector<std::string> disturbedTimes();
 
     PreparedExperiment& prepared_;
     RunSummary& summary_;
@@ -37,6 +46,7 @@ class Run {
     PartRunner parts_;
     ManifestData manifest_;
     std::map<size_t, VariantResult> results_;  ///< By index of the variant.
+    std::vector<std::string> disturbed_;       ///< What is to say of times, once all are known.
 };
 
 void Run::execute() {
@@ -52,6 +62,8 @@ void Run::execute() {
 
     // Close the books; after an interruption of what there is
     if (!summary_.interrupted) manifest_.finished = utcNow();
+    disturbed_ = disturbedTimes();
+    for (const std::string& text : disturbed_) fmt::print(stderr, "voxray: warning: {}\n", text);
     writeTables();
     if (!options.report || results_.empty()) return;
     if (summary_.interrupted && !options.quiet)
@@ -106,9 +118,31 @@ void Run::writeTables() {
     for (const auto& [index, result] : results_) rows.push_back(result);
     manifest_.sessions = sessionsOf(rows);
     manifest_.warnings = parts_.warnings();
+    manifest_.warnings.insert(manifest_.warnings.end(), disturbed_.begin(), disturbed_.end());
     manifest_.references = parts_.references();
     folder_.writeText("manifest.json", manifestJson(manifest_));
     folder_.writeTables(rows, prepared_.experiment());
+}
+
+/// What the time of a variant's build depends on; "" where its first run is timed, with what comes once.
+std::string Run::buildOf(size_t variant) {
+    if (prepared_.experiment().measure.buildRepeats == 0) return {};
+    const WiredVariant& wired = prepared_.variants()[variant];
+    std::string text;
+    for (const PassCost& cost : results_.at(variant).passes)
+        if (cost.phase == Phase::Build)
+            for (const Value& pass : wired.resolved.items)
+                if (passId(pass) == cost.id) text += pass.text() + "\n";
+    for (const auto& [name, value] : prepared_.inputsOf(wired))
+        if (name == "scene" || name == "image" || name == "seed" || name == "tracer") text += value + "\n";
+    return text;
+}
+
+std::vector<std::string> Run::disturbedTimes() {
+    std::vector<TimedVariant> timed;
+    for (const auto& [index, result] : results_)
+        timed.push_back({&result, buildOf(index), isAtRest(prepared_, index)});
+    return disturbances(timed);
 }
 
 /// Whether an earlier process did a part, with the same inputs.
@@ -141,6 +175,8 @@ void runPart(const Part& part, PreparedExperiment& prepared, const ResultsFolder
     summary.validationMessages = parts.printValidationMessages(progress);
     if (!result) throw Interrupted();
     if (!result->ok) throw Error("{}: {}", part.id, result->error);
+    for (const std::string& text : disturbances({{&*result, "", isAtRest(prepared, part.variant)}}))
+        progress.warn(text);
 }
 
 /// Does the part that the options name.

@@ -46,6 +46,7 @@ class Results(Run):
     def test_files(self):
         done = self.run_tiny("out", "--validate", "--aovs")
         self.assertIn("report.html", done.stdout)
+        self.assertRegex(done.stdout, r"resolution-8: build [\d.]+ ms, frame [\d.]+ ms, indirect nRMSE [\d.]+ \(total [\d.]+\), ")
         manifest = self.json("out", "manifest.json")
         self.assertTrue(manifest["validation"])
         self.assertEqual([metric["name"] for metric in manifest["metrics"]], self.metrics())
@@ -128,7 +129,8 @@ class Results(Run):
     def test_default_folder_and_quiet(self):
         self.write("tiny.yaml", TINY)
         done = self.expect(0, "run", "tiny.yaml", "--quiet", "--profile", "smaller")
-        self.assertEqual(done.stderr, "")
+        # What a machine that is not idle makes of times is all that it may say
+        self.assertEqual([line for line in done.stderr.splitlines() if "times were disturbed" not in line], [])
         self.assertTrue(os.path.exists(self.path("results", "tiny", "report.html")))
 
     def test_unknown_device_and_missing_feature(self):
