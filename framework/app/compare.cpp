@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -113,6 +114,13 @@ std::vector<ImageF> readHalves(const std::filesystem::path& path, const ImageF& 
     return halves;
 }
 
+/// Whether a file holds display values of 8 bits, as previews do.
+bool isPreview(const std::filesystem::path& file) {
+    std::string end = file.extension().string();
+    std::ranges::transform(end, end.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return end == ".png" || end == ".jpg" || end == ".jpeg";
+}
+
 void compare(const CompareOptions& options) {
     for (const std::filesystem::path& file : {options.test, options.reference})
         if (!std::filesystem::exists(file))
@@ -140,6 +148,15 @@ void compare(const CompareOptions& options) {
             {"noise", noiseFloors({halves->a, reference, scoring}, {halves->b, reference, scoring})});
     if (!options.flipMap.empty()) writePng(options.flipMap, comparison.flip.map);
 
+    for (const std::filesystem::path& file : {options.test, options.reference})
+        if (isPreview(file)) {
+            fmt::print(
+                stderr,
+                "voxray: warning: {}: it holds sRGB of 8 bits, clamped to [0, 1], so that these are not the "
+                "scores of results.csv: compare .exr files for those\n",
+                file.string());
+            break;
+        }
     if (options.json)
         printJson(rows, options, scoring.flipExposures);
     else

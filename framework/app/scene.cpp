@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -11,9 +13,11 @@
 #include "app/config_options.h"
 #include "app/scene_view.h"
 #include "app/source_root.h"
+#include "base/suggest.h"
 #include "experiment/scene_setup.h"
 #include "passes/common/lights/light_sources.h"
 #include "passes/path_trace/path_tracer.h"
+#include "scene/builtin.h"
 #include "scene/load.h"
 
 namespace voxray {
@@ -29,12 +33,35 @@ bool isConfig(const std::filesystem::path& what) {
     return what.extension() == ".yaml" || what.extension() == ".yml";
 }
 
+bool isSceneFile(const std::filesystem::path& what) {
+    return what.extension() == ".glb" || what.extension() == ".gltf";
+}
+
+/// @throws UsageError for a name that no built-in scene has, with the nearest one, or the nearest file of the
+/// folders of scenes.
+void checkName(const std::string& name, const std::vector<std::filesystem::path>& folders) {
+    std::vector<std::string> names = builtinSceneNames();
+    if (std::ranges::count(names, name) > 0) return;
+    std::map<std::string, std::string> files;  // By their names without the ending.
+    std::error_code code;
+    for (const std::filesystem::path& folder : folders)
+        for (const auto& entry : std::filesystem::directory_iterator(folder, code))
+            if (isSceneFile(entry.path()))
+                files.try_emplace(entry.path().stem().string(), entry.path().filename().string());
+    for (const auto& [stem, file] : files) names.push_back(stem);
+    const std::string near = files.contains(name) ? name : nearest(name, names);
+    if (near.empty()) throw UsageError("no built-in scene '{}'{}", name, didYouMean(name, names));
+    throw UsageError("no built-in scene '{}'; did you mean '{}'?", name,
+                     files.contains(near) ? files.at(near) : near);
+}
+
 /// The scene that a config renders, of a file, or that is built in.
-SceneSettings settingsOf(const SceneArguments& arguments) {
+SceneSettings settingsOf(const SceneArguments& arguments, const std::vector<std::filesystem::path>& folders) {
     if (isConfig(arguments.what)) return loadExperiment(arguments.what, arguments.config).setup.scene;
     if (!arguments.config.profile.empty() || !arguments.config.assignments.empty())
         throw UsageError("--profile and --set change a config; {} is a scene", arguments.what.string());
-    const bool isFile = arguments.what.extension() == ".glb" || arguments.what.extension() == ".gltf";
+    const bool isFile = isSceneFile(arguments.what);
+    if (!isFile) checkName(arguments.what.string(), folders);
     Value map = Value::map();
     const bool isHere = isFile && std::filesystem::exists(arguments.what);
     map.set(isFile ? "file" : "builtin",
@@ -127,10 +154,11 @@ void writePicture(SceneState state, const EmbreeScene& tracer, const Camera& cam
 }
 
 void describe(const SceneArguments& arguments) {
-    SceneSettings settings = settingsOf(arguments);
+    const auto folders = sceneFolders(arguments.scenes, sourceRoot(), arguments.what);
+    SceneSettings settings = settingsOf(arguments, folders);
 
     // All cameras of the scene itself; where it has none and the config gives none, one that sees it
-    SceneLoader loader(sceneFolders(arguments.scenes, sourceRoot(), arguments.what));
+    SceneLoader loader(folders);
     const SceneState own = evaluate(loader.load(settings.source), settings.options.time);
     const bool hasCamera = settings.camera || !own.cameras.empty();
     if (!hasCamera) settings.camera = suggestCamera(own.geometry, EmbreeScene(own));

@@ -31,14 +31,15 @@ DeviceInfo capableDevice() {
 }
 
 /// Checks a config under the profile that is asked for, or as it stands and again under each of its
-/// profiles; what is warned of is said once, with the profile where it holds under one alone. @throws
-/// UsageError for the first fault.
+/// profiles; what is warned of is said once, with the profile where it holds under one alone. That it is
+/// valid is said where all of these are. @throws UsageError for the first fault.
 void validate(const std::filesystem::path& config, const ConfigOptions& options, SceneLoader& loader,
               const Registry& registry) {
     std::vector<std::string> profiles{options.profile};
     if (options.profile.empty())
         for (const std::string& name : profileNames(config)) profiles.push_back(name);
     std::set<std::string> said;
+    std::string verdict;
     for (const std::string& profile : profiles) {
         const std::string under =
             profile.empty() || profile == options.profile ? "" : fmt::format(" (with --profile {})", profile);
@@ -47,9 +48,11 @@ void validate(const std::filesystem::path& config, const ConfigOptions& options,
         for (const std::string& warning : checkPlans(wired, loader, capableDevice(), registry))
             if (said.insert(warning).second) fmt::print(stderr, "voxray: warning: {}{}\n", warning, under);
         const size_t variants = wired.variants.size();
-        fmt::print("{}{}: valid, {} variant{}\n", config.string(),
-                   profile.empty() ? "" : " --profile " + profile, variants, variants == 1 ? "" : "s");
+        verdict +=
+            fmt::format("{}{}: valid, {} variant{}\n", config.string(),
+                        profile.empty() ? "" : " --profile " + profile, variants, variants == 1 ? "" : "s");
     }
+    fmt::print("{}", verdict);
 }
 
 /// Checks every config, so that one run shows the faults of all. @return the exit status.

@@ -103,11 +103,15 @@ bool hasNarrowDash(const Line& line) {
     return line.text.find_first_of("{[", line.indent) == line.indent + 1 && line.text[line.indent] == '-';
 }
 
-/// Whether a line without braces has a ': ' after its first one.
-bool hasSecondColon(const Line& line) {
-    const size_t first = line.text.find(": ");
-    return first != std::string::npos && line.text.find(": ", first + 1) != std::string::npos &&
-           line.text.find('{') == std::string::npos;
+/// What to say of a line that has a second ': ' before any brace; else "".
+std::string secondColon(const Line& line) {
+    const size_t brace = line.text.find_first_of("{[", line.inner);
+    const std::string head = line.text.substr(line.inner, std::min(brace, line.text.size()) - line.inner);
+    const size_t second = head.find(": ", head.find(": ") + 1);
+    if (head.find(": ") == std::string::npos || second == std::string::npos) return {};
+    const std::string quoted =
+        brace == std::string::npos ? "" : fmt::format(", as in \"{}\": ...", head.substr(0, second));
+    return "a second ': ' in a line; put a text that holds one between quotes" + quoted;
 }
 
 /// Whether the parser stopped at a key that it did not expect, outside of braces.
@@ -198,8 +202,7 @@ YamlFault yamlFault(const std::string& text, int line, const std::string& messag
     if (const auto fault = isThere && isOfBlocks(message) ? indentation(lines) : std::nullopt) return *fault;
     if (isThere && hasNarrowDash(lines.back()))
         return {line, "a space is missing after the dash of a list's entry: write '- '"};
-    if (isThere && hasSecondColon(lines.back()))
-        return {line, "a second ': ' in a line; put a text that holds one between quotes"};
+    if (const std::string text = isThere ? secondColon(lines.back()) : ""; !text.empty()) return {line, text};
     return {line, message + hintOf(message)};
 }
 

@@ -238,13 +238,15 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
     checkOwnValues(experiment, wired.variants, registry);
     if (!experiment.reference.isNull()) {
         const Value* pass = experiment.reference.find("pass");
-        registry.require(pass->scalar, pass->where)
-            .resolve(experiment.reference, "reference", Graph::reservedKeys());
-        const Graph graph = referenceGraph(experiment, registry);
+        const PassKind& kind = registry.require(pass->scalar, pass->where);
         for (const std::string& port : referencePorts())
-            if (!graph.writes(port))
+            if (std::ranges::none_of(kind.ports,
+                                     [&](const PortDoc& p) { return p.output && p.name == port; }))
                 throw UsageError(experiment.reference.where,
-                                 "reference: the pass writes no '{}'; use path_trace", port);
+                                 "reference: '{}' renders no reference: it writes no '{}'; use path_trace",
+                                 kind.name, port);
+        kind.resolve(experiment.reference, "reference", Graph::reservedKeys());
+        const Graph graph = referenceGraph(experiment, registry);
         wired.reference = graph.resolved();
         // Of a single sample there are no halves, which tell the reference's noise
         if (const Value* spp = experiment.reference.find("spp"); spp && spp->asInteger("reference.spp") < 2)

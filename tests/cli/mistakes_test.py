@@ -81,6 +81,8 @@ MISTAKES = {
                                   "move 'trace_gather_rays' up"),
     "nothing writes the image": ("  - {pass: composite}\n", "", 9, "no pass writes 'final', the image that is compared; these can: show_voxels, composite, path_trace"),
     "a reference that is no path tracer": ("pass: path_trace, spp: 8, bounces: 3", "pass: gbuffer", 18, "use path_trace"),
+    "a reference by a gather": ("pass: path_trace, spp: 8, bounces: 3", "pass: gather_rays", 18,
+                               "reference: 'gather_rays' renders no reference: it writes no 'sums'; use path_trace"),
     "a reference of one sample": ("spp: 8", "spp: 1", 18, "2 or more, best a power of two"),
     "a sweep of a pass that isn't there": ("inject.rays", "injekt.rays", 20, "did you mean 'inject'?"),
     "a sweep of a parameter that isn't there": ("inject.rays_per_light", "inject.rays", 20, "did you mean 'rays_per_light'?"),
@@ -202,6 +204,8 @@ MISTAKES = {
     "a typographic minus": ("1.8", "\u22121.8", 6, "write a plain '-'"),
     "a non-breaking space": ("  builtin: cornell", "\u00a0\u00a0builtin: cornell", 3, "a non-breaking space in the indentation"),
     "a colon in a text": ("name: mine", "name: mine: two", 1, "put a text that holds one between quotes"),
+    "a colon in a variant's name": ("inject.rays_per_light: [4096, 8192]", "gather:\n    rays: 4 a pixel: [gather_rays]", 21,
+                                    'put a text that holds one between quotes, as in "rays: 4 a pixel": ...'),
     "backslashes": ("builtin: cornell", "file: scenes\\room.glb", 3, "write paths with '/'"),
     # Formats
     "a scene of another format": ("builtin: cornell", "file: room.obj", 3, "export it as .glb"),
@@ -277,6 +281,12 @@ WARNINGS = {
     "a light that shines upwards": ("{point: [0, 1.8, 0], intensity", "{directional: [0, 1, 0], irradiance", 6,
                                     "it lights the backs of surfaces alone"),
     "a black light": ("intensity: [1, 1, 1]", "intensity: 0", 6, "scene.lights[0]: it is black and lights nothing"),
+    "a lamp of 80000 W/sr": ("intensity: [1, 1, 1]", "intensity: 80000", 6,
+                             "scene.lights[0]: nearly all of the view is white: its radiance is about"),
+    "a lamp in a box": ("point: [0, 1.8, 0]", "point: [-0.35, 0.6, -0.3]", 6,
+                        "scene.lights[0]: none of its light comes to what the camera sees: does it stand inside of an object"),
+    "a sky in bytes": ("  lights:", "  environment: [135, 206, 235]\n  lights:", 5,
+                       "as a color of 0 to 255 it is [0.2423, 0.6172, 0.8308]"),
     "a light in centimetres": ("point: [0, 1.8, 0]", "point: [0, 180, 0]", 6, "are its numbers metres?"),
     "frames added up where there are none": (
         "  - {pass: filter_irradiance, id: indirect, inputs: {noisy_irradiance: gather}}",
@@ -340,8 +350,13 @@ class Mistakes(CommandTest):
         error = self.expect(0, "validate", "dark.yaml").stderr
         self.assertIn("warning: dark.yaml:2: scene.camera: no light was found in its view", error)
 
+    def test_a_profiles_mistake_leaves_nothing_valid(self):
+        self.write("mine.yaml", CONFIG.replace("smaller: {image:", "smaller: {imgae:"))
+        self.assertEqual(self.expect(2, "validate", "mine.yaml").stdout, "")
+
     def test_mistakes_on_the_command_line(self):
         self.write("mine.yaml", CONFIG)
+        self.write("sponza.glb", "")
         for words, *arguments in (("unknown option '--dryrun'; did you mean '--dry-run'?", "run", "mine.yaml", "--dryrun"),
                                   ("unknown option '--profil'; did you mean '--profile'?", "run", "mine.yaml", "--profil=x"),
                                   ("unknown option '-o'; did you mean '--out'?", "run", "mine.yaml", "-o", "x"),
@@ -353,6 +368,8 @@ class Mistakes(CommandTest):
                                   ("'./voxray scene room.glb' tells what is in it", "validate", "room.glb"),
                                   ("did you mean 'mine.yaml'?", "compare", "mime.yaml", "mine.yaml"),
                                   ("--scenes: Directory does not exist: nowhere", "run", "mine.yaml", "--scenes", "nowhere"),
+                                  ("no built-in scene 'sponzaa'; did you mean 'sponza.glb'?", "scene", "sponzaa", "--scenes", "."),
+                                  ("no built-in scene 'sponza'; did you mean 'sponza.glb'?", "scene", "sponza", "--scenes", "."),
                                   ("'x.jpg' does not end in .png", "scene", "cornell", "--picture", "x.jpg"),
                                   ("'x.gltf' does not end in .glb", "export-scene", "mine.yaml", "x.gltf")):
             with self.subTest(arguments):
