@@ -39,21 +39,27 @@ def parameters_of(results: Results, light: str, variant: str) -> list[str]:
 
 
 def _advice(results: Results, light: str, noisy: list[str]) -> str:
+    # By kind: one pass may have another id in each variant
     values: dict[str, list] = {}
+    paths: dict[str, list[str]] = {}
     for variant in noisy:
         for path in parameters_of(results, light, variant):
-            values.setdefault(path, []).append(_value(results, variant, path))
+            owner, _, parameter = path.rpartition(".")
+            entry = _entry(results, variant, owner)
+            key = f"{entry.get('pass', owner)}.{parameter}"
+            values.setdefault(key, []).append(entry.get(parameter))
+            paths.setdefault(key, []).append(path)
     if not values:
         return ". ./voxray passes PASS says what makes a pass noisy."
-    return f"; it falls as these rise: {', '.join(_with_values(*entry) for entry in values.items())}."
+    named = {key: paths[key][0] if len(set(paths[key])) == 1 else key for key in values}
+    return f"; it falls as these rise: {', '.join(_with_values(named[key], own) for key, own in values.items())}."
 
 
-def _value(results: Results, variant: str, path: str):
-    """A parameter's value in a variant's graph, None where the manifest does not tell."""
+def _entry(results: Results, variant: str, owner: str) -> dict:
+    """The pass of an id in a variant's graph, {} where the manifest does not tell."""
     graph = section(results.manifest, "variants").get(variant)
-    owner, _, parameter = path.rpartition(".")
     passes = [entry for entry in graph if isinstance(entry, dict)] if isinstance(graph, list) else []
-    return next((entry.get(parameter) for entry in passes if entry.get("id", entry.get("pass")) == owner), None)
+    return next((entry for entry in passes if entry.get("id", entry.get("pass")) == owner), {})
 
 
 def _with_values(path: str, values: list) -> str:

@@ -45,14 +45,14 @@ def _score_marks(results: Results, metric: Metric, column: str) -> dict[str, str
 
 
 def cost_marks(results: Results, column: str) -> dict[str, str]:
-    """Marks of one cost, lower is better, among variants of the same scene and reference. Frame times tie where the
-    fastest one's p95 reaches this median."""
+    """Marks of one cost, lower is better, among variants of the same scene and reference; none of what costs nothing, for
+    it has no such pass. Frame times tie where the fastest one's p95 reaches this median."""
     return {name: mark for _, compared in comparisons(results) for name, mark in _cost_marks(compared, column).items()}
 
 
 def _cost_marks(results: Results, column: str) -> dict[str, str]:
     rows = results.ok.set_index("variant")
-    costs = rows[column].dropna()
+    costs = rows.loc[rows[column] > 0, column]
     if len(costs) < 2:
         return {}
     fastest = costs.idxmin()

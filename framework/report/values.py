@@ -36,12 +36,12 @@ def value_table(results: Results, names: Names) -> ValueTable | None:
 
 
 def value_charts(results: Results, styles: dict[str, Style], names: Names) -> list[str]:
-    """A chart for each value that some variant reported in several frames: one line for each variant."""
+    """A chart for each value that changes from frame to frame in some variant: one line for each variant."""
     series = results.values[results.values["frame"].notna()]
     charts = []
     for i, (part, name) in enumerate(_keys(series)):
         rows = series[(series["pass"] == part) & (series["name"] == name)]
-        if rows["frame"].nunique() > 1:
+        if rows.groupby("variant")["value"].nunique().max() > 1:
             charts.append(line_chart(rows, "value", f"{part}: {name}", styles, names, f"values-{i}"))
     return charts
 

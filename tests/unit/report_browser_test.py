@@ -200,6 +200,12 @@ class InABrowser(unittest.TestCase):
         changes = [abs(self.browser.picture("#variant-1 .film img") - before).max() for _ in range(20)]
         self.assertGreater(max(changes), 0.05)
 
+    def test_images_and_the_table_are_on_the_first_screen(self):
+        places = self.browser.run("""return ['.thumbnail img', '#results tbody tr'].map((selector) =>
+            [...document.querySelectorAll(selector)].find((e) => e.offsetParent).getBoundingClientRect().bottom)""")
+        self.assertLess(max(places), 900)
+        self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), 1400)
+
     def test_a_phone_shows_the_table_first_and_scrolls_down_alone(self):
         self.browser.resize(400, 800)
         self.open()

@@ -187,12 +187,14 @@ class PartOfARun(ReportTest):
         self.assertNotIn("What passes report", self.make(rows, made_up.manifest([])).text)
         (self.directory / "values.csv").write_text(
             "variant,pass,name,frame,value\na,compare,missed,,1234567\na,probe,change,0,0.25\na,probe,change,1,0.75\n"
-            "b,compare,missed,,40\n")
+            "b,compare,missed,,40\na,cache,dropped,0,0\na,cache,dropped,1,0\n")
         self.assertEqual(self.run_program()[0], 0)
         shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
         for words in ("What passes report", "compare: missed", "1\u202f234\u202f567", "0.500 (most 0.750)", "1 (a): 0.500 on average"):
             self.assertIn(words, shown.text)
         self.assertEqual(shown.attributes("aria-label").count("probe: change"), 1)
+        self.assertIn("cache: dropped", shown.text)  # It stays as it was: the table says so.
+        self.assertNotIn("cache: dropped", shown.attributes("aria-label"))
         (self.directory / "values.csv").write_text("what,is\nthis,here\n")
         self.assertEqual(self.run_program()[0], 0)
         self.assertIn("values.csv lacks a column", Page((self.directory / "report.html").read_text(
@@ -220,6 +222,10 @@ class PartOfARun(ReportTest):
         shown = self.make(rows, run, indirect=False)
         self.assertIn("(rough); it falls as these rise: place_surfels.points_per_voxel (now 4), "
                       "inject.paths_per_point (now 1 to 2), odd.rays.", shown.text)
+        # A pass that has another id in each variant is named by its kind
+        run["variants"] |= {"grainy": [{"pass": "path_trace", "id": "indirect", "spp": 4}], "rough": [{"pass": "path_trace", "spp": 1}]}
+        run["noise_parameters"]["final"] |= {"grainy": ["indirect.spp"], "rough": ["path_trace.spp"]}
+        self.assertIn("as these rise: path_trace.spp (now 1 to 4).", self.make(rows, run, indirect=False).text)
         for row in rows:
             row.update(noise_nrmse=0.01)
         self.assertIn("Bias is the larger part of every variant's error",

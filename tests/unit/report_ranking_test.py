@@ -83,6 +83,11 @@ class Comparing(ReportTest):
         marks = ranking.cost_marks(self.results(rows), "frame_ms_median")
         self.assertEqual(marks, {"a": "best", "b": "tie"})
 
+    def test_what_costs_nothing_is_not_compared(self):
+        rows = [made_up.variant(name, 10, 0.1) | {"build_ms": ms} for name, ms in (("paths", 0), ("rays", 20), ("lookup", 10))]
+        self.assertEqual(ranking.cost_marks(self.results(rows), "build_ms"), {"lookup": "best"})
+        self.assertEqual(ranking.cost_marks(self.results(rows[:2]), "build_ms"), {})
+
     def test_worse_than_a_black_image(self):
         def beaten(metric, value, low=math.nan, high=math.nan):
             row = made_up.variant("a", 10, 0.1) | {metric.key: value}
