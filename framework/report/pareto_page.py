@@ -42,6 +42,7 @@ def render(runs: list[Results], metric: Metric, light: str) -> str:
         legend=list(styles.items()), markers=MARKERS, tables=[(cost, _savings(rivalled, cost)) for cost in pareto.TIMES],
         equal_time=_equal_time(rivalled, "frame"), best_points=_best_points(rivalled), gains=_gains(both),
         worst_of=_WORST_OF, scene_names=[scene.name for scene in rivalled],
+        without_rival=[scene.name for scene in scenes if scene not in rivalled],
         winners=[_winners(scenes, both, cost) for cost in pareto.TIMES],
         dominated={cost: pareto.dominated(scenes, cost) for cost in pareto.TIMES},
         words={cost: _words_of(cost) for cost in pareto.TIMES},
@@ -116,6 +117,7 @@ def _best_points(scenes: list[Scene]) -> list[tuple[str, ...]]:
             continue
         best, reached, ties = found
         rows.append((scene.name, best.label + (f" (≈ {len(ties)} more)" if ties else ""), text.figures(best.costs["frame"]),
+                     f"never; its slowest {text.figures(reached.milliseconds)}" if reached.bound == ">" else
                      reached.bound + text.figures(reached.milliseconds),
                      *(text.figures(best.scores.get(key, math.nan)) for key in _QUALITY)))
     return rows

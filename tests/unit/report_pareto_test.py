@@ -113,6 +113,16 @@ class Pareto(unittest.TestCase):
         self.assertAlmostEqual(factor.value, 2)
         best, reached, ties = pareto.best_point(views[0][0], "frame")
         self.assertEqual((best.label, reached.bound, ties), ("r", ">", []))
+        # Of an error that path tracing never gets to no time is told that could look shorter than the method's
+        page = pareto_page.render(runs, runs[0].metrics[0], "indirect")
+        self.assertIn("<td>never; its slowest 400</td>", page)
+        self.assertNotIn("In the charts alone", page)
+
+    def test_scenes_without_path_tracing_are_named(self):
+        runs = [load(self.run_of("room", {"p": (PATHS, 100, 0.1), "r": (RAYS, 10, 0.05)})),
+                load(self.run_of("hall", {"l": (LOOKUP, 10, 0.15), "r": (RAYS, 50, 0.05)}))]
+        page = pareto_page.render(runs, runs[0].metrics[0], "indirect")
+        self.assertIn("no variant of path_trace with filter_irradiance was measured to compare with: hall.", page)
 
     def test_the_page_and_its_table(self):
         folder = self.run_of("room", {"p": (PATHS, 100, 0.1), "r": (RAYS, 10, 0.05)})
