@@ -63,6 +63,11 @@ while IFS='|' read -r purpose check debian ubuntu fedora arch; do
   fi
 done < "$list"
 
+# ChromeDriver, by which tests look at pages in a browser, is asked for at this name
+if command -v getent >/dev/null && ! getent hosts localhost >/dev/null; then
+  printf '  absent   %-28s only ./voxray test wants it: it resolves to no address; add "127.0.0.1 localhost" to /etc/hosts\n' localhost
+fi
+
 [ ${#missing[@]} -eq 0 ] && exit 0
 echo
 echo "Missing, and what it is called (names outside Debian 12 are from those systems' lists, untested):"

@@ -169,6 +169,16 @@ class Devices(CommandTest):
         self.assertIn("embree", self.expect(0, "devices").stdout)
         self.assertIn("Nothing is missing", self.expect(0, "doctor").stdout)
 
+    def test_a_localhost_that_does_not_resolve_is_told(self):
+        for status, told in ((0, False), (2, True)):
+            os.makedirs(self.path("bin"), exist_ok=True)
+            self.write("bin/getent", f"#!/bin/sh\nexit {status}\n")
+            os.chmod(self.path("bin", "getent"), 0o755)
+            path = f"{self.path('bin')}:{os.environ['PATH']}"
+            done = subprocess.run([os.path.join(SOURCE, "scripts", "doctor.sh")], env={**os.environ, "PATH": path},
+                                  stdout=subprocess.PIPE, text=True)
+            self.assertEqual('add "127.0.0.1 localhost" to /etc/hosts' in done.stdout, told, done.stdout)
+
     def test_no_driver_is_an_error(self):
         for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES"):
             self.environment[name] = self.path("none.json")
