@@ -45,7 +45,7 @@ void validate(const std::filesystem::path& config, const ConfigOptions& options,
             profile.empty() || profile == options.profile ? "" : fmt::format(" (with --profile {})", profile);
         WiredExperiment wired =
             wireExperiment(loadExperiment(config, {profile, options.assignments}), registry);
-        for (const std::string& warning : checkPlans(wired, loader, capableDevice(), registry))
+        for (const std::string& warning : checkPlans(wired, loader, capableDevice(), registry).warnings)
             if (said.insert(warning).second) fmt::print(stderr, "voxray: warning: {}{}\n", warning, under);
         const size_t variants = wired.variants.size();
         verdict +=

@@ -137,10 +137,10 @@ std::vector<PixelSelection> selectPixels(const std::vector<MaskSettings>& masks,
     return selections;
 }
 
-std::vector<std::string> maskWarnings(const std::vector<MaskSettings>& masks, const SceneState& state,
-                                      const Camera& camera, uint32_t width, uint32_t height) {
+std::vector<std::string> maskWarnings(const std::vector<MaskSettings>& masks,
+                                      const std::vector<PixelSelection>& selections,
+                                      const SceneState& state) {
     std::vector<std::string> warnings;
-    const std::vector<PixelSelection> selections = selectPixels(masks, state, camera, width, height);
     for (size_t m = 0; m < masks.size(); ++m) {
         const std::string name = "measure.masks." + masks[m].name;
         if (selections[m].count == 0)
@@ -150,7 +150,7 @@ std::vector<std::string> maskWarnings(const std::vector<MaskSettings>& masks, co
                                ? "what meets its conditions is out of sight, or fills no whole pixel"
                                : "no surface of the scene meets all of its conditions")
                     .what());
-        if (selections[m].count == size_t(width) * height)
+        if (selections[m].count == selections[m].pixels.size())
             warnings.push_back(
                 UsageError(masks[m].where,
                            "{}: it selects every pixel, so that its scores are those of the whole image: "
@@ -159,6 +159,10 @@ std::vector<std::string> maskWarnings(const std::vector<MaskSettings>& masks, co
                     .what());
     }
     return warnings;
+}
+
+std::string maskKey(const std::string& sceneKey, const ImageSettings& image) {
+    return fmt::format("{} {} {}", sceneKey, image.width, image.height);
 }
 
 std::vector<PrimaryHit> primaryHits(const SceneState& state, const Camera& camera, uint32_t width,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,15 @@ std::vector<PixelSelection> selectPixels(const std::vector<MaskSettings>& masks,
                                          const Camera& camera, uint32_t width, uint32_t height);
 
 /// What to say, with file and line, of masks that select no pixel of an image, or all.
-std::vector<std::string> maskWarnings(const std::vector<MaskSettings>& masks, const SceneState& state,
-                                      const Camera& camera, uint32_t width, uint32_t height);
+/// @param selections of these masks, as selectPixels() returns them.
+std::vector<std::string> maskWarnings(const std::vector<MaskSettings>& masks,
+                                      const std::vector<PixelSelection>& selections, const SceneState& state);
+
+/// What the masks of a config select in the compared frame, by maskKey().
+using MaskSelections = std::map<std::string, std::vector<PixelSelection>>;
+
+/// Tells scenes and sizes of images apart. @param sceneKey as of SceneLoader::key(), with the camera.
+std::string maskKey(const std::string& sceneKey, const ImageSettings& image);
 
 /// What the camera sees through the center of a pixel.
 struct PrimaryHit {

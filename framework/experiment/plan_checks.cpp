@@ -6,14 +6,12 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "base/byte_units.h"
 #include "base/interrupt.h"
 #include "config/overrides.h"
 #include "experiment/addition_check.h"
 #include "experiment/idle_motion.h"
-#include "experiment/pixel_masks.h"
 #include "experiment/session.h"
 #include "experiment/view_check.h"
 
@@ -163,8 +161,8 @@ std::string overTheLimit(const Experiment& experiment, std::vector<Need> needs) 
 
 }  // namespace
 
-std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
-                                    const Registry& registry) {
+PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
+                     const Registry& registry) {
     constexpr uint64_t kAnySize = std::numeric_limits<uint64_t>::max();
     const Experiment& experiment = wired.experiment;
     std::map<std::string, std::vector<std::string>> notices;  // What is said, of which variants.
@@ -172,7 +170,7 @@ std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader,
     IdleMotion motion(experiment.measure);
     std::string key;
     PreparedScene prepared;
-    std::set<std::string> seen;  // Scenes and sizes of images that masks were looked at in.
+    PlanCheck found;
     for (WiredVariant& variant : wired.variants) {
         if (interruptRequested()) throw Interrupted();
         const auto say = [&](const std::vector<std::string>& texts) {
@@ -187,10 +185,15 @@ std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader,
             say(additionWarnings(variant.setup.scene, prepared, loader));
         }
         const ImageSettings& image = variant.setup.image;
-        if (!experiment.measure.masks.empty() && !wired.reference.isNull() &&
-            seen.insert(fmt::format("{} {} {}", key, image.width, image.height)).second)
-            say(maskWarnings(experiment.measure.masks, prepared.state, prepared.camera, image.width,
-                             image.height));
+        if (!experiment.measure.masks.empty() && !wired.reference.isNull()) {
+            const auto& masks = experiment.measure.masks;
+            const auto [selections, isNew] = found.masks.try_emplace(maskKey(key, image));
+            if (isNew) {
+                selections->second =
+                    selectPixels(masks, prepared.state, prepared.camera, image.width, image.height);
+                say(maskWarnings(masks, selections->second, prepared.state));
+            }
+        }
         motion.look(variant, *prepared.state.scene);
         say(lightsThatStay(variant, *prepared.state.scene));
         say(spheresThatStay(variant));
@@ -210,7 +213,8 @@ std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader,
     }
     motion.refuse();
 
-    std::vector<std::string> warnings = experiment.warnings;
+    std::vector<std::string>& warnings = found.warnings;
+    warnings = experiment.warnings;
     if (std::string text = unequalHalves(experiment); !text.empty()) warnings.push_back(std::move(text));
     if (std::string text = overTheLimit(experiment, std::move(needs)); !text.empty())
         warnings.push_back(std::move(text));
@@ -226,7 +230,7 @@ std::vector<std::string> checkPlans(WiredExperiment& wired, SceneLoader& loader,
         warnings.push_back(names.size() == 1
                                ? fmt::format("{} ({})", text, names[0])
                                : fmt::format("{} ({} and {} more)", text, names[0], names.size() - 1));
-    return warnings;
+    return found;
 }
 
 }  // namespace voxray

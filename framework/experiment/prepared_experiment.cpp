@@ -39,7 +39,9 @@ PreparedExperiment::PreparedExperiment(WiredExperiment experiment, const RunOpti
         session_->loader().key(variant.setup.scene);
         session_->tracerName(variant.setup);
     }
-    warnings_ = checkPlans(wired_, session_->loader(), session_->device().info(), registry_);
+    PlanCheck check = checkPlans(wired_, session_->loader(), session_->device().info(), registry_);
+    warnings_ = std::move(check.warnings);
+    session_->takeMasks(std::move(check.masks));
     recordInputs();
 }
 

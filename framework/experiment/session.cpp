@@ -84,6 +84,10 @@ Frame Session::enterFrame(const Setup& setup, uint32_t number, uint64_t seed) {
 std::vector<PixelSelection> Session::selectPixels(const Experiment& experiment, const Setup& setup,
                                                   uint32_t number) {
     if (experiment.measure.masks.empty()) return {};
+    if (number == 0)
+        if (const auto known = masks_.find(maskKey(loader_.key(setup.scene), setup.image));
+            known != masks_.end())
+            return known->second;
     const Frame frame = enterFrame(setup, number, setup.general.seed);
     return voxray::selectPixels(experiment.measure.masks, *frame.scene, frame.camera, frame.width,
                                 frame.height);

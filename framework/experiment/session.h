@@ -70,6 +70,8 @@ class Session {
     /// A reference's hash, "" where the experiment has none.
     std::string referenceHashOf(const WiredExperiment& experiment, const Setup& setup, uint32_t number = 0);
 
+    /// What masks select in the compared frame, found before: of other scenes and sizes it is looked for.
+    void takeMasks(MaskSelections masks) { masks_ = std::move(masks); }
     /// The pixels that the experiment's masks select in a frame.
     std::vector<PixelSelection> selectPixels(const Experiment& experiment, const Setup& setup,
                                              uint32_t number);
@@ -93,6 +95,7 @@ class Session {
     SceneLoader loader_;
     ReferenceCache cache_;
     std::optional<ReferenceParts> parts_;
+    MaskSelections masks_;
     std::optional<SceneOnDevice> scene_;
     bool sceneMoved_ = false;  ///< Out of the compared frame.
     std::optional<ReferenceImages> reference_;

@@ -75,7 +75,7 @@ TEST(PixelMasks, PixelsThatMixSurfacesAreInNeither) {
 TEST(PixelMasks, ThatSelectNothingOrAllAreWarnedOf) {
     const SceneState state = twoWalls();
     const auto warnings = [&](const MaskSettings& settings, Camera camera) {
-        return maskWarnings({settings}, state, camera, 6, kHeight);
+        return maskWarnings({settings}, selectPixels({settings}, state, camera, 6, kHeight), state);
     };
     const Camera& sky = state.cameras.at(0);
     Camera closer = sky;
