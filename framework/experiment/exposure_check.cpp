@@ -15,6 +15,7 @@ namespace {
 constexpr float kWhite = 1.1f;      ///< White is 1; noise and rounding pass it a little.
 constexpr double kNearlyAll = 0.9;  ///< Of what the view shows.
 constexpr double kMiddle = 0.2;     ///< A radiance that previews show well.
+constexpr float kLeastByte = 32;    ///< No color of less is meant for a sky.
 constexpr double kStepsOfBlack = 0.5;
 constexpr double kSlopeAtBlack = 12.92;  ///< Of the sRGB curve.
 
@@ -37,9 +38,9 @@ std::vector<float> darkestChannels(const ImageF& view) {
 
 /// "; as a color of 0 to 255 it is [0.242, 0.617, 0.831]" for a radiance that looks like one; else "".
 std::string fromBytes(const glm::vec3& radiance) {
-    const bool isOne = glm::all(glm::equal(radiance, glm::round(radiance))) &&
-                       glm::all(glm::lessThanEqual(radiance, glm::vec3(255.0f)));
-    if (!isOne) return {};
+    const bool isWhole = glm::all(glm::equal(radiance, glm::round(radiance)));
+    const float largest = std::max({radiance.x, radiance.y, radiance.z});
+    if (!isWhole || largest < kLeastByte || largest > 255) return {};
     return fmt::format(
         "; as a color of 0 to 255 it is {}",
         linearTriple(fmt::format("#{:02x}{:02x}{:02x}", int(radiance.x), int(radiance.y), int(radiance.z))));

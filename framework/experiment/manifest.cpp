@@ -63,12 +63,6 @@ Json entryJson(const ReferenceRecord& r, const Value& pass) {
     return json;
 }
 
-void setSessions(Json& manifest, const Sessions& sessions) {
-    manifest["sessions"] = Json::array();
-    for (const auto& [began, variants] : sessions)
-        manifest["sessions"].push_back({{"started", began}, {"variants", variants}});
-}
-
 /// Writes `references`, and on top what most runs have: one reference.
 void setReferences(Json& manifest, const std::vector<ReferenceEntry>& references) {
     manifest["references"] = Json::array();
@@ -87,6 +81,29 @@ void setReferences(Json& manifest, const std::vector<ReferenceEntry>& references
     for (const char* key : {"flip_exposures", "indirect_flip_exposures", "baselines", "variants"})
         first.erase(key);
     manifest["reference"] = std::move(first);
+}
+
+/// What of a run is known once variants are done, and changes where results are put together.
+struct Outcome {
+    const std::string& finished;  ///< When, UTC; empty: not yet.
+    const Sessions& sessions;
+    const std::vector<ReferenceEntry>& references;
+    const std::vector<std::string>&warnings, &notes;
+};
+
+/// Writes what is known of the outcome; `inputs` are there already.
+void setOutcome(Json& manifest, const Outcome& outcome) {
+    manifest["finished"] = outcome.finished.empty() ? Json(nullptr) : Json(outcome.finished);
+    manifest["sessions"] = Json::array();
+    for (const auto& [began, variants] : outcome.sessions)
+        manifest["sessions"].push_back({{"started", began}, {"variants", variants}});
+    manifest["warnings"] = outcome.warnings;
+    manifest["notes"] = outcome.notes;
+    setReferences(manifest, outcome.references);
+}
+
+std::string textOf(const Json& manifest) {
+    return manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 /// Where two nodes differ first: a path and both values.
@@ -118,8 +135,7 @@ std::string manifestJson(const ManifestData& data) {
     json["voxray_version"] = data.version;
     json["commit"] = data.commit;
     json["started"] = data.started;
-    json["finished"] = data.finished.empty() ? Json(nullptr) : Json(data.finished);
-    setSessions(json, data.sessions);
+    for (const char* later : {"finished", "sessions"}) json[later] = nullptr;
     json["device"] = data.device.name;
     json["driver"] = data.device.driver;
     json["tracer"] = data.tracer;
@@ -149,12 +165,11 @@ std::string manifestJson(const ManifestData& data) {
         json["inputs"][name] = {{"scene", data.sceneKeys.at(name)},
                                 {"reference", data.referenceHashes.at(name)}};
     json["noise_parameters"] = data.noiseParameters;
-    json["warnings"] = data.warnings;
-    json["notes"] = data.notes;
+    for (const char* later : {"warnings", "notes"}) json[later] = nullptr;
     json["versions"] = {{"voxray", data.version}, {"driver", data.device.driver}, {"compiler", __VERSION__}};
     json["machine"] = {{"cpu", cpuName()}, {"cores", std::thread::hardware_concurrency()}};
-    setReferences(json, data.references);
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    setOutcome(json, {data.finished, data.sessions, data.references, data.warnings, data.notes});
+    return textOf(json);
 }
 
 std::string referenceJson(const ReferenceRecord& record, const Value& pass) {
@@ -204,12 +219,9 @@ std::string mergedManifest(const std::string& first, const std::vector<Reference
                            const Sessions& sessions, const std::vector<std::string>& warnings,
                            const std::vector<std::string>& notes, bool isWhole) {
     Json json = Json::parse(first);
-    json["finished"] = isWhole ? Json(utcNow()) : Json(nullptr);
-    json["warnings"] = warnings;
-    json["notes"] = notes;
-    setReferences(json, references);
-    setSessions(json, sessions);
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    const std::string finished = isWhole ? utcNow() : "";
+    setOutcome(json, {finished, sessions, references, warnings, notes});
+    return textOf(json);
 }
 
 std::string commitOf(const fs::path& sourceRoot) {
