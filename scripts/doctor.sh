@@ -49,14 +49,15 @@ echo "System: $system, $(uname -m), $(getconf _NPROCESSORS_ONLN) cores"
 echo
 echo "Packages:"
 missing=()
+declare -A wants=([sweep]="./voxray sweep" [test]="./voxray test" [slurm]="tests/scale/slurm.sh")
 while IFS='|' read -r purpose check debian ubuntu fedora arch; do
   [[ $purpose = \#* || -z ${check:-} ]] && continue
   read -r debian <<<"$debian"; read -r purpose <<<"$purpose"
   read -ra words <<<"$check"
   if found=$(probe "${words[@]}"); then
     printf '  ok       %-28s %s\n' "$debian" "$found"
-  elif [ "$purpose" = test ]; then
-    printf '  absent   %-28s only ./voxray test wants it\n' "$debian"
+  elif [ "$purpose" != run ]; then
+    printf '  absent   %-28s only %s wants it\n' "$debian" "${wants[$purpose]}"
   else
     printf '  MISSING  %-28s %s%s\n' "$debian" "$check" "${found:+(found: $found)}"
     missing+=("$debian|$ubuntu|$fedora|$arch")

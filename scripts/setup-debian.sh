@@ -1,12 +1,17 @@
 #!/usr/bin/env bash
 # Installs what Voxray needs on Debian 12, from Debian packages alone. Does nothing where nothing is missing.
-# setup-debian.sh [run|test]: packages for every command, or those of the tests as well.
+# setup-debian.sh [run|sweep|test|slurm]: packages for every command, and those of `voxray sweep`, of the tests, or of
+# the test on Slurm as well.
 #
 # Mesa comes from bookworm-backports (lavapipe has ray tracing from Mesa 25 on). That suite is added
 # through the mirror that this machine's own apt configuration names for bookworm.
 set -euo pipefail
 
 purpose=${1:-run}
+case $purpose in
+  test|slurm) groups="run sweep $purpose" ;;
+  *)          groups="run $purpose" ;;
+esac
 mesa_wanted_major=25
 
 say() { printf 'voxray set-up: %s\n' "$*" >&2; }
@@ -14,8 +19,8 @@ die() { printf 'voxray: error: %s\n' "$*" >&2; exit 1; }
 
 # Packages of the list that are not installed. Mesa is apart, because of its version.
 list=$(dirname "$(readlink -f "$0")")/packages.txt
-wanted=$(awk -F'|' -v purpose="$purpose" '!/^#/ && NF { gsub(/ /, "", $1); gsub(/ /, "", $3)
-  if ($3 != "mesa-vulkan-drivers" && ($1 == "run" || $1 == purpose)) print $3 }' "$list")
+wanted=$(awk -F'|' -v groups=" $groups " '!/^#/ && NF { gsub(/ /, "", $1); gsub(/ /, "", $3)
+  if ($3 != "mesa-vulkan-drivers" && index(groups, " " $1 " ")) print $3 }' "$list")
 installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' $wanted 2>/dev/null | sed -n 's/ installed$//p') || true
 missing=$(comm -23 <(sort -u <<<"$wanted") <(sort -u <<<"$installed") | tr '\n' ' ')
 

@@ -67,6 +67,7 @@ int main(int argc, char** argv) {
     addRunCommand(app, status);
     addJobsCommand(app, status);
     addMergeCommand(app, status);
+    addSweepCommand(app, status);
     addValidateCommand(app, status);
     addSchemaCommand(app, status);
     addSceneCommand(app, status);

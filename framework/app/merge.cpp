@@ -24,7 +24,13 @@ int merge(MergeArguments arguments) {
     const InterruptScope interruptScope;
     RunOptions& options = arguments.options;
     options.sourceRoot = sourceRoot();
-    const RunSummary summary = mergeResults(arguments.folders, options.out, options);
+    RunSummary summary;
+    try {
+        summary = mergeResults(arguments.folders, options.out, options);
+    } catch (const Interrupted&) {
+        summary.interrupted = true;
+        summary.out = options.out;
+    }
     printSummary(summary, options);
     return summary.exitStatus();
 }
@@ -44,6 +50,8 @@ void addMergeCommand(CLI::App& app, int& status) {
         ->type_name("DIR");
     command->add_flag_callback(
         "--no-report", [&options] { options.report = false; }, "Write result files alone, no report.html.");
+    command->add_flag("--wait", options.resume,
+                      "Wait for another process that is writing into --out, in place of an error.");
     command->add_flag("--quiet", options.quiet, "Print nothing but warnings and errors.");
     command->callback([arguments, &status] { status = merge(*arguments); });
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "app/config_options.h"
 #include "app/run_summary.h"
 #include "app/source_root.h"
+#include "base/thread_limit.h"
 #include "experiment/runner.h"
 #include "experiment/validate.h"
 #include "passes/register_passes.h"
@@ -40,10 +42,13 @@ namespace {
 struct RunArguments : ConfigArguments {
     std::vector<std::filesystem::path> configs;
     RunOptions options;
+    std::optional<unsigned> threads;
 };
 
 /// Runs the configs one after the other. @return the exit status.
 int run(const RunArguments& arguments) {
+    std::optional<ThreadLimit> limit;
+    if (arguments.threads) limit.emplace(*arguments.threads);
     Registry registry;
     registerPasses(registry);
 
@@ -101,6 +106,15 @@ void addRunCommand(CLI::App& app, int& status) {
                      "'voxray jobs'.")
         ->type_name("ID")
         ->excludes("--dry-run");
+    command
+        ->add_flag("--untimed", options.untimed,
+                   "Other work runs on this machine meanwhile: a warning says that times tell nothing.")
+        ->needs("--part");
+    command
+        ->add_option("--threads", arguments->threads,
+                     "Threads to work on: of loops on the host, Embree and lavapipe. Default: all cores.")
+        ->type_name("N")
+        ->check(CLI::Range(1u, 1u << 16));
     command->add_flag("--validate", options.validation,
                       "Turn Vulkan's validation layer on: its messages are printed and fail the run (exit "
                       "status 1). Times are then not the method's.");

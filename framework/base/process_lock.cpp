@@ -4,11 +4,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 
 namespace voxray {
 namespace {
@@ -30,9 +35,12 @@ bool isCurrent(int descriptor, const std::filesystem::path& file) {
 
 }  // namespace
 
-ProcessLock::ProcessLock(std::filesystem::path file, Kind kind, const std::filesystem::path& what)
+ProcessLock::ProcessLock(std::filesystem::path file, Kind kind, const std::filesystem::path& what,
+                         IfHeld ifHeld)
     : file_(std::move(file)) {
     constexpr int kTries = 100;
+    constexpr std::chrono::milliseconds kPause(100);
+    bool isTold = false;
     for (int attempt = 0; attempt < kTries; ++attempt) {
         descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
         if (descriptor_ < 0) throw Error("{}: {}", file_.string(), std::strerror(errno));
@@ -46,15 +54,27 @@ ProcessLock::ProcessLock(std::filesystem::path file, Kind kind, const std::files
         const bool isHeld = !isLocked && (reason == EACCES || reason == EAGAIN);
         if (isHeld) ::fcntl(descriptor_, F_GETLK, &lock);
         ::close(descriptor_);
-        if (isHeld && lock.l_type != F_UNLCK)
+        if (isHeld && ifHeld == IfHeld::Wait) {
+            if (interruptRequested()) throw Interrupted();
+            if (!std::exchange(isTold, true))
+                fmt::print(stderr, "voxray: {}: waiting for process {}, which is writing there\n",
+                           what.string(), lock.l_pid);
+            std::this_thread::sleep_for(kPause);
+            attempt = -1;  // Patience is for files that come and go, not for who works.
+        } else if (isHeld && lock.l_type != F_UNLCK) {
             throw UsageError(
                 "{}: process {} is writing results there; wait until it ends or choose another "
                 "folder with --out",
                 what.string(), lock.l_pid);
+        }
         if (!isLocked && !isHeld)
             throw Error("{}: cannot be locked: {}", file_.string(), std::strerror(reason));
     }
     throw Error("{}: cannot be locked: other processes take it again and again", file_.string());
+}
+
+void ProcessLock::keepAcrossExec() {
+    ::fcntl(descriptor_, F_SETFD, 0);
 }
 
 ProcessLock::~ProcessLock() {

@@ -11,13 +11,20 @@ class ProcessLock {
  public:
     /// Many processes may share a lock, while nobody holds it alone.
     enum class Kind { Alone, Shared };
+    /// What to do where another process holds the lock.
+    enum class IfHeld { Refuse, Wait };
 
     /// Makes the file where it isn't there. @param what is locked, for messages.
-    /// @throws UsageError naming a process that holds the lock, Error where the file can't be locked.
-    ProcessLock(std::filesystem::path file, Kind kind, const std::filesystem::path& what);
+    /// @throws UsageError naming a process that holds the lock (to wait: Interrupted), Error where the file
+    /// can't be locked.
+    ProcessLock(std::filesystem::path file, Kind kind, const std::filesystem::path& what,
+                IfHeld ifHeld = IfHeld::Refuse);
     ~ProcessLock();
     ProcessLock(const ProcessLock&) = delete;
     ProcessLock& operator=(const ProcessLock&) = delete;
+
+    /// Hands the lock on to the program that takes this process over with exec(); it ends with that.
+    void keepAcrossExec();
 
  private:
     std::filesystem::path file_;

@@ -3,13 +3,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "base/files.h"
 #include "base/interrupt.h"
+#include "config/sweep.h"
 #include "config/yaml.h"
 #include "experiment/manifest.h"
+#include "experiment/part_record.h"
+#include "experiment/reference_parts.h"
 #include "experiment/report_process.h"
 #include "experiment/results_folder.h"
 
@@ -25,6 +30,7 @@ struct Source {
     fs::path path;
     std::string text;  ///< Of its manifest.
     Json manifest;
+    std::map<std::string, PartRecord> records;  ///< By the ids of parts.
 };
 
 /// @throws UsageError where a folder holds no results, or not those of the first one's experiment.
@@ -33,7 +39,7 @@ std::vector<Source> readSources(const std::vector<fs::path>& folders) {
     for (const fs::path& path : folders) {
         const fs::path file = path / "manifest.json";
         if (!fs::exists(file)) throw UsageError("{}: holds no results of Voxray", path.string());
-        Source source{path, readTextFile(file), {}};
+        Source source{path, readTextFile(file), {}, PartRecords(path).load()};
         std::string what;
         try {
             what = manifestDifference(sources.empty() ? source.text : sources[0].text, source.text);
@@ -116,6 +122,62 @@ std::vector<Found> findVariants(const std::vector<Source>& sources, std::vector<
     return found;
 }
 
+/// A part that failed, and what it left.
+struct Failure {
+    std::string part;
+    const PartRecord* record;
+};
+
+/// Why a variant has no result: its own part failed, or else one of its reference.
+std::optional<Failure> failureOf(const std::string& name, const std::vector<Source>& sources) {
+    const std::string own = "variant." + name;
+    const std::string hash = sources[0].manifest["inputs"][name]["reference"].get<std::string>();
+    const std::string whole = ReferenceParts::id(hash, {});
+    const std::string reference = whole.substr(0, whole.rfind('.') + 1);
+    std::optional<Failure> failure;
+    for (const Source& source : sources)
+        for (const auto& [part, record] : source.records)
+            if (!record.error.empty() && (part == own || (!failure && part.starts_with(reference))))
+                failure = {part, &record};
+    return failure;
+}
+
+/// Rows of the missing variants that failed, which go out of `missing`; their records go into the target.
+std::vector<VariantResult> failedRows(std::vector<std::string>& missing, const std::vector<Source>& sources,
+                                      const Experiment& experiment, const ResultsFolder& target) {
+    std::vector<VariantResult> rows;
+    if (missing.empty()) return rows;
+    std::map<std::string, std::vector<std::string>> sweepValues;
+    for (Variant& variant : expandSweep(experiment)) sweepValues[variant.name] = std::move(variant.values);
+    std::erase_if(missing, [&](const std::string& name) {
+        const auto failure = failureOf(name, sources);
+        if (!failure) return false;
+        const bool isOwn = failure->part.starts_with("variant.");
+        const PartRecord& record = *failure->record;
+        VariantResult row;
+        row.variant = name;
+        row.error = isOwn ? record.error : failure->part + ": " + record.error;
+        row.sweepValues = sweepValues[name];
+        const auto orOf = [&](const std::string& text, const char* key) {
+            return isOwn ? text : sources[0].manifest.at(key).get<std::string>();
+        };
+        row.device = orOf(record.device, "device");
+        row.tracer = orOf(record.tracer, "tracer");
+        row.session = orOf(record.session, "started");
+        rows.push_back(std::move(row));
+        PartRecords(target.path()).store(failure->part, record);
+        return true;
+    });
+    return rows;
+}
+
+/// Rows in the experiment's order.
+void sortRows(std::vector<VariantResult>& rows, const Json& inputs) {
+    std::map<std::string, size_t> places;
+    for (const auto& [name, keys] : inputs.items()) places.emplace(name, places.size());
+    std::ranges::sort(rows, {}, [&](const VariantResult& row) { return places.at(row.variant); });
+}
+
 /// Texts of a list of all manifests, each once.
 std::vector<std::string> textsOf(const std::vector<Source>& sources, const char* key) {
     std::vector<std::string> texts;
@@ -123,6 +185,17 @@ std::vector<std::string> textsOf(const std::vector<Source>& sources, const char*
         for (const auto& text : source.manifest.at(key).get<std::vector<std::string>>())
             if (std::ranges::count(texts, text) == 0) texts.push_back(text);
     return texts;
+}
+
+/// Warnings of all manifests and of all parts, each once.
+std::vector<std::string> warningsOf(const std::vector<Source>& sources) {
+    std::vector<std::string> warnings = textsOf(sources, "warnings");
+    std::set<std::string> known(warnings.begin(), warnings.end());
+    for (const Source& source : sources)
+        for (const auto& [part, record] : source.records)
+            for (const std::string& text : record.warnings)
+                if (known.insert(text).second) warnings.push_back(text);
+    return warnings;
 }
 
 /// What to say of variants that ran on different machines.
@@ -146,7 +219,8 @@ RunSummary mergeResults(const std::vector<fs::path>& folders, const fs::path& ou
     std::vector<Found> found = findVariants(sources, missing);
 
     // Nothing is written before all is known to fit
-    const ResultsFolder target(out, experiment.setup.general.name, FolderUse::Resume);
+    const ResultsFolder target(out, experiment.setup.general.name, FolderUse::Resume,
+                               options.resume ? ProcessLock::IfHeld::Wait : ProcessLock::IfHeld::Refuse);
     std::vector<VariantResult> rows;
     for (Found& variant : found) {
         const fs::path& from = variant.from->path;
@@ -155,7 +229,19 @@ RunSummary mergeResults(const std::vector<fs::path>& folders, const fs::path& ou
     }
     mergeReferences(sources, target);
 
-    std::vector<std::string> warnings = textsOf(sources, "warnings");
+    RunSummary summary;
+    summary.out = out;
+    summary.total = found.size() + missing.size();
+    summary.ok = found.size();
+    for (VariantResult& failed : failedRows(missing, sources, experiment, target)) {
+        fmt::print(stderr, "voxray: warning: '{}' failed: {}\n", failed.variant, failed.error);
+        rows.push_back(std::move(failed));
+        ++summary.failed;
+    }
+    summary.missing = missing.size();
+    sortRows(rows, sources[0].manifest["inputs"]);
+
+    std::vector<std::string> warnings = warningsOf(sources);
     for (const std::string& text : differences(rows)) {
         fmt::print(stderr, "voxray: warning: {}\n", text);
         if (std::ranges::count(warnings, text) == 0) warnings.push_back(text);
@@ -166,11 +252,6 @@ RunSummary mergeResults(const std::vector<fs::path>& folders, const fs::path& ou
                                                      warnings, textsOf(sources, "notes"), missing.empty()));
     target.writeTables(rows, experiment);
 
-    RunSummary summary;
-    summary.out = out;
-    summary.ok = rows.size();
-    summary.missing = missing.size();
-    summary.total = summary.ok + summary.missing;
     if (!options.report) return summary;
     try {
         makeReport(options.sourceRoot, target.path());

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <thread>
 
 #include "base/files.h"
 #include "base/interrupt.h"
 #include "base/one_line.h"
+#include "base/thread_limit.h"
 #include "experiment/variant_run.h"
 
 namespace voxray {
@@ -33,6 +35,13 @@ std::string outcome(const VariantResult& r) {
 PartRunner::PartRunner(PreparedExperiment& prepared, const ResultsFolder& folder)
     : prepared_(prepared), folder_(folder), references_(folder.references()) {
     prepared.session().takeParts(ReferenceParts(folder.path()));
+    const unsigned cores = std::thread::hardware_concurrency();
+    if (prepared.options().untimed)
+        warnings_.emplace_back(
+            "variants ran next to other work on the same machine (--untimed): their times tell nothing");
+    else if (workerThreads() < cores)
+        warnings_.push_back(
+            fmt::format("variants ran on {} of {} threads (--threads)", workerThreads(), cores));
 }
 
 std::string PartRunner::referenceFolder(const std::string& hash) const {

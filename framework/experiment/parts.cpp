@@ -20,11 +20,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kMerge = "merge";
 
-uint32_t samplesOf(const PreparedExperiment& prepared) {
-    const Value* spp = prepared.manifest().referencePass.find("spp");
-    return spp ? uint32_t(spp->asInteger("reference.spp")) : 1;
-}
-
 /// The measured frames that have a reference of their own.
 std::vector<uint32_t> referenceFrames(const PreparedExperiment& prepared, const Setup& setup) {
     if (prepared.experiment().reference.isNull()) return {};
@@ -64,7 +59,7 @@ Need needOf(const Part& part, PreparedExperiment& prepared) {
     if (part.kind == Part::Kind::Reference) {
         // Total and indirect light of two halves, in double
         const uint64_t pixels = uint64_t(variant.setup.image.width) * variant.setup.image.height;
-        const uint64_t spp = samplesOf(prepared);
+        const uint64_t spp = referenceSamples(prepared);
         return {pixels * 4 * 3 * sizeof(double),
                 pixels * (part.samples.end(spp) - part.samples.first(spp)),
                 "paths",
@@ -103,11 +98,16 @@ std::string jobLine(const Part& part, const Need& need) {
 
 }  // namespace
 
+uint32_t referenceSamples(const PreparedExperiment& prepared) {
+    const Value* spp = prepared.manifest().referencePass.find("spp");
+    return spp ? uint32_t(spp->asInteger("reference.spp")) : 1;
+}
+
 std::vector<Part> partsOf(PreparedExperiment& prepared, uint32_t referenceParts) {
-    if (!prepared.experiment().reference.isNull() && referenceParts > samplesOf(prepared))
+    if (!prepared.experiment().reference.isNull() && referenceParts > referenceSamples(prepared))
         throw UsageError(prepared.experiment().reference.where,
                          "reference.spp: {} samples a pixel can't be divided into {} parts",
-                         samplesOf(prepared), referenceParts);
+                         referenceSamples(prepared), referenceParts);
     std::vector<Part> references, variants;
     Part merge;
     std::set<std::string> listed;

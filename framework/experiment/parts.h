@@ -22,6 +22,9 @@ struct Part {
     SamplePart samples;
 };
 
+/// Samples a pixel of a reference, which can't be divided into more parts; 1 where there is no reference.
+uint32_t referenceSamples(const PreparedExperiment& prepared);
+
 /// All parts, in an order in which they can be done.
 /// @param referenceParts how many parts each reference is divided into.
 /// @throws UsageError where a reference has fewer samples.

@@ -99,6 +99,7 @@ ReferenceImages imagesOf(const RenderedPart& whole) {
 RenderedPart partOf(const ReferenceImages& reference) {
     RenderedPart part;
     part.seconds = reference.seconds;
+    part.isWhole = true;
     for (const Half& half : kHalves) {
         const ImageF& image = half.of(reference);
         SampleSums& sums = half.of(part.sums) = SampleSums(image.width, image.height, 1);

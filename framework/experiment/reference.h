@@ -36,7 +36,8 @@ std::vector<std::string> referencePorts();
 /// A part of a reference, or several parts together.
 struct RenderedPart {
     ReferenceSums sums;
-    double seconds = 0;  ///< That rendering took.
+    double seconds = 0;    ///< That rendering took.
+    bool isWhole = false;  ///< It has all samples already, as partOf() gives: no other part may be added.
 
     /// Adds another part of the same reference.
     void add(const RenderedPart& other);

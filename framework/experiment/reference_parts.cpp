@@ -28,7 +28,8 @@ std::string contentOf(const std::string& hash, const RenderedPart& rendered) {
                               {"width", sums.final[0].width},
                               {"height", sums.final[0].height},
                               {"samples", {sums.final[0].samples, sums.final[1].samples}},
-                              {"seconds", rendered.seconds}};
+                              {"seconds", rendered.seconds},
+                              {"whole", rendered.isWhole}};
     std::string body = head.dump() + "\n";
     for (const SampleSums* half : halvesOf(sums))
         body.append(reinterpret_cast<const char*>(half->data.data()), half->data.size() * sizeof(double));
@@ -48,6 +49,7 @@ RenderedPart readPart(const fs::path& file, const std::string& hash, uint32_t wi
         throw Error("it is of another reference");
     RenderedPart rendered;
     rendered.seconds = head.at("seconds").get<double>();
+    rendered.isWhole = head.at("whole").get<bool>();
     const char* from = body.data() + line + 1;
     const size_t bytes = size_t(width) * height * 3 * sizeof(double);
     if (body.size() != line + 1 + 4 * bytes) throw Error("it is damaged");
@@ -112,6 +114,7 @@ RenderedPart ReferenceParts::load(const std::string& hash, uint32_t width, uint3
         const fs::path path = file(hash, {i, parts});
         try {
             RenderedPart part = readPart(path, hash, width, height);
+            if (part.isWhole) return part;
             if (i == 0)
                 sum = std::move(part);
             else

@@ -27,7 +27,8 @@ class ReferenceParts {
 
     /// Whether all parts of a division are there.
     bool isWhole(const std::string& hash) const { return division(hash) > 0; }
-    /// The sum of all parts, in their order, of a reference that isWhole().
+    /// The sum of all parts, in their order, of a reference that isWhole(); or one that has all samples, for
+    /// it came out of the cache.
     /// @throws Error for a part that is damaged, or of another reference or size.
     RenderedPart load(const std::string& hash, uint32_t width, uint32_t height) const;
 

@@ -49,7 +49,8 @@ bool startsWith(const std::string& text, const char* prefix) {
 
 }  // namespace
 
-ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, FolderUse use)
+ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, FolderUse use,
+                             ProcessLock::IfHeld ifHeld)
     : path_(std::move(path)) {
     const bool isPart = use == FolderUse::Part;
     orError<UsageError>(path_, [&] {
@@ -57,7 +58,8 @@ ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, Folde
             throw UsageError("{}: is not a folder", path_.string());
         if (fs::exists(path_)) checkOwner(experiment);
         fs::create_directories(path_ / "images");
-        lock_.emplace(path_ / kLock, isPart ? ProcessLock::Kind::Shared : ProcessLock::Kind::Alone, path_);
+        lock_.emplace(path_ / kLock, isPart ? ProcessLock::Kind::Shared : ProcessLock::Kind::Alone, path_,
+                      ifHeld);
         checkOwner(experiment);  // Again: another process may have had it until now.
     });
     if (isPart) return;
@@ -78,9 +80,9 @@ ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, Folde
     });
 }
 
-ProcessLock ResultsFolder::lockPart(const std::string& id) const {
+ProcessLock ResultsFolder::lockPart(const std::string& id, ProcessLock::IfHeld ifHeld) const {
     orError<UsageError>(path_, [&] { fs::create_directories(path_ / kParts); });
-    return {path_ / kParts / ("." + id + ".lock"), ProcessLock::Kind::Alone, path_ / kParts / id};
+    return {path_ / kParts / ("." + id + ".lock"), ProcessLock::Kind::Alone, path_ / kParts / id, ifHeld};
 }
 
 void ResultsFolder::claim(const std::string& manifest) const {

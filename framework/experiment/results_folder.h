@@ -24,14 +24,16 @@ class ResultsFolder {
     /// removed, but by parts: it may be another one's.
     /// @throws UsageError where another process writes into it (parts don't exclude each other), or it holds
     /// anything but results of this experiment; Error where it can't be written.
-    ResultsFolder(std::filesystem::path path, const std::string& experiment, FolderUse use);
+    ResultsFolder(std::filesystem::path path, const std::string& experiment, FolderUse use,
+                  ProcessLock::IfHeld ifHeld = ProcessLock::IfHeld::Refuse);
 
     const std::filesystem::path& path() const { return path_; }
     /// How many finished variants of an older run were removed for a fresh one.
     size_t replaced() const { return replaced_; }
 
-    /// Keeps other processes from the same part while the lock lives. @throws UsageError where one has it.
-    ProcessLock lockPart(const std::string& id) const;
+    /// Keeps other processes from the same part while the lock lives. @throws UsageError where one has it;
+    /// to wait: Interrupted.
+    ProcessLock lockPart(const std::string& id, ProcessLock::IfHeld ifHeld) const;
 
     /// Writes the manifest where there is none, so that all parts of a folder are of one experiment.
     /// @throws UsageError that tells what differs from the one that is there.

@@ -4,10 +4,12 @@
 #include <utility>
 
 #include "base/interrupt.h"
+#include "base/one_line.h"
 #include "config/overrides.h"
 #include "experiment/disturbances.h"
 #include "experiment/forecast.h"
 #include "experiment/merge.h"
+#include "experiment/part_record.h"
 #include "experiment/part_runner.h"
 #include "experiment/report_process.h"
 
@@ -156,16 +158,27 @@ bool isFinished(const Part& part, PreparedExperiment& prepared, const ResultsFol
 /// Renders one part, next to others in the folder.
 void runPart(const Part& part, PreparedExperiment& prepared, const ResultsFolder& folder,
              RunSummary& summary) {
-    const ProcessLock lock = folder.lockPart(part.id);
+    const bool isResumed = prepared.options().resume;
+    const ProcessLock lock =
+        folder.lockPart(part.id, isResumed ? ProcessLock::IfHeld::Wait : ProcessLock::IfHeld::Refuse);
     PartRunner parts(prepared, folder);
+    const PartRecords records(folder.path());
     Progress progress(1, prepared.options().quiet);
     parts.printWarnings(progress);
-    if (prepared.options().resume && isFinished(part, prepared, folder, parts)) {
+    if (isResumed && isFinished(part, prepared, folder, parts)) {
         progress.note(part.id + ": finished already");
         return;
     }
     if (part.kind == Part::Kind::Reference) {
-        parts.runReference(part, progress);
+        try {
+            parts.runReference(part, progress);
+        } catch (const Interrupted&) {
+            throw;
+        } catch (const Error& error) {
+            records.store(part.id, {parts.warnings(), oneLine(error.what()), "", "", ""});
+            throw;
+        }
+        records.store(part.id, {parts.warnings(), "", "", "", ""});
         return;
     }
     if (const auto missing = missingBefore(part, prepared); !missing.empty())
@@ -174,6 +187,8 @@ void runPart(const Part& part, PreparedExperiment& prepared, const ResultsFolder
     const auto result = parts.runVariant(prepared.variants()[part.variant], progress);
     summary.validationMessages = parts.printValidationMessages(progress);
     if (!result) throw Interrupted();
+    records.store(part.id,
+                  {parts.warnings(), result->error, result->device, result->tracer, result->session});
     if (!result->ok) throw Error("{}: {}", part.id, result->error);
     for (const std::string& text : disturbances({{&*result, "", isAtRest(prepared, part.variant)}}))
         progress.warn(text);

@@ -12,13 +12,15 @@ struct RunOptions {
     std::filesystem::path scenes;  ///< Of --scenes; searched first.
     std::string deviceName;        ///< Empty: the best.
     std::string tracer;            ///< Name of a backend; replaces the config's. Empty: the config's.
-    bool resume = false;           ///< Keep what an earlier run of the same experiment finished.
+    bool resume = false;           ///< Keep what an earlier run of the same experiment finished, and wait for
+                                   ///< another process that is at the same part.
     bool dryRun = false;           ///< Print variants, passes and predicted memory; render nothing.
     bool quiet = false;
     bool validation = false;  ///< Vulkan validation layer; its messages fail the run.
     bool aovs = false;        ///< Write AOVs of frame 0 next to each variant's images.
     bool report = true;       ///< Make report.html at the end.
     std::string part;         ///< Do this part of the experiment alone (parts.h); empty: all of them.
+    bool untimed = false;     ///< Of a part: it shares its machine with others, and times are warned of.
     std::filesystem::path sourceRoot;
 };
 

@@ -180,10 +180,9 @@ ReferenceImages Session::makeReference(const std::string& hash, const WiredExper
 RenderedPart Session::referencePart(const WiredExperiment& experiment, const Setup& setup,
                                     const Registry& registry, uint32_t number, SamplePart samples,
                                     const std::function<void(double)>& progress) {
-    if (samples.parts == 1)
-        if (const auto cached = cache_.load(referenceHashOf(experiment, setup, number), setup.image.width,
-                                            setup.image.height))
-            return partOf(*cached);
+    if (const auto cached =
+            cache_.load(referenceHashOf(experiment, setup, number), setup.image.width, setup.image.height))
+        return partOf(*cached);
     return renderPart(experiment, setup, registry, number, samples, progress);
 }
 

@@ -61,7 +61,7 @@ class Session {
     ReferenceImages frameReference(const WiredExperiment& experiment, const Setup& setup,
                                    const Registry& registry, uint32_t number,
                                    const std::function<void(double)>& progress);
-    /// Renders a part of a reference, or takes a whole one out of the cache. @throws Error, Interrupted.
+    /// Renders a part of a reference, or takes the whole out of the cache. @throws Error, Interrupted.
     RenderedPart referencePart(const WiredExperiment& experiment, const Setup& setup,
                                const Registry& registry, uint32_t number, SamplePart samples,
                                const std::function<void(double)>& progress);

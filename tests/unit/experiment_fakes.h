@@ -118,9 +118,11 @@ class Truth : public Pass {
     struct Params {
         uint32_t spp = 4;
         float noise = 0;
+        bool fail = false;
         static constexpr auto schema() {
             return std::tuple{field("spp", &Params::spp, "Samples.", 1u, 1000u),
-                              field("noise", &Params::noise, "Of each half.", 0.0f, 1.0f)};
+                              field("noise", &Params::noise, "Of each half.", 0.0f, 1.0f),
+                              field("fail", &Params::fail, "Throw.")};
         }
     };
     static inline int runs = 0;
@@ -132,6 +134,7 @@ class Truth : public Pass {
     void plan(PassPlan&) override {}
     void prepare(PassSetup&) override {}
     void record(PassContext& context) override {
+        if (params_.fail) throw Error("no truth");
         ++runs;
         seeds.push_back(context.frame.seed + context.frameIndex);
         const Frame& frame = context.frame;

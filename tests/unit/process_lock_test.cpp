@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <functional>
@@ -101,6 +102,42 @@ TEST_F(SharedFolder, SharedLocksExcludeThoseHeldAlone) {
     end(second, SIGTERM);
     EXPECT_FALSE(fs::exists(file()));
     EXPECT_TRUE(canTake(Kind::Alone));
+}
+
+TEST_F(SharedFolder, WhoWaitsGetsTheLockWhenItsHolderEnds) {
+    const pid_t holder = hold(Kind::Alone);
+    std::thread killer([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        ::kill(holder, SIGKILL);
+    });
+    const auto began = std::chrono::steady_clock::now();
+    {
+        const ProcessLock lock(file(), Kind::Alone, folder_, ProcessLock::IfHeld::Wait);
+        EXPECT_GE(std::chrono::steady_clock::now() - began, std::chrono::milliseconds(300));
+    }
+    killer.join();
+    end(holder, SIGKILL);
+}
+
+TEST_F(SharedFolder, ALockGoesOnInTheProgramThatTakesTheProcessOver) {
+    int ready[2];
+    ASSERT_EQ(::pipe(ready), 0);
+    const pid_t process = ::fork();
+    if (process == 0) {
+        ProcessLock lock(file(), Kind::Alone, folder_);
+        lock.keepAcrossExec();
+        ::dup2(ready[1], STDOUT_FILENO);
+        ::execlp("sh", "sh", "-c", "echo; exec sleep 60", nullptr);
+        ::_exit(1);
+    }
+    holders_.push_back(process);
+    char byte = 0;
+    EXPECT_EQ(::read(ready[0], &byte, 1), 1);
+    EXPECT_FALSE(canTake(Kind::Alone));
+    end(process, SIGKILL);
+    EXPECT_TRUE(canTake(Kind::Alone));
+    ::close(ready[0]);
+    ::close(ready[1]);
 }
 
 TEST_F(SharedFolder, FoldersAreReplacedWhole) {

@@ -122,16 +122,86 @@ TEST_F(RunInParts, UnknownPartsAndOtherExperimentsAreRefused) {
                     "holds parts of another experiment: config.seed: nothing and 3");
 }
 
-TEST_F(RunInParts, AFailedVariantIsAnErrorAndMissesInTheMerge) {
+TEST_F(RunInParts, AReferenceInTheCacheIsNotRenderedInPartsAgain) {
+    const std::vector<Part> all = parts(3);
+    runPart(all[1].id);
+    EXPECT_EQ(Truth::runs, 1);
+    RunOptions o = options();
+    o.out = root_ / "whole";
+    run(kSweep, o);
+    const int rendered = Truth::runs;
+    runPart(all[0].id);
+    runPart(all[2].id);
+    EXPECT_EQ(Truth::runs, rendered);
+
+    // Parts that hold all samples and one that holds its own are still the same reference
+    useCache("other-cache");
+    EXPECT_EQ(runPart("variant.value-0.5").exitStatus(), 0);
+    EXPECT_EQ(Truth::runs, rendered);
+    runPart("variant.value-1");
+    EXPECT_EQ(runPart("merge").exitStatus(), 0);
+    EXPECT_EQ(cell("value-0.5", "nrmse"), "0.5");
+    EXPECT_EQ(cell("value-1", "nrmse"), "0");
+}
+
+TEST_F(RunInParts, WhatPartsWarnOfReachesTheMerge) {
+    RunOptions o = options();
+    o.part = parts(1)[0].id;
+    run(kSweep, o);
+    o.part = "variant.value-1";
+    o.untimed = true;
+    run(kSweep, o);
+    o.untimed = false;
+    o.part = "variant.value-0.5";
+    run(kSweep, o);
+    const auto manifest = [&](const std::string& folder) {
+        return nlohmann::json::parse(readTextFile(root_ / folder / "manifest.json"));
+    };
+    const size_t before = manifest("out")["warnings"].size();
+    EXPECT_EQ(merge({"out"}, "all").exitStatus(), 0);
+    const auto warnings = manifest("all")["warnings"];
+    ASSERT_EQ(warnings.size(), before + 1);
+    EXPECT_CONTAINS(warnings.back().get<std::string>(), "their times tell nothing");
+}
+
+TEST_F(RunInParts, AFailedReferenceIsWhyVariantsFailed) {
+    std::string text = config(kSweep);
+    const std::string pass = "pass: truth";
+    text.replace(text.find(pass), pass.size(), pass + ", fail: true");
+    const Registry passes = registry();
+    const auto wired = [&] { return wireExperiment(parseExperiment(text, "fake.yaml"), passes); };
+    RunOptions o = options();
+    PreparedExperiment prepared(wired(), o, passes);
+    const std::string id = partsOf(prepared, 1)[0].id;
+    o.part = id;
+    EXPECT_CONTAINS(errorOf([&] { runExperiment(wired(), o, passes); }), "no truth");
+    o.part = "merge";
+    EXPECT_EQ(runExperiment(wired(), o, passes).failed, 2u);
+    EXPECT_EQ(cell("value-1", "status"), "failed");
+    EXPECT_CONTAINS(cell("value-0.5", "error"), id + ": ");
+}
+
+TEST_F(RunInParts, AFailedVariantIsAnErrorAndARowOfTheMerge) {
     const std::string sweep = "sweep: {constant.fail: [true, false]}\n";
     runPart(parts(1, sweep)[0].id, "out", sweep);
     EXPECT_CONTAINS(errorOf([&] { runPart("variant.fail-true", "out", sweep); }), "the pass gave up");
     EXPECT_FALSE(fs::exists(root_ / "out" / "images" / "fail-true"));
     runPart("variant.fail-false", "out", sweep);
-    const RunSummary summary = runPart("merge", "out", sweep);
-    EXPECT_EQ(summary.missing, 1u);
+    const RunSummary summary = merge({"out"}, "all");
+    EXPECT_EQ(summary.failed, 1u);
+    EXPECT_EQ(summary.missing, 0u);
     EXPECT_EQ(summary.exitStatus(), 1);
+    fs::remove_all(root_ / "out");
+    fs::rename(root_ / "all", root_ / "out");
     EXPECT_EQ(cell("fail-false", "status"), "ok");
+    EXPECT_EQ(cell("fail-true", "status"), "failed");
+    EXPECT_EQ(cell("fail-true", "constant.fail"), "true");
+    EXPECT_EQ(cell("fail-true", "error"), "the pass gave up");
+
+    // Merged once more it is still known why; once it is done, it is a result
+    EXPECT_EQ(runPart("merge", "out", sweep).failed, 1u);
+    fs::remove_all(root_ / "out" / "parts");
+    EXPECT_EQ(runPart("merge", "out", sweep).missing, 1u);
     EXPECT_EQ(cell("fail-true", "status"), "absent");
 }
 
