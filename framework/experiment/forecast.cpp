@@ -28,15 +28,19 @@ void print(const Forecast& forecast) {
 
 }  // namespace
 
-Forecast forecast(WiredVariant& variant, PreparedExperiment& prepared) {
-    Session& session = prepared.session();
-    const PreparedScene scene = session.loader().prepare(variant.setup.scene);
-    const Frame frame = frameOf(variant.setup, scene, variant.setup.general.seed);
+Forecast Forecaster::forecast(WiredVariant& variant) {
+    Session& session = prepared_.session();
+    if (std::string key = session.loader().key(variant.setup.scene); key != sceneKey_) {
+        scene_ = session.loader().prepare(variant.setup.scene);
+        sceneBytes_ = gpuSceneBytes(scene_.state);
+        sceneKey_ = std::move(key);
+    }
+    const Frame frame = frameOf(variant.setup, scene_, variant.setup.general.seed);
     Forecast own;
     try {
-        own.memory = session.plan(variant.graph, frame, prepared.experiment().measure.memoryLimitMb);
+        own.memory = session.plan(variant.graph, frame, prepared_.experiment().measure.memoryLimitMb);
         own.passes = variant.graph.passes();
-        own.sceneBytes = gpuSceneBytes(scene.state);
+        own.sceneBytes = sceneBytes_;
     } catch (const Error& error) {
         own.error = error.what();
     }
@@ -48,11 +52,12 @@ size_t printForecasts(PreparedExperiment& prepared) {
     fmt::print("{}: {} variant{} on {}\n", prepared.experiment().setup.general.name, count,
                count == 1 ? "" : "s", prepared.session().device().info().name);
     size_t failed = 0;
+    Forecaster forecaster(prepared);
     for (WiredVariant& variant : prepared.variants()) {
         if (interruptRequested()) throw Interrupted();
         fmt::print("{} (tracer {}, {} x {})\n", variant.name, prepared.session().tracerName(variant.setup),
                    variant.setup.image.width, variant.setup.image.height);
-        const Forecast own = forecast(variant, prepared);
+        const Forecast own = forecaster.forecast(variant);
         print(own);
         failed += own.error.empty() ? 0 : 1;
     }

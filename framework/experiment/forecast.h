@@ -15,8 +15,19 @@ struct Forecast {
     std::string error;               ///< Why it would fail; the others are empty then.
 };
 
-/// Plans a variant on its scene and the session's device.
-Forecast forecast(WiredVariant& variant, PreparedExperiment& prepared);
+/// Plans variants on their scenes and the session's device. Those in a row mostly share a scene.
+class Forecaster {
+ public:
+    /// The experiment must outlive this object.
+    explicit Forecaster(PreparedExperiment& prepared) : prepared_(prepared) {}
+    Forecast forecast(WiredVariant& variant);
+
+ private:
+    PreparedExperiment& prepared_;
+    std::string sceneKey_;
+    PreparedScene scene_;
+    uint64_t sceneBytes_ = 0;
+};
 
 /// Prints variants, passes and predicted memory. @return how many variants would fail. @throws Interrupted.
 size_t printForecasts(PreparedExperiment& prepared);

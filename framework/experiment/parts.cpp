@@ -53,7 +53,7 @@ struct Need {
     std::string error;  ///< Why it would fail.
 };
 
-Need needOf(const Part& part, PreparedExperiment& prepared) {
+Need needOf(const Part& part, PreparedExperiment& prepared, Forecaster& forecaster) {
     if (part.kind == Part::Kind::Merge) return {};
     WiredVariant& variant = prepared.variants()[part.variant];
     if (part.kind == Part::Kind::Reference) {
@@ -65,7 +65,7 @@ Need needOf(const Part& part, PreparedExperiment& prepared) {
                 "paths",
                 {}};
     }
-    const Forecast own = forecast(variant, prepared);
+    const Forecast own = forecaster.forecast(variant);
     return {peakBytes(own.memory) + own.sceneBytes, graphRuns(prepared.experiment()), "runs of the graph",
             own.error};
 }
@@ -173,9 +173,10 @@ std::vector<std::string> missingBefore(const Part& part, PreparedExperiment& pre
 std::string describeParts(PreparedExperiment& prepared, uint32_t referenceParts, bool asJson) {
     Json jobs = Json::array();
     std::string table;
+    Forecaster forecaster(prepared);
     for (const Part& part : partsOf(prepared, referenceParts)) {
         if (interruptRequested()) throw Interrupted();
-        const Need need = needOf(part, prepared);
+        const Need need = needOf(part, prepared, forecaster);
         jobs.push_back(jobJson(part, need));
         table += jobLine(part, need);
     }
