@@ -8,14 +8,6 @@ namespace {
 
 const std::vector<std::string> kAdditionKeys{"transform", "material"};
 
-Placement readPlacement(const Value& map, const std::string& owner) {
-    const Placement placement = readParams<Placement>(map, owner);
-    for (int axis = 0; axis < 3; ++axis)
-        if (placement.scale[axis] == 0)
-            throw UsageError(map.find("scale")->where, "{}.scale: 0 leaves nothing of the scene", owner);
-    return placement;
-}
-
 SceneAddition readAddition(const Value& entry, const std::string& owner) {
     if (!entry.isMap())
         throw UsageError(entry.where, "{}: expected a map such as {{file: dragon.glb}} or {{builtin: plane}}",
@@ -65,6 +57,14 @@ SceneSource readSceneSource(const Value& map, const std::string& owner,
     if (!hasFile && !hasBuiltin) throw UsageError(map.where, "{}: needs 'file' or 'builtin'", owner);
     read.where = map.find(hasFile ? "file" : "builtin")->where;
     return read;
+}
+
+Placement readPlacement(const Value& map, const std::string& owner) {
+    const Placement placement = readParams<Placement>(map, owner);
+    for (int axis = 0; axis < 3; ++axis)
+        if (placement.scale[axis] == 0)
+            throw UsageError(map.find("scale")->where, "{}.scale: 0 leaves nothing of the scene", owner);
+    return placement;
 }
 
 std::vector<SceneAddition> readSceneAdditions(const Value& list) {

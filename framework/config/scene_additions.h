@@ -36,6 +36,9 @@ struct SceneSource {
 SceneSource readSceneSource(const Value& map, const std::string& owner,
                             const std::vector<std::string>& otherKeys);
 
+/// Reads `transform` of a scene or of an addition. @throws UsageError also for a scale of 0.
+Placement readPlacement(const Value& map, const std::string& owner);
+
 /// An entry of `scene.add`.
 struct SceneAddition {
     SceneSource source;

@@ -149,7 +149,8 @@ void readEnvironment(const Value& value, SceneSettings& settings) {
 /// Keys that any scene may have next to its source.
 std::vector<std::string> sceneKeys() {
     std::vector<std::string> keys = fieldNames<SceneOptions>();
-    keys.insert(keys.end(), {"camera", "lights", "environment", "moving_spheres", "add", "override"});
+    keys.insert(keys.end(),
+                {"camera", "lights", "environment", "moving_spheres", "transform", "add", "override"});
     return keys;
 }
 
@@ -193,6 +194,8 @@ SceneSettings readSceneSettings(const Value& map) {
                     "scene.lights: expected a list of lights, as in [{{point: [0, 1, 0], intensity: 5}}]");
             for (size_t i = 0; i < value.items.size(); ++i)
                 settings.lights.push_back(readLight(value.items[i], i));
+        } else if (key == "transform") {
+            if (!value.isNull()) settings.placement = readPlacement(value, "scene.transform");
         } else if (key == "add") {
             settings.additions = readSceneAdditions(value);
         } else if (key == "override") {

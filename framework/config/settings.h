@@ -287,6 +287,7 @@ struct ConfigLight {
 struct SceneSettings {
     SceneSource source;
     SceneOptions options;
+    std::optional<Placement> placement;  ///< Of the source; empty: as it is.
     std::vector<SceneAddition> additions;
     std::vector<MaterialOverride> overrides;
     std::string cameraName;  ///< Empty: `camera`, or the scene's first camera.

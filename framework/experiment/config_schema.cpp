@@ -154,6 +154,7 @@ Value sceneSchema() {
     Value schema = mapSchema(describeParams<SceneOptions>());
     Value& properties = *schema.find("properties");
     properties.set("moving_spheres", mapSchema(describeParams<MovingSpheres>()));
+    properties.set("transform", mapSchema(describeParams<Placement>()));
     properties.set("camera", anyOf({string, camera}));
     properties.set("lights", anyOf({string, lightList}));
     properties.set("environment",

@@ -217,6 +217,7 @@ std::shared_ptr<const ImageF> SceneLoader::loadMap(const SceneSettings& settings
 std::string SceneLoader::key(const SceneSettings& settings) {
     Hasher hasher;
     hasher.add(load(settings.source)->contentHash);
+    if (settings.placement) hasher.add("transform").add(writeParams(*settings.placement).text());
     for (const auto& [source, placement, material] : settings.additions)
         hasher.add("add")
             .add(load(source)->contentHash)
@@ -282,11 +283,12 @@ std::shared_ptr<const Scene> SceneLoader::compose(const SceneSettings& settings)
         return settings.options.materials == MaterialMode::Lambert ? withLambertMaterials(*scene) : scene;
     };
     std::shared_ptr<const Scene> scene = loadInMode(settings.source);
-    if (settings.additions.empty() && settings.overrides.empty() && !settings.environment &&
-        !settings.movingSpheres && settings.options.subdivide == 0)
+    if (!settings.placement && settings.additions.empty() && settings.overrides.empty() &&
+        !settings.environment && !settings.movingSpheres && settings.options.subdivide == 0)
         return scene;
 
-    auto composed = std::make_shared<Scene>(*scene);
+    auto composed = settings.placement ? std::make_shared<Scene>(placedScene(*scene, *settings.placement))
+                                       : std::make_shared<Scene>(*scene);
     for (const auto& [source, placement, settingsOfMaterial] : settings.additions) {
         std::optional<Material> material;
         if (settingsOfMaterial) material = makeMaterial(source.name(), *settingsOfMaterial);

@@ -18,6 +18,11 @@ Node nodeOf(const Placement& placement, const std::string& name) {
     return node;
 }
 
+/// What a node makes of a direction, with its length.
+glm::vec3 transformed(const Node& node, const glm::vec3& vector) {
+    return node.rotation * (node.scale * vector);
+}
+
 /// Copies textures and materials. @return the number of the first of these materials.
 uint32_t addMaterials(Scene& scene, const Scene& added) {
     const int32_t firstTexture = int32_t(scene.textures.size());
@@ -39,11 +44,8 @@ void addScene(Scene& scene, const Scene& added, const Placement& placement, cons
     // Nodes below the one that places them
     const int32_t root = int32_t(scene.nodes.size());
     const auto numberOf = [&](int32_t node) { return node < 0 ? root : root + 1 + node; };
-    scene.nodes.push_back(nodeOf(placement, name));
-    const Node& placing = scene.nodes.back();
-    const auto placed = [rotation = placing.rotation, scale = placing.scale](const glm::vec3& vector) {
-        return rotation * (scale * vector);
-    };
+    const Node placing = nodeOf(placement, name);
+    scene.nodes.push_back(placing);
     for (Node node : added.nodes) {
         node.parent = numberOf(node.parent);
         scene.nodes.push_back(std::move(node));
@@ -67,13 +69,36 @@ void addScene(Scene& scene, const Scene& added, const Placement& placement, cons
     // Lights; those without a node stand in the added scene's world
     for (Light light : added.lights) {
         if (light.node < 0) {
-            light.position = placement.translate + placed(light.position);
-            light.direction = glm::normalize(placed(light.direction));
+            light.position = placement.translate + transformed(placing, light.position);
+            light.direction = glm::normalize(transformed(placing, light.direction));
         } else {
             light.node = numberOf(light.node);
         }
         scene.lights.push_back(std::move(light));
     }
+}
+
+Scene placedScene(const Scene& scene, const Placement& placement) {
+    Scene placed;
+    placed.name = scene.name;
+    placed.environment = scene.environment;
+    placed.warnings = scene.warnings;
+    addScene(placed, scene, placement, scene.name);
+
+    // Cameras, as lights: those without a node stand in the scene's world
+    const Node& placing = placed.nodes.front();
+    for (Camera camera : scene.cameras) {
+        if (camera.node < 0) {
+            camera.position = placement.translate + transformed(placing, camera.position);
+            camera.forward = glm::normalize(transformed(placing, camera.forward));
+            const glm::vec3 up = transformed(placing, camera.up);
+            camera.up = glm::normalize(up - glm::dot(up, camera.forward) * camera.forward);
+        } else {
+            ++camera.node;
+        }
+        placed.cameras.push_back(std::move(camera));
+    }
+    return placed;
 }
 
 }  // namespace voxray

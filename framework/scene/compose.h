@@ -5,14 +5,14 @@
 
 namespace voxray {
 
-/// How an added scene is placed: scaled, then rotated about the axes X, Y and Z in this order, then moved.
+/// How a scene is placed: scaled, then rotated about the axes X, Y and Z in this order, then moved.
 struct Placement {
     glm::vec3 translate{0.0f};
     glm::vec3 rotateDegrees{0.0f};
     glm::vec3 scale{1.0f};
     static constexpr auto schema() {
         return std::tuple{
-            field("translate", &Placement::translate, "Where the added scene's origin goes, metres.",
+            field("translate", &Placement::translate, "Where the scene's origin goes, metres.",
                   glm::vec3(-1e6f), glm::vec3(1e6f))
                 .asVector(),
             field("rotate_deg", &Placement::rotateDegrees,
@@ -33,5 +33,9 @@ struct Placement {
 /// stays.
 void addScene(Scene& scene, const Scene& added, const Placement& placement, const std::string& name,
               const Material* material = nullptr);
+
+/// The scene below one new node that places it: surfaces, punctual lights, cameras and animation. Lights keep
+/// their intensity, the environment its directions. The content hash is left empty.
+Scene placedScene(const Scene& scene, const Placement& placement);
 
 }  // namespace voxray

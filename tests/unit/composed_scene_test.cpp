@@ -66,6 +66,25 @@ TEST(ComposedSceneLoader, AddsOverridesAndKeepsItsCamera) {
             .state.lights.empty());
 }
 
+TEST(ComposedSceneLoader, AScenesOwnTransformTakesItsCameraAlongAndNothingOfTheConfig) {
+    SceneLoader loader({});
+    const PreparedScene plain = loader.prepare(settingsOf(""));
+    const PreparedScene placed =
+        loader.prepare(settingsOf("  transform: {translate: [100, 0, 0]}\n  add: [{builtin: plane}]\n"));
+    const glm::vec3 way(100, 0, 0);
+    EXPECT_EQ(placed.camera.position, plain.camera.position + way);
+    EXPECT_EQ(placed.camera.forward, plain.camera.forward);
+    EXPECT_EQ(placed.state.lights[0].position, plain.state.lights[0].position + way);
+    for (size_t i = 0; i < plain.state.geometry.positions.size(); ++i)
+        EXPECT_EQ(placed.state.geometry.positions[i], plain.state.geometry.positions[i] + way);
+    EXPECT_EQ(placed.state.geometry.boundsMin.x, -5) << "what is added stays";
+
+    const PreparedScene looked = loader.prepare(
+        settingsOf("  transform: {translate: [100, 0, 0]}\n  camera: {position: [0, 1, 4], target: [0, 1, "
+                   "0]}\n"));
+    EXPECT_EQ(looked.camera.position, glm::vec3(0, 1, 4));
+}
+
 TEST(ComposedSceneLoader, LambertLeavesWhatTheConfigSays) {
     SceneLoader loader({});
     const PreparedScene prepared = loader.prepare(
@@ -98,7 +117,8 @@ TEST(ComposedSceneLoader, KeysTellCompositionsApart) {
     std::set<std::string> keys;
     size_t count = 0;
     for (const char* rest :
-         {"", "  add: [{builtin: plane}]\n", "  add: [{builtin: plane, albedo: 0.25}]\n",
+         {"", "  transform: {scale: 2}\n", "  transform: {translate: [0, 1, 0]}\n",
+          "  add: [{builtin: plane}]\n", "  add: [{builtin: plane, albedo: 0.25}]\n",
           "  add: [{builtin: plane}, {builtin: plane}]\n",
           "  add: [{builtin: plane, transform: {scale: 2}}]\n",
           "  add: [{builtin: plane, transform: {translate: [0, 1, 0]}}]\n",

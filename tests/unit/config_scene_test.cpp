@@ -46,6 +46,19 @@ TEST(ComposedScene, AdditionsAreRead) {
     EXPECT_TRUE(read("  add:\n").additions.empty());
 }
 
+TEST(ComposedScene, TheScenesOwnTransformIsRead) {
+    const SceneSettings scene = read("  transform: {rotate_deg: [17, 0, 0], scale: 0.5}\n");
+    ASSERT_TRUE(scene.placement);
+    EXPECT_EQ(scene.placement->rotateDegrees, glm::vec3(17, 0, 0));
+    EXPECT_EQ(scene.placement->scale, glm::vec3(0.5f));
+    EXPECT_EQ(scene.source.builtinParameters.text(), "{lights: point}");
+    EXPECT_FALSE(read("  transform: null\n").placement);
+    EXPECT_FALSE(read("").placement);
+    expectError("  transform: {scale: 0}\n", {"demo.yaml:5: ", "scene.transform.scale: 0 leaves nothing"});
+    expectError("  transform: {rotate: [17, 0, 0]}\n",
+                {"demo.yaml:5: ", "scene.transform: unknown parameter 'rotate'", "rotate_deg"});
+}
+
 TEST(ComposedScene, OverridesHoldWhatIsGivenAlone) {
     const SceneSettings scene =
         read("  override:\n    grey: {roughness: 0.5, emission: 3}\n    red: {metallic: 1}\n");

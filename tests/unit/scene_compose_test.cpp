@@ -106,6 +106,38 @@ TEST(Compose, TexturesLightsAndAnimationFollow) {
     EXPECT_TRUE(moving.geometry.instances[3].moves);
 }
 
+TEST(Compose, APlacedSceneTakesItsLightsAndCamerasAlong) {
+    auto before = std::make_shared<Scene>(*clock());
+    Camera onNode;
+    onNode.name = "on the bob";
+    onNode.node = 1;
+    before->cameras.push_back(onNode);
+    before->environment.radiance = glm::vec3(2);
+    const Placement placement{{3, 1, -2}, {0, 90, 17}, glm::vec3(2)};
+    const SceneState was = evaluate(before, 0.7);
+    const SceneState is = evaluate(std::make_shared<Scene>(placedScene(*before, placement)), 0.7);
+    const glm::mat4 matrix = matrixOf(placement);
+    const auto rotated = [&](const glm::vec3& v) { return glm::normalize(glm::mat3(matrix) * v); };
+    ASSERT_EQ(is.geometry.positions.size(), was.geometry.positions.size());
+    for (size_t i = 0; i < was.geometry.positions.size(); ++i)
+        expectNear(is.geometry.positions[i], transformed(matrix, was.geometry.positions[i]), 4e-6f);
+    EXPECT_EQ(is.geometry.triangleMaterials, was.geometry.triangleMaterials);
+    ASSERT_EQ(is.lights.size(), was.lights.size());
+    for (size_t i = 0; i < was.lights.size(); ++i) {
+        expectNear(is.lights[i].position, transformed(matrix, was.lights[i].position), 4e-6f);
+        expectNear(is.lights[i].direction, rotated(was.lights[i].direction), 2e-6f);
+        EXPECT_EQ(is.lights[i].intensity, was.lights[i].intensity);
+    }
+    ASSERT_EQ(is.cameras.size(), 2u);
+    for (size_t i = 0; i < 2; ++i) {
+        expectNear(is.cameras[i].position, transformed(matrix, was.cameras[i].position), 4e-6f);
+        expectNear(is.cameras[i].forward, rotated(was.cameras[i].forward), 2e-6f);
+        expectNear(is.cameras[i].up, rotated(was.cameras[i].up), 2e-6f);
+        EXPECT_EQ(is.cameras[i].verticalFovRadians, was.cameras[i].verticalFovRadians);
+    }
+    EXPECT_EQ(is.scene->environment.radiance, glm::vec3(2));
+}
+
 TEST(Compose, OneMaterialStandsInForAll) {
     Scene composed = *makeBuiltinScene("cornell", {});
     const size_t materials = composed.materials.size();
