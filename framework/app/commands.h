@@ -17,6 +17,7 @@ void addMergeCommand(CLI::App& app, int& status);
 void addSweepCommand(CLI::App& app, int& status);
 void addParetoCommand(CLI::App& app, int& status);
 void addExplainCommand(CLI::App& app, int& status);
+void addStabilityCommand(CLI::App& app, int& status);
 void addTuneCommand(CLI::App& app, int& status);
 void addPassesCommand(CLI::App& app, int& status);
 void addDevicesCommand(CLI::App& app, int& status);

@@ -75,6 +75,7 @@ int main(int argc, char** argv) {
     addCompareCommand(app, status);
     addParetoCommand(app, status);
     addExplainCommand(app, status);
+    addStabilityCommand(app, status);
     addTuneCommand(app, status);
     addPassesCommand(app, status);
     addDevicesCommand(app, status);

@@ -1,0 +1,47 @@
+"""Holds the runs of `voxray stability` against their limits: make_stability.py RESULTS_DIR LIMITS.csv."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import io
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+
+from report import stability, stability_page  # noqa: E402
+from report.load import ReportError  # noqa: E402
+from report.make_report import write_whole  # noqa: E402
+
+
+def main(arguments: list[str]) -> int:
+    """Exit status: 0 done, 1 a file could not be written, 2 no results or limits to read."""
+    parser = argparse.ArgumentParser(description="Makes stability.html, stability.md and stability.csv from the runs of a matrix.")
+    parser.add_argument("results", type=Path, metavar="RESULTS_DIR", help="holds a results folder for each profile")
+    parser.add_argument("limits", type=Path, metavar="LIMITS.csv",
+                        help="what is measured in each scene and its limit; known reasons stand next to it, in LIMITS_reasons.csv")
+    options = parser.parse_args(arguments)
+    try:
+        reasons = stability.read_reasons(options.limits.with_name(options.limits.stem + "_reasons.csv"))
+        cells = stability.cells_of(options.results, stability.read_limits(options.limits), reasons)
+        page = stability_page.render(cells, options.results)
+    except ReportError as error:
+        print(f"stability: {error}", file=sys.stderr)
+        return 2
+    lines = io.StringIO()
+    csv.writer(lines, lineterminator="\n").writerows(stability_page.csv_lines(cells))
+    try:
+        write_whole(options.results / "stability.html", page)
+        write_whole(options.results / "stability.csv", lines.getvalue())
+        write_whole(options.results / "stability.md", "\n".join(stability_page.markdown(cells)) + "\n")
+    except OSError as error:
+        print(f"stability: {options.results}: cannot write: {error.strerror or error}", file=sys.stderr)
+        return 1
+    print(stability_page.summary(cells))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,192 @@
+"""What `voxray stability` measured: of each scene and method a number, the limit that it is held against, and why it fails."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from report import exr_pixels
+from report.load import IMAGES, ReportError, Results, load, number
+
+_LIMIT_COLUMNS = ("profile", "scene", "measure", "methods", "limit", "scale", "why")
+_REASON_COLUMNS = ("scene", "measure", "methods", "reason")
+UNKNOWN = "not known"
+
+
+@dataclass(frozen=True)
+class Row:
+    """A scene and what is measured in it.
+
+    limits: beginnings of methods' names, and the limit of these; the last that fits counts.
+    scale: the radiance that a leak is a part of, W/(m² sr), or how much more light there is than in the profile's first scene.
+    """
+
+    profile: str
+    scene: str
+    measure: str
+    limits: tuple[tuple[str, float], ...]
+    scale: float
+    why: str
+
+    def limit(self, method: str) -> float:
+        return [limit for beginning, limit in self.limits if method.startswith(beginning)][-1]
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A method in a row. value: relative, NaN where the method did not run. picture, truth: PNGs, of what it shows and
+    of what it should show, None where there is none."""
+
+    row: Row
+    method: str
+    value: float
+    reason: str
+    picture: Path | None
+    truth: Path | None
+
+    @property
+    def limit(self) -> float:
+        return self.row.limit(self.method)
+
+    @property
+    def fails(self) -> bool:
+        return not self.value <= self.limit
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A finished variant: its row of results.csv, its image, and that of the profile's first scene by the same method."""
+
+    scores: dict
+    image: Path | None
+    base: Path | None
+
+    def pixels(self) -> np.ndarray:
+        return _pixels(self.image)
+
+    def base_pixels(self) -> np.ndarray:
+        return _pixels(self.base)
+
+
+def _pixels(path: Path | None) -> np.ndarray:
+    """RGB, shape (height, width, 3); NaN where there is no image."""
+    if path is None:
+        return np.full((1, 1, 3), math.nan)
+    channels = exr_pixels.read(path)
+    return np.stack([channels[name].astype(float) for name in "RGB"], axis=-1)
+
+
+def _leak(variant: Variant, scale: float) -> float:
+    return float(variant.pixels().mean()) / scale
+
+
+def _mean(variant: Variant, scale: float) -> float:
+    base = float(variant.base_pixels().mean())
+    return abs(float(variant.pixels().mean()) / (scale * base) - 1) if base else math.nan
+
+
+def _image(variant: Variant, scale: float) -> float:
+    base, found = variant.base_pixels(), variant.pixels() / scale
+    if base.shape != found.shape or not base.mean():
+        return math.nan
+    return math.sqrt(float(((found - base) ** 2).mean())) / float(base.mean())
+
+
+def _score(column: str) -> Callable[[Variant, float], float]:
+    return lambda variant, _: number(variant.scores.get(column))
+
+
+# What is measured of the indirect light, and what that says.
+MEASURES: dict[str, tuple[Callable[[Variant, float], float], str]] = {
+    "leak": (_leak, "mean radiance where all is black, over that of the lit side"),
+    "energy": (lambda variant, _: abs(number(variant.scores.get("indirect_mean_ratio")) - 1),
+               "mean radiance over the reference's, less 1, absolute"),
+    "bias": (_score("indirect_bias_nrmse"), "error apart from noise (bias_nrmse), over the reference's mean"),
+    "mean": (_mean, "mean radiance over that in the profile's first scene, less 1, absolute"),
+    "image": (_image, "root mean square of the difference from the image of the profile's first scene, over its mean"),
+    "drift": (_score("indirect_temporal_bias"), "temporal bias: how much the error grows each frame, over the reference's mean"),
+    "flicker": (_score("indirect_temporal_flicker"), "temporal flicker: how much the error varies from frame to frame"),
+}
+
+
+def _table(path: Path, columns: tuple[str, ...]) -> list[dict[str, str]]:
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+            header = tuple(rows[0]) if rows else columns
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise ReportError(f"{path}: cannot read: {error}") from error
+    if header != columns or any(None in row.values() for row in rows):
+        raise ReportError(f"{path}: expected the columns {', '.join(columns)}")
+    return rows
+
+
+def read_limits(path: Path) -> list[Row]:
+    """@throws ReportError for a table with other columns, an unknown measure, or a row without a limit for all methods."""
+    found: dict[tuple[str, ...], Row] = {}
+    for entry in _table(path, _LIMIT_COLUMNS):
+        key = (entry["profile"], entry["scene"], entry["measure"])
+        limit, scale = number(entry["limit"]), number(entry["scale"] or 1)
+        if entry["measure"] not in MEASURES:
+            raise ReportError(f"{path}: no measure '{entry['measure']}'; one of {', '.join(MEASURES)}")
+        if not limit >= 0 or not scale > 0:
+            raise ReportError(f"{path}: {', '.join(key)}: a limit is 0 or more, a scale above 0")
+        if key not in found and entry["methods"]:
+            raise ReportError(f"{path}: {', '.join(key)}: the first limit is that of all methods")
+        before = found[key].limits if key in found else ()
+        found[key] = Row(*key, (*before, (entry["methods"], limit)), scale, entry["why"])
+    return list(found.values())
+
+
+def read_reasons(path: Path) -> list[dict[str, str]]:
+    """Known reasons for failing: of scenes (empty: all), measures (likewise) and beginnings of methods' names."""
+    return _table(path, _REASON_COLUMNS) if path.is_file() else []
+
+
+def reason_of(reasons: list[dict[str, str]], row: Row, method: str) -> str:
+    """The last reason that fits."""
+    fitting = [entry["reason"] for entry in reasons if entry["scene"] in ("", row.scene)
+               and entry["measure"] in ("", row.measure) and method.startswith(entry["methods"])]
+    return fitting[-1] if fitting else UNKNOWN
+
+
+def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, str]]) -> list[Cell]:
+    variants = results.variants.to_dict("records")
+    if not variants or not {"scene", "method"} <= set(variants[0]):
+        raise ReportError(f"{results.directory}: its sweep has no axes 'scene' and 'method'")
+    exr, png = IMAGES["indirect"][0].replace(".png", ".exr"), IMAGES["indirect"][0]
+    first = {entry["method"]: entry["variant"] for entry in variants if entry["scene"] == variants[0]["scene"]}
+    cells = []
+    for row in rows:
+        for entry in (entry for entry in variants if entry["scene"] == row.scene):
+            name, method = entry["variant"], entry["method"]
+            base = first.get(method, "")
+            if entry["status"] != "ok":
+                cells.append(Cell(row, method, math.nan, f"does not run: {entry['error']}", None, None))
+                continue
+            variant = Variant(entry, results.image(name, exr), results.image(base, exr) if base else None)
+            truth = base if row.measure in ("mean", "image") else results.reference_folder(name)
+            cell = Cell(row, method, MEASURES[row.measure][0](variant, row.scale), "", results.image(name, png),
+                        results.image(truth, png) if truth else None)
+            cells.append(replace(cell, reason=reason_of(reasons, row, method)) if cell.fails else cell)
+    return cells
+
+
+def cells_of(directory: Path, rows: list[Row], reasons: list[dict[str, str]]) -> list[Cell]:
+    """All cells of the runs in a folder, one folder a profile, in the order of the rows.
+
+    @throws ReportError where there is no run, or one of them has no scenes and methods.
+    """
+    cells: list[Cell] = []
+    for profile in dict.fromkeys(row.profile for row in rows):
+        if (directory / profile / "results.csv").is_file():
+            own = [row for row in rows if row.profile == profile]
+            cells += _profile_cells(load(directory / profile), own, reasons)
+    if not cells:
+        raise ReportError(f"{directory}: no profile of the limits has results there")
+    return cells

@@ -1,0 +1,85 @@
+"""The tables of `voxray stability`: a page, Markdown for a terminal or a document, and lines of a CSV file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import jinja2
+
+from report import images, text
+from report.stability import MEASURES, Cell, Row
+
+_HERE = Path(__file__).resolve().parent
+
+
+def percent(value: float) -> str:
+    """To two digits, without its sign; "does not run" for NaN."""
+    return "does not run" if math.isnan(value) else text.figures(100 * value, 2)
+
+
+def limits(row: Row) -> str:
+    (_, everyone), *others = row.limits
+    return percent(everyone) + "".join(f"; {percent(limit)} for {beginning}" for beginning, limit in others)
+
+
+def methods_of(cells: list[Cell]) -> list[str]:
+    return list(dict.fromkeys(cell.method for cell in cells))
+
+
+def rows_of(cells: list[Cell]) -> Iterator[tuple[Row, list[Cell | None]]]:
+    """Each row with its cells in the order of methods_of(), None where a method was not asked there."""
+    found = {(cell.row, cell.method): cell for cell in cells}
+    for row in dict.fromkeys(cell.row for cell in cells):
+        yield row, [found.get((row, method)) for method in methods_of(cells)]
+
+
+def summary(cells: list[Cell]) -> str:
+    """How many cells there are, and how many fail or are empty."""
+    failing = sum(cell.fails for cell in cells)
+    empty = sum(cell is None for _, row in rows_of(cells) for cell in row)
+    return f"{failing} of {len(cells)} cells fail" + (f"; {empty} are empty" if empty else "")
+
+
+def markdown(cells: list[Cell]) -> Iterator[str]:
+    methods = methods_of(cells)
+    yield f"| scene | measure | limit, % | {' | '.join(methods)} |"
+    yield "| --- " * (3 + len(methods)) + "|"
+    for row, found in rows_of(cells):
+        texts = ["" if cell is None else f"**{percent(cell.value)}**" if cell.fails else percent(cell.value) for cell in found]
+        yield f"| {row.scene} | {row.measure} | {limits(row)} | {' | '.join(texts)} |"
+
+
+def csv_lines(cells: list[Cell]) -> Iterator[list]:
+    yield ["profile", "scene", "measure", "method", "value", "limit", "fails", "reason"]
+    for cell in cells:
+        row = cell.row
+        value = "" if math.isnan(cell.value) else f"{cell.value:.6g}"
+        yield [row.profile, row.scene, row.measure, cell.method, value, f"{cell.limit:g}", int(cell.fails), cell.reason]
+
+
+def _table(cells: list[Cell]) -> list[tuple[Row, str, list[tuple[str, str, str]]]]:
+    """Of each row its limits, and of each cell its text, its CSS class and its title."""
+    shown = []
+    for row, found in rows_of(cells):
+        entries = [("", "", "not asked") if cell is None else
+                   (percent(cell.value), "worse" if cell.fails else "", cell.reason or row.why) for cell in found]
+        shown.append((row, limits(row), entries))
+    return shown
+
+
+def render(cells: list[Cell], directory: Path) -> str:
+    """The whole page, self-contained. @throws ReportError where an image is no PNG."""
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    failing = [cell for cell in cells if cell.fails]
+    tally = [(method, sum(cell.method == method for cell in failing), sum(cell.method == method for cell in cells))
+             for method in methods_of(cells)]
+    embedded = {path: images.embed(path) for cell in failing for path in (cell.picture, cell.truth) if path}
+    return environment.get_template("stability.html.j2").render(
+        style_css=(_HERE / "style.css").read_text(encoding="utf-8"), summary=summary(cells), tally=tally,
+        methods=methods_of(cells), table=_table(cells), directory=str(directory),
+        measures=[(name, meaning) for name, (_, meaning) in MEASURES.items() if any(cell.row.measure == name for cell in cells)],
+        failing=[(cell, percent(cell.value), percent(cell.limit), embedded.get(cell.picture), embedded.get(cell.truth))
+                 for cell in failing])
