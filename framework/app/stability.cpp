@@ -65,11 +65,11 @@ void checkAsked(const std::vector<std::string>& asked, const std::vector<std::st
 /// is what others are compared with: it stays where one of them does.
 /// @throws UsageError for a scene or method that no profile has, and where a profile can't be run.
 std::vector<ProfileRun> profileRuns(const StabilityArguments& arguments, const Registry& registry) {
-    const std::string& chosen = arguments.config.profile;
+    std::vector<std::string> profiles{arguments.config.profile};
+    if (profiles[0].empty()) profiles = profileNames(arguments.file);
     std::vector<std::string> scenes, methods;
     std::vector<std::pair<std::string, Experiment>> experiments;
-    for (const std::string& profile : profileNames(arguments.file)) {
-        if (!chosen.empty() && profile != chosen) continue;
+    for (const std::string& profile : profiles) {
         const Experiment whole = loadExperiment(arguments.file, {profile, arguments.config.assignments});
         Value config = whole.config;
         Value& sceneAxis = namedAxis(config, "scene", profile);
@@ -90,8 +90,7 @@ std::vector<ProfileRun> profileRuns(const StabilityArguments& arguments, const R
     checkAsked(arguments.methods, methods, "method");
     checkAsked(arguments.scenarios, scenes, "scenario");
     if (experiments.empty())
-        throw UsageError("{}: {}", arguments.file.string(),
-                         chosen.empty() ? "it has no profiles" : fmt::format("no profile '{}'", chosen));
+        throw UsageError("{}: none of its profiles has that scene with that method", arguments.file.string());
     std::vector<ProfileRun> runs;
     for (auto& [profile, experiment] : experiments)
         runs.push_back({profile, wireExperiment(std::move(experiment), registry)});

@@ -1,0 +1,80 @@
+"""`voxray stability`: a part of its matrix, no cell worse than stability.csv has it; what it runs and what it refuses.
+
+`stability_test.py record` (with the program in VOXRAY_PROGRAM, the repository in VOXRAY_SOURCE) writes that table again: the
+numbers of the config's own seed, and how far they may move when random numbers change. That is five times their standard
+deviation over three seeds, its relative size pooled over the methods of a row.
+"""
+import csv
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from generality_test import SEEDS, noise
+from support import PROGRAM, SOURCE, CommandTest
+
+METHODS = ["lookup", "gather rays", "cones octree", "filtered paths"]
+SCENARIOS = ["wall of 1/4 voxel", "wall of 1 voxel", "shell room", "furnace", "white room", "a second run", "10 km away",
+             "1 mm large", "light times 1e-4", "light times 1e6", "triangles twice", "light path"]
+TABLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "stability.csv")
+LIMITS = os.path.join(SOURCE, "configs", "stability", "matrix.csv")
+COLUMNS = ["scene", "measure", "method", "value", "noise"]
+ROUNDING = 1e-6  # of processors that round otherwise
+
+
+def arguments(out, *more):
+    scenarios = [word for name in SCENARIOS for word in ("--scenario", name)]
+    return ["stability", *METHODS, *scenarios, "--tracer", "embree", "--quiet", "--out", out, *more]
+
+
+def read(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return {(row["scene"], row["measure"], row["method"]): row for row in csv.DictReader(file)}
+
+
+class Stability(CommandTest):
+    def test_no_cell_is_worse_than_recorded(self):
+        self.expect(0, *arguments("out"))
+        found, recorded = read(self.path("out", "stability.csv")), read(TABLE)
+        self.assertEqual(set(found), set(recorded))
+        for cell, row in found.items():
+            with self.subTest(cell=cell):
+                limit = float(recorded[cell]["value"]) + float(recorded[cell]["noise"]) + ROUNDING
+                self.assertLessEqual(float(row["value"]), limit)
+        self.assertIn("stability.html", os.listdir(self.path("out")))
+
+    def test_every_scene_has_its_limit_and_every_limit_its_scene(self):
+        said = self.expect(0, "stability", "lookup", "--dry-run", "--tracer", "embree", "--out", "out").stdout
+        scenes = set(re.findall(r"scene-(\S+)_method-lookup", said))
+        with open(LIMITS, newline="", encoding="utf-8") as file:
+            limited = {re.sub(r"[^\w.-]+", "-", row["scene"]) for row in csv.DictReader(file)}
+        self.assertEqual(scenes, limited)
+
+    def test_mistakes(self):
+        for words, part in ((["gather ray"], "no method 'gather ray'; did you mean 'gather rays'?"),
+                            (["--scenario", "furnance"], "no scenario 'furnance'; did you mean 'furnace'?"),
+                            (["--profile", "leek"], "no profile 'leek'; did you mean 'leak'?")):
+            self.assertIn(part, self.expect(2, "stability", "--dry-run", *words).stderr)
+        plain = self.write("plain.yaml", "name: plain\nscene: {builtin: cornell}\ngraph: [{pass: gbuffer}]\nprofiles: {a: {seed: 1}}\n")
+        self.assertIn("needs an axis 'scene'", self.expect(2, "stability", "--config", plain).stderr)
+
+
+def record():
+    with open(TABLE, "w", newline="", encoding="utf-8") as file, tempfile.TemporaryDirectory() as folder:
+        runs = []
+        for seed in SEEDS:
+            out = os.path.join(folder, str(seed))
+            subprocess.run([PROGRAM, *arguments(out, "--set", f"seed={seed}")], check=True, cwd=folder)
+            runs.append({cell: float(row["value"]) for cell, row in read(os.path.join(out, "stability.csv")).items()})
+        table = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        table.writeheader()
+        for (scene, measure, method), value in runs[0].items():
+            alike = [[run[cell] for run in runs] for cell in runs[0] if cell[:2] == (scene, measure)]
+            table.writerow({"scene": scene, "measure": measure, "method": method, "value": f"{value:.4g}",
+                            "noise": f"{value * noise(alike):.2g}"})
+
+
+if __name__ == "__main__" and sys.argv[1:] == ["record"]:
+    record()

@@ -1,0 +1,149 @@
+"""Tests of the tables of `voxray stability`, on runs whose numbers are known. Needs Debian's Python with pandas and Jinja2."""
+
+import contextlib
+import csv
+import io
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "framework"), str(Path(__file__).resolve().parent)]
+
+import report_results as made_up  # noqa: E402
+from exr_writer import exr  # noqa: E402
+from report import make_stability, stability, stability_page  # noqa: E402
+from report.load import ReportError  # noqa: E402
+from report_support import Page  # noqa: E402
+
+SHIPPED = Path(__file__).resolve().parents[2] / "configs" / "stability"
+LIMITS = """\
+profile,scene,measure,methods,limit,scale,why
+leak,wall,leak,,0.0001,2,all is black
+leak,wall,leak,cones,0.001,2,all is black
+bias,room,bias,,0.08,,the plain case
+same,bright,image,,0.001,1000,linear
+same,bright,mean,,0.001,1000,linear
+same,again,image,,0.001,1,the same numbers
+moving,path,flicker,,0.02,,an eye
+"""
+REASONS = """\
+scene,measure,methods,reason
+,leak,,voxels of both sides
+wall,leak,cones,wide cones pass
+"""
+
+
+class Stability(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name) / "out"
+        self.limits = Path(folder.name) / "limits.csv"
+        self.limits.write_text(LIMITS, encoding="utf-8")
+        (Path(folder.name) / "limits_reasons.csv").write_text(REASONS, encoding="utf-8")
+
+    def profile(self, name, cells):
+        """Writes a run; cells: (scene, method) -> an even image's radiance, or a text: why it failed; and scores."""
+        rows = []
+        for i, ((scene, method), (light, scores)) in enumerate(cells.items()):
+            sweep = {"scene": scene, "method": method}
+            if isinstance(light, str):
+                rows.append(made_up.failed(f"v{i}", light, **sweep))
+            else:
+                rows.append({**made_up.variant(f"v{i}", 1, 0.1, 0.1, **sweep), **scores})
+        made_up.write_results(self.root / name, rows, made_up.manifest(["scene", "method"]))
+        for row, (light, _) in zip(rows, cells.values()):
+            if not isinstance(light, str):
+                image = np.broadcast_to(np.asarray(light, np.float32), (6, 8, 3))
+                (self.root / name / "images" / row["variant"] / "indirect.exr").write_bytes(exr(image, zipped=True))
+
+    def cells(self):
+        rows = stability.read_limits(self.limits)
+        reasons = stability.read_reasons(self.limits.with_name("limits_reasons.csv"))
+        return {(cell.row.scene, cell.row.measure, cell.method): cell for cell in stability.cells_of(self.root, rows, reasons)}
+
+    def test_leaks_are_parts_of_the_lit_side_and_cones_have_a_limit_of_their_own(self):
+        self.profile("leak", {("wall", "rays"): (0.001, {}), ("wall", "cones dense"): (0.001, {}), ("wall", "lookup"): (0.0, {}),
+                              ("wall", "cones octree"): (0.004, {})})
+        cells = self.cells()
+        self.assertAlmostEqual(cells["wall", "leak", "rays"].value, 0.0005)
+        self.assertTrue(cells["wall", "leak", "rays"].fails)
+        self.assertFalse(cells["wall", "leak", "cones dense"].fails)
+        self.assertEqual(cells["wall", "leak", "lookup"].value, 0)
+        self.assertEqual(cells["wall", "leak", "lookup"].reason, "")
+        self.assertEqual(cells["wall", "leak", "rays"].reason, "voxels of both sides")
+        self.assertEqual(cells["wall", "leak", "cones octree"].reason, "wide cones pass")
+
+    def test_images_are_compared_with_the_profiles_first_scene_by_the_same_method(self):
+        noisy = 2000 + np.where(np.arange(8) % 2, 100, -100)[None, :, None]
+        self.profile("same", {("plain", "rays"): (2.0, {}), ("plain", "cones"): (3.0, {}), ("bright", "rays"): (noisy, {}),
+                              ("bright", "cones"): (3000 * 1.01, {}), ("again", "rays"): (2.0, {})})
+        cells = self.cells()
+        self.assertAlmostEqual(cells["bright", "image", "rays"].value, 0.05, 6)
+        self.assertAlmostEqual(cells["bright", "mean", "rays"].value, 0, 6)
+        self.assertAlmostEqual(cells["bright", "image", "cones"].value, 0.01, 6)
+        self.assertAlmostEqual(cells["bright", "mean", "cones"].value, 0.01, 6)
+        self.assertEqual(cells["again", "image", "rays"].value, 0)
+        self.assertEqual(cells["bright", "mean", "cones"].reason, stability.UNKNOWN)
+        self.assertTrue(cells["bright", "mean", "cones"].truth.match("v1/indirect.png"))
+
+    def test_scores_come_from_the_results_and_what_did_not_run_fails(self):
+        self.profile("bias", {("room", "rays"): (1.0, {"indirect_bias_nrmse": 0.05}), ("room", "cones"): ("no room left", {})})
+        self.profile("moving", {("path", "rays"): (1.0, {"indirect_temporal_flicker": 0.03})})
+        cells = self.cells()
+        self.assertEqual(cells["room", "bias", "rays"].value, 0.05)
+        self.assertFalse(cells["room", "bias", "rays"].fails)
+        self.assertTrue(cells["room", "bias", "cones"].fails)
+        self.assertIn("no room left", cells["room", "bias", "cones"].reason)
+        self.assertTrue(cells["path", "flicker", "rays"].fails)
+        # A score that is not there fails, too.
+        self.profile("bias", {("room", "rays"): (1.0, {})})
+        self.assertTrue(self.cells()["room", "bias", "rays"].fails)
+
+    def test_the_tables_show_every_cell(self):
+        self.profile("leak", {("wall", "rays"): (0.001, {}), ("wall", "cones"): ("out of memory", {})})
+        self.profile("bias", {("room", "rays"): (1.0, {"indirect_bias_nrmse": 0.05})})
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            self.assertEqual(make_stability.main([str(self.root), str(self.limits)]), 0)
+        self.assertEqual(said.getvalue(), "2 of 3 cells fail; 1 are empty\n")
+        self.assertEqual((self.root / "stability.md").read_text(encoding="utf-8"),
+                         "| scene | measure | limit, % | rays | cones |\n| --- | --- | --- | --- | --- |\n"
+                         "| wall | leak | 0.010; 0.10 for cones | **0.050** | **does not run** |\n"
+                         "| room | bias | 8.0 | 5.0 |  |\n")
+        with open(self.root / "stability.csv", newline="", encoding="utf-8") as file:
+            table = list(csv.DictReader(file))
+        self.assertEqual([(row["method"], row["value"], row["fails"]) for row in table],
+                         [("rays", "0.0005", "1"), ("cones", "", "1"), ("rays", "0.05", "0")])
+        source = (self.root / "stability.html").read_text(encoding="utf-8")
+        page = Page(source)
+        self.assertEqual(page.count("td", "worse"), 2)
+        self.assertIn("does not run: out of memory", page.text)
+        self.assertNotIn("http", source.replace("http-equiv", ""))
+
+    def test_what_can_not_be_read_is_said_in_a_line(self):
+        for text, part in (("scene,limit\nroom,1\n", "expected the columns"),
+                           (LIMITS.replace("bias,room,bias", "bias,room,bais"), "no measure 'bais'"),
+                           (LIMITS.replace("0.08", "-1"), "a limit is 0 or more"),
+                           (LIMITS.replace("leak,,0.0001", "leak,rays,0.0001"), "the first limit is that of all methods")):
+            self.limits.write_text(text, encoding="utf-8")
+            with self.assertRaisesRegex(ReportError, part):
+                stability.read_limits(self.limits)
+        self.limits.write_text(LIMITS, encoding="utf-8")
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            self.assertEqual(make_stability.main([str(self.root), str(self.limits)]), 2)
+        self.assertIn("no profile of the limits has results there", said.getvalue())
+
+    def test_the_shipped_limits_and_reasons_fit_together(self):
+        rows = stability.read_limits(SHIPPED / "matrix.csv")
+        self.assertGreater(len(rows), 30)
+        for entry in stability.read_reasons(SHIPPED / "matrix_reasons.csv"):
+            self.assertTrue(any(entry["scene"] in ("", row.scene) and entry["measure"] in ("", row.measure) for row in rows), entry)
+        self.assertEqual(stability_page.limits(rows[0]), "0.010; 0.10 for cones")
+
+
+if __name__ == "__main__":
+    unittest.main()
