@@ -44,8 +44,8 @@ class ChannelWriter {
 
 }  // namespace
 
-std::vector<AovImage> downloadAovs(const Graph& graph, const Frame& frame, Device& device,
-                                   CommandStream& stream) {
+std::vector<AovImage> downloadAovs(const Graph& graph, const Frame& frame, const glm::vec3& origin,
+                                   Device& device, CommandStream& stream) {
     std::vector<AovImage> images;
     for (const auto& [pass, aovs] : graph.aovs()) {
         const glm::uvec3 extent = aovs[0].image->desc().extent;
@@ -58,12 +58,16 @@ std::vector<AovImage> downloadAovs(const Graph& graph, const Frame& frame, Devic
         }
         AovImage& image = images.emplace_back(AovImage{pass, {}, {}});
         ChannelWriter writer(image, extent.x, extent.y, channels);
+        const std::vector<PrimaryHit> hits = primaryHits(*frame.scene, frame.camera, extent.x, extent.y);
         for (const Aov& aov : aovs) {
             const std::vector<float> texels = downloadTexels(device, stream, *aov.image);
-            for (size_t c = 0; c < aov.channels.size(); ++c)
-                writer.add(aov.channels[c], [&](size_t i) { return texels[i * 4 + c]; });
+            for (size_t c = 0; c < aov.channels.size(); ++c) {
+                const float offset = aov.channels[c].starts_with("P.") && c < 3 ? origin[int(c)] : 0.0f;
+                writer.add(aov.channels[c], [&](size_t i) {
+                    return texels[i * 4 + c] + (hits[i].instance >= 0 ? offset : 0.0f);
+                });
+            }
         }
-        const std::vector<PrimaryHit> hits = primaryHits(*frame.scene, frame.camera, extent.x, extent.y);
         writer.add("Z", [&](size_t i) { return hits[i].depth; });
         writer.add("id", [&](size_t i) { return float(hits[i].instance); });
         writer.add("material_id", [&](size_t i) { return float(hits[i].material); });

@@ -31,7 +31,7 @@ void print(const Forecast& forecast) {
 Forecast Forecaster::forecast(WiredVariant& variant) {
     Session& session = prepared_.session();
     if (std::string key = session.loader().key(variant.setup.scene); key != sceneKey_) {
-        scene_ = session.loader().prepare(variant.setup.scene);
+        scene_ = session.loader().prepare(variant.setup.scene, Origin::Scene);
         sceneBytes_ = gpuSceneBytes(scene_.state);
         sceneKey_ = std::move(key);
     }

@@ -88,13 +88,23 @@ auto readAt(const TextLocation& where, const Read& read) {
     }
 }
 
-Camera chooseCamera(const SceneSettings& settings, const SceneState& state) {
+/// From this distance on, in sizes of the scene, two of the seven digits of floats are lost.
+constexpr float kFarAway = 100;
+
+/// Where the scene's coordinates best count from.
+glm::vec3 nearestOrigin(const Geometry& g) {
+    const glm::vec3 center = 0.5f * (g.boundsMin + g.boundsMax);
+    return glm::length(center) > kFarAway * glm::length(g.boundsMax - g.boundsMin) ? center : glm::vec3(0.0f);
+}
+
+/// @param origin which the camera's coordinates count from, those of the state too.
+Camera chooseCamera(const SceneSettings& settings, const SceneState& state, const glm::vec3& origin) {
     if (settings.camera) {
         const CameraSettings& c = *settings.camera;
         Camera camera;
         camera.name = "camera";
         camera.verticalFovRadians = glm::radians(c.fovDegrees);
-        camera.position = c.position;
+        camera.position = c.position - origin;
         camera.forward = glm::normalize(c.target - c.position);
         const glm::vec3 right = glm::normalize(glm::cross(camera.forward, glm::normalize(c.up)));
         camera.up = glm::normalize(glm::cross(right, camera.forward));
@@ -120,6 +130,7 @@ void chooseLightsAndCamera(PreparedScene& prepared, const SceneSettings& setting
     if (!settings.options.keepFileLights) lights.clear();
     for (const ConfigLight& entry : settings.lights) {
         Light light = entry.light;
+        light.position -= prepared.origin;
         if (entry.offAt > 0 && frame >= int(entry.offAt)) light.intensity = glm::vec3(0.0f);
         const glm::vec3 way = float(frame) * entry.move;
         if (light.type == LightType::Directional && way != glm::vec3(0.0f)) {
@@ -135,7 +146,7 @@ void chooseLightsAndCamera(PreparedScene& prepared, const SceneSettings& setting
         }
         lights.push_back(light);
     }
-    prepared.camera = chooseCamera(settings, prepared.state);
+    prepared.camera = chooseCamera(settings, prepared.state, prepared.origin);
     prepared.state.cameras = {prepared.camera};
 }
 
@@ -308,10 +319,18 @@ std::shared_ptr<const Scene> SceneLoader::compose(const SceneSettings& settings)
     return composed;
 }
 
-PreparedScene SceneLoader::prepare(const SceneSettings& settings) {
+PreparedScene SceneLoader::prepare(const SceneSettings& settings, Origin origin) {
     PreparedScene prepared;
     const Playback playback = settings.options.timeStep > 0 ? Playback::Looping : Playback::Frozen;
-    prepared.state = evaluate(compose(settings), settings.options.time, playback);
+    std::shared_ptr<const Scene> scene = compose(settings);
+    prepared.state = evaluate(scene, settings.options.time, playback);
+    if (origin == Origin::Scene) prepared.origin = nearestOrigin(prepared.state.geometry);
+    if (prepared.origin != glm::vec3(0.0f)) {
+        // A node over all nodes takes their translations away before any vertex is added to them
+        auto moved = std::make_shared<Scene>(placedScene(*scene, {.translate = -prepared.origin}));
+        moved->contentHash = hashScene(*moved);
+        prepared.state = evaluate(std::move(moved), settings.options.time, playback);
+    }
     chooseLightsAndCamera(prepared, settings, 0);
     return prepared;
 }

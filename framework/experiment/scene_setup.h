@@ -25,9 +25,17 @@ std::filesystem::path findSceneFile(const std::string& name,
                                     const std::vector<std::filesystem::path>& folders,
                                     const TextLocation& where);
 
+/// Where coordinates count from. Floats are dense near 0 alone: a room of 2 m at 10 km has 2000 of them along
+/// an edge.
+enum class Origin {
+    World,  ///< The world's origin.
+    Scene   ///< The scene's center, where that is far from the world's origin for the scene's size.
+};
+
 /// A scene as a variant renders it.
 struct PreparedScene {
-    SceneState state;  ///< Its lights are those that shine, its only camera is `camera`.
+    glm::vec3 origin{0.0f};  ///< Coordinates of state and camera count from there, m.
+    SceneState state;        ///< Its lights are those that shine, its only camera is `camera`.
     Camera camera;
     /// Of its surfaces: another one where they have moved.
     std::shared_ptr<PlanMemo> memo = std::make_shared<PlanMemo>();
@@ -49,7 +57,7 @@ class SceneLoader {
     std::string key(const SceneSettings& settings);
 
     /// @throws as key(), and UsageError for a camera that the scene lacks.
-    PreparedScene prepare(const SceneSettings& settings);
+    PreparedScene prepare(const SceneSettings& settings, Origin origin = Origin::World);
 
     /// Takes a prepared scene to a frame, counted from the compared one: animation, lights, and a camera on
     /// an animated node. A camera's own `move` is not applied.

@@ -43,7 +43,7 @@ SceneOnDevice& Session::scene(const Setup& setup) {
     scene_.emplace();
     sceneMoved_ = false;
     try {
-        scene_->prepared = loader_.prepare(setup.scene);
+        scene_->prepared = loader_.prepare(setup.scene, Origin::Scene);
         scene_->gpu = makeGpuScene(device_, stream_, scene_->prepared.state);
         scene_->tracer = makeRayTracer(setup.general.tracer, device_, compiler_, scene_->prepared.state);
         stream_.finish();

@@ -40,6 +40,8 @@ class Session {
     /// The variant's scene in the compared frame; the last one stays on the device until another is asked
     /// for.
     SceneOnDevice& scene(const Setup& setup);
+    /// Where coordinates of the scene on the device count from, m.
+    glm::vec3 origin() const { return scene_ ? scene_->prepared.origin : glm::vec3(0.0f); }
     /// Takes the scene on the device, and a frame of it, to a frame counted from the compared one.
     void goToFrame(const Setup& setup, Frame& frame, int fromCompared);
 

@@ -102,7 +102,8 @@ RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experimen
         [&](const Graph& graph, const Frame& now, uint32_t number) {
             if (measure.compareEvery > 0 ? number % measure.compareEvery == 0 : number == 0)
                 frames.push_back(downloadFrame(graph, number, session));
-            if (withAovs && number == 0) rendered.aovs = downloadAovs(graph, now, device, session.stream());
+            if (withAovs && number == 0)
+                rendered.aovs = downloadAovs(graph, now, session.origin(), device, session.stream());
         });
     if (withSecond)
         runGraph(

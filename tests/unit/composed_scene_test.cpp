@@ -85,6 +85,40 @@ TEST(ComposedSceneLoader, AScenesOwnTransformTakesItsCameraAlongAndNothingOfTheC
     EXPECT_EQ(looked.camera.position, glm::vec3(0, 1, 4));
 }
 
+TEST(ComposedSceneLoader, FarScenesAreRenderedNearTheirCenter) {
+    SceneLoader loader({});
+    const auto lit = [](const std::string& rest) {
+        return parseExperiment("name: x\nscene: {builtin: cornell, " + rest + "}\ngraph: [{pass: a}]\n", "x")
+            .setup.scene;
+    };
+    const SceneSettings far =
+        lit("transform: {translate: [10000, 0, -20000]}, lights: [{point: [10000, 1.5, -20000]}]");
+    const PreparedScene near = loader.prepare(lit("lights: [{point: [0, 1.5, 0]}]"), Origin::Scene);
+    EXPECT_EQ(near.origin, glm::vec3(0));
+    const PreparedScene world = loader.prepare(far);
+    EXPECT_EQ(world.origin, glm::vec3(0));
+    EXPECT_EQ(world.camera.position.x, 10000);
+
+    const PreparedScene own = loader.prepare(far, Origin::Scene);
+    EXPECT_EQ(own.origin, 0.5f * (world.state.geometry.boundsMin + world.state.geometry.boundsMax));
+    const glm::vec3 rest = glm::vec3(10000, 0, -20000) - own.origin;
+    const auto& places = own.state.geometry.positions;
+    ASSERT_EQ(places.size(), near.state.geometry.positions.size());
+    float worst = 0;
+    for (size_t i = 0; i < places.size(); ++i)
+        worst = std::max(worst, glm::length(places[i] - near.state.geometry.positions[i] - rest));
+    EXPECT_LT(worst, 1e-6f) << "as exact as at the world's origin, where floats of 10 km are 1 mm apart";
+    EXPECT_LT(glm::length(own.camera.position - near.camera.position - rest), 1e-6f);
+    ASSERT_EQ(own.state.lights.size(), 1u);
+    EXPECT_LT(glm::length(own.state.lights[0].position - near.state.lights[0].position - rest), 1e-6f);
+
+    // Frames of a sequence stay there
+    PreparedScene moved = loader.prepare(far, Origin::Scene);
+    SceneLoader::goToFrame(moved, far, 1);
+    EXPECT_EQ(moved.camera.position, own.camera.position);
+    EXPECT_EQ(moved.state.lights[0].position, own.state.lights[0].position);
+}
+
 TEST(ComposedSceneLoader, LambertLeavesWhatTheConfigSays) {
     SceneLoader loader({});
     const PreparedScene prepared = loader.prepare(
