@@ -6,6 +6,7 @@
 #include "passes/cluster_voxels/cluster_voxels.h"
 #include "passes/compare_voxels/compare_voxels.h"
 #include "passes/composite/composite.h"
+#include "passes/direct_packed_voxels/direct_packed_voxels.h"
 #include "passes/direct_shadow_maps/direct_shadow_maps.h"
 #include "passes/direct_shadow_rays/direct_shadow_rays.h"
 #include "passes/direct_voxels/direct_voxels.h"
@@ -27,6 +28,7 @@
 #include "passes/inject_clusters/inject_clusters.h"
 #include "passes/inject_gather_hits/inject_gather_hits.h"
 #include "passes/inject_light_rays/inject_light_rays.h"
+#include "passes/inject_packed_light_rays/inject_packed_light_rays.h"
 #include "passes/inject_radiosity/inject_radiosity.h"
 #include "passes/inject_rsm/inject_rsm.h"
 #include "passes/inject_shadow_map/inject_shadow_map.h"
@@ -47,6 +49,7 @@
 #include "passes/update_radiance_cache/update_radiance_cache.h"
 #include "passes/voxelize/voxelize_pass.h"
 #include "passes/voxelize_clipmap/voxelize_clipmap.h"
+#include "passes/voxelize_packed/voxelize_packed.h"
 
 namespace voxray {
 
@@ -57,6 +60,9 @@ void registerPasses(Registry& registry) {
     registry.add<Accumulate>();
     registry.add<BuildHybridLeaves>();
     registry.add<InjectLightRays>();
+    registry.add<VoxelizePacked>();
+    registry.add<InjectPackedLightRays>();
+    registry.add<DirectPackedVoxels>();
     registry.add<PlaceSurfels>();
     registry.add<InjectVoxelRays>();
     registry.add<LinkSurfels>();

@@ -1,14 +1,19 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-// final = emission + direct + indirect. A part that no pass writes is bound as one black texel.
+// final = emission + direct + indirect, and the ambient light that surfaces reflect. A part that no pass writes is bound as one black
+// texel.
 layout(local_size_x = 8, local_size_y = 8) in;
 
+layout(constant_id = 0) const bool kHasAmbient = false;
+
 uniform sampler2D emission;
+uniform sampler2D albedo;
 uniform sampler2D direct;
 uniform sampler2D indirect;
 layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant, scalar) uniform Push {
-    int samples;  // Texels of the g-buffer along each side of a pixel.
+    int samples;    // Texels of the g-buffer along each side of a pixel.
+    float ambient;  // W/(m² sr)
 } push;
 
 vec3 texel(sampler2D image, ivec2 pixel) { return texelFetch(image, min(pixel, textureSize(image, 0) - 1), 0).rgb; }
@@ -18,7 +23,11 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
     vec3 emitted = vec3(0.0);
     for (int j = 0; j < push.samples; ++j)
-        for (int i = 0; i < push.samples; ++i) emitted += texelFetch(emission, pixel * push.samples + ivec2(i, j), 0).rgb;
+        for (int i = 0; i < push.samples; ++i) {
+            const ivec2 at = pixel * push.samples + ivec2(i, j);
+            emitted += texelFetch(emission, at, 0).rgb;
+            if (kHasAmbient) emitted += push.ambient * texelFetch(albedo, at, 0).rgb;
+        }
     emitted /= float(push.samples * push.samples);
     imageStore(result, pixel, vec4(emitted + texel(direct, pixel) + texel(indirect, pixel), 1.0));
 }

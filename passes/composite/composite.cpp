@@ -4,6 +4,14 @@
 #include "passes/common/view/frame_image.h"
 
 namespace voxray {
+namespace {
+
+struct Push {
+    uint32_t samples;
+    float ambient;
+};
+
+}  // namespace
 
 void Composite::declare(PassBuilder& builder) {
     gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
@@ -18,7 +26,8 @@ void Composite::plan(PassPlan& plan) {
 }
 
 void Composite::prepare(PassSetup& setup) {
-    program_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/composite/composite.comp"));
+    program_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/composite/composite.comp"),
+                                  SpecializationConstants{{0, params_.ambient > 0}});
     sampler_ = texelSampler(setup.device);
     setup.stream.clear(black_, {});
 }
@@ -29,10 +38,12 @@ void Composite::record(PassContext& context) {
     const GBuffer& gbuffer = context.get(gbuffer_);
     context.stream.dispatch(program_,
                             {{"emission", gbuffer.emission, sampler_},
+                             {"albedo", gbuffer.albedo, sampler_},
                              {"direct", direct, sampler_},
                              {"indirect", indirect, sampler_},
                              {"result", context.get(final_).image}},
-                            gbuffer.samples, pixelGroups(context.frame.width, context.frame.height));
+                            Push{gbuffer.samples, params_.ambient},
+                            pixelGroups(context.frame.width, context.frame.height));
 }
 
 }  // namespace voxray

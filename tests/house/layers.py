@@ -41,6 +41,7 @@ ROOMS = {
     "final_gather": {"compute", "view", "filter", "lights", "surfels"},
     "radiance_cache": {"compute"},
     "irradiance_tree": {"compute", "voxels"},
+    "packed_voxels": {"compute", "voxels"},
 }
 
 # GLSL of the framework's own things, for every room.
