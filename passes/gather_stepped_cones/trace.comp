@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // Radiance that each pixel reflects of what six cones find, averaged over its texels (Arnebäck 2017, sections 3.1.5 and 3.2.5). What
 // the thesis leaves open: a cone's first sample is a voxel's width off the surface, so that it does not read the surface itself in a
-// plane along the axes; a cone ends where the grid does.
+// plane along the axes; a cone ends a sample's width
+// outside of the grid, where none reads it any more.
 #include "shaders/radiance/sample_radiance.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -28,8 +29,8 @@ vec3 coneRadiance(vec3 origin, vec3 direction) {
     float t = g.voxelSize;
     for (int i = 0; i < MAX_STEPS && opacity < 0.999; ++i) {
         const vec3 at = origin + t * direction;
-        if (any(lessThan(at, g.origin)) || any(greaterThan(at, high))) break;
         const float width = max(g.voxelSize, CONE_WIDTH * t);
+        if (any(lessThan(at, g.origin - width)) || any(greaterThan(at, high + width))) break;
         const vec4 met = sampleRadiance(at, width, direction);
         if (met.a > 0.0) {
             const float part = 1.0 - pow(1.0 - min(met.a, 1.0), push.step_);
