@@ -39,7 +39,7 @@ PartRunner::PartRunner(PreparedExperiment& prepared, const ResultsFolder& folder
     if (prepared.options().untimed)
         warnings_.emplace_back(
             "variants ran next to other work on the same machine (--untimed): their times tell nothing");
-    else if (workerThreads() < cores)
+    else if (workerThreads() < cores && !prepared.options().part.starts_with("reference."))
         warnings_.push_back(
             fmt::format("variants ran on {} of {} threads (--threads)", workerThreads(), cores));
 }
