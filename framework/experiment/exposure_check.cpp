@@ -12,7 +12,7 @@
 namespace voxray {
 namespace {
 
-constexpr float kWhite = 1.1f;      ///< White is 1; noise and rounding pass it a little.
+constexpr float kWhite = 4;  ///< Two stops over what previews can show, farther than a bright view goes.
 constexpr double kNearlyAll = 0.9;  ///< Of what the view shows.
 constexpr double kMiddle = 0.2;     ///< A radiance that previews show well.
 constexpr float kLeastByte = 32;    ///< No color of less is meant for a sky.

@@ -12,8 +12,9 @@ namespace voxray {
 /// @param view 3 channels, W/(m² sr). @param filled the part of it that shows surfaces or a sky, above 0.
 bool isDarkAt(float exposureStops, const ImageF& view, double filled);
 
-/// What to say of a view that is nearly all white or black in previews, as where lights are in other units
-/// than the config's: which of the config's lights to change, by how much, or which exposure shows it.
+/// What to say of a view that is nearly all white in previews, by two stops or more, or black, as where
+/// lights are in other units than the config's: which of the config's lights to change, by how much, or which
+/// exposure shows it.
 /// @param view and filled as in isDarkAt(). @return "" for any other view.
 std::string exposureWarning(const Setup& setup, const ImageF& view, double filled);
 

@@ -135,6 +135,7 @@ TEST(ViewCheck, WarnsOfViewsThatAreWhiteOrBlack) {
     EXPECT_CONTAINS(sky, "x.yaml:2: scene.environment: nearly all of the view is white");
     EXPECT_CONTAINS(sky, "as a color of 0 to 255 it is [0.2423, 0.6172, 0.8308]");
     EXPECT_EQ(saidOf("builtin: cornell, environment: 1"), "");
+    EXPECT_EQ(saidOf("builtin: furnace"), "");  // Of 2 everywhere
 }
 
 }  // namespace
