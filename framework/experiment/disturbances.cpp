@@ -6,7 +6,7 @@
 namespace voxray {
 namespace {
 
-constexpr double kLeastMs = 5;
+constexpr double kMinMs = 5;
 constexpr double kBuildRatio = 1.2;  ///< Of the slowest equal build to the fastest one.
 constexpr double kFrameRatio = 1.5;  ///< Of a variant's 95th percentile to its 5th.
 constexpr const char* kAdvice = "run it again on an idle machine";
@@ -30,7 +30,7 @@ std::vector<std::string> disturbances(const std::vector<TimedVariant>& variants)
     std::map<std::string, Builds> equal;  // By what they depend on.
     for (const TimedVariant& variant : variants) {
         const VariantResult* own = variant.result;
-        if (!own->ok || variant.build.empty() || own->buildMs < kLeastMs) continue;
+        if (!own->ok || variant.build.empty() || own->buildMs < kMinMs) continue;
         Builds& builds = equal.try_emplace(variant.build, Builds{own, own}).first->second;
         if (own->buildMs < builds.fastest->buildMs) builds.fastest = own;
         if (own->buildMs > builds.slowest->buildMs) builds.slowest = own;
@@ -45,7 +45,7 @@ std::vector<std::string> disturbances(const std::vector<TimedVariant>& variants)
 
     std::vector<TimedVariant> uneven;
     std::ranges::copy_if(variants, std::back_inserter(uneven), [](const TimedVariant& variant) {
-        return variant.result->ok && variant.isAtRest && variant.result->frameMs.p05 >= kLeastMs &&
+        return variant.result->ok && variant.isAtRest && variant.result->frameMs.p05 >= kMinMs &&
                frameRatio(variant) > kFrameRatio;
     });
     if (uneven.empty()) return warnings;

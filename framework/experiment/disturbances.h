@@ -16,7 +16,7 @@ struct TimedVariant {
 
 /// What to say of times that do not agree with each other: equal builds of several variants that differ by
 /// more than a fifth, and frames of a variant at rest whose 95th percentile is over 1.5 times their 5th.
-/// Something else took the machine's time then. Times below 5 ms are not judged: they differ by when the
+/// Something else took the machine's time then. Times below 5 ms are left out: they differ by when the
 /// system lets a thread run.
 std::vector<std::string> disturbances(const std::vector<TimedVariant>& variants);
 

@@ -14,8 +14,8 @@ namespace {
 
 constexpr float kWhite = 4;  ///< Two stops over what previews can show, farther than a bright view goes.
 constexpr double kNearlyAll = 0.9;  ///< Of what the view shows.
-constexpr double kMiddle = 0.2;     ///< A radiance that previews show well.
-constexpr float kLeastByte = 32;    ///< No color of less is meant for a sky.
+constexpr double kWellSeen = 0.2;   ///< A radiance that previews show well.
+constexpr float kMinOfBytes = 32;   ///< No color of less is meant for a sky.
 constexpr double kStepsOfBlack = 0.5;
 constexpr double kSlopeAtBlack = 12.92;  ///< Of the sRGB curve.
 
@@ -40,7 +40,7 @@ std::vector<float> darkestChannels(const ImageF& view) {
 std::string fromBytes(const glm::vec3& radiance) {
     const bool isWhole = glm::all(glm::equal(radiance, glm::round(radiance)));
     const float largest = std::max({radiance.x, radiance.y, radiance.z});
-    if (!isWhole || largest < kLeastByte || largest > 255) return {};
+    if (!isWhole || largest < kMinOfBytes || largest > 255) return {};
     return fmt::format(
         "; as a color of 0 to 255 it is {}",
         linearTriple(fmt::format("#{:02x}{:02x}{:02x}", int(radiance.x), int(radiance.y), int(radiance.z))));
@@ -78,15 +78,15 @@ std::string roundly(double factor) {
 }
 
 std::string warning(const Setup& setup, double radiance, const char* color) {
-    constexpr float kMostStops = 30;
+    constexpr float kMaxStops = 30;
     const Shining shining = shiningIn(setup.scene);
     const float stops = setup.image.exposureStops;
-    const double factor = radiance * scaleOf(stops) / kMiddle;
+    const double factor = radiance * scaleOf(stops) / kWellSeen;
     std::vector<std::string> ways;
     if (shining.names.front() != "scene")
         ways.push_back(fmt::format("{} it by about {}", factor > 1 ? "divide" : "multiply",
                                    roundly(std::max(factor, 1 / factor))));
-    if (const double wanted = std::round(double(stops) - std::log2(factor)); std::abs(wanted) <= kMostStops)
+    if (const double wanted = std::round(double(stops) - std::log2(factor)); std::abs(wanted) <= kMaxStops)
         ways.push_back(fmt::format("write image: {{exposure_stops: {}}}", int(wanted)));
     return UsageError(shining.where,
                       "{}: nearly all of the view is {}: its radiance is about {:.2g} W/(m² sr), and {:.3g} "
