@@ -9,8 +9,8 @@ set -euo pipefail
 
 purpose=${1:-run}
 case $purpose in
-  test|slurm) groups="run sweep $purpose" ;;
-  *)          groups="run $purpose" ;;
+  slurm) groups="run sweep $purpose" ;;
+  *)     groups="run $purpose" ;;
 esac
 mesa_wanted_major=25
 
