@@ -60,9 +60,6 @@ void registerPasses(Registry& registry) {
     registry.add<Accumulate>();
     registry.add<BuildHybridLeaves>();
     registry.add<InjectLightRays>();
-    registry.add<VoxelizePacked>();
-    registry.add<InjectPackedLightRays>();
-    registry.add<DirectPackedVoxels>();
     registry.add<PlaceSurfels>();
     registry.add<InjectVoxelRays>();
     registry.add<LinkSurfels>();
@@ -76,7 +73,6 @@ void registerPasses(Registry& registry) {
     registry.add<VoxelizeClipmap>();
     registry.add<LightClipmap>();
     registry.add<GatherCones>();
-    registry.add<GatherSteppedCones>();
     registry.add<ProbeIrradiance>();
     registry.add<GatherIrradiance>();
     registry.add<GatherSurfels>();
@@ -103,6 +99,11 @@ void registerPasses(Registry& registry) {
     registry.add<DirectVoxels>();
     registry.add<Composite>();
     registry.add<PathTracePass>();
+    // As published, for comparison: last, for messages name passes in this order.
+    registry.add<VoxelizePacked>();
+    registry.add<InjectPackedLightRays>();
+    registry.add<DirectPackedVoxels>();
+    registry.add<GatherSteppedCones>();
     registry.preview = [](const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
                           uint32_t width, uint32_t height, uint32_t spp, uint32_t bounces) {
         const PathTraceOptions options{.width = width, .height = height, .spp = spp, .bounces = bounces};

@@ -27,13 +27,13 @@ double meanOf(const ImageF& view, double filled) {
     return std::accumulate(view.data.begin(), view.data.end(), 0.0) / double(view.data.size()) / filled;
 }
 
-/// The darkest channel of each pixel, in rising order.
-std::vector<float> darkestChannels(const ImageF& view) {
-    std::vector<float> darkest;
+/// The mean of each pixel's channels, in rising order.
+std::vector<float> brightnesses(const ImageF& view) {
+    std::vector<float> means;
     for (size_t i = 0; i < view.data.size(); i += 3)
-        darkest.push_back(std::min({view.data[i], view.data[i + 1], view.data[i + 2]}));
-    std::ranges::sort(darkest);
-    return darkest;
+        means.push_back((view.data[i] + view.data[i + 1] + view.data[i + 2]) / 3);
+    std::ranges::sort(means);
+    return means;
 }
 
 /// "; as a color of 0 to 255 it is [0.242, 0.617, 0.831]" for a radiance that looks like one; else "".
@@ -105,11 +105,11 @@ bool isDarkAt(float exposureStops, const ImageF& view, double filled) {
 std::string exposureWarning(const Setup& setup, const ImageF& view, double filled) {
     const float stops = setup.image.exposureStops;
     if (isDarkAt(stops, view, filled)) return warning(setup, meanOf(view, filled), "black");
-    const std::vector<float> darkest = darkestChannels(view);
+    const std::vector<float> means = brightnesses(view);
     const auto isWhite = [&](float value) { return double(value) * scaleOf(stops) > double(kWhite); };
-    const auto white = std::ranges::find_if(darkest, isWhite);
-    const size_t count = size_t(darkest.end() - white);
-    if (double(count) < kNearlyAll * filled * double(darkest.size())) return {};
+    const auto white = std::ranges::find_if(means, isWhite);
+    const size_t count = size_t(means.end() - white);
+    if (double(count) < kNearlyAll * filled * double(means.size())) return {};
     return warning(setup, double(white[std::ptrdiff_t(count / 2)]), "white");
 }
 
