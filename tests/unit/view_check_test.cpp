@@ -68,7 +68,7 @@ TEST(ViewCheck, FindsLightThatFewPathsMeet) {
     // A spot of two degrees on a part of the ceiling
     EXPECT_EQ(saidOf("builtin: white_room, keep_file_lights: false, lights: [{spot: [0, 0, 0], direction: "
                      "[0, 1, 0.2], "
-                     "intensity: 1, outer_deg: 2}]"),
+                     "intensity: 100000, outer_deg: 2}]"),
               "");
 }
 
