@@ -6,9 +6,8 @@
 
 #include "app/commands.h"
 #include "app/config_options.h"
-#include "app/source_root.h"
+#include "app/planning.h"
 #include "experiment/parts.h"
-#include "passes/register_passes.h"
 
 namespace voxray {
 
@@ -20,19 +19,6 @@ struct JobsArguments : ConfigArguments {
     uint32_t referenceParts = 1;
     bool json = false;
 };
-
-void listJobs(JobsArguments arguments) {
-    Registry registry;
-    registerPasses(registry);
-    RunOptions& options = arguments.options;
-    options.scenes = arguments.scenes;
-    options.sourceRoot = sourceRoot();
-    PreparedExperiment prepared(wireExperiment(loadExperiment(arguments.file, arguments.config), registry),
-                                options, registry);
-    for (const std::string& warning : prepared.warnings())
-        fmt::print(stderr, "voxray: warning: {}\n", warning);
-    fmt::print("{}", describeParts(prepared, arguments.referenceParts, arguments.json));
-}
 
 }  // namespace
 
@@ -52,7 +38,11 @@ void addJobsCommand(CLI::App& app, int&) {
         ->capture_default_str();
     addConfigOptions(*command, *arguments);
     addDeviceOptions(*command, arguments->options);
-    command->callback([arguments] { listJobs(*arguments); });
+    command->callback([arguments] {
+        planExperiment(arguments->file, *arguments, arguments->options, [&](PreparedExperiment& prepared) {
+            fmt::print("{}", describeParts(prepared, arguments->referenceParts, arguments->json));
+        });
+    });
 }
 
 }  // namespace voxray

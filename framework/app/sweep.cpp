@@ -11,16 +11,16 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/config_options.h"
-#include "app/source_root.h"
+#include "app/planning.h"
 #include "base/error.h"
 #include "experiment/parts.h"
 #include "experiment/workflow.h"
-#include "passes/register_passes.h"
 
 namespace voxray {
 
@@ -62,18 +62,9 @@ std::vector<std::string> runArguments(const SweepArguments& arguments) {
     return words;
 }
 
-/// Checks the experiment and writes its workflow. @return its folder, absolute, and its lock.
-std::pair<fs::path, std::unique_ptr<ProcessLock>> plan(SweepArguments& arguments) {
-    Registry registry;
-    registerPasses(registry);
-    RunOptions& options = arguments.options;
-    options.scenes = arguments.scenes;
-    options.sourceRoot = sourceRoot();
-    PreparedExperiment prepared(wireExperiment(loadExperiment(arguments.file, arguments.config), registry),
-                                options, registry);
-    for (const std::string& warning : prepared.warnings())
-        fmt::print(stderr, "voxray: warning: {}\n", warning);
-
+/// Writes the experiment's workflow. @return its folder, absolute, and its lock.
+std::pair<fs::path, std::unique_ptr<ProcessLock>> writeWorkflow(SweepArguments& arguments,
+                                                                PreparedExperiment& prepared) {
     WorkflowSettings& workflow = arguments.workflow;
     if (workflow.program.empty()) workflow.program = quoted(fs::read_symlink("/proc/self/exe").string());
     workflow.arguments = runArguments(arguments);
@@ -81,6 +72,7 @@ std::pair<fs::path, std::unique_ptr<ProcessLock>> plan(SweepArguments& arguments
     workflow.referenceParts = arguments.referenceParts
                                   ? *arguments.referenceParts
                                   : std::min(referenceSamples(prepared), workflow.cores.value_or(1));
+    const RunOptions& options = arguments.options;
     const std::string& name = prepared.experiment().setup.general.name;
     const fs::path out = fs::absolute(options.out.empty() ? fs::path("results") / name : options.out);
     return {workflowFolder(out), writeWorkflow(prepared, out, workflow)};
@@ -128,7 +120,11 @@ void sweep(SweepArguments arguments) {
                        int(!arguments.engineProfile.empty());
     if (places != 1)
         throw UsageError("sweep: say where it runs, by one of --cores, --slurm and --snakemake-profile");
-    const auto [folder, lock] = plan(arguments);
+    fs::path folder;
+    std::unique_ptr<ProcessLock> lock;
+    planExperiment(arguments.file, arguments, arguments.options, [&](PreparedExperiment& prepared) {
+        std::tie(folder, lock) = writeWorkflow(arguments, prepared);
+    });
     std::vector<std::string> words = engineWords(arguments, folder);
     if (arguments.print) {
         std::vector<std::string> shellWords;

@@ -187,11 +187,14 @@ void runPart(const Part& part, PreparedExperiment& prepared, const ResultsFolder
     const auto result = parts.runVariant(prepared.variants()[part.variant], progress);
     summary.validationMessages = parts.printValidationMessages(progress);
     if (!result) throw Interrupted();
-    records.store(part.id,
-                  {parts.warnings(), result->error, result->device, result->tracer, result->session});
+    std::vector<std::string> warnings = parts.warnings();
+    if (result->ok && !prepared.options().untimed)
+        for (const std::string& text : disturbances({{&*result, "", isAtRest(prepared, part.variant)}})) {
+            progress.warn(text);
+            warnings.push_back(text);
+        }
+    records.store(part.id, {warnings, result->error, result->device, result->tracer, result->session});
     if (!result->ok) throw Error("{}: {}", part.id, result->error);
-    for (const std::string& text : disturbances({{&*result, "", isAtRest(prepared, part.variant)}}))
-        progress.warn(text);
 }
 
 /// Does the part that the options name.

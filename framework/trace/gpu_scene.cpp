@@ -168,12 +168,13 @@ uint64_t gpuEnvironmentBytes(const Environment& environment) {
 }
 
 std::vector<Binding> GpuScene::bindings(std::vector<Binding> more) const {
-    more.insert(more.begin(),
-                {ifUsed({"scenePositions", positions}), ifUsed({"sceneAttributes", attributes}),
-                 ifUsed({"sceneTriangles", triangles}), ifUsed({"sceneTriangleMaterials", triangleMaterials}),
-                 ifUsed({"sceneMaterials", materials}), ifUsed({"sceneLights", lights}),
-                 ifUsed({"sceneEmitters", emitters}), ifUsed({"sceneTextures", textures}),
-                 ifUsed({"sceneEnvironment", environment, environmentSampler})});
+    more.insert(
+        more.begin(),
+        {ifUsed({"scenePositions", positions}), ifUsed({"sceneAttributes", attributes}),
+         ifUsed({"sceneTriangles", triangles}), ifUsed({"sceneTriangleMaterials", triangleMaterials}),
+         ifUsed({"sceneMaterials", materials}), ifUsed({"sceneLights", lights}),
+         ifUsed({"sceneEmitters", emitters}), ifUsed({"sceneExtent", extent}),
+         ifUsed({"sceneTextures", textures}), ifUsed({"sceneEnvironment", environment, environmentSampler})});
     return more;
 }
 
@@ -187,6 +188,9 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
     scene.triangles = uploaded(device, stream, "scene triangles", g.triangles);
     scene.triangleMaterials = uploaded(device, stream, "scene triangle materials", g.triangleMaterials);
     scene.triangleCount = uint32_t(g.triangles.size());
+    const glm::vec3 largest = glm::max(glm::abs(g.boundsMin), glm::abs(g.boundsMax));
+    scene.extent = uploaded(device, stream, "scene extent",
+                            std::vector<float>{std::max({largest.x, largest.y, largest.z})});
 
     // Materials and lights.
     std::vector<gpu::GpuMaterial> materials;

@@ -18,6 +18,7 @@ struct GpuScene {
     Buffer materials;          ///< GpuMaterial each.
     Buffer lights;             ///< GpuLight each; at least one element is allocated.
     Buffer emitters;           ///< GpuEmitter each: emissive triangles; at least one element is allocated.
+    Buffer extent;             ///< 1 float: the largest absolute value of a coordinate, at all times.
     TextureArray textures;     ///< All with full mip chains.
     Image environment;         ///< Equirectangular radiance, 1x1 for a constant one; black without one.
     Sampler environmentSampler;
@@ -30,7 +31,7 @@ struct GpuScene {
     std::vector<Image> images;
     std::vector<Sampler> samplers;
 
-    /// The bindings that a shader including shaders/scene/scene.glsl may use, followed by `more`.
+    /// The bindings that a shader including files of shaders/scene may use, followed by `more`.
     std::vector<Binding> bindings(std::vector<Binding> more) const;
     std::vector<Binding> bindings(std::initializer_list<Binding> more) const {
         return bindings(std::vector<Binding>(more));

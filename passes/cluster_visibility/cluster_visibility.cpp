@@ -152,10 +152,10 @@ void FindClusterVisibility::traceRays(PassContext& context, RayPush push) {
     const VoxelPatches& patches = context.get(patches_);
     CommandStream& stream = context.stream;
     stream.dispatch(emit_,
-                    {{"faces", faces_},
-                     {"sides", patches.sides},
-                     {"PatchSurfelsAt", patches.surfels.at()},
-                     {"rays", rays_}},
+                    context.scene.bindings({{"faces", faces_},
+                                            {"sides", patches.sides},
+                                            {"PatchSurfelsAt", patches.surfels.at()},
+                                            {"rays", rays_}}),
                     push, linearGroups(push.rays));
     context.tracer.closestHit(stream, rays_, hits_, push.rays);
     for (push.round = 0; push.round <= kRounds; ++push.round) {

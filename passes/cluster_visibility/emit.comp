@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Rays from the surfels of patches through the scene. A thread takes a ray.
 #include "passes/cluster_visibility/face_ray.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 

@@ -9,6 +9,7 @@
 #include "shaders/trace/ray_types.h"
 #include "shaders/voxel_march/surface_segment.glsl"
 #include "shaders/scene/specular.glsl"
+#include "shaders/scene/surface_offset.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kMeetVoxels = false;  // Else triangles.
 // Rays through voxels end so far before the light, which may be a surface: two diagonals of a voxel.

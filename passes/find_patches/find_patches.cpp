@@ -193,7 +193,8 @@ void FindPatches::raiseCovered(PassContext& context) {
     const VoxelPatches& patches = context.get(patches_);
     CommandStream& stream = context.stream;
     inBatches(patches.surfelCount, [&](uint32_t first, uint32_t count) {
-        stream.dispatch(aimAcross_, {{"rays", rays_}, {"PatchSurfelsAt", patches.surfels.at()}},
+        stream.dispatch(aimAcross_,
+                        context.scene.bindings({{"rays", rays_}, {"PatchSurfelsAt", patches.surfels.at()}}),
                         AcrossPush{first, count, voxelSize}, linearGroups(count));
         context.tracer.closestHit(stream, rays_, hits_, count);
         stream.dispatch(raise_, {{"hits", hits_}, {"PatchSurfelsAt", patches.surfels.at()}},

@@ -4,6 +4,7 @@
 #include "passes/gather_cones/near_cones.glsl"
 #include "shaders/radiance/cone_direction.glsl"
 #include "shaders/scene/sampling.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 

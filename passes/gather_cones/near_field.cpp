@@ -88,11 +88,11 @@ void NearField::record(PassContext& context, const GBuffer& gbuffer, const Radia
 
         // Rays through the near field, and cones behind it.
         stream.dispatch(aim_,
-                        {{"position", gbuffer.position, sampler_},
-                         {"normal", gbuffer.normal, sampler_},
-                         {"geometricNormal", gbuffer.geometricNormal, sampler_},
-                         {"cones", cones},
-                         {"rays", rays_}},
+                        context.scene.bindings({{"position", gbuffer.position, sampler_},
+                                                {"normal", gbuffer.normal, sampler_},
+                                                {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                                                {"cones", cones},
+                                                {"rays", rays_}}),
                         batch, linearGroups(batch.count));
         context.tracer.closestHit(stream, rays_, hits_, batch.count);
         stream.fill(count_, 0);

@@ -17,6 +17,7 @@ layout(scalar) buffer Paths { MirrorPath data[]; } paths;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 #ifdef HYBRID
 #include "shaders/hybrid_leaves/hybrid_types.h"
+#include "shaders/scene/surface_offset.glsl"
 layout(scalar) writeonly buffer Starts { RayStart data[]; } starts;
 #endif
 layout(push_constant, scalar) uniform Push {

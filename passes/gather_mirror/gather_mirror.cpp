@@ -209,14 +209,15 @@ void GatherMirror::gather(PassContext& context, const gpu::MirrorBatch& batch) {
     if (count == 0) return;
 
     // Their first rays, and those that mirrors send on.
-    std::vector<Binding> beginning{{"position", gbuffer.position, sampler_},
-                                   {"normal", gbuffer.normal, sampler_},
-                                   {"geometricNormal", gbuffer.geometricNormal, sampler_},
-                                   {"specular", gbuffer.specular, sampler_},
-                                   {"fresnel", gbuffer.fresnel, sampler_},
-                                   {"slots", slots_},
-                                   {"paths", paths_[0]},
-                                   {"rays", rays_[0]}};
+    std::vector<Binding> beginning =
+        context.scene.bindings({{"position", gbuffer.position, sampler_},
+                                {"normal", gbuffer.normal, sampler_},
+                                {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                                {"specular", gbuffer.specular, sampler_},
+                                {"fresnel", gbuffer.fresnel, sampler_},
+                                {"slots", slots_},
+                                {"paths", paths_[0]},
+                                {"rays", rays_[0]}});
     if (hybrid_) beginning.emplace_back("starts", starts_[0]);
     stream.dispatch(begin_, beginning, BeginPush{batch, count}, linearGroups(count));
     for (uint32_t depth = 0; depth < params_.bounces && count > 0; ++depth) {

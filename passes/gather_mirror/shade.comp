@@ -6,6 +6,7 @@
 #include "passes/gather_mirror/diffuse_fraction.glsl"
 #include "shaders/scene/lobe_ray.glsl"
 #include "passes/gather_mirror/surface.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/surfels/surfel_types.h"
 #include "shaders/voxels/face_irradiance.glsl"
 layout(local_size_x = 64) in;

@@ -70,15 +70,16 @@ void GatherSurfels::record(PassContext& context) {
     const VoxelIrradiance& irradiance = context.get(irradiance_);
     const SurfelsByVoxel& surfels = context.get(surfels_);
     const Image& result = context.get(indirect_).image;
-    std::vector<Binding> gather = voxels.bindings({{"position", gbuffer.position, sampler_},
-                                                   {"normal", gbuffer.normal, sampler_},
-                                                   {"geometricNormal", gbuffer.geometricNormal, sampler_},
-                                                   {"albedo", gbuffer.albedo, sampler_},
-                                                   {"lists", surfels.lists},
-                                                   {"VoxelFluxAt", irradiance.indirect.at()},
-                                                   {"voxelArea", irradiance.area},
-                                                   {"LitAt", context.get(light_).lit.at()},
-                                                   {"result", result}});
+    std::vector<Binding> gather =
+        voxels.bindings(context.scene.bindings({{"position", gbuffer.position, sampler_},
+                                                {"normal", gbuffer.normal, sampler_},
+                                                {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                                                {"albedo", gbuffer.albedo, sampler_},
+                                                {"lists", surfels.lists},
+                                                {"VoxelFluxAt", irradiance.indirect.at()},
+                                                {"voxelArea", irradiance.area},
+                                                {"LitAt", context.get(light_).lit.at()},
+                                                {"result", result}}));
     if (probed_)
         gather.insert(gather.end(),
                       {{"count", count_}, {"surfaces", undecided_}, {"probes", probes_}, {"first", first_}});

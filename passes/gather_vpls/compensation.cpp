@@ -107,7 +107,9 @@ void VplCompensation::record(PassContext& context, const Vpls& vpls, const VplLi
 
 uint32_t VplCompensation::step(PassContext& context, uint32_t count, uint32_t seed) {
     CommandStream& stream = context.stream;
-    stream.dispatch(aim_, {{"surfels", from_.surfels}, {"faceNormals", from_.faceNormals}, {"rays", rays_}},
+    stream.dispatch(aim_,
+                    context.scene.bindings(
+                        {{"surfels", from_.surfels}, {"faceNormals", from_.faceNormals}, {"rays", rays_}}),
                     AimPush{count, seed, std::sqrt(settings_.minDistanceSquared)}, linearGroups(count));
     context.tracer.closestHit(stream, rays_, hits_, count);
 

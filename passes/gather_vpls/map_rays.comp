@@ -4,6 +4,7 @@
 // A ray from each virtual light of a run through the center of each texel of its shadow map.
 #include "passes/gather_vpls/hemisphere.glsl"
 #include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/vpls/vpls.glsl"
 layout(local_size_x = 64) in;

@@ -76,10 +76,13 @@ void PointMaps::draw(PassContext& context, const Vpls& vpls, uint32_t first, uin
     stream.fill(levels_[0], 0);
     // Each point stands for a disc of its part of all area
     const float radius = std::sqrt(area_ / (glm::pi<float>() * float(points_)));
-    stream.dispatch(
-        splat_,
-        {{"VplsAt", vpls.points.at()}, {"list", vpls.list}, {"points", spreadPoints_}, {"maps", levels_[0]}},
-        SplatPush{first, count, points_, kSets, resolution(), radius}, linearGroups(count * points_));
+    stream.dispatch(splat_,
+                    context.scene.bindings({{"VplsAt", vpls.points.at()},
+                                            {"list", vpls.list},
+                                            {"points", spreadPoints_},
+                                            {"maps", levels_[0]}}),
+                    SplatPush{first, count, points_, kSets, resolution(), radius},
+                    linearGroups(count * points_));
 
     // Holes: from fine to coarse, and back
     const auto step = [&](const Program& program, uint32_t fine, uint32_t ofSide) {

@@ -6,6 +6,7 @@
 #include "passes/gather_vpls/hemisphere.glsl"
 #include "passes/gather_vpls/map_point_types.h"
 #include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/vpls/vpls.glsl"
 layout(local_size_x = 64) in;

@@ -23,8 +23,9 @@ void TracedMaps::prepare(PassSetup& setup) {
 
 void TracedMaps::draw(PassContext& context, const Vpls& vpls, uint32_t first, uint32_t count) const {
     const uint32_t rays = count * resolution() * resolution();
-    context.stream.dispatch(aim_, {{"VplsAt", vpls.points.at()}, {"list", vpls.list}, {"rays", rays_}},
-                            AimPush{first, count, resolution()}, linearGroups(rays));
+    context.stream.dispatch(
+        aim_, context.scene.bindings({{"VplsAt", vpls.points.at()}, {"list", vpls.list}, {"rays", rays_}}),
+        AimPush{first, count, resolution()}, linearGroups(rays));
     context.tracer.closestHit(context.stream, rays_, hits_, rays);
 }
 

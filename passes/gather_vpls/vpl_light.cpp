@@ -107,7 +107,8 @@ void VplLight::add(PassContext& context, const Vpls& vpls, const Visibility& vis
     if (!visibility.tracer && !maps) stream.fill(occluded_, 0);
     std::vector<Binding> lights = receivers, adding = target;
     lights.insert(lights.end(), {{"VplsAt", vpls.points.at()}, {"list", vpls.list}});
-    std::vector<Binding> averaging = lights, aiming = lights, shading = lights;
+    std::vector<Binding> shading = lights, aiming = context.scene.bindings(std::move(lights));
+    std::vector<Binding> averaging = aiming;
     aiming.insert(aiming.end(), {{"rays", rays_}, {"carried", carried_}});
     if (settings_.starts) aiming.emplace_back("starts", starts_);
     if (settings_.dim.below > 0)

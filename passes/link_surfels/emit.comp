@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 // A batch of rays from surfels, distributed by cosine.
 #include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/surfels/path_ray.glsl"
 layout(local_size_x = 64) in;
 

@@ -148,7 +148,7 @@ void LinkSurfels::link(PassContext& context, const Surfels::Chunk& chunk, uint32
     const uint32_t perSurfel = params_.raysPerSurfel, batch = kBatchRays / perSurfel;
     for (uint32_t begin = 0; begin < chunk.count; begin += batch) {
         const uint32_t rays = std::min(batch, chunk.count - begin) * perSurfel;
-        context.stream.dispatch(emit_, {{"surfels", chunk.surfels}, {"rays", rays_}},
+        context.stream.dispatch(emit_, context.scene.bindings({{"surfels", chunk.surfels}, {"rays", rays_}}),
                                 EmitPush{begin, rays, perSurfel, randomSeed(context.frame)},
                                 linearGroups(rays));
         context.tracer.closestHit(context.stream, rays_, hits_, rays);

@@ -122,13 +122,13 @@ std::vector<glm::vec2> SelectVpls::importance(PassContext& context) const {
         const uint32_t count = std::min(candidates.count - first, batch), rays = count * params_.points;
         stream.dispatch(
             aim_,
-            {{"position", gbuffer.position, sampler_},
-             {"normal", gbuffer.normal, sampler_},
-             {"geometricNormal", gbuffer.geometricNormal, sampler_},
-             {"VplsAt", candidates.points.at()},
-             {"list", candidates.list},
-             {"rays", rays_},
-             {"carried", carried_}},
+            context.scene.bindings({{"position", gbuffer.position, sampler_},
+                                    {"normal", gbuffer.normal, sampler_},
+                                    {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                                    {"VplsAt", candidates.points.at()},
+                                    {"list", candidates.list},
+                                    {"rays", rays_},
+                                    {"carried", carried_}}),
             AimPush{first, count, params_.points, randomSeed(context.frame, 0x91u), minDistanceSquared},
             linearGroups(rays));
         context.tracer.occluded(stream, rays_, occluded_, rays);

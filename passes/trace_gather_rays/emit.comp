@@ -4,6 +4,7 @@
 // Starts a batch of gather rays from the G-buffer's surfaces, distributed by cosine about their normals.
 #include "shaders/view/gather_layout.glsl"
 #include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 

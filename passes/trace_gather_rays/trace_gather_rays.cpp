@@ -49,12 +49,13 @@ void TraceGatherRays::record(PassContext& context) {
     hits.layout.seed = randomSeed(context.frame, context.frameIndex);
     for (uint32_t b = 0; b < hits.batches.size(); ++b) {
         const uint32_t blocks = hits.batchBlocks(b), rays = blocks * params_.raysPerBlock;
-        context.stream.dispatch(emit_,
-                                {{"position", gbuffer.position, sampler_},
-                                 {"normal", gbuffer.normal, sampler_},
-                                 {"geometricNormal", gbuffer.geometricNormal, sampler_},
-                                 {"rays", rays_}},
-                                EmitPush{hits.layout, b * hits.blocksPerBatch, blocks}, linearGroups(rays));
+        context.stream.dispatch(
+            emit_,
+            context.scene.bindings({{"position", gbuffer.position, sampler_},
+                                    {"normal", gbuffer.normal, sampler_},
+                                    {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                                    {"rays", rays_}}),
+            EmitPush{hits.layout, b * hits.blocksPerBatch, blocks}, linearGroups(rays));
         context.tracer.closestHit(context.stream, rays_, hits.batches[b], rays);
     }
 }

@@ -5,6 +5,7 @@
 #include "shaders/light_paths/light_path_types.h"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 
 // The triangle's unit normal on the side that a ray along `direction` comes from; 0 for a triangle without area.

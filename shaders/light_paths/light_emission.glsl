@@ -6,6 +6,7 @@
 #include "shaders/lights/lights.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 
 // A point on the disc that the scene fits behind, seen along a direction.

@@ -4,6 +4,7 @@
 
 #include "shaders/light_paths/light_bounce.glsl"
 #include "shaders/scene/lobe_ray.glsl"
+#include "shaders/scene/surface_offset.glsl"
 
 Specular litSpecular(GpuMaterial m, SurfacePoint s) {
     const vec2 rough = lookup(m.metallicRoughnessTexture, s.texCoords, 0.0).gb;

@@ -93,11 +93,6 @@ vec2 trianglePoint(vec2 u) {
     return vec2(w, v);
 }
 
-// Where a ray that leaves a surface may start: off the surface by an error bound of float positions.
-float surfaceOffset(vec3 position) {
-    return 1e-5 + 4e-6 * max(abs(position.x), max(abs(position.y), abs(position.z)));
-}
-
 float luminance(vec3 rgb) { return dot(rgb, vec3(0.2126, 0.7152, 0.0722)); }
 
 // The chance that a path goes on from where so much of the light is reflected (Russian roulette).

@@ -3,6 +3,7 @@
 #define VOXRAY_OPEN_SPACE_GLSL
 
 #include "shaders/scene/sampling.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 
 // The ray whose occlusion tells it. normal: geometric, unit length, on that side; voxelSize in m.

@@ -3,6 +3,7 @@
 #define VOXRAY_PATH_RAY_GLSL
 
 #include "shaders/scene/sampling.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/surfels/surfel_types.h"
 #include "shaders/trace/ray_types.h"
 

@@ -3,6 +3,7 @@
 #define VOXRAY_VPL_KERNEL_GLSL
 
 #include "shaders/scene/sampling.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/vpls/vpl_types.h"
 

@@ -171,10 +171,13 @@ void FinalGather::follow(PassContext& context, const std::vector<Binding>& store
         const Buffer &from = surfels_[step % 2], &to = surfels_[(step + 1) % 2];
         const uint32_t seed = randomSeed(context.frame, context.frameIndex) + 0x51u + step * 0x9e3779b9u;
         hitLight_.measure(context, sources_, from, surfels, settings_.lightSamples, seed, direct_);
-        stream.dispatch(
-            reflect_,
-            {{"surfels", from}, {"direct", direct_}, {"light", light_}, {"goesOn", goesOn_}, {"rays", rays_}},
-            ReflectPush{surfels, seed + 0xa3u}, linearGroups(surfels));
+        stream.dispatch(reflect_,
+                        context.scene.bindings({{"surfels", from},
+                                                {"direct", direct_},
+                                                {"light", light_},
+                                                {"goesOn", goesOn_},
+                                                {"rays", rays_}}),
+                        ReflectPush{surfels, seed + 0xa3u}, linearGroups(surfels));
         if (settings_.nearFieldCells == 0 || step == settings_.maxSteps) return;
 
         // Where those end.

@@ -3,6 +3,7 @@
 // One shadow ray from each surfel towards a source of light, with the irradiance that arrives if nothing is in the way.
 #include "shaders/lights/lights.glsl"
 #include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;

@@ -52,8 +52,9 @@ void SurfelPaths::begin(PassContext& context, const Buffer& surfels, uint32_t co
     count_ = count;
     seed_ = seed;
     context.stream.fill(irradiance, 0);
-    context.stream.dispatch(begin_, {{"surfels", surfels}, {"ends", ends_[0]}, {"rays", rays_[0]}},
-                            BeginPush{count, seed + 0x51u}, linearGroups(count));
+    context.stream.dispatch(
+        begin_, context.scene.bindings({{"surfels", surfels}, {"ends", ends_[0]}, {"rays", rays_[0]}}),
+        BeginPush{count, seed + 0x51u}, linearGroups(count));
 }
 
 void SurfelPaths::extend(PassContext& context, const PathScene& scene, const Buffer& irradiance,

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Ambient rays of a batch of pixels, by cosine about the normals of the g-buffer's texels.
 #include "shaders/scene/sampling.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "tests/house/occlusion/batch.glsl"
 layout(local_size_x = 64) in;
 

@@ -58,12 +58,13 @@ void AmbientOcclusion::record(PassContext& context) {
         const uint32_t count = std::min(batch, pixels - first), rays = count * raysPerPixel(gbuffer);
         const Push push{width,        first,          count, gbuffer.samples,
                         params_.rays, params_.radius, seed,  params_.ambient};
-        context.stream.dispatch(aim_,
-                                {{"position", gbuffer.position, sampler_},
-                                 {"normal", gbuffer.normal, sampler_},
-                                 {"geometricNormal", gbuffer.geometricNormal, sampler_},
-                                 {"rays", rays_}},
-                                push, linearGroups(rays));
+        context.stream.dispatch(
+            aim_,
+            context.scene.bindings({{"position", gbuffer.position, sampler_},
+                                    {"normal", gbuffer.normal, sampler_},
+                                    {"geometricNormal", gbuffer.geometricNormal, sampler_},
+                                    {"rays", rays_}}),
+            push, linearGroups(rays));
         context.tracer.occluded(context.stream, rays_, occluded_, rays);
         context.stream.dispatch(average_,
                                 {{"albedo", gbuffer.albedo, sampler_},

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "app/config_options.h"
+#include "experiment/prepared_experiment.h"
+
+namespace voxray {
+
+/// Plans the experiment of a config as a run would, prints what may mislead, and hands it over.
+/// @throws UsageError as loadExperiment(), wireExperiment() and runExperiment().
+void planExperiment(const std::filesystem::path& file, const ConfigArguments& arguments, RunOptions options,
+                    const std::function<void(PreparedExperiment&)>& use);
+
+}  // namespace voxray
