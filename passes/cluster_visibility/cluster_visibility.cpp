@@ -54,6 +54,7 @@ void FindClusterVisibility::plan(PassPlan& plan) {
     const SurfaceVoxels& voxels = plan.get(voxels_);
     ClusterVisibility& visibility = plan.get(visibility_);
     const uint32_t chunk = kChunkRays / params_.rays;
+    visibility.listsPatches = seesPatches();
     visibility.layout = {params_.rays, chunk, 0, uint32_t(std::bit_width(params_.rays - 1)), 32};
     march_.plan(plan, voxels);
     const uint64_t patches = kPatchesPerVoxel * voxels.voxelCount, rays = uint64_t(chunk) * params_.rays;

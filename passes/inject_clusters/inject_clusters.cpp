@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/compute/random_seed.h"
+#include "passes/inject_clusters/part_face_types.h"
 
 namespace voxray {
 namespace {
@@ -22,6 +23,13 @@ struct PlacePush {
 struct ReflectPush {
     uint32_t sides;
     uint32_t hasBounced;
+};
+
+struct BouncePush {
+    gpu::SeenLayout lists;
+    uint32_t senders;
+    uint32_t picks;
+    uint32_t seed;
 };
 
 constexpr uint64_t kIrradianceBytes = 4 * sizeof(float);
@@ -45,8 +53,9 @@ void InjectClusters::plan(PassPlan& plan) {
     const uint64_t voxels = plan.get(voxels_).voxelCount;
     const uint64_t patches = ClusterLight::bytes(kPatchesPerVoxel * voxels);
     plan.reserve("light of patches (estimated)", 2 * patches);
-    plan.reserve("light of parts (estimated)", kFaces * ClusterLight::bytes(kSidesPerVoxel * voxels));
-    plan.reserveScratch("bounced light (estimated)", 2 * patches);
+    const uint64_t parts = kFaces * ClusterLight::bytes(kSidesPerVoxel * voxels);
+    plan.reserve("light of parts (estimated)", parts);
+    plan.reserveScratch("bounced light (estimated)", patches + (bouncesParts() ? 7 * parts : patches));
     if (params_.direct == ClusterDirect::Injected) {
         const std::optional<uint32_t> injected = plan.get(irradiance_).lightBounces;
         if (injected) plan.get(light_).lightBounces = *injected + params_.bounces;
@@ -89,14 +98,19 @@ void InjectClusters::prepare(PassSetup& setup) {
     }
     reflectSides_ = program("reflect");
     sumParts_ = program("sum");
+    if (!bouncesParts()) return;
+    compaction_.emplace(setup.device, setup.compiler);
+    senders_ = program("senders");
+    bounceParts_ = program("bounce");
+    spread_ = program("spread");
 }
 
 void InjectClusters::record(PassContext& context) {
     const VoxelPatches& patches = context.get(patches_);
-    const ClusterVisibility& visibility = context.get(visibility_);
     const bool isInjected = params_.direct == ClusterDirect::Injected;
     if (isInjected) {
-        const std::tuple version{patches.version, visibility.version, context.get(irradiance_).version};
+        const std::tuple version{patches.version, context.get(visibility_).version,
+                                 context.get(irradiance_).version};
         if (version_ == version) return;
         version_ = version;
     }
@@ -109,23 +123,95 @@ void InjectClusters::record(PassContext& context) {
     make(light.patches, "radiosity of patches", patches.patchCount);
     make(light.direct, "direct irradiance of patches", patches.patchCount);
     make(arriving_, "light that arrives", patches.patchCount);
-    if (params_.bounces > 0) {
-        make(bounced_, "bounced light", patches.patchCount);
-        context.stream.fill(bounced_, 0);
-    }
     if (isInjected)
         readInjected(context, light);
     else
         measure(context, light);
     reflect(context, false);
+    if (bouncesParts())
+        bounceParts(context, light);
+    else
+        bouncePatches(context, light);
+    context.stream.finish();
+    arriving_ = {};
+}
+
+void InjectClusters::bouncePatches(PassContext& context, ClusterLight& light) {
+    if (params_.bounces == 0) return;
+    makeOrKeep(bounced_, context.device, "bounced light", light.patches.bytes());
     for (uint32_t i = 0; i < params_.bounces; ++i) {
-        gather_.gather(context.stream, visibility, light, bounced_);
+        gather_.gather(context.stream, context.get(visibility_), light, bounced_);
         reflect(context, true);
         context.stream.finish();
     }
-    context.stream.finish();
-    arriving_ = {};
     bounced_ = {};
+}
+
+uint32_t InjectClusters::listSenders(PassContext& context, const Buffer& partFaces,
+                                     const Buffer& senders) const {
+    const VoxelPatches& patches = context.get(patches_);
+    const uint32_t words = (kFaces * patches.partCount + 31) / 32;
+    const Buffer flags(context.device, "faces of parts that send", std::max(words, 1u) * sizeof(uint32_t));
+    context.stream.fill(flags, 0);
+    context.stream.dispatch(senders_,
+                            {{"VoxelMaterialsAt", patches.materials.at()},
+                             {"sides", patches.sides},
+                             {"parts", patches.parts},
+                             {"members", patches.members},
+                             {"partFaces", partFaces},
+                             {"flags", flags}},
+                            patches.partCount, linearGroups(patches.partCount));
+    return compaction_->run(context.stream, flags, senders, words);
+}
+
+void InjectClusters::bounceParts(PassContext& context, ClusterLight& light) {
+    const VoxelPatches& patches = context.get(patches_);
+    const ClusterVisibility& visibility = context.get(visibility_);
+    CommandStream& stream = context.stream;
+    const uint64_t faces = uint64_t(kFaces) * patches.partCount, bytes = ClusterLight::bytes(faces);
+    const Buffer partFaces(context.device, "areas of parts",
+                           std::max<uint64_t>(faces, 1) * sizeof(gpu::PartFace));
+    const Buffer senders(context.device, "list of faces of parts that send", bytes);
+    const Buffer first(context.device, "radiosity of parts before bounces", bytes);
+    const Buffer bounced(context.device, "bounced radiosity of parts", bytes);
+    Buffer sent(context.device, "radiosity of parts after a bounce", bytes);
+    const uint32_t count = listSenders(context, partFaces, senders);
+    stream.copy(light.parts, first, bytes);
+    stream.copy(light.parts, sent, bytes);
+    for (uint32_t i = 0; i < params_.bounces; ++i) {
+        stream.dispatch(
+            bounceParts_,
+            gatherBindings(visibility, light,
+                           {{"VoxelMaterialsAt", patches.materials.at()},
+                            {"sides", patches.sides},
+                            {"parts", patches.parts},
+                            {"members", patches.members},
+                            {"partFaces", partFaces},
+                            {"senders", senders},
+                            {"first", first},
+                            {"bounced", bounced},
+                            {"sent", sent}}),
+            BouncePush{visibility.layout, count, params_.bouncePatches, randomSeed(context.frame, i + 1)},
+            linearGroups(count));
+        stream.finish();
+        std::swap(light.parts, sent);
+        if (visibility.listsPatches || i + 1 == params_.bounces) spread(context, light, bounced);
+    }
+    stream.finish();
+}
+
+void InjectClusters::spread(PassContext& context, const ClusterLight& light, const Buffer& bounced) const {
+    const VoxelPatches& patches = context.get(patches_);
+    context.stream.dispatch(spread_,
+                            {{"VoxelMaterialsAt", patches.materials.at()},
+                             {"sides", patches.sides},
+                             {"parts", patches.parts},
+                             {"members", patches.members},
+                             {"sent", light.parts},
+                             {"bounced", bounced},
+                             {"ArrivingAt", arriving_.at()},
+                             {"RadiosityAt", light.patches.at()}},
+                            patches.partCount, linearGroups(patches.partCount));
 }
 
 void InjectClusters::readInjected(PassContext& context, const ClusterLight& light) {

@@ -6,6 +6,7 @@
 
 #include "graph/registry.h"
 #include "passes/common/clusters/cluster_light.h"
+#include "passes/common/compute/compaction.h"
 #include "passes/common/lights/light_sources.h"
 #include "passes/common/surfels/surfel_light.h"
 #include "passes/common/surfels/surfels.h"
@@ -42,6 +43,7 @@ class InjectClusters final : public Pass {
         "sides of a wall. Source: Cosin and Patow 2022, section 4.4.";
     struct Params {
         uint32_t bounces = 0;
+        uint32_t bouncePatches = 0;
         ClusterDirect direct = ClusterDirect::Injected;
         LitTest litTest = LitTest::Surfels;
         uint32_t lightSamples = 4;
@@ -51,6 +53,12 @@ class InjectClusters final : public Pass {
                       "Bounces between clusters, after those of the injection and before the one "
                       "of gather_clusters.",
                       0u, 64u),
+                field("bounce_patches", &Params::bouncePatches,
+                      "How many patches of each face of a part stand for all of them in a bounce, picked by "
+                      "area and anew in each bounce. 0: all, one by one.",
+                      0u, 64u)
+                    .lessNoise()
+                    .onlyWith(noneOf(&Params::bounces, {0u})),
                 field("direct", &Params::direct,
                       "injected: the light that an injection left in the voxels. shadow_rays: direct light "
                       "of the surfels (place_surfels) by rays to the lights, without an injection."),
@@ -78,6 +86,7 @@ class InjectClusters final : public Pass {
     bool testsPoints() const {
         return params_.direct == ClusterDirect::ShadowRays && params_.litTest == LitTest::Points;
     }
+    bool bouncesParts() const { return params_.bounces > 0 && params_.bouncePatches > 0; }
     /// Direct light of each patch, and all that arrives before the first bounce in arriving_.
     void readInjected(PassContext& context, const ClusterLight& light);
     void measure(PassContext& context, const ClusterLight& light);
@@ -85,6 +94,13 @@ class InjectClusters final : public Pass {
     void traceSurfels(PassContext& context, const LargeBuffer& ofSurfels);
     /// What is sent of arriving_ and of what has bounced so far.
     void reflect(PassContext& context, bool hasBounced);
+    /// All bounces: of each patch, or between faces of parts.
+    void bouncePatches(PassContext& context, ClusterLight& light);
+    void bounceParts(PassContext& context, ClusterLight& light);
+    /// Areas of the faces of parts, and a list of those that have any. @return how many.
+    uint32_t listSenders(PassContext& context, const Buffer& partFaces, const Buffer& senders) const;
+    /// Radiosity of patches out of what bounced between parts.
+    void spread(PassContext& context, const ClusterLight& light, const Buffer& bounced) const;
 
     Params params_;
     Port<const SurfaceVoxels> voxels_;
@@ -98,7 +114,8 @@ class InjectClusters final : public Pass {
     SurfelLight surfelLight_;
     LitPoints litPoints_;
     ClusterGather gather_;
-    Program injected_, place_, mean_, reflectSides_, sumParts_;
+    std::optional<Compaction> compaction_;
+    Program injected_, place_, mean_, reflectSides_, sumParts_, senders_, bounceParts_, spread_;
     LargeBuffer arriving_, bounced_;
     Buffer direct_;                                                    ///< Scratch: of a chunk of surfels.
     std::optional<std::tuple<uint64_t, uint64_t, uint64_t>> version_;  ///< Of voxels, lists and light.

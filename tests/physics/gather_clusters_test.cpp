@@ -156,6 +156,37 @@ TEST(GatherClusters, FilterOverAllOrOverWhatIsLit) {
     EXPECT_GT(lit, 1.01 * all);
 }
 
+TEST(InjectClusters, BounceBetweenFacesOfParts) {
+    // In a furnace each patch stands for all: the closed form after five bounces. In Cornell one patch for
+    // each face of a part, drawn by area, brings as much light in the mean as all of them do one by one.
+    const auto light = [](const std::string& scene, const std::string& parameters, const std::string& near,
+                          const std::string& bounces, uint32_t seed) {
+        Chain chain(scene, parameters,
+                    graphYaml(clusterGraph(kDirect, "target: 200", "rays: 64, near_distance: " + near,
+                                           bounces + ", direct: shadow_rays", "filter_passes: 0")),
+                    64, 64, seed);
+        return mean(chain.image("indirect"));
+    };
+    const double a = 0.7, furnace = a * a * (1 - std::pow(a, 5)) / (1 - a);
+    for (const std::string near : {"0", "4"}) {
+        const double ratio =
+            light("furnace", "{shape: box, albedo: 0.7, emission: 1}", near, "4, bounce_patches: 1", 1) /
+            furnace;
+        std::printf("furnace, near %s: %.4f of the closed form\n", near.c_str(), ratio);
+        EXPECT_NEAR(ratio, 1, 0.01);
+        double all = 0, one = 0, many = 0;
+        for (uint32_t seed = 1; seed <= 2; ++seed) {
+            all += light("cornell", "{lights: point}", near, "4", seed);
+            one += light("cornell", "{lights: point}", near, "4, bounce_patches: 1", seed);
+            many += light("cornell", "{lights: point}", near, "4, bounce_patches: 64", seed);
+        }
+        std::printf("cornell, near %s: 1 patch %.4f, 64 patches %.4f of all\n", near.c_str(), one / all,
+                    many / all);
+        EXPECT_NEAR(one / all, 1, 0.01);
+        EXPECT_NEAR(many / all, 1, 0.005);
+    }
+}
+
 TEST(GatherClusters, AreLinearInLightAndTheSameTwice) {
     const auto run = [](const std::string& intensity) {
         Chain chain("white_room", "{intensity: " + intensity + "}",

@@ -20,11 +20,12 @@ struct ClusterVisibility : Resource {
         Buffer seen;   ///< Entries of `layout.entryBits`: gpu::seenTarget() and gpu::seenRays(), by target.
     };
     std::vector<Chunk> chunks;
-    Buffer addresses;          ///< Of `first` and `seen`, by chunk.
-    gpu::SeenLayout layout{};  ///< Rays, their bits and patches of a chunk are known from plan() on.
-    uint64_t entries = 0;      ///< Of all lists.
-    uint32_t patchCount = 0;   ///< That have a list.
-    uint64_t version = 0;      ///< Another one whenever the lists are.
+    Buffer addresses;           ///< Of `first` and `seen`, by chunk.
+    gpu::SeenLayout layout{};   ///< Rays, their bits and patches of a chunk are known from plan() on.
+    bool listsPatches = false;  ///< Whether entries name patches besides faces of parts; from plan() on.
+    uint64_t entries = 0;       ///< Of all lists.
+    uint32_t patchCount = 0;    ///< That have a list.
+    uint64_t version = 0;       ///< Another one whenever the lists are.
 
     uint64_t bytes() const {
         uint64_t sum = addresses.bytes();
