@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 
 #include "base/byte_units.h"
 #include "base/interrupt.h"
@@ -162,7 +163,7 @@ std::string overTheLimit(const Experiment& experiment, std::vector<Need> needs) 
 }  // namespace
 
 PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
-                     const Registry& registry) {
+                     const Registry& registry, std::optional<size_t> only) {
     constexpr uint64_t kAnySize = std::numeric_limits<uint64_t>::max();
     const Experiment& experiment = wired.experiment;
     std::map<std::string, std::vector<std::string>> notices;  // What is said, of which variants.
@@ -171,7 +172,8 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
     std::string key;
     PreparedScene prepared;
     PlanCheck found;
-    for (WiredVariant& variant : wired.variants) {
+    const std::span<WiredVariant> all(wired.variants);
+    for (WiredVariant& variant : only ? all.subspan(*only, 1) : all) {
         if (interruptRequested()) throw Interrupted();
         const auto say = [&](const std::vector<std::string>& texts) {
             for (const std::string& text : texts) notices[text].push_back(variant.name);
@@ -211,12 +213,12 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
                              wired.variants.size() > 1 ? fmt::format(" (variant {})", variant.name) : "");
         }
     }
-    motion.refuse();
+    if (!only) motion.refuse();
 
     std::vector<std::string>& warnings = found.warnings;
     warnings = experiment.warnings;
     if (std::string text = unequalHalves(experiment); !text.empty()) warnings.push_back(std::move(text));
-    if (std::string text = overTheLimit(experiment, std::move(needs)); !text.empty())
+    if (std::string text = only ? "" : overTheLimit(experiment, std::move(needs)); !text.empty())
         warnings.push_back(std::move(text));
     for (const auto& [id, count] : variantsWithout(wired))
         if (!runsSomewhere(wired, id)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,11 @@ struct PlanCheck {
 /// variant whose light bounces more or fewer times than the reference's, which shows as a difference that no
 /// other parameter lowers; a pass that goes on from frame to frame where too few lead up to the compared one;
 /// variants over the config's own limit of memory. A config may ask for each of these.
+/// @param only the index of the variant to look at alone; what can be said of all variants together is left
+/// out.
 /// @throws UsageError with file and line: for a scene as SceneLoader::prepare(); where all variants are over
 /// the limit of memory; for settings of the scene without effect in all variants that have them.
 PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
-                     const Registry& registry);
+                     const Registry& registry, std::optional<size_t> only = std::nullopt);
 
 }  // namespace voxray

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "experiment/noise_parameters.h"
+#include "experiment/parts.h"
 #include "experiment/plan_checks.h"
 
 namespace voxray {
@@ -39,10 +40,18 @@ PreparedExperiment::PreparedExperiment(WiredExperiment experiment, const RunOpti
         session_->loader().key(variant.setup.scene);
         session_->tracerName(variant.setup);
     }
-    PlanCheck check = checkPlans(wired_, session_->loader(), session_->device().info(), registry_);
+    recordInputs();
+    PlanCheck check =
+        checkPlans(wired_, session_->loader(), session_->device().info(), registry_, ownVariant());
     warnings_ = std::move(check.warnings);
     session_->takeMasks(std::move(check.masks));
-    recordInputs();
+}
+
+std::optional<size_t> PreparedExperiment::ownVariant() {
+    if (options_.part.empty()) return std::nullopt;
+    const Part part = partNamed(*this, options_.part);
+    if (part.kind == Part::Kind::Merge) return std::nullopt;
+    return part.variant;
 }
 
 void PreparedExperiment::recordInputs() {

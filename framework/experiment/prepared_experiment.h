@@ -39,6 +39,8 @@ class PreparedExperiment {
 
  private:
     void recordInputs();
+    /// The variant of the part that the options name; none where all variants are needed.
+    std::optional<size_t> ownVariant();
 
     WiredExperiment wired_;
     const RunOptions& options_;
