@@ -55,7 +55,7 @@ class InjectClusters final : public Pass {
                       0u, 64u),
                 field("bounce_patches", &Params::bouncePatches,
                       "How many patches of each face of a part stand for all of them in a bounce, picked by "
-                      "area and anew in each bounce. 0: all, one by one.",
+                      "area and again in each bounce. 0: all, one by one.",
                       0u, 64u)
                     .lessNoise()
                     .onlyWith(noneOf(&Params::bounces, {0u})),
