@@ -231,6 +231,21 @@ class PartOfARun(ReportTest):
         self.assertIn("Bias is the larger part of every variant's error",
                       self.make(rows, run, indirect=False).text)
 
+    def test_a_filter_blurs_less_with_less_noise(self):
+        rows = [made_up.variant(name, 10, 0.2) for name in ("cones", "filtered", "paths")]
+        for row, noise in zip(rows, (0.1, 0.1, 0.3)):
+            row.update(bias_nrmse=0.2, noise_nrmse=noise)
+        run, never = made_up.manifest([]), "more rays don't lower it."
+        for kind in ("filter_irradiance", "accumulate"):
+            run["variants"] = {"cones": [{"pass": "gather_cones"}], "filtered": [{"pass": "gather_rays"}, {"pass": kind, "id": "f"}]}
+            shown = self.make(rows, run, indirect=False).text
+            self.assertIn("Bias is the larger part of the others' error: more rays don't lower it, but for what a filter blurs, in "
+                          "2 (filtered): that may fall with the noise.", shown)
+            self.assertNotIn(never, shown)
+            shown = self.make(rows[1:2], run, indirect=False).text
+            self.assertIn("Bias is the larger part of every variant's error: more rays lower it only as far as a filter blurs less", shown)
+        self.assertIn(never, self.make(rows[:1], run, indirect=False).text)
+
     def test_without_a_second_seed_bias_and_noise_are_not_told_apart(self):
         rows, run = [made_up.variant(name, 10, 0.3, 0.4) for name in ("a", "b")], made_up.manifest([])
         said = "Bias and noise are not told apart: set measure.second_seed: true."
