@@ -7,7 +7,7 @@ import unittest
 
 from report_support import FLIP, NRMSE, Page, ReportTest, made_up
 
-from report import equal_error, names, page, ranking, summary
+from report import equal_error, names, page, ranking, summary, table
 from report.load import Metric, interval_of, load
 
 
@@ -83,10 +83,18 @@ class Comparing(ReportTest):
         marks = ranking.cost_marks(self.results(rows), "frame_ms_median")
         self.assertEqual(marks, {"a": "best", "b": "tie"})
 
-    def test_what_costs_nothing_is_not_compared(self):
+    def test_no_cost_is_the_best_next_to_none(self):
         rows = [made_up.variant(name, 10, 0.1) | {"build_ms": ms} for name, ms in (("paths", 0), ("rays", 20), ("lookup", 10))]
-        self.assertEqual(ranking.cost_marks(self.results(rows), "build_ms"), {"lookup": "best"})
-        self.assertEqual(ranking.cost_marks(self.results(rows[:2]), "build_ms"), {})
+        self.assertEqual(ranking.cost_marks(self.results(rows), "build_ms"), {})
+        self.assertEqual(ranking.cost_marks(self.results(rows[1:]), "build_ms"), {"lookup": "best"})
+        # Of another scene it says nothing
+        records = [{"folder": "a", "variants": ["paths"]}, {"folder": "b", "variants": ["rays", "lookup"]}]
+        self.assertEqual(ranking.cost_marks(self.results(rows, references=records), "build_ms"), {"lookup": "best"})
+        results = self.results(rows)
+        named = names.names_of(results)
+        shown = table.variant_rows(results, table.columns_of(results, ["total"], named), named, dict.fromkeys(named.numbers, "x"))
+        headings = [column.key for column in table.columns_of(results, ["total"], named)]
+        self.assertEqual([row.cells[headings.index("build_ms")].text for row in shown], ["–", "20.0", "10.0"])
 
     def test_worse_than_a_black_image(self):
         def beaten(metric, value, low=math.nan, high=math.nan):
