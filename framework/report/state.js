@@ -71,8 +71,8 @@ const page = (() => {
         set(Object.fromEntries(pairs.map((part) => [part.slice(0, part.indexOf("=")), decoded(part.slice(part.indexOf("=") + 1))])), false);
         const anchor = addressParts().find((part) => !part.includes("="));
         const target = anchor && document.getElementById(anchor);
-        const folded = { reference: target?.querySelector("details"), warnings: target }[anchor];
-        folded?.setAttribute("open", "");
+        if (anchor === "reference") target?.querySelector("details").setAttribute("open", "");
+        if (anchor === "warnings") target?.setAttribute("open", "");
         if (target?.hidden) page.showAllRows?.();
         target?.scrollIntoView();
     }
