@@ -145,12 +145,13 @@ def _and(words) -> str:
 
 
 def _gains(scenes: list[Scene], views: list[list[Scene]]) -> list[tuple[str, str, str, str]]:
-    """Rows of each scene and time: the factor of the method that gains most, and the method."""
+    """Rows of each scene and time: the factor of the method that gains most, and the method; none of errors that no method
+    reaches."""
     rows = []
     for scene in _ranked(scenes, views):
         for cost in pareto.TIMES:
-            found = pareto.best_at(scene, cost, _SAMPLES)
-            rows.append((scene[0].name, _words_of(cost), _range([found[1]]) if found else "–", found[0] if found else ""))
+            if found := pareto.best_at(scene, cost, _SAMPLES):
+                rows.append((scene[0].name, _words_of(cost), _range([found[1]]), found[0]))
     return rows
 
 
