@@ -116,7 +116,7 @@ def _variant(results: Results, row: Mapping, passes: pd.DataFrame | None, lights
     if not any(view.image for view in views):
         warnings.append(f"Variant {name} has no image in its results.")
     facts = [("frame", f"{text.figures(row['frame_ms_median'])} ms (p05 {text.figures(row['frame_ms_p05'])}, "
-              f"p95 {text.figures(row['frame_ms_p95'])})"), ("build", f"{text.figures(row['build_ms'])} ms"),
+              f"p95 {text.figures(row['frame_ms_p95'])})"), ("build", f"{text.figures(row['build_ms'])} ms" if row["build_ms"] != 0 else "nothing"),
              ("memory", f"{text.size(row['memory_bytes'])}, at the most {text.size(row['peak_bytes'])}"),
              ("rays", text.count(row["rays"]))]
     graph = section(results.manifest, "variants").get(name)

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from report import text
-from report.load import LIGHTS, Metric, Results, interval_of
+from report.load import LIGHTS, Metric, Results, interval_ends
 from report.names import Family, Names
 from report.ranking import all_beaten, pareto_front
 
@@ -31,7 +31,7 @@ def time_to_reach(error: float, points: list[tuple[float, float]]) -> Reached | 
         return Reached(front[0][0], "<" if front[0][1] < error else "")
     for (ms0, error0), (ms1, error1) in zip(front, front[1:]):
         if error1 <= error:
-            at = math.log(error0 / error) / math.log(error0 / error1)
+            at = math.log(error0 / error) / math.log(error0 / error1) if error1 > 0 else 0.0
             return Reached(ms0 * (ms1 / ms0) ** at)
     return Reached(front[-1][0], ">")
 
@@ -39,13 +39,15 @@ def time_to_reach(error: float, points: list[tuple[float, float]]) -> Reached | 
 @dataclass(frozen=True)
 class SpeedUp:
     """How many times as long path tracing takes as a frame of a variant, `ms`, for its error: `reached` is its time, that of
-    the family `rival`. `ends` are the factors at the ends of the error's interval, () where they tell nothing."""
+    the family `rival`. `least` and `most`: what the intervals of both errors make of that time; `reached` again where there
+    are none."""
 
     variant: str
     ms: float
     rival: Family
     reached: Reached
-    ends: tuple[float, ...]
+    least: Reached
+    most: Reached
 
     @property
     def factor(self) -> float:
@@ -59,6 +61,27 @@ class SpeedUp:
     @property
     def is_faster(self) -> bool:
         return self.reached.bound != "<" and self.factor > 1
+
+    @property
+    def is_told(self) -> bool:
+        """Whether the intervals of both errors leave no doubt of which one is faster."""
+        return (self.least.bound != "<" and self.least.milliseconds > self.ms
+                or self.most.bound != ">" and self.most.milliseconds < self.ms)
+
+    @property
+    def about(self) -> str:
+        """"≈ " before a factor of which the intervals leave open on which side of 1 it lies, and which is no bound."""
+        return "" if self.is_told or self.bound else "≈ "
+
+    @property
+    def span(self) -> str:
+        """The factors at the ends of the intervals, as far as they are known; "" where there are no such or nothing is."""
+        low, high = (end.milliseconds / self.ms for end in (self.least, self.most))
+        is_low, is_high = self.least.bound != "<", self.most.bound != ">"
+        if self.least == self.most or not (is_low or is_high):
+            return ""
+        known = text.span(low, high) if is_low and is_high else f"at least {text.figures(low, 2)}" if is_low else f"up to {text.figures(high, 2)}"
+        return f" ({known} within the errors' intervals)"
 
     @property
     def is_open(self) -> bool:
@@ -75,15 +98,17 @@ def speed_up(results: Results, light: str, metric: Metric, families: list[Family
     usable = {name for name in rows.index if rows.loc[name, "frame_ms_median"] > 0 and rows.loc[name, column] > 0}
     rivals = [family for family in families if _RIVAL in family.passes and usable & set(family.variants)]
     traced = {name for family in rivals for name in family.variants}
-    curves = [(family, _front([(rows.loc[name, "frame_ms_median"], rows.loc[name, column])
-                               for name in family.variants if name in usable])) for family in rivals]
+    low, high = interval_ends(rows, column)
+    curves, of_low, of_high = ([(family, _front([(rows.loc[name, "frame_ms_median"], errors[name])
+                                                 for name in family.variants if name in usable])) for family in rivals]
+                               for errors in (rows[column], low, high))
     beaten = all_beaten(results, metric, column)
     found = []
     for row in rows.to_dict("records") if rivals else ():
         name, ms = row["variant"], row["frame_ms_median"]
         if name in traced or name not in usable or name in beaten:
             continue
-        found.append(SpeedUp(name, ms, *_fastest(row[column], curves), _ends(row, column, ms, curves)))
+        found.append(SpeedUp(name, ms, *_fastest(row[column], curves), _fastest(high[name], of_low)[1], _fastest(low[name], of_high)[1]))
     return max(found, key=lambda entry: (entry.is_faster, entry.is_open, entry.factor), default=None)
 
 
@@ -97,15 +122,19 @@ def sentence(found: SpeedUp, results: Results, light: str, metric: Metric, names
                 f"variant of {found.rival.name} takes {rival_ms} ms and has {has} error.")
     if not found.is_faster:
         return (f"{head} path tracing is as fast as all other methods or faster: a frame of {names.full(found.variant)} takes "
-                f"{ms} ms, one of {found.rival.name} {found.bound}{rival_ms} ms.")
+                f"{ms} ms, one of {found.rival.name} {found.bound}{rival_ms} ms"
+                f"{_open(found)}.")
     who, short = f"one of {found.rival.name}", ""
     if found.bound:
         who, short = "path tracing", " (all its variants have a higher error)"
     build = results.ok.set_index("variant").loc[found.variant, "build_ms"]
     apart = f". Its build, once for each scene or light, takes {text.figures(build)} ms more" if build > 0 else ""
-    within = f" ({text.span(*found.ends)} within the error's interval)" if found.ends else ""
-    return (f"{head}: a frame of {names.full(found.variant)} takes {ms} ms, {who} {found.bound}{rival_ms} ms: {found.bound}"
-            f"{text.figures(found.factor, 2)} times as long{short}{within}{apart}.")
+    return (f"{head}: a frame of {names.full(found.variant)} takes {ms} ms, {who} {found.bound}{rival_ms} ms: {found.about}{found.bound}"
+            f"{text.figures(found.factor, 2)} times as long{found.span}{short}{_open(found)}{apart}.")
+
+
+def _open(found: SpeedUp) -> str:
+    return "" if found.is_told else "; the intervals of their errors leave open which one is faster"
 
 
 def _front(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -121,10 +150,3 @@ def _fastest(error: float, curves) -> tuple[Family | None, Reached | None]:
     _, _, i, reached = min(found, key=lambda entry: entry[:3])
     return curves[i][0], reached
 
-
-def _ends(row, column: str, ms: float, curves) -> tuple[float, ...]:
-    # What the error's own interval makes of the factor.
-    ends = [_fastest(error, curves)[1] for error in reversed(interval_of(row, column)) if error > 0]
-    if len(ends) < 2 or any(end.bound for end in ends) or ends[0].milliseconds == ends[1].milliseconds:
-        return ()
-    return tuple(end.milliseconds / ms for end in ends)

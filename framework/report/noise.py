@@ -7,6 +7,7 @@ from report.load import LIGHTS, Results, section
 from report.names import Names
 
 _IMAGES = {"total": "final", "indirect": "indirect"}  # light -> image, as the manifest calls it
+_FILTERS = {"filter_irradiance", "accumulate"}  # passes whose bias may fall with the noise of what they filter
 
 
 def sentences(results: Results, light: str, names: Names) -> list[str]:
@@ -23,12 +24,24 @@ def sentences(results: Results, light: str, names: Names) -> list[str]:
         return ["Bias and noise are not told apart: set measure.second_seed: true."] if is_noisy else []
     bias, noise = split
     noisy = [name for name in bias.index if noise[name] > bias[name]]
-    if not noisy:
-        return ["Bias is the larger part of every variant's error: more rays don't lower it."]
-    said = f"Noise is the larger part of the error of {names.listed(noisy)}{_advice(results, light, noisy)}"
-    if len(noisy) < int(bias.notna().sum()):
-        said += " Bias is the larger part of the others' error: more rays don't lower it."
-    return [said]
+    biased = [name for name in bias.index if bias[name] >= noise[name]]
+    said = []
+    if noisy:
+        said.append(f"Noise is the larger part of the error of {names.listed(noisy)}{_advice(results, light, noisy)}")
+    if biased:
+        said.append(_of_bias(results, biased, "the others'" if noisy else "every variant's", names))
+    return [" ".join(said)]
+
+
+def _of_bias(results: Results, biased: list[str], whose: str, names: Names) -> str:
+    filtered = [name for name in biased if any(entry.get("pass") in _FILTERS for entry in _graph(results, name))]
+    said = f"Bias is the larger part of {whose} error"
+    if not filtered:
+        return f"{said}: more rays don't lower it."
+    if len(filtered) == len(biased):
+        return f"{said}: more rays lower it only as far as a filter blurs less where there is less noise."
+    return (f"{said}: more rays don't lower it, but for what a filter blurs, in {names.listed(filtered)}: that may fall "
+            "with the noise.")
 
 
 def parameters_of(results: Results, light: str, variant: str) -> list[str]:
@@ -57,9 +70,12 @@ def _advice(results: Results, light: str, noisy: list[str]) -> str:
 
 def _entry(results: Results, variant: str, owner: str) -> dict:
     """The pass of an id in a variant's graph, {} where the manifest does not tell."""
+    return next((entry for entry in _graph(results, variant) if entry.get("id", entry.get("pass")) == owner), {})
+
+
+def _graph(results: Results, variant: str) -> list[dict]:
     graph = section(results.manifest, "variants").get(variant)
-    passes = [entry for entry in graph if isinstance(entry, dict)] if isinstance(graph, list) else []
-    return next((entry for entry in passes if entry.get("id", entry.get("pass")) == owner), {})
+    return [entry for entry in graph if isinstance(entry, dict)] if isinstance(graph, list) else []
 
 
 def _with_values(path: str, values: list) -> str:

@@ -7,12 +7,12 @@ import statistics
 from dataclasses import dataclass, field
 
 from report.equal_error import Reached, time_to_reach
-from report.load import LIGHTS, Metric, Results, interval_of, section
+from report.load import LIGHTS, Metric, Results, interval_of, number, section
 from report.ranking import beaten_by, pareto_front
 from report.setting import scene_of
 
-_TRACED = "path_trace"
-RIVAL = {_TRACED, "filter_irradiance"}  # passes of what a user would pick instead
+TRACED = "path_trace"
+RIVAL = {TRACED, "filter_irradiance"}  # passes of what a user would pick instead
 _NOT_OF_IT = ("inject_", "gather_", "sample_")  # what passes of other methods begin with
 _EVERYWHERE = {"gbuffer", "voxelize", "composite"}  # passes that tell nothing of a method
 _LAYOUT = "layout"  # the parameter that makes two methods of the same passes
@@ -92,7 +92,7 @@ def scenes_of(runs: list[Results], metric: Metric, light: str) -> list[Scene]:
     """
     column = LIGHTS[light] + metric.key
     graphs = [(run, row, _passes(run, row["variant"])) for run in runs for _, row in run.ok.iterrows()
-              if not math.isnan(row[column])]
+              if not math.isnan(number(row.get(column)))]
     shared = set.intersection(*(set(names) for *_, names in graphs)) if graphs else set()
     scenes: dict[str, Scene] = {}
     for run, row, names in graphs:
@@ -142,13 +142,13 @@ def best_at(views: list[Scene], cost: str, samples: tuple[int, ...]) -> tuple[st
     """The method, path tracing aside, that gains most over filtered path tracing with these samples a pixel, with the least
     of its factors: over all of these samples and all views, which show one scene by several metrics. None where no method
     reaches all errors."""
-    least: dict[str, list[Factor]] = {}
-    for scene in views:
-        for method, factors in speed_ups(scene, cost).items():
-            if _TRACED not in method:
-                least.setdefault(method, []).extend(f for f in factors if f.rival.spp in samples)
-    known = {method: min(factors, key=lambda f: f.value) for method, factors in least.items()
-             if len(factors) == len(samples) * len(views) and not any(math.isnan(f.value) for f in factors)}
+    by_view = [speed_ups(scene, cost) for scene in views]
+    known = {}
+    for method in dict.fromkeys(method for found in by_view for method in found if TRACED not in method):
+        own = [[factor for factor in found.get(method, []) if factor.rival.spp in samples] for found in by_view]
+        factors = [factor for of_view in own for factor in of_view]
+        if all({factor.rival.spp for factor in of_view} == set(samples) for of_view in own) and not any(math.isnan(f.value) for f in factors):
+            known[method] = min(factors, key=lambda factor: factor.value)
     return max(known.items(), key=lambda entry: entry[1].value, default=None)
 
 
@@ -158,7 +158,7 @@ def best_point(scene: Scene, cost: str) -> tuple[Measured, Reached, list[Measure
     found = []
     for m in scene.measured:
         rivals = [(r.costs[cost], r.error) for r in scene.rivals(m.machine, cost)]
-        if _TRACED in m.method or not (m.error > 0 and rivals):
+        if TRACED in m.method or not (m.error > 0 and rivals):
             continue
         reached = time_to_reach(m.error, rivals)
         if reached.bound == ">" or 0 < m.costs[cost] <= reached.milliseconds:
@@ -227,7 +227,7 @@ def _samples_of_rival(run: Results, variant: str) -> int:
     kinds = [str(entry.get("pass")) for entry in graph]
     if not RIVAL <= set(kinds) or any(kind.startswith(_NOT_OF_IT) for kind in kinds):
         return 0
-    return int(next(entry.get("spp", 1) for entry in graph if entry.get("pass") == _TRACED))
+    return int(next(entry.get("spp", 1) for entry in graph if entry.get("pass") == TRACED))
 
 
 def _passes(run: Results, variant: str) -> list[str]:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from report import pareto, text
 from report.charts import set_up_axis
 from report.load import Metric, Results
-from report.pareto import COSTS, Factor, Measured, Scene
+from report.pareto import COSTS, TRACED, Factor, Measured, Scene
 from report.ranking import pareto_front
 from report.style import CATEGORY_COLORS, MARKERS, Style
 from report.svg import STAND_INS, drawing, to_svg
@@ -27,7 +27,8 @@ CHARTED = (*pareto.TIMES, "memory")
 def render(runs: list[Results], metric: Metric, light: str) -> str:
     """The whole page, self-contained."""
     scenes = pareto.scenes_of(runs, metric, light)
-    both = [pareto.scenes_of(runs, other, light) for other in runs[0].metrics if other.key in _WORST_OF]
+    worst = [other for other in runs[0].metrics if other.key in _WORST_OF]
+    both = [pareto.scenes_of(runs, other, light) for other in worst]
     methods = list(dict.fromkeys(method for scene in scenes for method in scene.methods()))
     styles = {method: Style(CATEGORY_COLORS[i % len(CATEGORY_COLORS)], list(MARKERS)[i % len(MARKERS)])
               for i, method in enumerate(methods)}
@@ -40,12 +41,11 @@ def render(runs: list[Results], metric: Metric, light: str) -> str:
     return environment.get_template("pareto.html.j2").render(
         style_css=(_HERE / "style.css").read_text(encoding="utf-8"), metric=metric, light=light, charts=charts,
         legend=list(styles.items()), markers=MARKERS, tables=[(cost, _savings(rivalled, cost)) for cost in pareto.TIMES],
-        equal_time=_equal_time(rivalled, "frame"), best_points=_best_points(rivalled), gains=_gains(both),
-        worst_of=_WORST_OF, scene_names=[scene.name for scene in rivalled],
-        without_rival=[scene.name for scene in scenes if scene not in rivalled],
-        winners=[_winners(scenes, both, cost) for cost in pareto.TIMES],
-        dominated={cost: pareto.dominated(scenes, cost) for cost in pareto.TIMES},
-        words={cost: _words_of(cost) for cost in pareto.TIMES},
+        equal_time=_equal_time(rivalled, "frame"), best_points=_best_points(rivalled), gains=_gains(scenes, both),
+        worst_of=_WORST_OF, scene_names=[scene.name for scene in rivalled], words={cost: _words_of(cost) for cost in pareto.TIMES},
+        sentences=[*(said for cost in pareto.TIMES for said in _winners(scenes, both, cost)), *_not_reached(scenes, both, worst),
+                   *_not_ranked(scenes, both), *_without_error(runs, metric, light),
+                   *(said for cost in pareto.TIMES for said in _beaten(scenes, cost))],
         runs=[str(run.directory) for run in runs])
 
 
@@ -73,35 +73,85 @@ def _savings(scenes: list[Scene], cost: str) -> list[tuple[str, list[str], str, 
     return rows
 
 
-def _sampled(views: list[list[Scene]]) -> list[tuple[Scene, ...]]:
-    """The scenes in which filtered path tracing was measured with all of _SAMPLES, each by several metrics."""
-    return [scene for scene in zip(*views) if {m.spp for m in scene[0].measured} >= set(_SAMPLES)]
+def _ranked(scenes: list[Scene], views: list[list[Scene]]) -> list[tuple[Scene, ...]]:
+    """The scenes in which the fastest method is looked for, each by several metrics."""
+    return [own for scene, *own in zip(scenes, *views) if not _why_not_ranked(scene, own)]
 
 
-def _winners(scenes: list[Scene], views: list[list[Scene]], cost: str) -> str:
+def _why_not_ranked(scene: Scene, views: list[Scene]) -> str:
+    """Why no method is looked for at the errors of filtered path tracing with _SAMPLES; "" where one is."""
+    machines = list(dict.fromkeys(m.machine for m in scene.measured if m.is_rival))
+    if not machines:
+        return "no variant of path_trace with filter_irradiance was measured to compare with"
+    spps = {m.spp for m in scene.measured if m.is_rival}
+    if not spps >= set(_SAMPLES):
+        return f"filtered path tracing was measured with {_and(sorted(spps))} samples a pixel, and {_and(_SAMPLES)} are needed"
+    if not any(m.machine in machines and TRACED not in m.method for m in scene.measured):
+        return "no other method was measured on the machine of filtered path tracing"
+    if not views:
+        return f"none of {_and(_WORST_OF)} was measured"
+    if not all({m.spp for machine in machines for m in view.rivals(machine, "frame")} >= set(_SAMPLES) for view in views):
+        return f"more samples a pixel did not lower the error of filtered path tracing, of {_and(_SAMPLES)}"
+    return ""
+
+
+def _not_ranked(scenes: list[Scene], views: list[list[Scene]]) -> list[str]:
+    reasons: dict[str, list[str]] = {}  # scenes by why
+    for scene, *own in zip(scenes, *views):
+        if reason := _why_not_ranked(scene, own):
+            reasons.setdefault(reason, []).append(scene.name)
+    return [f"Not ranked, for {reason}: {', '.join(names)}." for reason, names in reasons.items()]
+
+
+def _without_error(runs: list[Results], metric: Metric, light: str) -> list[str]:
+    names = [str(run.directory) for run in runs if not pareto.scenes_of([run], metric, light)]
+    return [f"Not shown, for no variant has {metric.label} of the {light} light: {', '.join(names)}."] if names else []
+
+
+def _not_reached(scenes: list[Scene], views: list[list[Scene]], metrics: list[Metric]) -> list[str]:
+    """Of ranked scenes those in which no method gets to the errors, whatever it may cost."""
+    names = [own[0].name for own in _ranked(scenes, views) if pareto.best_at(own, "frame", _SAMPLES) is None]
+    errors = f"{'both errors' if len(metrics) == 2 else 'the error'} ({_and([metric.label for metric in metrics])})"
+    return [f"No method reaches {errors} of filtered path tracing with {_and(_SAMPLES)} samples a pixel, so none is called fastest there: "
+            f"{', '.join(names)}."] if names else []
+
+
+def _winners(scenes: list[Scene], views: list[list[Scene]], cost: str) -> list[str]:
     """A sentence on who wins by a time: at the errors of filtered path tracing, or else who is on the front."""
     wins: dict[str, list[str]] = {}  # by method: scenes
-    for scene in _sampled(views):
-        found = pareto.best_at(list(scene), cost, _SAMPLES)
-        who = "filtered path tracing itself" if found is None or found[1].high < 1 else found[0] if found[1].is_told else "open"
-        factor = "" if found is None or found[1].high < 1 else f" {_range([found[1]])}×"
-        wins.setdefault(who, []).append(scene[0].name + factor)
+    for scene in _ranked(scenes, views):
+        if (found := pareto.best_at(scene, cost, _SAMPLES)) is None:
+            continue
+        method, factor = found
+        who = "filtered path tracing itself" if factor.high < 1 else method if factor.is_told else "open"
+        wins.setdefault(who, []).append(scene[0].name + ("" if factor.high < 1 else f" {_range([factor])}×"))
     if wins:
         listed = [f"{who} ({', '.join(names)})" for who, names in sorted(wins.items(), key=lambda entry: -len(entry[1]))]
-        return (f"By the time of {_words_of(cost)}, fastest at the errors of filtered path tracing with "
-                f"{' and '.join(map(str, _SAMPLES))} samples a pixel: {'; '.join(listed)}.")
+        return [f"By the time of {_words_of(cost)}, fastest at the errors of filtered path tracing with {_and(_SAMPLES)} samples a pixel: "
+                f"{'; '.join(listed)}."]
     front = list(pareto.on_front(scenes, cost).items())[:_MAX_ON_FRONT]
     told = "; ".join(f"{method} ({count} of {len(scenes)} scene{'s' * (len(scenes) > 1)})" for method, count in front)
-    return f"By the time of {_words_of(cost)}, most often on the Pareto front: {told or 'none'}."
+    return [f"By the time of {_words_of(cost)}, most often on the Pareto front: {told}."] if told else []
 
 
-def _gains(views: list[list[Scene]]) -> list[tuple[str, str, str, str]]:
-    """Rows of each scene and time: the factor of the method that gains most, and the method."""
+def _beaten(scenes: list[Scene], cost: str) -> list[str]:
+    beaten = pareto.dominated(scenes, cost)
+    return [f"By the time of {_words_of(cost)}, beaten in every scene by another method: {'; '.join(beaten)}."] if beaten else []
+
+
+def _and(words) -> str:
+    *first, last = map(str, words)
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+def _gains(scenes: list[Scene], views: list[list[Scene]]) -> list[tuple[str, str, str, str]]:
+    """Rows of each scene and time: the factor of the method that gains most, and the method; none of errors that no method
+    reaches."""
     rows = []
-    for scene in _sampled(views):
+    for scene in _ranked(scenes, views):
         for cost in pareto.TIMES:
-            found = pareto.best_at(list(scene), cost, _SAMPLES)
-            rows.append((scene[0].name, _words_of(cost), _range([found[1]]) if found else "–", found[0] if found else ""))
+            if found := pareto.best_at(scene, cost, _SAMPLES):
+                rows.append((scene[0].name, _words_of(cost), _range([found[1]]), found[0]))
     return rows
 
 

@@ -45,15 +45,15 @@ def _score_marks(results: Results, metric: Metric, column: str) -> dict[str, str
 
 
 def cost_marks(results: Results, column: str) -> dict[str, str]:
-    """Marks of one cost, lower is better, among variants of the same scene and reference; none of what costs nothing, for
-    it has no such pass. Frame times tie where the fastest one's p95 reaches this median."""
+    """Marks of one cost, lower is better, among variants of the same scene and reference; none where some variant has no
+    such cost at all, for nothing is cheaper than that. Frame times tie where the fastest one's p95 reaches this median."""
     return {name: mark for _, compared in comparisons(results) for name, mark in _cost_marks(compared, column).items()}
 
 
 def _cost_marks(results: Results, column: str) -> dict[str, str]:
     rows = results.ok.set_index("variant")
-    costs = rows.loc[rows[column] > 0, column]
-    if len(costs) < 2:
+    costs = rows[column].dropna()
+    if len(costs) < 2 or (costs == 0).any():
         return {}
     fastest = costs.idxmin()
     spread = rows.loc[fastest, "frame_ms_p95"] if column == "frame_ms_median" else math.nan

@@ -1,12 +1,12 @@
-"""What the header says of a run: scene, camera, lights, image, reference and device."""
+"""What the header says of a run: scene, camera, lights, what moves, image, reference and device."""
 
 from __future__ import annotations
 
-from report import text
+from report import motion, text
 from report.load import Results, section
 
 _SOURCES = ("file", "builtin")
-_OWN_WORDS = ("camera", "lights", "environment", "add", "override", "keep_file_lights")
+_OWN_WORDS = ("camera", "lights", "environment", "add", "override", "keep_file_lights", "time_step")
 _LIGHTS = {"directional": ("towards", "irradiance", "W/m²"), "point": ("at", "intensity", "W/sr"),
            "spot": ("at", "intensity", "W/sr")}
 
@@ -17,7 +17,7 @@ def setting_of(results: Results) -> list[tuple[str, str]]:
     facts = [("scene", _scene(scene)), ("camera", _camera(scene.get("camera"))), ("lights", _lights(scene))]
     facts = [(key, f"{words} (the sweep varies it)" if _is_swept(results, key) else words)
              for key, words in facts if words]
-    return [fact for fact in (*facts, ("image", _image(results.manifest)), ("reference", _reference(results)),
+    return [fact for fact in (*facts, ("in motion", motion.words(results)), ("scores", motion.compared(results)), ("image", _image(results.manifest)), ("reference", _reference(results)),
                               ("device", _device(results.manifest))) if fact[1]]
 
 

@@ -72,6 +72,7 @@ const page = (() => {
         const anchor = addressParts().find((part) => !part.includes("="));
         const target = anchor && document.getElementById(anchor);
         if (anchor === "reference") target?.querySelector("details").setAttribute("open", "");
+        if (anchor === "warnings") target?.setAttribute("open", "");
         if (target?.hidden) page.showAllRows?.();
         target?.scrollIntoView();
     }

@@ -70,8 +70,8 @@ def _by_scene(compared: list[tuple[str, Results]], light: str, metric, names: Na
         said = f"{scene}: lowest {metric.label} {text.figures(scores[best])}, {own.full(best)}{also}."
         found = equal_error.speed_up(results, light, metric, families_of(results, own))
         if found:
-            said += (f" For the error of {own.full(found.variant)} path tracing takes {found.bound}"
-                     f"{text.figures(found.factor, 2)} times as long as its {text.figures(found.ms)} ms a frame"
+            said += (f" For the error of {own.full(found.variant)} path tracing takes {found.about}{found.bound}"
+                     f"{text.figures(found.factor, 2)} times as long as its {text.figures(found.ms)} ms a frame{found.span}"
                      f"{'' if found.is_faster or found.is_open else ', and no other method is faster'}.")
         sentences.append(said)
     if sentences and metric.meaning:

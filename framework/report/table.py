@@ -19,7 +19,7 @@ class _Cost:
 
 
 _COSTS = {
-    "build_ms": _Cost("build, ms", "once for each scene or light; lower is better", text.figures),
+    "build_ms": _Cost("build, ms", "once for each scene or light; lower is better; – where nothing is built", text.cost),
     "frame_ms_median": _Cost("frame, ms", "median of the measured frames; lower is better", text.figures),
     "memory_bytes": _Cost("memory", "device memory that the passes keep; lower is better", text.size),
     "rays": _Cost("rays", "rays traced", text.count),

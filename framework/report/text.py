@@ -25,6 +25,11 @@ def figures(value: float, digits: int = 3) -> str:
     return f"{value:,.{max(digits - 1 - exponent, 0)}f}".replace(",", "\u202f")
 
 
+def cost(value: float) -> str:
+    """As figures(); "–" for what costs nothing, for there is no such thing."""
+    return figures(value) if value != 0 else "–"
+
+
 def ratio(value: float) -> str:
     """A value that is best at 1, to three decimals, so that 0.998 and 1.003 can be compared; far from 1 as figures()."""
     return f"{value:.3f}" if 0.1 <= abs(value) < 10 else figures(value)

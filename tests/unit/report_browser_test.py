@@ -215,6 +215,29 @@ class InABrowser(unittest.TestCase):
         size = self.browser.run("return parseFloat(getComputedStyle(document.querySelector('#results td')).fontSize)")
         self.assertGreaterEqual(size, 11)
 
+    def test_warnings_and_temporal_error_are_a_click_away(self):
+        rows, run = made_up.sweep_of_two_keys(), made_up.manifest(["voxelize.resolution", "inject"])
+        run["warnings"] = ["times were disturbed", "the reference is noisy", "a light is off"]
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        directory = Path(folder.name)
+        frames = made_up.with_sequence(rows[:-1], FRAMES)
+        made_up.write_results(directory, rows, run, size=SIZE)
+        made_up.write_csv(directory / "frames.csv", list(frames[1]), frames)
+        self.assertEqual(make_report.main([str(directory)]), 0)
+        in_sight = "const box = document.querySelector(arguments[0]).getBoundingClientRect(); return box.height > 0 && box.top >= 0 && box.top < 400"
+        for width, height, link, target in ((400, 800, ".to-warnings", "#warnings li"), (400, 800, '.jumps a[href="#frames"]', "#frames h2"),
+                                            (1400, 900, '.jumps a[href="#frames"]', "#frames h2")):
+            self.browser.resize(width, height)
+            self.browser.open(directory / "report.html")
+            self.assertTrue(self.browser.run(in_sight, link), (width, link))
+            self.assertFalse(self.browser.run(in_sight, target), (width, target))
+            self.browser.driver.find_element(By.CSS_SELECTOR, link).click()
+            self.browser.settle()
+            self.assertTrue(self.browser.run(in_sight, target), (width, target))
+        # A wide screen has the warnings themselves
+        self.assertEqual(self.browser.run(VISIBLE, ".to-warnings"), 0)
+
     def test_the_dark_scheme_is_dark_and_paper_is_white(self):
         def brightness(selector, key):
             color = self.browser.run("return getComputedStyle(document.querySelector(arguments[0]))[arguments[1]]", selector, key)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from report_support import NRMSE, Page, ReportTest, made_up
 
-from report import bars, charts, names, page, ranking, style, table
+from report import bars, charts, names, page, ranking, setting, style, table
 from report.load import load
 from PIL import Image
 
@@ -231,6 +231,21 @@ class PartOfARun(ReportTest):
         self.assertIn("Bias is the larger part of every variant's error",
                       self.make(rows, run, indirect=False).text)
 
+    def test_a_filter_blurs_less_with_less_noise(self):
+        rows = [made_up.variant(name, 10, 0.2) for name in ("cones", "filtered", "paths")]
+        for row, noise in zip(rows, (0.1, 0.1, 0.3)):
+            row.update(bias_nrmse=0.2, noise_nrmse=noise)
+        run, never = made_up.manifest([]), "more rays don't lower it."
+        for kind in ("filter_irradiance", "accumulate"):
+            run["variants"] = {"cones": [{"pass": "gather_cones"}], "filtered": [{"pass": "gather_rays"}, {"pass": kind, "id": "f"}]}
+            shown = self.make(rows, run, indirect=False).text
+            self.assertIn("Bias is the larger part of the others' error: more rays don't lower it, but for what a filter blurs, in "
+                          "2 (filtered): that may fall with the noise.", shown)
+            self.assertNotIn(never, shown)
+            shown = self.make(rows[1:2], run, indirect=False).text
+            self.assertIn("Bias is the larger part of every variant's error: more rays lower it only as far as a filter blurs less", shown)
+        self.assertIn(never, self.make(rows[:1], run, indirect=False).text)
+
     def test_without_a_second_seed_bias_and_noise_are_not_told_apart(self):
         rows, run = [made_up.variant(name, 10, 0.3, 0.4) for name in ("a", "b")], made_up.manifest([])
         said = "Bias and noise are not told apart: set measure.second_seed: true."
@@ -264,6 +279,46 @@ class PartOfARun(ReportTest):
         (self.directory / "frames.csv").write_text("what,is\nthis,here\n")
         self.assertEqual(self.run_program()[0], 0)
         self.assertIn("frames.csv lacks a column", (self.directory / "report.html").read_text(encoding="utf-8"))
+
+    def test_what_moves_and_which_frames_are_compared_is_in_the_header(self):
+        rows, run = [made_up.variant("a", 10, 0.2)], made_up.manifest([])
+        for word in ("in motion", "of frame 0", "Temporal error"):
+            self.assertNotIn(word, self.make(rows, run, images=False).text)
+
+        def said(scene, /, **sweep):
+            run["config"] = {"scene": {"builtin": "cornell"} | scene, "sweep": sweep}
+            return dict(setting.setting_of(load(made_up.write_results(self.directory, rows, run, images=False))))
+
+        lamp = {"lights": [{"point": [0, 1, 0], "intensity": 2, "move": [0.1, 0, 0]}, {"spot": [0, 1, 0], "off_at": 4}]}
+        for scene, words in (
+                (lamp, "point light by [0.1, 0, 0] m a frame, spot light off from frame 4 on"),
+                ({"lights": [{"directional": [0, -1, 0], "move": [0, 0, 0.1]}]}, "directional light by [0, 0, 0.1] of its direction a frame"),
+                ({"camera": {"position": [0, 1, 3], "target": [0, 1, 0], "move": [0.02, 0, 0]}}, "camera by [0.02, 0, 0] m a frame"),
+                # A swing of 0.5 m is a way of 2 m in 4 s
+                ({"time_step": 0.1, "moving_spheres": {"count": 8, "swing": [0.3, 0.4, 0], "period": 4}},
+                 "8 spheres by 0.0500 m a frame, animation by 0.100 s a frame"),
+                ({"time_step": 0.1}, "animation by 0.100 s a frame")):
+            found = said(scene)
+            self.assertEqual(found["in motion"], words)
+            self.assertEqual(found["scores"], "of frame 0, where all is as the config places it")
+        for scene in ({"time_step": 0, "moving_spheres": {"count": 8}}, {"lights": [{"point": [0, 1, 0], "move": [0, 0, 0]}]}, {"lights": "point"}):
+            self.assertNotIn("in motion", said(scene))
+        # Of the sweep
+        self.assertEqual(said({}, **{"scene.camera.move": [[0, 0, 0], [1, 0, 0]]})["in motion"], "as the sweep varies it (scene.camera.move)")
+        self.assertEqual(said({}, **{"scene.lights": [[{"point": [0, 1, 0], "move": [1, 0, 0]}]]})["in motion"], "as the sweep varies it (scene.lights)")
+        self.assertEqual(said({}, scene={"still": {"builtin": "cornell"}, "lamp": lamp})["in motion"],
+                         "lamp: point light by [0.1, 0, 0] m a frame, spot light off from frame 4 on")
+        self.assertNotIn("in motion", said({}, **{"voxelize.resolution": [1, 2]}))
+
+        # Frames that are compared: the first two and the last of many
+        for frames, words in ((3, "0, 1, 2"), (9, "0, 1, …, 8")):
+            table = made_up.with_sequence(rows, frames)
+            made_up.write_results(self.directory, rows, run, images=False)
+            made_up.write_csv(self.directory / "frames.csv", list(table[1]), table)
+            self.assertEqual(self.run_program()[0], 0)
+            shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
+            self.assertIn(f"of frame 0 in the table, of frames {words} under “Over frames”", shown.text)
+            self.assertIn("#frames", shown.attributes("href"))
 
     def test_masks_have_their_own_scores_noise_and_picture(self):
         rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.4))]

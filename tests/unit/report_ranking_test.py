@@ -7,7 +7,7 @@ import unittest
 
 from report_support import FLIP, NRMSE, Page, ReportTest, made_up
 
-from report import equal_error, names, page, ranking, summary
+from report import equal_error, names, page, ranking, summary, table
 from report.load import Metric, interval_of, load
 
 
@@ -83,10 +83,18 @@ class Comparing(ReportTest):
         marks = ranking.cost_marks(self.results(rows), "frame_ms_median")
         self.assertEqual(marks, {"a": "best", "b": "tie"})
 
-    def test_what_costs_nothing_is_not_compared(self):
+    def test_no_cost_is_the_best_next_to_none(self):
         rows = [made_up.variant(name, 10, 0.1) | {"build_ms": ms} for name, ms in (("paths", 0), ("rays", 20), ("lookup", 10))]
-        self.assertEqual(ranking.cost_marks(self.results(rows), "build_ms"), {"lookup": "best"})
-        self.assertEqual(ranking.cost_marks(self.results(rows[:2]), "build_ms"), {})
+        self.assertEqual(ranking.cost_marks(self.results(rows), "build_ms"), {})
+        self.assertEqual(ranking.cost_marks(self.results(rows[1:]), "build_ms"), {"lookup": "best"})
+        # Of another scene it says nothing
+        records = [{"folder": "a", "variants": ["paths"]}, {"folder": "b", "variants": ["rays", "lookup"]}]
+        self.assertEqual(ranking.cost_marks(self.results(rows, references=records), "build_ms"), {"lookup": "best"})
+        results = self.results(rows)
+        named = names.names_of(results)
+        shown = table.variant_rows(results, table.columns_of(results, ["total"], named), named, dict.fromkeys(named.numbers, "x"))
+        headings = [column.key for column in table.columns_of(results, ["total"], named)]
+        self.assertEqual([row.cells[headings.index("build_ms")].text for row in shown], ["–", "20.0", "10.0"])
 
     def test_worse_than_a_black_image(self):
         def beaten(metric, value, low=math.nan, high=math.nan):
@@ -154,8 +162,37 @@ class Comparing(ReportTest):
         self.assertEqual(said_of(5, 0.6), [is_open + "5.00 ms a frame: the fastest variant of paths takes 10.0 ms and has less error."])
         self.assertEqual(said_of(400, 0.01), [is_open + "400 ms a frame: the slowest variant of paths takes 160 ms and has more error."])
 
+    def test_the_intervals_of_both_errors_are_in_the_speed_up(self):
+        # Paths' error falls with the root of their time: 1, 0.5 and 0.25 in 10, 40 and 160 ms.
+        def said_of(ms, own, of_paths):
+            """Of intervals as factors of the errors."""
+            rows = [made_up.variant("lookup", ms, 0.3)] + [made_up.variant(f"paths {spp}", 10.0 * spp, spp ** -0.5) for spp in (1, 4, 16)]
+            for row, (low, high) in zip(rows, [own] + [of_paths] * 3):
+                row.update(made_up.spread("nrmse", low * row["nrmse"], high * row["nrmse"]))
+            graphs = {row["variant"]: [{"pass": "path_trace" if "paths" in row["variant"] else "gather", "id": "i"}] for row in rows}
+            return next(said for said in self.summary(self.results(rows, variants=graphs)) if "At equal" in said)
+
+        exact = (1, 1)
+        # 0.33 takes 92 ms, 0.27 137 ms; of paths that may have a tenth less or more error 74 ms, and more than 160 ms.
+        self.assertIn(" 111 ms: 11 times as long. Its", said_of(10, exact, exact))
+        self.assertIn(" 111 ms: 11 times as long (9.2–14 within the errors' intervals). Its", said_of(10, (0.9, 1.1), exact))
+        self.assertIn(" 111 ms: 11 times as long (at least 7.4 within the errors' intervals). Its", said_of(10, (0.9, 1.1), (0.9, 1.1)))
+        # 1.2 is more than the fastest path has, so that one of them may be faster; 0.27 is still reached, 0.15 is not.
+        is_open = "; the intervals of their errors leave open which one is faster. Its"
+        self.assertIn(" 111 ms: ≈ 11 times as long (up to 14 within the errors' intervals)" + is_open, said_of(10, (0.9, 4), exact))
+        self.assertIn(" 111 ms: ≈ 11 times as long" + is_open, said_of(10, (0.5, 4), exact))
+        self.assertIn(" 111 ms: ≈ 1.1 times as long (at least 0.92 within the errors' intervals)" + is_open, said_of(100, (0.5, 1.1), exact))
+        # An interval that begins at 0: such paths may have any error, such a method none.
+        self.assertIn(" 111 ms: 11 times as long (at least 9.2 within", said_of(10, (0, 1.1), exact))
+        self.assertIn(" 111 ms: ≈ 11 times as long (up to 11 within", said_of(10, exact, (0, 1)))
+        # Slower: 0.27 takes 137 ms.
+        slower = "path tracing is as fast as all other methods or faster: a frame of 1 (lookup) takes "
+        self.assertIn(slower + "150 ms, one of paths 111 ms.", said_of(150, (0.9, 1.1), exact))
+        self.assertIn(slower + "120 ms, one of paths 111 ms; the intervals", said_of(120, (0.9, 1.1), exact))
+
     def test_scenes_are_told_one_by_one(self):
-        # The hall is slower and harder than the room, path tracing takes 4 and 8 times as long in them.
+        # The hall is slower and harder than the room, path tracing takes 4 and 8 times as long in them; a single setting of
+        # it does not tell what the intervals of errors make of that.
         rows = [made_up.variant(f"{scene} {method}", ms, error, scene=scene, method=method)
                 for scene, method, ms, error in (("room", "lookup", 10, 0.1), ("room", "paths", 40, 0.1),
                                                  ("hall", "lookup", 100, 0.3), ("hall", "paths", 800, 0.3), ("hall", "cones", 50, 0.5))]
@@ -170,9 +207,9 @@ class Comparing(ReportTest):
         self.assertEqual(ranking.cost_marks(results, "frame_ms_median"), {"room lookup": "best", "hall cones": "best"})
         said = self.summary(results)
         self.assertEqual(said[:2], [
-            "Of the total light, room: lowest nRMSE 0.100, 1 (lookup). For the error of 1 (lookup) path tracing takes 4.0 times "
+            "Of the total light, room: lowest nRMSE 0.100, 1 (lookup). For the error of 1 (lookup) path tracing takes ≈ 4.0 times "
             "as long as its 10.0 ms a frame. nRMSE: what nRMSE measures.",
-            "hall: lowest nRMSE 0.300, 3 (lookup). For the error of 3 (lookup) path tracing takes 8.0 times as long as its 100 "
+            "hall: lowest nRMSE 0.300, 3 (lookup). For the error of 3 (lookup) path tracing takes ≈ 8.0 times as long as its 100 "
             "ms a frame."])
         self.assertNotIn("Fastest frame", " ".join(said))
 
