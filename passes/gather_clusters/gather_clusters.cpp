@@ -26,7 +26,7 @@ void GatherClusters::declare(PassBuilder& builder) {
     clusters_ = builder.read<VoxelClusters>("clusters", "surface voxels in groups");
     visibility_ = builder.read<ClusterVisibility>("cluster_visibility", "which clusters each patch sees");
     light_ = builder.read<ClusterLight>("cluster_light", "what clusters send");
-    if (isLazy()) gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
+    if (readsGBuffer()) gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
     irradiance_ =
         builder.write<VoxelIrradiance>("irradiance", "direct light, and indirect light that was gathered");
 }
@@ -40,9 +40,9 @@ void GatherClusters::plan(PassPlan& plan) {
         plan.reserveScratch("irradiance of patches (estimated)", ofPatches);
         return;
     }
-    plan.get(irradiance_).reach = params_.reach;
+    if (readsGBuffer()) plan.get(irradiance_).reach = params_.reach;
     plan.reserve("irradiance of patches (estimated)", ofPatches);
-    SeenVoxels::plan(plan, voxels);
+    seen_.plan(plan, voxels);
 }
 
 void GatherClusters::prepare(PassSetup& setup) {
@@ -80,8 +80,9 @@ void GatherClusters::record(PassContext& context) {
         for (const Buffer* buffer : result.checkedBuffers()) context.stream.fill(*buffer, 0);
         seen_.reset(context, voxels, patches);
     }
+    const GBuffer* gbuffer = readsGBuffer() ? &context.get(gbuffer_) : nullptr;
     const SeenVoxels::Found found =
-        seen_.find(context, context.get(gbuffer_), voxels, patches, params_.reach, filterSteps());
+        seen_.find(context, gbuffer, voxels, context.get(clusters_), patches, params_.reach, filterSteps());
     context.report("voxels gathered", found.voxelCount);
     if (found.voxelCount == 0) return;
     if (!isNew) ++result.version;

@@ -11,14 +11,6 @@
 
 namespace voxray {
 
-/// Which voxels light is gathered for.
-enum class GatherUpdate { All, Seen };
-template <>
-struct EnumNames<GatherUpdate> {
-    static constexpr std::array names{std::pair{GatherUpdate::All, "all"},
-                                      std::pair{GatherUpdate::Seen, "seen"}};
-};
-
 /// What the filter averages over.
 enum class FilterOver { All, Lit };
 template <>
@@ -49,7 +41,9 @@ class GatherClusters final : public Pass {
                 field("update", &Params::update,
                       "all: every voxel, whenever light or voxels have changed. seen: voxels round what the "
                       "camera sees, when they come into view; they keep their light until light or voxels "
-                      "change. For gather_irradiance, which reads no others."),
+                      "change. For gather_irradiance, which reads no others. seen_points: likewise, but "
+                      "those that the camera sees one of 12 points 2 voxels round their centers (the "
+                      "paper's); what the lookup reads of others is left out of its mean."),
                 field(
                     "reach", &Params::reach,
                     "How many voxels along each axis count as round what the camera sees. It must be as far "
@@ -77,14 +71,16 @@ class GatherClusters final : public Pass {
         }
     };
 
-    explicit GatherClusters(const Params& params) : params_(params) {}
+    explicit GatherClusters(const Params& params) : params_(params), seen_(params.update) {}
+    Phase phase() const override { return isLazy() ? Phase::Frame : Phase::Build; }
     void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
     void prepare(PassSetup& setup) override;
     void record(PassContext& context) override;
 
  private:
-    bool isLazy() const { return params_.update == GatherUpdate::Seen; }
+    bool isLazy() const { return params_.update != GatherUpdate::All; }
+    bool readsGBuffer() const { return params_.update == GatherUpdate::Seen; }
     /// Binomial weights of 5 voxels are those of 3, twice.
     uint32_t filterSteps() const { return params_.filterPasses * (params_.filterSize / 2); }
     /// Gathers and filters the light of voxels that were found.

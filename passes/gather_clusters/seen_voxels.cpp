@@ -28,6 +28,7 @@ uint64_t uints(uint64_t count) {
 void SeenVoxels::plan(PassPlan& plan, uint64_t voxels) {
     plan.reserve("voxels that come into view (estimated)",
                  2 * uints(voxels) + 2 * uints(kSidesPerVoxel * voxels) + uints(1));
+    if (byPoints_) points_.plan(plan);
 }
 
 void SeenVoxels::prepare(PassSetup& setup) {
@@ -35,7 +36,10 @@ void SeenVoxels::prepare(PassSetup& setup) {
         const std::string file = std::string("passes/gather_clusters/") + name + ".comp";
         return makeComputeProgram(setup.device, setup.compiler.compile(file));
     };
-    mark_ = program("mark");
+    if (byPoints_)
+        points_.prepare(setup);
+    else
+        mark_ = program("mark");
     listSides_ = program("list_sides");
     spread_ = program("spread");
     sampler_ = texelSampler(setup.device);
@@ -53,19 +57,28 @@ void SeenVoxels::reset(PassContext& context, const SurfaceVoxels& voxels, const 
     context.stream.fill(asked_, 0);
 }
 
-SeenVoxels::Found SeenVoxels::find(PassContext& context, const GBuffer& gbuffer, const SurfaceVoxels& voxels,
-                                   const VoxelPatches& patches, uint32_t reach, uint32_t steps) const {
+void SeenVoxels::mark(PassContext& context, const GBuffer& gbuffer, const SurfaceVoxels& voxels,
+                      uint32_t reach) const {
+    const glm::uvec2 texels = gbufferExtent(context.frame, gbuffer.samples);
+    context.stream.dispatch(mark_,
+                            voxels.bindings({{"position", gbuffer.position, sampler_},
+                                             {"asked", asked_},
+                                             {"found", found_},
+                                             {"count", count_}}),
+                            MarkPush{voxels.grid, texels, int32_t(reach)}, pixelGroups(texels.x, texels.y));
+}
+
+SeenVoxels::Found SeenVoxels::find(PassContext& context, const GBuffer* gbuffer, const SurfaceVoxels& voxels,
+                                   const VoxelClusters& clusters, const VoxelPatches& patches, uint32_t reach,
+                                   uint32_t steps) const {
     CommandStream& stream = context.stream;
     Found found;
     const auto counted = [&] { return stream.readAs<uint32_t>(count_, 1)[0]; };
     stream.fill(count_, 0);
-    const glm::uvec2 texels = gbufferExtent(context.frame, gbuffer.samples);
-    stream.dispatch(mark_,
-                    voxels.bindings({{"position", gbuffer.position, sampler_},
-                                     {"asked", asked_},
-                                     {"found", found_},
-                                     {"count", count_}}),
-                    MarkPush{voxels.grid, texels, int32_t(reach)}, pixelGroups(texels.x, texels.y));
+    if (byPoints_)
+        points_.mark(context, voxels, clusters.coordinates, asked_, found_, count_);
+    else
+        mark(context, *gbuffer, voxels, reach);
     found.voxelCount = counted();
     if (found.voxelCount == 0) return found;
 

@@ -1,16 +1,31 @@
 #pragma once
 
+#include <array>
+#include <utility>
 #include <vector>
 
+#include "passes/common/clusters/voxel_clusters.h"
 #include "passes/common/clusters/voxel_patches.h"
 #include "passes/common/view/gbuffer.h"
+#include "passes/gather_clusters/seen_points.h"
 
 namespace voxray {
 
-/// Which voxels come into the camera's view. Source: Cosin and Patow 2022, section 4.4, which looks at 12
-/// points round each voxel; these are the voxels that a lookup at what the camera sees reads.
+/// Which voxels light is gathered for.
+enum class GatherUpdate { All, Seen, SeenPoints };
+template <>
+struct EnumNames<GatherUpdate> {
+    static constexpr std::array names{std::pair{GatherUpdate::All, "all"},
+                                      std::pair{GatherUpdate::Seen, "seen"},
+                                      std::pair{GatherUpdate::SeenPoints, "seen_points"}};
+};
+
+/// Which voxels come into the camera's view: those that a lookup at what it sees reads, or those that it sees
+/// one of 12 points round (Cosin and Patow 2022, section 4.4).
 class SeenVoxels {
  public:
+    explicit SeenVoxels(GatherUpdate update) : byPoints_(update == GatherUpdate::SeenPoints) {}
+
     /// How many voxels were not seen before, and how many sides they reach.
     struct Found {
         uint32_t voxelCount = 0;
@@ -18,23 +33,31 @@ class SeenVoxels {
         std::vector<uint32_t> sidesWithin;
     };
 
-    static void plan(PassPlan& plan, uint64_t voxels);
+    void plan(PassPlan& plan, uint64_t voxels);
     void prepare(PassSetup& setup);
     /// Nothing has been seen. Makes the buffers.
     void reset(PassContext& context, const SurfaceVoxels& voxels, const VoxelPatches& patches);
-    /// @param reach voxels along each axis round what the camera sees. @param steps from neighbour to
-    /// neighbour. Waits for the device.
-    Found find(PassContext& context, const GBuffer& gbuffer, const SurfaceVoxels& voxels,
-               const VoxelPatches& patches, uint32_t reach, uint32_t steps) const;
+    /// @param gbuffer what the camera sees, and @param reach how many voxels along each axis count as round
+    /// it: null and any for the test by points. @param steps from neighbour to neighbour. Waits for the
+    /// device.
+    Found find(PassContext& context, const GBuffer* gbuffer, const SurfaceVoxels& voxels,
+               const VoxelClusters& clusters, const VoxelPatches& patches, uint32_t reach,
+               uint32_t steps) const;
 
     /// Numbers of voxels, and of open sides, that find() has found last.
     const Buffer& voxels() const { return found_; }
     const Buffer& sides() const { return listed_; }
 
  private:
+    /// Those that a lookup reads.
+    void mark(PassContext& context, const GBuffer& gbuffer, const SurfaceVoxels& voxels,
+              uint32_t reach) const;
+
+    bool byPoints_;
+    SeenPoints points_;
     Program mark_, listSides_, spread_;
     Sampler sampler_;
-    Buffer asked_;  ///< By voxel, bits: it was seen, and all those round it.
+    Buffer asked_;  ///< By voxel, bits: it was seen; a lookup has marked all those round it.
     Buffer found_, listed_, reached_, count_;
 };
 

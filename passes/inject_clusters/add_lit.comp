@@ -5,20 +5,13 @@
 // thread takes a voxel.
 #include "passes/inject_clusters/lit_points.glsl"
 #include "shaders/clusters/patches.glsl"
+#include "shaders/clusters/point_rays.glsl"
 layout(local_size_x = 64) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SurfelValues { vec3 data[]; };
-layout(scalar) readonly buffer Rays { Ray data[]; } rays;
-readonly buffer Occluded { uint data[]; } occluded;
 readonly buffer FirstSide { uint data[]; } firstSide;
 layout(scalar) readonly buffer Sides { SurfaceSide data[]; } sides;
 layout(scalar) readonly buffer PlacedAt { SurfelValues placed; };
-
-bool isSeen(uint number) {
-    for (uint i = number * POINTS; i < (number + 1u) * POINTS; ++i)
-        if (rays.data[i].tMax >= 0.0 && occluded.data[i] == 0u) return true;  // An inactive ray is not occluded either.
-    return false;
-}
 
 // Whether each of two sides lies before the other, by their first surfels.
 bool faceEachOther(SurfaceSide a, SurfaceSide b) {
@@ -39,10 +32,10 @@ bool isHiddenBy(uint next, SurfaceSide side, vec3 direction) {
 
 void main() {
     const uint i = linearIndex();
-    if (i >= push.voxels || !isSeen(i)) return;
+    if (i >= push.voxels || !arrives(i * POINTS, POINTS)) return;
     const uint voxel = push.firstVoxel + i;
     const GpuLight light = sceneLights.data[push.light];
-    const vec3 direction = samplePunctual(light, voxelCenter(voxel)).direction, size = abs(direction);
+    const vec3 direction = samplePunctual(light, voxelCenter(push.grid, voxel)).direction, size = abs(direction);
     const ivec3 step_ = ivec3(round(direction / max(size.x, max(size.y, size.z))));
     const uint next = voxelNumber(push.grid, ivec3(coordinates.data[voxel]) + step_);
     for (uint side = firstSide.data[voxel]; side < firstSide.data[voxel + 1u]; ++side) {

@@ -1,15 +1,9 @@
 #include "passes/inject_clusters/lit_points.h"
 
-#include <algorithm>
-
 #include "passes/common/compute/dispatch.h"
-#include "trace/ray.h"
 
 namespace voxray {
 namespace {
-
-constexpr uint32_t kPoints = 18;  // As in lit_points.glsl.
-constexpr uint32_t kBatchVoxels = (1u << 20) / kPoints;
 
 struct Push {
     gpu::VoxelGrid grid;
@@ -21,8 +15,7 @@ struct Push {
 }  // namespace
 
 void LitPoints::plan(PassPlan& plan) {
-    plan.scratchBuffer(rays_, "rays from points round voxels", kBatchVoxels * kPoints * sizeof(Ray));
-    plan.scratchBuffer(occluded_, "visibility of points", kBatchVoxels * kPoints * sizeof(uint32_t));
+    rays_.plan(plan);
 }
 
 void LitPoints::prepare(PassSetup& setup) {
@@ -37,27 +30,31 @@ void LitPoints::measure(PassContext& context, const std::vector<LightSource>& so
                         const SurfaceVoxels& voxels, const VoxelClusters& clusters,
                         const VoxelPatches& patches, const LargeBuffer& surfels) const {
     CommandStream& stream = context.stream;
-    for (const LightSource& source : sources)
-        for (uint32_t first = 0; first < voxels.voxelCount; first += kBatchVoxels) {
-            const uint32_t count = std::min(kBatchVoxels, voxels.voxelCount - first);
-            const Push push{voxels.grid, first, count, source.light};
-            stream.dispatch(aim_,
-                            context.scene.bindings({{"coordinates", clusters.coordinates}, {"rays", rays_}}),
-                            push, linearGroups(count * kPoints));
-            context.tracer.occluded(stream, rays_, occluded_, count * kPoints);
+    for (const LightSource& source : sources) {
+        const auto push = [&](const PointRays::Batch& batch) {
+            return Push{voxels.grid, batch.firstVoxel, batch.voxels, source.light};
+        };
+        const auto aim = [&](const PointRays::Batch& batch) {
+            stream.dispatch(
+                aim_, context.scene.bindings({{"coordinates", clusters.coordinates}, {"rays", rays_.rays()}}),
+                push(batch), linearGroups(batch.voxels * kPoints));
+        };
+        const auto add = [&](const PointRays::Batch& batch) {
             stream.dispatch(add_,
                             context.scene.bindings({{"coordinates", clusters.coordinates},
                                                     {"voxelOccupancy", voxels.occupancy},
                                                     {"voxelRank", voxels.rank},
                                                     {"VoxelMaterialsAt", patches.materials.at()},
-                                                    {"rays", rays_},
-                                                    {"occluded", occluded_},
+                                                    {"rays", rays_.rays()},
+                                                    {"occluded", rays_.occluded()},
                                                     {"firstSide", patches.firstSide},
                                                     {"sides", patches.sides},
                                                     {"PatchSurfelsAt", patches.surfels.at()},
                                                     {"PlacedAt", surfels.at()}}),
-                            push, linearGroups(count));
-        }
+                            push(batch), linearGroups(batch.voxels));
+        };
+        rays_.trace(context, voxels.voxelCount, aim, add);
+    }
 }
 
 }  // namespace voxray

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graph/pass.h"
+#include "passes/common/clusters/point_rays.h"
 #include "passes/common/clusters/voxel_clusters.h"
 #include "passes/common/clusters/voxel_patches.h"
 #include "passes/common/lights/light_sources.h"
@@ -21,8 +22,10 @@ class LitPoints {
                  const LargeBuffer& surfels) const;
 
  private:
+    static constexpr uint32_t kPoints = 18;  ///< As in lit_points.glsl.
+
+    PointRays rays_{kPoints};
     Program aim_, add_;
-    Buffer rays_, occluded_;  ///< Scratch: of a batch of voxels.
 };
 
 }  // namespace voxray

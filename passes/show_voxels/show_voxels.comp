@@ -5,6 +5,9 @@
 #ifdef SHOW_IRRADIANCE
 #include "shaders/voxels/face_irradiance.glsl"
 #endif
+#ifdef SHOW_LIT_FACES
+readonly buffer SeenByFaces { uint data[]; } seenByFaces;  // The number plus one; 0 where no surface looks that way.
+#endif
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(rgba32f) writeonly uniform image2D result;
@@ -15,6 +18,7 @@ layout(push_constant, scalar) uniform Push {
     vec3 right;  // From the image's center to its edge, at a distance of 1.
     vec3 up;
     uint show;
+    uint redAt;
 } push;
 
 #define SHOW_ALBEDO 0u
@@ -27,6 +31,11 @@ vec3 held(VoxelHit hit) {
     if (hit.face == NO_FACE) return vec3(0.0);
     const vec4 light = faceLight(number, hit.voxel, hit.face);
     return light.w > 0.0 ? light.rgb / 3.14159265358979 : vec3(1.0, 0.0, 1.0);
+#elif defined(SHOW_LIT_FACES)
+    if (hit.face == NO_FACE) return vec3(0.0);
+    const uint seen = seenByFaces.data[6u * number + hit.face];
+    const float red = min(float(seen - 1u) / float(push.redAt), 1.0);
+    return seen > 0u ? vec3(red, 1.0 - red, 0.0) : vec3(1.0, 0.0, 1.0);
 #else
     const VoxelMaterial material = voxelMaterial(number);
     if (push.show == SHOW_ALBEDO) return material.albedo;

@@ -14,6 +14,7 @@ struct Push {
     glm::vec3 right;  ///< From the image's center to its edge, at a distance of 1.
     glm::vec3 up;
     uint32_t show;
+    uint32_t redAt;
 };
 
 struct LevelPush {
@@ -35,6 +36,11 @@ void ShowVoxels::declare(PassBuilder& builder) {
     if (showsLight())
         irradiance_ =
             builder.read<VoxelIrradiance>("irradiance", "light that arrives at the voxels' surfaces");
+    if (showsLitFaces()) {
+        patches_ = builder.read<VoxelPatches>("patches", "surfaces by the open space that they look into");
+        visibility_ = builder.read<ClusterVisibility>("cluster_visibility", "what each patch sees");
+        clusterLight_ = builder.read<ClusterLight>("cluster_light", "which patches are lit");
+    }
     final_ = builder.write<FrameImage>("final", "voxels, as cubes");
 }
 
@@ -50,6 +56,7 @@ void ShowVoxels::plan(PassPlan& plan) {
     march_.plan(plan, plan.get(voxels_));
     if (showsLight())
         plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(plan.get(voxels_).voxelCount));
+    if (showsLitFaces()) plan.reserve("lit faces (estimated)", LitFaces::bytes(plan.get(voxels_).voxelCount));
 }
 
 void ShowVoxels::prepare(PassSetup& setup) {
@@ -65,6 +72,10 @@ void ShowVoxels::prepare(PassSetup& setup) {
         defines.emplace("SHOW_IRRADIANCE", "1");
         faces_ = FaceIrradiance(setup.device, setup.compiler);
     }
+    if (showsLitFaces()) {
+        defines.emplace("SHOW_LIT_FACES", "1");
+        litFaces_.prepare(setup);
+    }
     program_ = makeComputeProgram(setup.device,
                                   setup.compiler.compile("passes/show_voxels/show_voxels.comp", defines));
     facesVersion_.reset();
@@ -76,23 +87,36 @@ void ShowVoxels::record(PassContext& context) {
     march_.begin(context.stream, voxels);
     std::vector<Binding> bindings = march_.bindings();
     bindings.emplace_back("result", context.get(final_).image);
-    if (showsLight()) {
-        const VoxelIrradiance& light = context.get(irradiance_);
-        if (const std::pair version{voxels.version, light.version}; facesVersion_ != version) {
-            faces_.update(context.stream, voxels, light.area, light.indirect, &light.direct);
-            facesVersion_ = version;
-        }
-        bindings.emplace_back("faceIrradiance", faces_.buffer());
-    } else {
-        bindings.emplace_back("VoxelMaterialsAt", voxels.materials.at());
-    }
+    bindings.push_back(faces(context));
     const Frame& frame = context.frame;
     const CameraRays camera = cameraRays(frame.camera, frame.width, frame.height);
-    context.stream.dispatch(
-        program_, bindings,
-        Push{voxels.grid, camera.origin, camera.forward, camera.right, camera.up, uint32_t(params_.show)},
-        pixelGroups(frame.width, frame.height));
+    context.stream.dispatch(program_, bindings,
+                            Push{voxels.grid, camera.origin, camera.forward, camera.right, camera.up,
+                                 uint32_t(params_.show), params_.redAt},
+                            pixelGroups(frame.width, frame.height));
     context.voxelCounts.push_back(&march_.counts());
+}
+
+Binding ShowVoxels::faces(PassContext& context) {
+    const SurfaceVoxels& voxels = context.get(voxels_);
+    const auto isNew = [&](uint64_t of, uint64_t light) {
+        const std::pair version{of, light};
+        return std::exchange(facesVersion_, version) != version;
+    };
+    if (showsLight()) {
+        const VoxelIrradiance& light = context.get(irradiance_);
+        if (isNew(voxels.version, light.version))
+            faces_.update(context.stream, voxels, light.area, light.indirect, &light.direct);
+        return {"faceIrradiance", faces_.buffer()};
+    }
+    if (showsLitFaces()) {
+        const ClusterVisibility& visibility = context.get(visibility_);
+        const ClusterLight& light = context.get(clusterLight_);
+        if (isNew(visibility.version, light.version))
+            litFaces_.count(context.stream, voxels.voxelCount, context.get(patches_), visibility, light);
+        return {"seenByFaces", litFaces_.seenByFaces()};
+    }
+    return {"VoxelMaterialsAt", voxels.materials.at()};
 }
 
 void ShowVoxels::recordLevel(PassContext& context) {

@@ -8,10 +8,11 @@
 #include "passes/common/view/frame_image.h"
 #include "passes/common/voxel_march/voxel_march.h"
 #include "passes/common/voxels/face_irradiance.h"
+#include "passes/show_voxels/lit_faces.h"
 
 namespace voxray {
 
-enum class ShownValue { Albedo, Irradiance, Opacity, Normal, Radiance, RadianceOpacity };
+enum class ShownValue { Albedo, Irradiance, Opacity, Normal, LitFaces, Radiance, RadianceOpacity };
 
 template <>
 struct EnumNames<ShownValue> {
@@ -19,6 +20,7 @@ struct EnumNames<ShownValue> {
                                       std::pair{ShownValue::Irradiance, "irradiance"},
                                       std::pair{ShownValue::Opacity, "opacity"},
                                       std::pair{ShownValue::Normal, "normal"},
+                                      std::pair{ShownValue::LitFaces, "lit_faces"},
                                       std::pair{ShownValue::Radiance, "radiance"},
                                       std::pair{ShownValue::RadianceOpacity, "radiance_opacity"}};
 };
@@ -33,6 +35,7 @@ class ShowVoxels final : public Pass {
         "looking at, not for scores. Exact, no noise of its own.";
     struct Params {
         ShownValue show = ShownValue::Albedo;
+        uint32_t redAt = 225;
         uint32_t level = 0;
         static constexpr auto schema() {
             return std::tuple{
@@ -40,9 +43,16 @@ class ShowVoxels final : public Pass {
                       "Of surface voxels. albedo: diffuse reflectance. irradiance: what arrives at the face "
                       "that is seen, as the radiance of a white surface there (over pi); magenta where the "
                       "injection did not look. opacity: 0 to 1. normal: each component from -1 to 1 as 0 to "
-                      "1. Of prefiltered voxels, which cones read. radiance: what their surfaces send "
+                      "1. lit_faces: how many lit faces of voxels the face sees (cluster_visibility), none "
+                      "as green, "
+                      "red_at as red; of a cluster that it sees, all (Cosin and Patow 2022, figure 13); "
+                      "magenta "
+                      "where no surface looks that way. Of prefiltered voxels, which cones read. radiance: "
+                      "what their surfaces send "
                       "through the face that is seen. radiance_opacity: the part of a beam that they hide "
                       "there."),
+                field("red_at", &Params::redAt, "So many lit faces, and more, are red.", 1u, 1u << 24)
+                    .onlyWith(oneOf(&Params::show, {ShownValue::LitFaces})),
                 field("level", &Params::level,
                       "Level of the prefiltered voxels: each is twice as wide as those of the level before.",
                       0u, 15u)
@@ -59,19 +69,26 @@ class ShowVoxels final : public Pass {
 
  private:
     bool showsLight() const { return params_.show == ShownValue::Irradiance; }
+    bool showsLitFaces() const { return params_.show == ShownValue::LitFaces; }
     bool showsLevel() const {
         return params_.show == ShownValue::Radiance || params_.show == ShownValue::RadianceOpacity;
     }
+    /// Brings up to date what is shown of faces, and binds it.
+    Binding faces(PassContext& context);
     void recordLevel(PassContext& context);
 
     Params params_;
     Port<const SurfaceVoxels> voxels_;
     Port<const VoxelIrradiance> irradiance_;
+    Port<const VoxelPatches> patches_;
+    Port<const ClusterVisibility> visibility_;
+    Port<const ClusterLight> clusterLight_;
     Port<const RadianceVoxels> radiance_;
     Port<FrameImage> final_;
     VoxelMarch march_{VoxelWalk::Bricks};
     FaceIrradiance faces_;
-    std::optional<std::pair<uint64_t, uint64_t>> facesVersion_;  ///< Of the voxels and the light in them.
+    LitFaces litFaces_;
+    std::optional<std::pair<uint64_t, uint64_t>> facesVersion_;  ///< Of the voxels or lists, and of light.
     Program program_;
 };
 

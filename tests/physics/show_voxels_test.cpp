@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
 #include <glm/geometric.hpp>
 
-#include "tests/gpu/chain.h"
+#include "tests/physics/cluster_graph.h"
 #include "tests/support/errors.h"
 
 using namespace voxray;
@@ -12,6 +15,15 @@ namespace {
 
 constexpr uint32_t kSize = 32;
 constexpr const char* kEmptyBox = "{lights: point, boxes: false}";
+
+/// By patch: whether light arrives straight from the lights, as shaders/surfels/radiosity.glsl packs it.
+std::vector<bool> litPatches(Chain& chain) {
+    std::vector<bool> is;
+    for (const uint32_t bits :
+         chain.read<uint32_t>(chain.graph().resource<ClusterLight>("cluster_light")->direct))
+        is.push_back((bits & 0xffffffu) != 0);
+    return is;
+}
 
 glm::vec3 pixelOf(const ImageF& image, uint32_t x, uint32_t y) {
     const float* p = &image.data[3 * (size_t(y) * image.width + x)];
@@ -97,4 +109,96 @@ TEST(ShowVoxels, DrawsEachLevelOfPrefilteredVoxels) {
                               kSize, kSize);
                     }),
                     "the radiance voxels have 0 to 5");
+}
+
+TEST(ShowVoxels, CountsTheLitFacesOfARoomThatAFaceSees) {
+    // A lamp lights all walls of a closed room of 8 voxels. All voxels are one cluster: each face sees all of
+    // its part's that look another way, 5 times 8², but for those in a corner that no surfel fell on.
+    Chain chain(
+        "white_room", "{}",
+        graphYaml({"voxelize, resolution: 8", "place_surfels",
+                   "cluster_voxels, target: 1, unassigned: nearest", "find_patches",
+                   "cluster_visibility, rays: 256, near_distance: 0", "inject_clusters, direct: shadow_rays",
+                   "show_voxels, show: lit_faces, red_at: 640"}),
+        kSize, kSize);
+    chain.runFrameFrom({});  // From the center: the camera's own place is in a wall's voxels.
+    const auto faces = facesOfPatches(readSides(chain));
+    const std::vector<bool> isLit = litPatches(chain);
+    uint32_t lit = 0, back = 0;
+    for (size_t i = 0; i < faces.size(); ++i) {
+        lit += isLit[i] ? 1 : 0;
+        back += isLit[i] && faces[i] % 6 == 4 ? 1 : 0;
+    }
+    EXPECT_LE(lit, 6 * 64u);
+    EXPECT_GE(lit, 6 * 64u - 4);
+
+    // 80° wide, from 1 m before it: the back wall fills the image.
+    const ImageF image = chain.image("final");
+    const float red = float(lit - back) / 640;
+    for (uint32_t y = 0; y < kSize; ++y)
+        for (uint32_t x = 0; x < kSize; ++x)
+            EXPECT_LT(glm::distance(pixelOf(image, x, y), glm::vec3(red, 1 - red, 0)), 1e-6f)
+                << x << " " << y;
+}
+
+TEST(ShowVoxels, CountsLitFacesAsListsTell) {
+    // A spot lights a part of the floor: what faces of the back wall see of it, near by voxels and far by
+    // clusters, out of the lists themselves.
+    constexpr uint32_t kRed = 1000;
+    Chain chain(
+        "cornell", "{lights: spot, boxes: false}",
+        graphYaml({"voxelize, resolution: 16", "place_surfels", "cluster_voxels, target: 100", "find_patches",
+                   "cluster_visibility, rays: 64", "inject_clusters, direct: shadow_rays",
+                   "show_voxels, show: lit_faces, red_at: " + std::to_string(kRed)}),
+        kSize, kSize);
+    const auto* patches = chain.graph().resource<VoxelPatches>("patches");
+    const auto sides = readSides(chain);
+    const auto parts = chain.read<gpu::ClusterPart>(patches->parts);
+    const auto members = chain.read<uint32_t>(patches->members);
+    const auto firstSide = chain.read<uint32_t>(patches->firstSide);
+    const std::vector<bool> isLit = litPatches(chain);
+    const auto faces = facesOfPatches(sides);
+    const auto lists = readSeen(chain);
+    std::vector<uint32_t> litOfParts(6 * parts.size());
+    for (size_t i = 0; i < parts.size(); ++i)
+        for (uint32_t k = 0; k < parts[i].members; ++k)
+            for (size_t p = sides[members[parts[i].firstMember + k]].firstPatch;
+                 p < faces.size() && faces[p] / 6 == members[parts[i].firstMember + k]; ++p)
+                litOfParts[6 * i + faces[p] % 6] += isLit[p] ? 1 : 0;
+
+    const Voxels voxels(chain);
+    const Camera& camera = chain.state().cameras.at(0);
+    const float halfHeight = std::tan(camera.verticalFovRadians / 2), size = voxels.grid.voxelSize;
+    const int wall = int(std::floor((-1 - voxels.grid.origin.z) / size));
+    const float front = voxels.grid.origin.z + size * float(wall + 1);
+    const ImageF image = chain.image("final");
+    uint32_t most = 0, none = 0;
+    for (uint32_t y = 10; y < 22; ++y)
+        for (uint32_t x = 10; x < 22; ++x) {
+            const float u = 2 * (float(x) + 0.5f) / kSize - 1, v = 2 * (float(y) + 0.5f) / kSize - 1;
+            const glm::vec3 at = camera.position +
+                                 (camera.position.z - front) * glm::vec3(u * halfHeight, -v * halfHeight, -1);
+            glm::ivec3 voxel = glm::ivec3(glm::floor((at - voxels.grid.origin) / size));
+            voxel.z = wall;
+            const uint32_t below = voxels.occupancy[voxels.word(voxel)] & ((1u << (voxel.x % 32)) - 1u);
+            const uint32_t number = voxels.rank[voxels.word(voxel)] + uint32_t(std::popcount(below));
+            uint32_t seen = 0;
+            for (uint32_t patch = 0; patch < faces.size(); ++patch) {
+                const uint32_t side = faces[patch] / 6;
+                if (faces[patch] % 6 != 4 || side < firstSide[number] || side >= firstSide[number + 1])
+                    continue;
+                for (const Seen& entry : lists[patch])
+                    seen += entry.target < litOfParts.size()
+                                ? litOfParts[entry.target]
+                                : uint32_t(isLit[entry.target - litOfParts.size()]);
+            }
+            const float red = float(seen) / kRed;
+            EXPECT_LT(glm::distance(pixelOf(image, x, y), glm::vec3(red, 1 - red, 0)), 1e-5f)
+                << x << " " << y;
+            most = std::max(most, seen);
+            none += seen == 0 ? 1 : 0;
+        }
+    std::printf("at most %u lit faces, %u pixels of 144 see none\n", most, none);
+    EXPECT_GT(most, 10u);
+    EXPECT_LT(most, kRed);
 }

@@ -63,8 +63,8 @@ struct VoxelIrradiance : Resource {
     LargeBuffer indirect;  ///< W, after one bounce or more; likewise.
     Buffer area;           ///< In units of a voxel's face: kAreaWords a voxel.
     uint64_t version = 0;  ///< Another one whenever the light has been measured again.
-    /// Of voxels that lie as many along each axis round what the camera sees alone; nullopt: of all. Set in
-    /// plan().
+    /// Of voxels that lie as many along each axis round what the camera sees alone; nullopt: no such bound.
+    /// Set in plan().
     std::optional<uint32_t> reach;
 
     static uint64_t bytes(uint32_t voxelCount) {
