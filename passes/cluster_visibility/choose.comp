@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Which side a ray hit: that of the nearest surfel that nothing hides from the open space before the hit. Each round proposes one and
-// the ray that asks whether something does; the next one takes it or looks for another. A thread takes a ray.
+// the ray that asks whether something does; the next one takes it or looks for another. A thread takes a listed ray.
 #include "passes/cluster_visibility/face_ray.glsl"
 #include "shaders/scene/scene.glsl"
 #include "shaders/surfels/surfel_bias.glsl"
@@ -17,14 +17,14 @@ struct Proposal {
     uint hidden[ROUNDS];  // Sides that were proposed before.
 };
 
+readonly buffer List { uint data[]; } list;
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(scalar) buffer Proposals { Proposal data[]; } proposals;
 layout(scalar) writeonly buffer Between { Ray data[]; } between;  // From the hit to the proposal.
 readonly buffer Occluded { uint data[]; } occluded;
 readonly buffer FirstSide { uint data[]; } firstSide;
-layout(scalar) writeonly buffer Targets { uint data[]; } targets;
-buffer Missed { uint counts[2]; } missed;  // Rays that met nothing, and hits without a side.
+writeonly buffer Met { uint data[]; } met;
 
 struct Nearest {
     float distance_;  // Voxels, squared, and of the same surface (surfel_bias.glsl).
@@ -67,52 +67,52 @@ uint nearestSurfel(vec3 position, vec3 normal, Proposal before) {
 }
 
 // One of the faces that have area of a surfel.
-uint targetAt(uint ray, PatchSurfel s) {
+uint metAt(uint ray, PatchSurfel s, float away) {
     const VoxelMaterial m = voxelMaterial(s.side);
     const vec3 area = mix(m.unoccludedPositive, m.unoccludedNegative, lessThan(s.normal, vec3(0.0)));
     const vec3 part = mix(vec3(0.0), s.normal * s.normal, greaterThan(area, vec3(0.0)));
     const float sum = part.x + part.y + part.z;
-    if (sum == 0.0) return NO_TARGET;
+    if (sum == 0.0) return metAway(s.side, NO_FACE, away);
     const float at = rayPick(ray) * sum;
     const uint axis = at < part.x ? 0u : at < part.x + part.y || part.z == 0.0 ? 1u : 2u;
-    return targetOf(s.side, faceOf(s.normal, axis), hits.data[ray].t / push.grid.voxelSize);
+    return metAway(s.side, faceOf(s.normal, axis), away);
 }
 
 void main() {
-    const uint ray = linearIndex();
-    if (ray >= push.rays) return;
-    between.data[ray] = kNoRay;
-    const Hit hit = hits.data[ray];
+    const uint i = linearIndex();
+    if (i >= push.rays) return;
+    const uint ray = list.data[i];
+    between.data[i] = kNoRay;
+    const Hit hit = hits.data[i];
     Proposal proposal;
     if (push.round > 0u) {
-        proposal = proposals.data[ray];
+        proposal = proposals.data[i];
         if (proposal.surfel == NO_SURFEL) return;
         const PatchSurfel s = patchSurfels.data[proposal.surfel];
-        if (occluded.data[ray] == 0u) {
-            targets.data[ray] = targetAt(ray, s);
-            proposals.data[ray].surfel = NO_SURFEL;
+        if (occluded.data[i] == 0u) {
+            met.data[ray] = metAt(ray, s, hit.t / push.grid.voxelSize);
+            proposals.data[i].surfel = NO_SURFEL;
             return;
         }
         proposal.hidden[push.round - 1u] = s.side;
     }
-    targets.data[ray] = NO_TARGET;
-    proposals.data[ray].surfel = NO_SURFEL;
+    proposals.data[i].surfel = NO_SURFEL;
     if (hit.triangle == NO_HIT) {
-        atomicAdd(missed.counts[0], 1u);
+        met.data[ray] = MET_NOTHING;
         return;
     }
-    const vec3 direction = rays.data[ray].direction;
+    const vec3 direction = rays.data[i].direction;
     const SurfacePoint p = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
     const vec3 normal = dot(p.geometricNormal, direction) > 0.0 ? -p.geometricNormal : p.geometricNormal;
     proposal.surfel = push.round < ROUNDS ? nearestSurfel(p.position, normal, proposal) : NO_SURFEL;
     if (proposal.surfel == NO_SURFEL) {
-        atomicAdd(missed.counts[1], 1u);
+        met.data[ray] = MET_NO_SIDE;
         return;
     }
-    proposals.data[ray] = proposal;
+    proposals.data[i] = proposal;
     // The ray's own way to the hit is open.
     const PatchSurfel s = patchSurfels.data[proposal.surfel];
     const vec3 from = p.position - min(0.5 * hit.t, s.height) * direction;
     const vec3 way = raisedOver(s) - from;
-    between.data[ray] = dot(way, way) > 0.0 ? Ray(from, 0.0, normalize(way), length(way)) : kNoRay;
+    between.data[i] = dot(way, way) > 0.0 ? Ray(from, 0.0, normalize(way), length(way)) : kNoRay;
 }

@@ -12,8 +12,9 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kChunkRays = 1u << 20;  // Bounds the rays in hand to 32 MiB.
-constexpr uint32_t kRounds = 4;            // As in choose.comp.
+constexpr uint32_t kChunkRays = 1u << 20;       // Bounds the rays in hand to 32 MiB.
+constexpr uint32_t kRounds = 4;                 // As in choose.comp.
+constexpr uint32_t kMaxSides = (1u << 28) - 1;  // As met.glsl numbers them.
 
 /// As in choose.comp.
 struct Proposal {
@@ -28,6 +29,11 @@ constexpr double kSeenByRootOfRays = 4;
 struct ListPush {
     gpu::SeenLayout lists;
     uint32_t patches;
+};
+
+struct TargetPush {
+    gpu::SeenLayout lists;
+    uint32_t rays;
 };
 
 }  // namespace
@@ -46,6 +52,7 @@ struct FindClusterVisibility::RayPush {
 
 void FindClusterVisibility::declare(PassBuilder& builder) {
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
+    clusters_ = builder.read<VoxelClusters>("clusters", "where voxels are");
     patches_ = builder.read<VoxelPatches>("patches", "surfaces by the open space that they look into");
     visibility_ = builder.write<ClusterVisibility>("cluster_visibility", "which clusters each patch sees");
 }
@@ -56,7 +63,6 @@ void FindClusterVisibility::plan(PassPlan& plan) {
     const uint32_t chunk = kChunkRays / params_.rays;
     visibility.listsPatches = seesPatches();
     visibility.layout = {params_.rays, chunk, 0, uint32_t(std::bit_width(params_.rays - 1)), 32};
-    march_.plan(plan, voxels);
     const uint64_t patches = kPatchesPerVoxel * voxels.voxelCount, rays = uint64_t(chunk) * params_.rays;
     const double root = std::ceil(kSeenByRootOfRays * std::sqrt(double(params_.rays)));
     const uint64_t seen = seesPatches() ? params_.rays : std::min(params_.rays, uint32_t(root));
@@ -67,34 +73,50 @@ void FindClusterVisibility::plan(PassPlan& plan) {
     plan.scratchBuffer(counts_, "targets of patches", (chunk + 1) * sizeof(uint32_t));
     plan.scratchBuffer(missed_, "rays that met nothing", 2 * sizeof(uint32_t));
     plan.reserveScratch("sums of lists", PrefixSum::scratchBytes(chunk + 1));
-    if (params_.visibility == FaceRays::Exact) {
-        plan.scratchBuffer(rays_, "rays of patches", rays * sizeof(Ray));
-        plan.scratchBuffer(hits_, "hits of patches' rays", rays * sizeof(Hit));
-        plan.scratchBuffer(proposals_, "what rays may have hit", rays * sizeof(Proposal));
-        plan.scratchBuffer(between_, "rays from hits", rays * sizeof(Ray));
-        plan.scratchBuffer(occluded_, "visibility of hits", rays * sizeof(uint32_t));
+    const bool keeps = isExact() && !movingRuns(plan.frame.scene->geometry).empty();
+    if (keeps)
+        KeptRays::plan(plan, voxels, patches, params_.rays);
+    else
+        plan.scratchBuffer(met_, "what rays met", rays * sizeof(uint32_t));
+    if (!isExact()) {
+        march_.plan(plan, voxels);
+        return;
     }
+    const uint64_t words = (rays + 31) / 32;
+    if (keeps) plan.scratchBuffer(flags_, "rays to trace", words * sizeof(uint32_t));
+    plan.reserveScratch("ranks of rays", Compaction::scratchBytes(uint32_t(words)));
+    plan.scratchBuffer(list_, "rays by number", rays * sizeof(uint32_t));
+    plan.scratchBuffer(rays_, "rays of patches", rays * sizeof(Ray));
+    plan.scratchBuffer(hits_, "hits of patches' rays", rays * sizeof(Hit));
+    plan.scratchBuffer(proposals_, "what rays may have hit", rays * sizeof(Proposal));
+    plan.scratchBuffer(between_, "rays from hits", rays * sizeof(Ray));
+    plan.scratchBuffer(occluded_, "visibility of hits", rays * sizeof(uint32_t));
 }
 
 void FindClusterVisibility::prepare(PassSetup& setup) {
     version_.reset();
-    march_.prepare(setup.device, setup.compiler);
+    kept_.reset();
     prefixSum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
     const auto program = [&](const char* name, const Defines& defines = {}) {
         const std::string file = std::string("passes/cluster_visibility/") + name + ".comp";
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
     listFaces_ = program("faces");
+    targetsOf_ = program("targets");
     merge_ = program("merge");
     compact_ = program("compact");
-    if (params_.visibility == FaceRays::Exact) {
+    if (isExact()) {
+        compaction_.emplace(setup.device, setup.compiler);
+        if (!movingRuns(setup.frame.scene->geometry).empty()) kept_.emplace(setup.device, setup.compiler);
+        all_ = program("all");
         emit_ = program("emit");
         choose_ = program("choose");
-    } else {
-        Defines defines = march_.defines();
-        if (params_.visibility == FaceRays::Bresenham) defines.emplace("BRESENHAM", "1");
-        marchRays_ = program("march", defines);
+        return;
     }
+    march_.prepare(setup.device, setup.compiler);
+    Defines defines = march_.defines();
+    if (params_.visibility == FaceRays::Bresenham) defines.emplace("BRESENHAM", "1");
+    marchRays_ = program("march", defines);
 }
 
 void FindClusterVisibility::record(PassContext& context) {
@@ -103,6 +125,9 @@ void FindClusterVisibility::record(PassContext& context) {
     ClusterVisibility& visibility = context.get(visibility_);
     const std::pair version{voxels.version, patches.version};
     if (version_ == version) return;
+    const std::optional<std::vector<Box>>& changed = context.frame.changed;
+    const bool updates =
+        kept_ && changed && version_ && version_->second + 1 == patches.version && patches.formerSides;
     version_ = version;
     ++visibility.version;
     visibility.chunks.clear();
@@ -114,23 +139,29 @@ void FindClusterVisibility::record(PassContext& context) {
         uint64_t(kFaces) * patches.partCount + (seesPatches() ? uint64_t(patches.patchCount) : 0);
     gpu::SeenLayout& layout = visibility.layout;
     layout.entryBits = std::max(layout.rayBits + uint32_t(std::bit_width(targets)), 1u);
-    if (layout.entryBits > 32)
+    if (layout.entryBits > 32 || patches.sideCount > kMaxSides)
         throw Error(
             "{}: {} faces of clusters and patches and {} rays don't fit into 32 bits; set "
             "'near_distance: 0', or lower 'rays', cluster_voxels's 'target' or voxelize's 'resolution'",
             kName, targets, params_.rays);
 
     CommandStream& stream = context.stream;
-    march_.begin(stream, voxels);
+    if (!isExact()) march_.begin(stream, voxels);
+    if (updates)
+        kept_->begin(stream, voxels, context.get(clusters_), patches, *changed);
+    else if (kept_)
+        kept_->clear();
     const uint32_t count = patches.patchCount, perChunk = visibility.layout.patchesPerChunk;
     faces_ = Buffer(context.device, "faces of patches", std::max(count, 1u) * sizeof(uint32_t));
     stream.dispatch(listFaces_, {{"sides", patches.sides}, {"faces", faces_}}, patches.sideCount,
                     linearGroups(patches.sideCount));
     stream.fill(missed_, 0);
+    traced_ = 0;
     for (uint32_t first = 0; first < count; first += perChunk)
         look(context, first, std::min(perChunk, count - first));
     faces_ = {};
-    context.voxelCounts.push_back(&march_.counts());
+    if (kept_) kept_->remember(stream, patches);
+    if (!isExact()) context.voxelCounts.push_back(&march_.counts());
 
     std::vector<uint64_t> addresses;
     for (const ClusterVisibility::Chunk& chunk : visibility.chunks)
@@ -146,16 +177,38 @@ void FindClusterVisibility::record(PassContext& context) {
     context.report("rays that met nothing, %", percent(missed[0]));
     context.report("hits without surfel, % of rays", percent(missed[1]));
     context.report("bytes of the lists", double(visibility.bytes()));
+    if (kept_) context.report("rays traced, % of all", count > 0 ? 100 * double(traced_) / rays : 0);
 }
 
-void FindClusterVisibility::traceRays(PassContext& context, RayPush push) {
+uint32_t FindClusterVisibility::listRays(PassContext& context, const RayPush& push, const Buffer& met) {
+    CommandStream& stream = context.stream;
+    if (!kept_ || !kept_->isActive()) {
+        stream.dispatch(all_, {{"list", list_}}, push.rays, linearGroups(push.rays));
+        return push.rays;
+    }
+    const VoxelPatches& patches = context.get(patches_);
+    stream.fill(flags_, 0);
+    kept_->keep(stream,
+                context.scene.bindings({{"faces", faces_},
+                                        {"sides", patches.sides},
+                                        {"PatchSurfelsAt", patches.surfels.at()},
+                                        {"met", met},
+                                        {"flags", flags_}}),
+                push, push.rays);
+    return compaction_->run(stream, flags_, list_, (push.rays + 31) / 32);
+}
+
+uint32_t FindClusterVisibility::traceRays(PassContext& context, RayPush push, const Buffer& met) {
     const SurfaceVoxels& voxels = context.get(voxels_);
     const VoxelPatches& patches = context.get(patches_);
     CommandStream& stream = context.stream;
+    push.rays = listRays(context, push, met);
+    if (push.rays == 0) return 0;
     stream.dispatch(emit_,
                     context.scene.bindings({{"faces", faces_},
                                             {"sides", patches.sides},
                                             {"PatchSurfelsAt", patches.surfels.at()},
+                                            {"list", list_},
                                             {"rays", rays_}}),
                     push, linearGroups(push.rays));
     context.tracer.closestHit(stream, rays_, hits_, push.rays);
@@ -163,40 +216,39 @@ void FindClusterVisibility::traceRays(PassContext& context, RayPush push) {
         stream.dispatch(choose_,
                         context.scene.bindings({{"faces", faces_},
                                                 {"sides", patches.sides},
-                                                {"ofSide", patches.ofSide},
                                                 {"firstSide", patches.firstSide},
                                                 {"PatchSurfelsAt", patches.surfels.at()},
                                                 {"VoxelMaterialsAt", patches.materials.at()},
                                                 {"voxelOccupancy", voxels.occupancy},
                                                 {"voxelRank", voxels.rank},
+                                                {"list", list_},
                                                 {"rays", rays_},
                                                 {"hits", hits_},
                                                 {"proposals", proposals_},
                                                 {"between", between_},
                                                 {"occluded", occluded_},
-                                                {"targets", targets_},
-                                                {"missed", missed_}}),
+                                                {"met", met}}),
                         push, linearGroups(push.rays));
         if (push.round < kRounds) context.tracer.occluded(stream, between_, occluded_, push.rays);
     }
+    return push.rays;
 }
 
-void FindClusterVisibility::marchRays(PassContext& context, const RayPush& push) {
+void FindClusterVisibility::marchRays(PassContext& context, const RayPush& push, const Buffer& met) {
     const VoxelPatches& patches = context.get(patches_);
     std::vector<Binding> bindings;
     for (const Binding& binding : march_.bindings()) bindings.push_back(ifUsed(binding));
     bindings.insert(bindings.end(), {{"faces", faces_},
                                      {"sides", patches.sides},
-                                     {"ofSide", patches.ofSide},
                                      {"firstSide", patches.firstSide},
                                      {"PatchSurfelsAt", patches.surfels.at()},
                                      {"VoxelMaterialsAt", patches.materials.at()},
-                                     {"targets", targets_},
-                                     {"missed", missed_}});
+                                     {"met", met}});
     context.stream.dispatch(marchRays_, bindings, push, linearGroups(push.rays));
 }
 
 void FindClusterVisibility::look(PassContext& context, uint32_t first, uint32_t count) {
+    const VoxelPatches& patches = context.get(patches_);
     ClusterVisibility& visibility = context.get(visibility_);
     CommandStream& stream = context.stream;
     const RayPush push{context.get(voxels_).grid,
@@ -207,10 +259,18 @@ void FindClusterVisibility::look(PassContext& context, uint32_t first, uint32_t 
                        params_.nearDistance,
                        params_.hemisphere == FaceHemisphere::Face ? 1u : 0u,
                        0};
-    if (params_.visibility == FaceRays::Exact)
-        traceRays(context, push);
+    const Buffer& met = kept_ ? kept_->add(context.device, push.rays) : met_;
+    if (isExact())
+        traced_ += traceRays(context, push, met);
     else
-        marchRays(context, push);
+        marchRays(context, push, met);
+    stream.dispatch(targetsOf_,
+                    {{"met", met},
+                     {"sides", patches.sides},
+                     {"ofSide", patches.ofSide},
+                     {"targets", targets_},
+                     {"missed", missed_}},
+                    TargetPush{visibility.layout, push.rays}, linearGroups(push.rays));
 
     // Merged by patch, and moved together
     const ListPush list{visibility.layout, count};

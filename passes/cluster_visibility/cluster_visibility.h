@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "graph/registry.h"
+#include "passes/cluster_visibility/kept_rays.h"
 #include "passes/common/clusters/cluster_visibility.h"
 #include "passes/common/clusters/voxel_patches.h"
+#include "passes/common/compute/compaction.h"
 #include "passes/common/compute/prefix_sum.h"
 #include "passes/common/voxel_march/voxel_march.h"
 
@@ -30,6 +32,7 @@ struct EnumNames<FaceHemisphere> {
 };
 
 /// Finds which clusters each patch of each voxel sees, once for a scene: light is gathered from these lists.
+/// Where surfaces move, rays through the scene are traced again where these have changed.
 /// Source: Cosin and Patow 2022, section 4.3.
 class FindClusterVisibility final : public Pass {
  public:
@@ -72,21 +75,29 @@ class FindClusterVisibility final : public Pass {
  private:
     struct RayPush;
     bool seesPatches() const { return params_.nearDistance > 0; }
+    bool isExact() const { return params_.visibility == FaceRays::Exact; }
     /// Lists what `count` patches from `first` on see.
     void look(PassContext& context, uint32_t first, uint32_t count);
-    /// The targets of their rays.
-    void traceRays(PassContext& context, RayPush push);
-    void marchRays(PassContext& context, const RayPush& push);
+    /// Writes what their rays met, those that are to be traced and those that are kept. @return rays traced.
+    uint32_t traceRays(PassContext& context, RayPush push, const Buffer& met);
+    void marchRays(PassContext& context, const RayPush& push, const Buffer& met);
+    /// Lists the rays that are to be traced. @return how many.
+    uint32_t listRays(PassContext& context, const RayPush& push, const Buffer& met);
 
     Params params_;
     Port<const SurfaceVoxels> voxels_;
+    Port<const VoxelClusters> clusters_;
     Port<const VoxelPatches> patches_;
     Port<ClusterVisibility> visibility_;
     VoxelMarch march_{VoxelWalk::Bricks};
     std::optional<PrefixSum> prefixSum_;
-    uint64_t listBytes_ = 0;  ///< That are expected of the lists.
-    Program listFaces_, marchRays_, emit_, choose_, merge_, compact_;
-    Buffer faces_, targets_, counts_, missed_, rays_, hits_, proposals_, between_, occluded_;  ///< Scratch.
+    std::optional<Compaction> compaction_;
+    std::optional<KeptRays> kept_;  ///< Where surfaces move.
+    uint64_t listBytes_ = 0;        ///< That are expected of the lists.
+    uint64_t traced_ = 0;           ///< Rays, in this build.
+    Program listFaces_, marchRays_, all_, emit_, choose_, targetsOf_, merge_, compact_;
+    Buffer faces_, met_, targets_, counts_, missed_;  ///< Scratch.
+    Buffer flags_, list_, rays_, hits_, proposals_, between_, occluded_;
     std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of the voxels and their patches.
 };
 

@@ -1,9 +1,9 @@
-// Rays from the patches of voxels' sides, and what they see. Rays of a patch come one after another. Materials of
-// shaders/voxels/voxels.glsl are those of sides.
+// Rays from the patches of voxels' sides, numbered from the first patch in hand on: those of a patch come one after another. Materials
+// of shaders/voxels/voxels.glsl are those of sides.
 #extension GL_EXT_scalar_block_layout : require
+#include "passes/cluster_visibility/met.glsl"
 #include "shaders/clusters/patches.glsl"
 #include "shaders/clusters/seen_types.h"
-#include "shaders/clusters/side_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/voxel_march/surface_segment.glsl"
@@ -12,12 +12,11 @@
 
 layout(scalar) readonly buffer Faces { uint data[]; } faces;  // By patch: 6 * side + face.
 layout(scalar) readonly buffer Sides { SurfaceSide data[]; } sides;
-layout(scalar) readonly buffer OfSide { uint data[]; } ofSide;  // Parts of clusters.
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     SeenLayout lists;
-    uint firstPatch;
-    uint rays;  // Of all patches in hand.
+    uint firstPatch;  // In hand.
+    uint rays;        // Of all patches in hand, or listed ones.
     uint seed;
     float nearDistance;  // Voxels: what is nearer is seen by patches, not by parts of clusters.
     uint alongAxis;      // 1: the hemisphere stands on the face. 0: on the surface.
@@ -26,8 +25,11 @@ layout(push_constant, scalar) uniform Push {
 
 uint rayFace(uint ray) { return faces.data[push.firstPatch + ray / push.lists.raysPerPatch]; }
 
-// Numbers of a patch's sequences: direction, place, pick.
-uint raySeed(uint ray, uint sequence) { return hashCombine(hashCombine(push.seed, sequence), rayFace(ray)); }
+// Numbers of a patch's sequences: direction, place, pick. By a surfel's id, which stays when sides are numbered otherwise.
+uint raySeed(uint ray, uint sequence) {
+    const uint surfel = patchSurfels.data[sides.data[rayFace(ray) / 6u].firstSurfel].id;
+    return hashCombine(hashCombine(hashCombine(push.seed, sequence), surfel), rayFace(ray) % 6u);
+}
 
 // The area of a surfel that a face has.
 float areaAt(PatchSurfel s, uint face) {
@@ -59,12 +61,7 @@ vec3 rayDirection(uint ray, PatchSurfel s) {
     return cosineDirection(sobol2(ray % push.lists.raysPerPatch, raySeed(ray, 0u)), about);
 }
 
-// A face of a cluster's part or, near by, the patch itself. NO_TARGET where there is no patch, and for a side without a cluster,
-// which sends nothing.
-uint targetOf(uint side, uint face, float away) {
-    const uint part = ofSide.data[side];
-    if (part == NO_PART || !hasPatch(sides.data[side], face)) return NO_TARGET;
-    return away < push.nearDistance ? push.lists.sideTargets + patchAt(sides.data[side], face) : 6u * part + face;
-}
-
 float rayPick(uint ray) { return toUnit(hashCombine(raySeed(ray, 2u), ray % push.lists.raysPerPatch)); }
+
+// What a ray met at a side, so many voxels away.
+uint metAway(uint side, uint face, float away) { return metSide(side, face, away < push.nearDistance); }

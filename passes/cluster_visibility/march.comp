@@ -8,8 +8,7 @@
 layout(local_size_x = 64) in;
 
 readonly buffer FirstSide { uint data[]; } firstSide;
-layout(scalar) writeonly buffer Targets { uint data[]; } targets;
-buffer Missed { uint counts[2]; } missed;
+writeonly buffer Met { uint data[]; } met;
 
 // Where rays begin that walk through voxels: above the surfel, off the plane through its voxel's center along its normal. Across an
 // axis half a voxel leaves the plane's voxels behind; a slanted one touches voxels that reach further, of which isOwnSurface() knows.
@@ -45,12 +44,12 @@ vec3 shownBy(uint side, Walk w, ivec3 voxel) {
 }
 
 // Of all sides in a voxel one, by what they show. False where none shows anything: then the ray goes on.
-bool seesVoxel(uint ray, Walk w, ivec3 voxel, float away, out uint target) {
+bool seesVoxel(uint ray, Walk w, ivec3 voxel, float away, out uint word) {
     const uint number = voxelNumber(push.grid, voxel);
     float sum = 0.0;
     for (uint side = firstSide.data[number]; side < firstSide.data[number + 1u]; ++side)
         sum += dot(shownBy(side, w, voxel), vec3(1.0));
-    target = NO_TARGET;
+    word = MET_NOTHING;
     if (sum == 0.0) return false;
     float at = rayPick(ray) * sum;
     for (uint side = firstSide.data[number]; side < firstSide.data[number + 1u]; ++side) {
@@ -58,7 +57,7 @@ bool seesVoxel(uint ray, Walk w, ivec3 voxel, float away, out uint target) {
         const vec3 shown = shownBy(side, w, voxel);
         const float own = dot(shown, vec3(1.0));
         if (own == 0.0) continue;
-        target = targetOf(side, faceAgainst(m, w.direction, shown, at / own), away);
+        word = metAway(side, faceAgainst(m, w.direction, shown, at / own), away);
         if (at < own) break;
         at -= own;
     }
@@ -75,14 +74,13 @@ uint seenBy(uint ray) {
     for (uint i = 0u;; ++i) {
         const ivec3 voxel = ivec3(floor(start)) + ivec3(round(float(i) / longest * w.direction));
         if (!insideGrid(push.grid, voxel)) break;
-        uint target;
+        uint word;
         if (!isOccupied(push.grid, voxel))
             w.isInLayer = false;
-        else if (seesVoxel(ray, w, voxel, float(i) / longest, target))
-            return target;
+        else if (seesVoxel(ray, w, voxel, float(i) / longest, word))
+            return word;
     }
-    atomicAdd(missed.counts[0], 1u);
-    return NO_TARGET;
+    return MET_NOTHING;
 }
 #else
 // Where a ray leaves a voxel that it is in, and a little on, m.
@@ -104,17 +102,16 @@ uint seenBy(uint ray) {
         VoxelHit hit;
         if (!closest(push.grid, origin, w.direction, from, 1.0e30, hit)) break;
         w.isInLayer = w.isInLayer && hit.t <= from + 2.0 * VOXEL_MARGIN * push.grid.voxelSize;
-        uint target;
-        if (seesVoxel(ray, w, hit.voxel, hit.t / push.grid.voxelSize, target)) return target;
+        uint word;
+        if (seesVoxel(ray, w, hit.voxel, hit.t / push.grid.voxelSize, word)) return word;
         from = max(leaves(hit.voxel, origin, w.direction), from + VOXEL_MARGIN * push.grid.voxelSize);
     }
-    atomicAdd(missed.counts[0], 1u);
-    return NO_TARGET;
+    return MET_NOTHING;
 }
 #endif
 
 void main() {
     const uint ray = linearIndex();
-    if (ray < push.rays) targets.data[ray] = seenBy(ray);
+    if (ray < push.rays) met.data[ray] = seenBy(ray);
     countMarch();
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// From each covered surfel across the gap that it is in. A thread takes a surfel.
+// From each covered surfel on no side yet across the gap that it is in. A thread takes a surfel.
 #include "shaders/clusters/patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/surfels/open_space.glsl"
@@ -17,5 +17,5 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const PatchSurfel s = patchSurfels.data[push.first + i];
-    rays.data[i] = s.isCovered == 1u ? openSpaceRay(s.position, s.normal, push.voxelSize) : kNoRay;
+    rays.data[i] = s.isCovered == 1u && s.side == NO_SIDE ? openSpaceRay(s.position, s.normal, push.voxelSize) : kNoRay;
 }

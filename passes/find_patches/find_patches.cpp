@@ -17,9 +17,9 @@ constexpr uint32_t kMaxSides = 8;
 constexpr uint64_t kNeighbours = 18;
 
 struct ChunkPush {
+    gpu::VoxelGrid grid;
     uint32_t count;
     uint32_t firstNumber;
-    float voxelSize;
 };
 
 struct AcrossPush {
@@ -101,10 +101,13 @@ void FindPatches::plan(PassPlan& plan) {
     if (plan.get(surfels_).coveredSides)
         plan.scratchBuffer(hits_, "gaps before surfels", uint64_t(kBatchRays) * sizeof(Hit));
     plan.scratchBuffer(counter_, "what is left", sizeof(uint32_t));
+    if (!movingRuns(plan.frame.scene->geometry).empty())
+        KeptSides::plan(plan, plan.get(voxels_), surfels, sides, pairs);
 }
 
 void FindPatches::prepare(PassSetup& setup) {
     version_.reset();
+    kept_.reset();
     sort_.prepare(setup);
     prefixSum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
     compaction_.emplace(setup.device, setup.compiler);
@@ -114,6 +117,13 @@ void FindPatches::prepare(PassSetup& setup) {
         const std::string file = std::string("passes/find_patches/") + name + ".comp";
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
+    if (!movingRuns(setup.frame.scene->geometry).empty()) {
+        const Defines keep{{"KEEP", "1"}};
+        kept_.emplace(setup.device, setup.compiler);
+        beginKept_ = program("begin", keep);
+        aimNearKept_ = program("aim_near", keep);
+        partNearKept_ = program("part_near", keep);
+    }
     begin_ = program("begin");
     aimAcross_ = program("aim_across");
     raise_ = program("raise");
@@ -140,6 +150,8 @@ void FindPatches::record(PassContext& context) {
     const SurfaceVoxels& voxels = context.get(voxels_);
     const std::pair version{voxels.version, context.get(clusters_).version};
     if (version_ == version) return;
+    const std::optional<std::vector<Box>>& changed = context.frame.changed;
+    const bool updates = kept_ && changed && version_ && version_->first + 1 == voxels.version;
     version_ = version;
     if (!voxels.unoccludedOnly)
         throw Error(
@@ -148,6 +160,7 @@ void FindPatches::record(PassContext& context) {
             kName);
     VoxelPatches& patches = context.get(patches_);
     ++patches.version;
+    if (updates) kept_->begin(context.stream, voxels, patches, *changed);
     patches.clear();
     SurfelsByVoxel lists;
     sort_.run(context.stream, context.get(surfels_), voxels.voxelCount, lists);
@@ -156,6 +169,8 @@ void FindPatches::record(PassContext& context) {
     lists = {};
     findNeighbours(context);
     findParts(context);
+    if (kept_) kept_->end();
+    if (kept_) kept_->rememberVoxels(context.stream, voxels);
     context.report("sides of voxels", patches.sideCount);
     context.report("sides for each voxel", double(patches.sideCount) / voxels.voxelCount);
     context.report("patches for each voxel", double(patches.patchCount) / voxels.voxelCount);
@@ -172,20 +187,23 @@ void FindPatches::findSides(PassContext& context, SurfelsByVoxel& lists) {
                                   std::max(lists.slotCount, 1u) * sizeof(gpu::PatchSurfel));
     uint32_t number = 0;
     for (const Surfels::Chunk& chunk : context.get(surfels_).chunks) {
-        stream.dispatch(begin_,
-                        {{"surfels", chunk.surfels},
-                         {"SlotsAt", lists.slots.at()},
-                         {"PatchSurfelsAt", patches.surfels.at()}},
-                        ChunkPush{chunk.count, number, voxels.grid.voxelSize}, linearGroups(chunk.count));
+        const std::vector<Binding> bindings{{"surfels", chunk.surfels},
+                                            {"SlotsAt", lists.slots.at()},
+                                            {"PatchSurfelsAt", patches.surfels.at()}};
+        stream.dispatch(isUpdate() ? beginKept_ : begin_,
+                        isUpdate() ? kept_->surfelBindings(context.get(clusters_), bindings) : bindings,
+                        ChunkPush{voxels.grid, chunk.count, number}, linearGroups(chunk.count));
         number += chunk.count;
     }
     stream.finish();
     patches.places = std::move(lists.slots);
     lists.sorted = {};
     splitByRays(context, lists, 0);
-    if (!context.get(surfels_).coveredSides) return;
-    raiseCovered(context);
-    splitByRays(context, lists, 1);
+    if (context.get(surfels_).coveredSides) {
+        raiseCovered(context);
+        splitByRays(context, lists, 1);
+    }
+    if (kept_) kept_->rememberSurfels(stream, patches, context.get(surfels_).maxCount);
 }
 
 void FindPatches::raiseCovered(PassContext& context) {
@@ -264,6 +282,7 @@ void FindPatches::listSides(PassContext& context, const SurfelsByVoxel& lists) {
     patches.patchCount = prefixSum_->run(stream, counts, counts, patches.sideCount);
     stream.dispatch(numberPatches_, {{"before", counts}, {"sides", patches.sides}}, patches.sideCount,
                     linearGroups(patches.sideCount));
+    if (isUpdate()) kept_->nameFormer(stream, voxels, context.get(clusters_), patches);
     stream.finish();
 }
 
@@ -292,15 +311,18 @@ void FindPatches::findNeighbours(PassContext& context) {
                             {"WhoseAt", whose.at()}}),
                     push, linearGroups(sides + 1));
     inBatches(pairs, [&](uint32_t first, uint32_t count) {
-        stream.dispatch(aimNear_,
-                        {{"sides", patches.sides},
-                         {"NeighboursAt", patches.neighbours.at()},
-                         {"WhoseAt", whose.at()},
-                         {"rays", rays_}},
+        const std::vector<Binding> aimed{{"sides", patches.sides},
+                                         {"NeighboursAt", patches.neighbours.at()},
+                                         {"WhoseAt", whose.at()},
+                                         {"rays", rays_}};
+        stream.dispatch(isUpdate() ? aimNearKept_ : aimNear_, isUpdate() ? kept_->pairBindings(aimed) : aimed,
                         PairPush{first, count}, linearGroups(count));
         context.tracer.occluded(stream, rays_, occluded_, count);
-        stream.dispatch(partNear_, {{"occluded", occluded_}, {"NeighboursAt", patches.neighbours.at()}},
-                        PairPush{first, count}, linearGroups(count));
+        std::vector<Binding> hidden{{"occluded", occluded_}, {"NeighboursAt", patches.neighbours.at()}};
+        if (isUpdate())
+            hidden = kept_->hiddenBindings(patches, {{"WhoseAt", whose.at()}, hidden[0], hidden[1]});
+        stream.dispatch(isUpdate() ? partNearKept_ : partNear_, hidden, PairPush{first, count},
+                        linearGroups(count));
     });
     stream.finish();
 }

@@ -10,6 +10,7 @@
 #include "passes/common/compute/histogram.h"
 #include "passes/common/compute/radix_sort.h"
 #include "passes/common/surfels/surfel_sort.h"
+#include "passes/find_patches/kept_sides.h"
 
 namespace voxray {
 
@@ -50,6 +51,8 @@ class FindPatches final : public Pass {
     /// Sides of a cluster that hang together by neighbours.
     void findParts(PassContext& context);
 
+    bool isUpdate() const { return kept_ && kept_->isActive(); }
+
     Port<const SurfaceVoxels> voxels_;
     Port<const Surfels> surfels_;
     Port<const VoxelClusters> clusters_;
@@ -59,6 +62,8 @@ class FindPatches final : public Pass {
     std::optional<Compaction> compaction_;
     std::optional<Histogram> histogram_;
     std::optional<RadixSort> radixSort_;
+    std::optional<KeptSides> kept_;  ///< Where surfaces move.
+    Program beginKept_, aimNearKept_, partNearKept_;
     Program begin_, aimAcross_, raise_, pivot_, aim_, join_, order_, list_, describe_, numberPatches_;
     Program countNear_, listNear_, aimNear_, partNear_, label_, spread_, flag_, number_, assign_, parts_;
     Buffer rays_, hits_, occluded_, counter_;               ///< Scratch.

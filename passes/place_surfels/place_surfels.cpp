@@ -1,11 +1,11 @@
 #include "passes/place_surfels/place_surfels.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/compute/random_seed.h"
-#include "passes/common/surfels/surface_points.h"
 
 namespace voxray {
 namespace {
@@ -32,11 +32,25 @@ void PlaceSurfels::declare(PassBuilder& builder) {
     surfels_ = builder.write<Surfels>("surfels", "points that measure irradiance");
 }
 
+PointDensity PlaceSurfels::density(const SurfaceVoxels& voxels, const SurfaceAreas& area) const {
+    const double perVoxel = params_.pointsPerVoxel;
+    if (!voxels.stillCount) return {perVoxel * voxels.voxelCount, area.still};
+    // A plane of the area of one voxel's face passes through |nx| + |ny| + |nz| voxels, at most the root
+    // of 3.
+    const double known = area.still > 0 ? area.still : area.moving;
+    const double most = std::sqrt(3.0) * known / (double(voxels.grid.voxelSize) * voxels.grid.voxelSize);
+    return {perVoxel * (area.still > 0 ? std::min(double(*voxels.stillCount), most) : most), known};
+}
+
 void PlaceSurfels::plan(PassPlan& plan) {
-    const uint64_t points =
-        std::min(uint64_t(plan.get(voxels_).voxelCount) * params_.pointsPerVoxel, kMaxPoints);
+    const SurfaceVoxels& voxels = plan.get(voxels_);
+    // What moves may grow.
+    const SurfaceAreas area = surfaceAreas(plan.frame.scene->geometry);
+    const PointDensity d = density(voxels, area);
+    double points = d.points;
+    if (voxels.stillCount && d.area > 0) points *= (area.still + 2 * area.moving) / d.area;
     Surfels& surfels = plan.get(surfels_);
-    surfels.maxCount = 2 * points;
+    surfels.maxCount = 2 * uint64_t(std::min(points, double(kMaxPoints)));
     surfels.coveredSides = params_.sides == SurfelSides::All && plan.get(voxels_).unoccludedOnly;
     plan.reserve("surfels (estimated)", surfels.maxCount * sizeof(gpu::Surfel));
     plan.scratchBuffer(triangles_, "surfels' triangles", kBatchPoints * sizeof(uint32_t));
@@ -60,9 +74,11 @@ void PlaceSurfels::record(PassContext& context) {
     if (changed && changed->empty() && !surfels.chunks.empty()) return;  // Light alone has changed.
     surfels.chunks.clear();
     // No more than planned: the number of voxels was estimated.
-    const uint64_t points =
-        std::min(uint64_t(voxels.voxelCount) * params_.pointsPerVoxel, surfels.maxCount / 2);
-    const std::vector<uint32_t> triangles = spreadPoints(context.frame.scene->geometry, points);
+    const Geometry& geometry = context.frame.scene->geometry;
+    PointDensity d = density(voxels, surfaceAreas(geometry));
+    if (!voxels.stillCount) d.points = std::min(d.points, double(surfels.maxCount / 2));
+    const std::vector<uint32_t> triangles = spreadPoints(geometry, d, surfels.maxCount / 2);
+    const uint64_t points = triangles.size();
     for (uint64_t first = 0; first < points; first += kBatchPoints) {
         const uint32_t batch = uint32_t(std::min<uint64_t>(kBatchPoints, points - first));
         stream.upload(triangles_, std::as_bytes(std::span(triangles).subspan(first, batch)));

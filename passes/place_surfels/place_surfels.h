@@ -1,5 +1,6 @@
 #pragma once
 
+#include "passes/common/surfels/surface_points.h"
 #include "passes/common/surfels/surfels.h"
 #include "passes/common/voxels/voxels.h"
 
@@ -17,7 +18,8 @@ struct EnumNames<SurfelSides> {
 /// Spreads points evenly over all surfaces and keeps those sides that have open space before them, as far as
 /// a voxel: a voxel's irradiance is that of its open sides. `sides: all` keeps covered sides, too, with area
 /// 0: they belong to no voxel's irradiance, but light that gets into a gap narrower than a voxel is theirs.
-/// Where voxelize probes no exposure, all sides count as open.
+/// Where voxelize probes no exposure, all sides count as open. Where surfaces move, those that stay keep
+/// their points, and what moves has as many for its area.
 class PlaceSurfels final : public Pass {
  public:
     static constexpr const char* kName = "place_surfels";
@@ -33,8 +35,11 @@ class PlaceSurfels final : public Pass {
         SurfelSides sides = SurfelSides::Open;
         static constexpr auto schema() {
             return std::tuple{
-                field("points_per_voxel", &Params::pointsPerVoxel,
-                      "Points for each surface voxel, on average.", 1u, 256u)
+                field(
+                    "points_per_voxel", &Params::pointsPerVoxel,
+                    "Points for each surface voxel, on average; where surfaces move, for each of those that "
+                    "what stays passes through.",
+                    1u, 256u)
                     .lessNoise(),
                 field("sides", &Params::sides,
                       "open: sides with open space before them, as far as a voxel. all: covered "
@@ -50,6 +55,9 @@ class PlaceSurfels final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    /// The same at all times, where anything stays.
+    PointDensity density(const SurfaceVoxels& voxels, const SurfaceAreas& area) const;
+
     Params params_;
     Port<const SurfaceVoxels> voxels_;
     Port<Surfels> surfels_;

@@ -37,8 +37,12 @@ void VoxelizePass::plan(PassPlan& plan) {
     v.expectedCounts = plan.ofScene(fmt::format("voxels of {}", params_.resolution),
                                     [&] { return countSurfaceVoxels(geometry, v.grid); });
     v.voxelCount = v.expectedCounts.front();
+    const bool moves = !movingRuns(geometry).empty();
+    if (moves)
+        v.stillCount = plan.ofScene(fmt::format("still voxels of {}", params_.resolution),
+                                    [&] { return countStillVoxels(geometry, v.grid); });
     VoxelBuilder::planVoxels(plan, v);
-    builder_.planWork(plan, v, !movingRuns(geometry).empty());
+    builder_.planWork(plan, v, moves);
 }
 
 void VoxelizePass::prepare(PassSetup& setup) {

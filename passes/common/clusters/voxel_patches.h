@@ -29,15 +29,19 @@ struct VoxelPatches : Resource {
     Buffer parts;            ///< gpu::ClusterPart each.
     Buffer members;          ///< Sides, those of each part together and ascending.
     Buffer ofSide;           ///< By side: its part, or NO_PART where its voxel has no cluster.
+    /// Where surfaces have moved since the version before: by side its number then, or NO_SIDE where its
+    /// voxel has changed since. Empty where all is new.
+    Buffer formerSides;
 
     /// Frees the buffers.
     void clear() {
         surfels = {}, places = {}, firstSide = {}, sides = {}, materials = {}, firstNeighbour = {};
-        neighbours = {}, parts = {}, members = {}, ofSide = {};
+        neighbours = {}, parts = {}, members = {}, ofSide = {}, formerSides = {};
     }
     uint64_t bytes() const {
         return surfels.bytes() + places.bytes() + firstSide.bytes() + sides.bytes() + materials.bytes() +
-               firstNeighbour.bytes() + neighbours.bytes() + parts.bytes() + members.bytes() + ofSide.bytes();
+               firstNeighbour.bytes() + neighbours.bytes() + parts.bytes() + members.bytes() +
+               ofSide.bytes() + formerSides.bytes();
     }
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }
 };

@@ -14,15 +14,17 @@ constexpr float kProbeReach = 1 + 1.0f / 16;
 
 }  // namespace
 
-std::vector<VoxelBox> changedVoxels(const gpu::VoxelGrid& grid, const std::vector<Box>& changed) {
+std::vector<VoxelBox> changedVoxels(const gpu::VoxelGrid& grid, const std::vector<Box>& changed,
+                                    uint32_t more) {
+    const int beyond = int(more);
     const VoxelBox held = heldVoxels(grid);
     const glm::ivec3 end = held.first + glm::ivec3(held.size);
     std::vector<VoxelBox> boxes;
     for (const Box& box : changed) {
         const glm::vec3 low = (box.min - grid.origin) / grid.voxelSize - kProbeReach;
         const glm::vec3 high = (box.max - grid.origin) / grid.voxelSize + kProbeReach;
-        const glm::ivec3 first = glm::max(glm::ivec3(glm::floor(low)), held.first);
-        const glm::ivec3 last = glm::min(glm::ivec3(glm::floor(high)), end - 1);
+        const glm::ivec3 first = glm::max(glm::ivec3(glm::floor(low)) - beyond, held.first);
+        const glm::ivec3 last = glm::min(glm::ivec3(glm::floor(high)) + beyond, end - 1);
         if (glm::all(glm::lessThanEqual(first, last))) boxes.push_back({first, glm::uvec3(last - first + 1)});
     }
     return boxes;

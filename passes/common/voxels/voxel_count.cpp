@@ -97,16 +97,21 @@ std::vector<uint32_t> count(const Geometry& geometry, const gpu::VoxelGrid& grid
     return counts;
 }
 
+/// Whether each triangle stays where it is.
+std::vector<bool> stillTriangles(const Geometry& geometry) {
+    std::vector<bool> still(geometry.triangles.size(), true);
+    for (const InstanceRange& run : movingRuns(geometry))
+        std::fill_n(still.begin() + run.firstTriangle, run.triangleCount, false);
+    return still;
+}
+
 /// Of what stays, and twice of what moves.
 template <typename Measure>
 std::vector<uint32_t> countStillAndMoving(const Geometry& geometry, const gpu::VoxelGrid& grid,
                                           const Measure& measure) {
-    std::vector<bool> still(geometry.triangles.size(), true);
-    const std::vector<InstanceRange> runs = movingRuns(geometry);
-    for (const InstanceRange& run : runs)
-        std::fill_n(still.begin() + run.firstTriangle, run.triangleCount, false);
+    std::vector<bool> still = stillTriangles(geometry);
     std::vector<uint32_t> counts = count(geometry, grid, still, measure);
-    if (runs.empty()) return counts;
+    if (movingRuns(geometry).empty()) return counts;
 
     still.flip();
     const std::vector<uint32_t> moving = count(geometry, grid, still, measure);
@@ -122,6 +127,11 @@ std::vector<uint32_t> countSurfaceVoxels(const Geometry& geometry, const gpu::Vo
 
 std::vector<uint32_t> countWindowVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid, uint32_t side) {
     return countStillAndMoving(geometry, grid, [&](const Bits& bits) { return fullestWindow(bits, side); });
+}
+
+uint32_t countStillVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
+    return count(geometry, grid, stillTriangles(geometry), [](const Bits& bits) { return bits.count(); })
+        .front();
 }
 
 }  // namespace voxray

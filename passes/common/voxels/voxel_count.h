@@ -22,4 +22,8 @@ std::vector<uint32_t> countSurfaceVoxels(const Geometry& geometry, const gpu::Vo
 /// one meets up to five along an axis.
 std::vector<uint32_t> countWindowVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid, uint32_t side);
 
+/// Voxels of the grid that what stays passes through, counted likewise: the same at all times, 0 where all
+/// moves.
+uint32_t countStillVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid);
+
 }  // namespace voxray

@@ -29,6 +29,9 @@ struct SurfaceVoxels : Resource {
     /// About as many voxels as surfaces will pass through, by level of ever larger ones, those of the grid
     /// first: known from plan() on (voxel_count.h).
     std::vector<uint32_t> expectedCounts;
+    /// Where surfaces move: about as many voxels as what stays passes through, the same at all times; known
+    /// from plan() on.
+    std::optional<uint32_t> stillCount;
     uint64_t version = 0;   ///< Another one whenever the content is.
     Buffer occupancy;       ///< 1 bit a voxel of the grid.
     Buffer rank;            ///< 1 uint a word of `occupancy`: occupied voxels before it.

@@ -1,0 +1,16 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// The first patch of each side, for when patches are numbered otherwise. A thread takes a side.
+#include "shaders/clusters/patch_types.h"
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Sides { SurfaceSide data[]; } sides;
+writeonly buffer FirstPatches { uint data[]; } firstPatches;
+layout(push_constant) uniform Push { uint sides_; } push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i < push.sides_) firstPatches.data[i] = sides.data[i].firstPatch;
+}

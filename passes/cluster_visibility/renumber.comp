@@ -1,0 +1,28 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The new numbers of sides whose voxels have not changed, and where the patches of each of these began. A thread takes a side.
+#include "shaders/clusters/patch_types.h"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Sides { SurfaceSide data[]; } sides;
+readonly buffer FormerSides { uint data[]; } formerSides;
+layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
+readonly buffer Near { uint words[]; } near;  // A bit a voxel: where a ray that ends there may have met what has changed.
+readonly buffer FirstPatches { uint data[]; } firstPatches;  // By former side.
+writeonly buffer NewSides { uint data[]; } newSides;         // By former side; NO_SIDE before.
+writeonly buffer BeganAt { uint data[]; } beganAt;           // By side: where its patches began; NO_SIDE: they are new.
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint sides_;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.sides_) return;
+    const uint former = formerSides.data[i];
+    beganAt.data[i] = former == NO_SIDE ? NO_SIDE : firstPatches.data[former];
+    const ivec3 voxel = ivec3(coordinates.data[sides.data[i].voxel]);
+    if (former != NO_SIDE && (near.words[voxelWord(push.grid, voxel)] & voxelBit(push.grid, voxel)) == 0u) newSides.data[former] = i;
+}

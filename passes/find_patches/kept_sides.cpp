@@ -1,0 +1,113 @@
+#include "passes/find_patches/kept_sides.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/voxel_builder/changed_voxels.h"
+#include "passes/find_patches/saved_side.h"
+
+namespace voxray {
+namespace {
+
+struct FormerPush {
+    gpu::VoxelGrid grid;
+    uint32_t sides;
+};
+
+uint64_t uints(uint64_t count) {
+    return std::max<uint64_t>(count, 1) * sizeof(uint32_t);
+}
+
+std::vector<Binding> joined(std::vector<Binding> bindings, const std::vector<Binding>& more) {
+    bindings.insert(bindings.end(), more.begin(), more.end());
+    return bindings;
+}
+
+}  // namespace
+
+KeptSides::KeptSides(Device& device, const ShaderCompiler& compiler)
+    : save_(makeComputeProgram(device, compiler.compile("passes/find_patches/save.comp"))),
+      former_(makeComputeProgram(device, compiler.compile("passes/find_patches/former.comp"))),
+      regions_(device, compiler) {}
+
+void KeptSides::plan(MemoryPlan& plan, const SurfaceVoxels& voxels, uint64_t surfels, uint64_t sides,
+                     uint64_t pairs) {
+    const uint64_t words = uints(voxels.words());
+    plan.reserve("sides of surfels (estimated)", surfels * sizeof(gpu::SavedSide));
+    plan.reserve("former sides (estimated)", uints(sides) + 2 * words);
+    plan.reserveScratch("sides of the last build (estimated)",
+                        uints(voxels.voxelCount) + 2 * uints(sides) + uints(pairs) + 3 * words);
+}
+
+void KeptSides::begin(CommandStream& stream, const SurfaceVoxels& voxels, VoxelPatches& patches,
+                      const std::vector<Box>& changed) {
+    const auto bits = [&](uint32_t more) {
+        return regions_.bits(stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, more)),
+                             voxels);
+    };
+    changed_ = bits(0);
+    near_ = bits(1);
+    firstSide_ = std::move(patches.firstSide);
+    firstNeighbour_ = std::move(patches.firstNeighbour);
+    neighbours_ = std::move(patches.neighbours);
+    isActive_ = true;
+}
+
+std::vector<Binding> KeptSides::surfelBindings(const VoxelClusters& clusters,
+                                               std::vector<Binding> more) const {
+    return joined(
+        {{"coordinates", clusters.coordinates}, {"changed", changed_}, {"SavedSidesAt", saved_.at()}}, more);
+}
+
+void KeptSides::nameFormer(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
+                           VoxelPatches& patches) {
+    patches.formerSides = Buffer(stream.device(), "former sides", uints(patches.sideCount));
+    pairsFrom_ = Buffer(stream.device(), "sides whose pairs are known", uints(patches.sideCount));
+    stream.dispatch(former_,
+                    {{"sides", patches.sides},
+                     {"firstSide", patches.firstSide},
+                     {"coordinates", clusters.coordinates},
+                     {"changed", changed_},
+                     {"near", near_},
+                     {"occupancyBefore", occupancy_},
+                     {"rankBefore", rank_},
+                     {"firstSideBefore", firstSide_},
+                     {"formerSides", patches.formerSides},
+                     {"pairsFrom", pairsFrom_}},
+                    FormerPush{voxels.grid, patches.sideCount}, linearGroups(patches.sideCount));
+}
+
+std::vector<Binding> KeptSides::pairBindings(std::vector<Binding> more) const {
+    return joined({{"pairsFrom", pairsFrom_}}, more);
+}
+
+std::vector<Binding> KeptSides::hiddenBindings(const VoxelPatches& patches, std::vector<Binding> more) const {
+    return joined({{"pairsFrom", pairsFrom_},
+                   {"firstNeighbour", patches.firstNeighbour},
+                   {"firstNeighbourBefore", firstNeighbour_},
+                   {"NeighboursBeforeAt", neighbours_.at()}},
+                  more);
+}
+
+void KeptSides::end() {
+    changed_ = {}, near_ = {}, pairsFrom_ = {}, firstSide_ = {}, firstNeighbour_ = {}, neighbours_ = {};
+    isActive_ = false;
+}
+
+void KeptSides::rememberSurfels(CommandStream& stream, const VoxelPatches& patches, uint64_t ids) {
+    makeOrKeep(saved_, stream.device(), "sides of surfels",
+               std::max<uint64_t>(ids, 1) * sizeof(gpu::SavedSide));
+    stream.dispatch(save_, {{"PatchSurfelsAt", patches.surfels.at()}, {"SavedSidesAt", saved_.at()}},
+                    patches.surfelCount, linearGroups(patches.surfelCount));
+}
+
+void KeptSides::rememberVoxels(CommandStream& stream, const SurfaceVoxels& voxels) {
+    makeOrKeep(occupancy_, stream.device(), "occupancy before", voxels.occupancy.bytes());
+    makeOrKeep(rank_, stream.device(), "ranks before", voxels.rank.bytes());
+    stream.copy(voxels.occupancy, occupancy_, voxels.occupancy.bytes());
+    stream.copy(voxels.rank, rank_, voxels.rank.bytes());
+    stream.finish();
+}
+
+}  // namespace voxray
