@@ -15,6 +15,7 @@ constexpr uint32_t kMaxRounds = 256;                  // Some ten are needed: th
 struct NormalsPush {
     gpu::VoxelGrid grid;
     uint32_t count;
+    float unitsPerRadian;
 };
 
 /// As in neighbourhood.glsl.
@@ -61,8 +62,10 @@ void ClusterGrowth::prepare(Device& device, const ShaderCompiler& compiler) {
         const std::string file = std::string("passes/cluster_voxels/") + name + ".comp";
         return makeComputeProgram(device, compiler.compile(file, defines));
     };
-    normals_ = program(
-        "normals", params_.normals == ClusterNormals::OpenSpace ? Defines{{"OPEN_SPACE", "1"}} : Defines{});
+    Defines ways;
+    if (params_.normals == ClusterNormals::OpenSpace) ways.emplace("OPEN_SPACE", "1");
+    if (params_.asksFragments()) ways.emplace("FRAGMENTS", "1");
+    normals_ = program("normals", ways);
     seed_ = program("seed");
     assign_ = program("assign");
     add_ = program("add");
@@ -73,8 +76,26 @@ void ClusterGrowth::prepare(Device& device, const ShaderCompiler& compiler) {
     nearest_ = program("nearest");
 }
 
+void ClusterGrowth::findNormals(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates,
+                                const FragmentAngles::Sums& fragments, Result& result) const {
+    const uint32_t count = voxels.voxelCount;
+    result.normals = Buffer(stream.device(), "voxel normals", count * sizeof(glm::vec3));
+    std::vector<Binding> bindings = {ifUsed({"coordinates", coordinates}), {"normals", result.normals}};
+    Buffer counts;
+    if (params_.normals == ClusterNormals::OpenSpace) {
+        counts = Buffer(stream.device(), "ways of voxels", sizeof(OpenSpaceCounts));
+        stream.fill(counts, 0);
+        bindings.emplace_back("counts", counts);
+    }
+    if (params_.asksFragments()) bindings.emplace_back("fragmentAngles", fragments.angles);
+    stream.dispatch(normals_, voxels.bindings(bindings),
+                    NormalsPush{voxels.grid, count, fragments.unitsPerRadian}, linearGroups(count));
+    if (counts) result.openSpace = stream.readAs<OpenSpaceCounts>(counts, 1)[0];
+}
+
 ClusterGrowth::Result ClusterGrowth::grow(CommandStream& stream, const SurfaceVoxels& voxels,
-                                          const Buffer& coordinates) const {
+                                          const Buffer& coordinates,
+                                          const FragmentAngles::Sums& fragments) const {
     Device& device = stream.device();
     const uint32_t count = voxels.voxelCount;
     const glm::uvec3 along = cells(voxels.grid, count);
@@ -82,10 +103,7 @@ ClusterGrowth::Result ClusterGrowth::grow(CommandStream& stream, const SurfaceVo
         throw Error("cluster_voxels: {} seeds are too many; lower 'initial' or 'target'", product(along));
     Result result;
     result.seeds = uint32_t(product(along));
-    result.normals = Buffer(device, "voxel normals", count * sizeof(glm::vec3));
-    stream.dispatch(normals_,
-                    voxels.bindings({ifUsed({"coordinates", coordinates}), {"normals", result.normals}}),
-                    NormalsPush{voxels.grid, count}, linearGroups(count));
+    findNormals(stream, voxels, coordinates, fragments, result);
 
     // Seeds
     const glm::vec3 widths = glm::vec3(voxels.grid.resolution) / glm::vec3(along);

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "graph/registry.h"
+#include "passes/cluster_voxels/fragment_angles.h"
 #include "passes/common/clusters/voxel_clusters.h"
 
 namespace voxray {
@@ -35,6 +36,14 @@ struct EnumNames<ClusterNormals> {
                                       std::pair{ClusterNormals::OpenSpace, "open_space"}};
 };
 
+/// What decides between ways that are open alike.
+enum class OpenSpaceTies { Surfaces, Fragments };
+template <>
+struct EnumNames<OpenSpaceTies> {
+    static constexpr std::array names{std::pair{OpenSpaceTies::Surfaces, "surfaces"},
+                                      std::pair{OpenSpaceTies::Fragments, "fragments"}};
+};
+
 /// The parameters of cluster_voxels.
 struct ClusterParams {
     uint32_t initial = 0;
@@ -45,6 +54,10 @@ struct ClusterParams {
     ClusterAssignment assign = ClusterAssignment::Nearest;
     UnassignedVoxels unassigned = UnassignedVoxels::Own;
     ClusterNormals normals = ClusterNormals::Area;
+    OpenSpaceTies ties = OpenSpaceTies::Surfaces;
+    bool asksFragments() const {
+        return normals == ClusterNormals::OpenSpace && ties == OpenSpaceTies::Fragments;
+    }
     static constexpr auto schema() {
         return std::tuple{
             field(
@@ -83,7 +96,12 @@ struct ClusterParams {
                 "the nearest, whatever its normal. leave: they belong to none, block light and send none."),
             field("normals", &ClusterParams::normals,
                   "Of a voxel. area: of the surfaces that open space lies before. open_space: where surfaces "
-                  "disagree, the axis along which fewest voxels round it are occupied (the paper's).")};
+                  "disagree, the axis along which fewest voxels round it are occupied (the paper's)."),
+            field("ties", &ClusterParams::ties,
+                  "Between ways along which as few voxels are occupied. surfaces: the nearest to the normal "
+                  "by area. fragments: the one to which the normals of the triangles in the voxel have the "
+                  "smallest sum of angles, each counted once whatever its area (the paper's).")
+                .onlyWith(oneOf(&ClusterParams::normals, {ClusterNormals::OpenSpace}))};
     }
 };
 
@@ -98,17 +116,30 @@ class ClusterGrowth {
     uint64_t scratchBytes(const SurfaceVoxels& voxels) const;
     void prepare(Device& device, const ShaderCompiler& compiler);
 
+    /// What ClusterNormals::OpenSpace does, in voxels.
+    struct OpenSpaceCounts {
+        uint32_t disagreeing;  ///< Surfaces disagree.
+        uint32_t tied;         ///< Of these, as open along several ways.
+        uint32_t decided;      ///< Of these, another way by fragments than by surfaces.
+        uint32_t changed;      ///< Of all, another normal than by area.
+    };
+
     struct Result {
         uint32_t seeds = 0;       ///< Numbers below are seeds; from there on voxels.
         uint32_t unassigned = 0;  ///< Voxels that no seed's cluster asked for.
         Buffer owners;            ///< By voxel: a seed, `seeds` plus the number of a voxel, or NO_CLUSTER.
         Buffer normals;           ///< By voxel: unit, 3 floats.
+        OpenSpaceCounts openSpace{};
         Buffer seedList;  ///< gpu::ClusterSeed each: as they were when voxels were compared with them last.
     };
-    /// @param coordinates of voxels. Waits for the device.
-    Result grow(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates) const;
+    /// @param coordinates of voxels. @param fragments where ties are decided by them. Waits for the device.
+    Result grow(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates,
+                const FragmentAngles::Sums& fragments) const;
 
  private:
+    /// The normals of `result`, and what became of them.
+    void findNormals(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates,
+                     const FragmentAngles::Sums& fragments, Result& result) const;
     /// Cells along each axis, one a seed.
     glm::uvec3 cells(const gpu::VoxelGrid& grid, uint32_t voxelCount) const;
 

@@ -35,6 +35,7 @@ class ClusterVoxels final : public Pass {
     Params params_;
     Port<const SurfaceVoxels> voxels_;
     Port<VoxelClusters> clusters_;
+    FragmentAngles fragments_;
     ClusterGrowth growth_;
     ClusterList list_;
     Program coordinates_;

@@ -43,14 +43,11 @@ class ShowVoxels final : public Pass {
                       "Of surface voxels. albedo: diffuse reflectance. irradiance: what arrives at the face "
                       "that is seen, as the radiance of a white surface there (over pi); magenta where the "
                       "injection did not look. opacity: 0 to 1. normal: each component from -1 to 1 as 0 to "
-                      "1. lit_faces: how many lit faces of voxels the face sees (cluster_visibility), none "
-                      "as green, "
-                      "red_at as red; of a cluster that it sees, all (Cosin and Patow 2022, figure 13); "
-                      "magenta "
-                      "where no surface looks that way. Of prefiltered voxels, which cones read. radiance: "
-                      "what their surfaces send "
-                      "through the face that is seen. radiance_opacity: the part of a beam that they hide "
-                      "there."),
+                      "1. lit_faces: how many lit faces of voxels the face sees by its list "
+                      "(cluster_visibility), none as green, red_at as red; of a part of a cluster all count "
+                      "(Cosin and Patow 2022, figure 13); magenta where no surfel looks that way. Of "
+                      "prefiltered voxels, which cones read. radiance: what their surfaces send through the "
+                      "face that is seen. radiance_opacity: the part of a beam that they hide there."),
                 field("red_at", &Params::redAt, "So many lit faces, and more, are red.", 1u, 1u << 24)
                     .onlyWith(oneOf(&Params::show, {ShownValue::LitFaces})),
                 field("level", &Params::level,

@@ -1,0 +1,82 @@
+// Which way voxels look where their surfaces disagree, by open space and by fragments (Cosin and Patow 2022,
+// figure 7).
+#include <gtest/gtest.h>
+
+#include "passes/common/clusters/voxel_clusters.h"
+#include "tests/physics/voxels_read.h"
+
+namespace voxray::test {
+namespace {
+
+/// A plate of 2 m between two sheets that face away from each other, so thin that one layer of voxels holds
+/// both; each is cut into so many squares along an edge.
+std::shared_ptr<const Scene> plate(int squaresAbove, int squaresBelow) {
+    SceneBuilder b("plate");
+    const uint32_t grey = b.lambert("grey", glm::vec3(0.5f));
+    const auto sheet = [&](float y, int squares, bool isAbove) {
+        const float width = 2.0f / float(squares);
+        const glm::vec3 alongX(width, 0, 0), alongZ(0, 0, width);
+        for (int i = 0; i < squares; ++i)
+            for (int k = 0; k < squares; ++k)
+                b.quad("sheet", {-1 + width * float(i), y, -1 + width * float(k)}, isAbove ? alongZ : alongX,
+                       isAbove ? alongX : alongZ, grey);
+    };
+    sheet(0.02f, squaresAbove, true);
+    sheet(-0.02f, squaresBelow, false);
+    b.directionalLight({0, -1, 0}, glm::vec3(1));
+    b.camera({0, 2, 0}, {0, 0, 0}, 60, {0, 0, -1});
+    return b.finish();
+}
+
+struct Ways {
+    double up = 0, down = 0, others = 0;  ///< Voxels of clusters that look there.
+    double tied, decided, changed;        ///< Voxels, %, as the pass reports them.
+};
+
+Ways waysOf(const std::shared_ptr<const Scene>& scene, const std::string& ties) {
+    Chain chain(std::make_shared<SceneState>(evaluate(scene, 0.0)),
+                graphYaml({"voxelize, resolution: 8, visibility_rays: 0",
+                           "cluster_voxels, target: 8, normals: open_space, ties: " + ties}),
+                16, 16, 1);
+    const PassSample& sample = chain.buildSamples.at(1);
+    Ways ways{.tied = reported(sample, "voxels whose open ways tie, %"),
+              .decided = reported(sample, "voxels that fragments decide otherwise, %"),
+              .changed = reported(sample, "voxels with another normal than by area, %")};
+    for (const gpu::VoxelCluster& cluster :
+         chain.read<gpu::VoxelCluster>(chain.graph().resource<VoxelClusters>("clusters")->clusters)) {
+        const float up = cluster.normal.y;
+        (up > 0.999f ? ways.up : up < -0.999f ? ways.down : ways.others) += cluster.members;
+    }
+    return ways;
+}
+
+TEST(ClusterNormals, OfAThinPlateFollowItsFragmentsWhereBothWaysAreOpen) {
+    // No voxel lies above the plate nor below it, and as much area looks up as down, which counts as up. Of
+    // fragments the finer sheet has more in each voxel. Without probes: their noise would decide by area.
+    for (const bool isFinerBelow : {true, false}) {
+        const auto scene = isFinerBelow ? plate(1, 16) : plate(16, 1);
+        const Ways bySurface = waysOf(scene, "surfaces"), byFragments = waysOf(scene, "fragments");
+        for (const Ways& ways : {bySurface, byFragments}) {
+            EXPECT_EQ(ways.tied, 100);
+            EXPECT_EQ(ways.up + ways.down, 64);
+            EXPECT_EQ(ways.others, 0);
+        }
+        EXPECT_EQ(bySurface.up, 64);
+        EXPECT_EQ(bySurface.decided, 0);
+        EXPECT_EQ(bySurface.changed, 0);
+        EXPECT_EQ(byFragments.down, isFinerBelow ? 64 : 0);
+        EXPECT_EQ(byFragments.decided, isFinerBelow ? 100 : 0);
+        EXPECT_EQ(byFragments.changed, isFinerBelow ? 100 : 0);
+    }
+}
+
+TEST(ClusterNormals, OfTiesBetweenFragmentsAreThoseOfSurfaces) {
+    // As many fragments look up as down.
+    const Ways ways = waysOf(plate(4, 4), "fragments");
+    EXPECT_EQ(ways.tied, 100);
+    EXPECT_EQ(ways.decided, 0);
+    EXPECT_EQ(ways.up, 64);
+}
+
+}  // namespace
+}  // namespace voxray::test
