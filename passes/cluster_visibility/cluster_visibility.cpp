@@ -127,7 +127,7 @@ void FindClusterVisibility::record(PassContext& context) {
     if (version_ == version) return;
     const std::optional<std::vector<Box>>& changed = context.frame.changed;
     const bool updates =
-        kept_ && changed && version_ && version_->second + 1 == patches.version && patches.formerSides;
+        kept_ && changed && version_ && version_->second + 1 == patches.version && patches.previousSides;
     version_ = version;
     ++visibility.version;
     visibility.chunks.clear();

@@ -62,7 +62,7 @@ void KeptRays::begin(CommandStream& stream, const SurfaceVoxels& voxels, const V
     stream.fill(newSides_, NO_SIDE);
     stream.dispatch(renumber_,
                     {{"sides", patches.sides},
-                     {"formerSides", patches.formerSides},
+                     {"previousSides", patches.previousSides},
                      {"coordinates", clusters.coordinates},
                      {"near", near},
                      {"firstPatches", firstPatches_},

@@ -282,7 +282,7 @@ void FindPatches::listSides(PassContext& context, const SurfelsByVoxel& lists) {
     patches.patchCount = prefixSum_->run(stream, counts, counts, patches.sideCount);
     stream.dispatch(numberPatches_, {{"before", counts}, {"sides", patches.sides}}, patches.sideCount,
                     linearGroups(patches.sideCount));
-    if (isUpdate()) kept_->nameFormer(stream, voxels, context.get(clusters_), patches);
+    if (isUpdate()) kept_->findPrevious(stream, voxels, context.get(clusters_), patches);
     stream.finish();
 }
 

@@ -10,7 +10,7 @@
 namespace voxray {
 namespace {
 
-struct FormerPush {
+struct PreviousPush {
     gpu::VoxelGrid grid;
     uint32_t sides;
 };
@@ -28,14 +28,14 @@ std::vector<Binding> joined(std::vector<Binding> bindings, const std::vector<Bin
 
 KeptSides::KeptSides(Device& device, const ShaderCompiler& compiler)
     : save_(makeComputeProgram(device, compiler.compile("passes/find_patches/save.comp"))),
-      former_(makeComputeProgram(device, compiler.compile("passes/find_patches/former.comp"))),
+      previous_(makeComputeProgram(device, compiler.compile("passes/find_patches/previous.comp"))),
       regions_(device, compiler) {}
 
 void KeptSides::plan(MemoryPlan& plan, const SurfaceVoxels& voxels, uint64_t surfels, uint64_t sides,
                      uint64_t pairs) {
     const uint64_t words = uints(voxels.words());
     plan.reserve("sides of surfels (estimated)", surfels * sizeof(gpu::SavedSide));
-    plan.reserve("former sides (estimated)", uints(sides) + 2 * words);
+    plan.reserve("previous sides (estimated)", uints(sides) + 2 * words);
     plan.reserveScratch("sides of the last build (estimated)",
                         uints(voxels.voxelCount) + 2 * uints(sides) + uints(pairs) + 3 * words);
 }
@@ -60,11 +60,11 @@ std::vector<Binding> KeptSides::surfelBindings(const VoxelClusters& clusters,
         {{"coordinates", clusters.coordinates}, {"changed", changed_}, {"SavedSidesAt", saved_.at()}}, more);
 }
 
-void KeptSides::nameFormer(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
-                           VoxelPatches& patches) {
-    patches.formerSides = Buffer(stream.device(), "former sides", uints(patches.sideCount));
+void KeptSides::findPrevious(CommandStream& stream, const SurfaceVoxels& voxels,
+                             const VoxelClusters& clusters, VoxelPatches& patches) {
+    patches.previousSides = Buffer(stream.device(), "previous sides", uints(patches.sideCount));
     pairsFrom_ = Buffer(stream.device(), "sides whose pairs are known", uints(patches.sideCount));
-    stream.dispatch(former_,
+    stream.dispatch(previous_,
                     {{"sides", patches.sides},
                      {"firstSide", patches.firstSide},
                      {"coordinates", clusters.coordinates},
@@ -73,9 +73,9 @@ void KeptSides::nameFormer(CommandStream& stream, const SurfaceVoxels& voxels, c
                      {"occupancyBefore", occupancy_},
                      {"rankBefore", rank_},
                      {"firstSideBefore", firstSide_},
-                     {"formerSides", patches.formerSides},
+                     {"previousSides", patches.previousSides},
                      {"pairsFrom", pairsFrom_}},
-                    FormerPush{voxels.grid, patches.sideCount}, linearGroups(patches.sideCount));
+                    PreviousPush{voxels.grid, patches.sideCount}, linearGroups(patches.sideCount));
 }
 
 std::vector<Binding> KeptSides::pairBindings(std::vector<Binding> more) const {

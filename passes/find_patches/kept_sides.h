@@ -15,7 +15,7 @@ namespace voxray {
 ///
 ///     begin()            before an update, as long as the last build's sides are there
 ///     surfelBindings()   which side each surfel was on (begin.comp)
-///     nameFormer()       once sides are numbered
+///     findPrevious()     once sides are numbered
 ///     pairBindings()     of which pairs it is known whether something hides them (aim_near.comp),
 ///     hiddenBindings()   and whether it does (part_near.comp)
 ///     end()
@@ -34,9 +34,9 @@ class KeptSides {
                const std::vector<Box>& changed);
     bool isActive() const { return isActive_; }
     std::vector<Binding> surfelBindings(const VoxelClusters& clusters, std::vector<Binding> more) const;
-    /// Finds what each side was (VoxelPatches::formerSides).
-    void nameFormer(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
-                    VoxelPatches& patches);
+    /// Finds what each side was (VoxelPatches::previousSides).
+    void findPrevious(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
+                      VoxelPatches& patches);
     std::vector<Binding> pairBindings(std::vector<Binding> more) const;
     std::vector<Binding> hiddenBindings(const VoxelPatches& patches, std::vector<Binding> more) const;
     /// Frees what was taken. The stream has finished.
@@ -48,12 +48,12 @@ class KeptSides {
     void rememberVoxels(CommandStream& stream, const SurfaceVoxels& voxels);
 
  private:
-    Program save_, former_;
+    Program save_, previous_;
     RegionMerge regions_;
     Buffer occupancy_, rank_;            ///< Of the last build.
     LargeBuffer saved_;                  ///< gpu::SavedSide each, by the surfel's id.
     Buffer changed_, near_;              ///< For an update: a bit a voxel.
-    Buffer pairsFrom_;                   ///< By side: its former number, where its pairs are known.
+    Buffer pairsFrom_;                   ///< By side: its previous number, where its pairs are known.
     Buffer firstSide_, firstNeighbour_;  ///< Of the last build's sides.
     LargeBuffer neighbours_;
     bool isActive_ = false;

@@ -23,10 +23,10 @@ layout(push_constant) uniform Push {
 
 bool isHidden(uint i) {
 #ifdef KEEP
-    const uint side = whose.data[push.first + i], former = pairsFrom.data[side];
-    if (former != NO_SIDE) {
+    const uint side = whose.data[push.first + i], previous = pairsFrom.data[side];
+    if (previous != NO_SIDE) {
         const uint at = push.first + i - firstNeighbour.data[side];
-        return neighboursBefore.data[firstNeighbourBefore.data[former] + at] == NO_SIDE;
+        return neighboursBefore.data[firstNeighbourBefore.data[previous] + at] == NO_SIDE;
     }
 #endif
     return occluded.data[i] != 0u;

@@ -31,17 +31,17 @@ struct VoxelPatches : Resource {
     Buffer ofSide;           ///< By side: its part, or NO_PART where its voxel has no cluster.
     /// Where surfaces have moved since the version before: by side its number then, or NO_SIDE where its
     /// voxel has changed since. Empty where all is new.
-    Buffer formerSides;
+    Buffer previousSides;
 
     /// Frees the buffers.
     void clear() {
         surfels = {}, places = {}, firstSide = {}, sides = {}, materials = {}, firstNeighbour = {};
-        neighbours = {}, parts = {}, members = {}, ofSide = {}, formerSides = {};
+        neighbours = {}, parts = {}, members = {}, ofSide = {}, previousSides = {};
     }
     uint64_t bytes() const {
         return surfels.bytes() + places.bytes() + firstSide.bytes() + sides.bytes() + materials.bytes() +
                firstNeighbour.bytes() + neighbours.bytes() + parts.bytes() + members.bytes() +
-               ofSide.bytes() + formerSides.bytes();
+               ofSide.bytes() + previousSides.bytes();
     }
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }
 };

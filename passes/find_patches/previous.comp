@@ -15,7 +15,7 @@ readonly buffer Near { uint words[]; } near;        // Likewise, one farther.
 readonly buffer OccupancyBefore { uint words[]; } occupancyBefore;
 readonly buffer RankBefore { uint before[]; } rankBefore;
 readonly buffer FirstSideBefore { uint data[]; } firstSideBefore;
-writeonly buffer FormerSides { uint data[]; } formerSides;
+writeonly buffer PreviousSides { uint data[]; } previousSides;
 writeonly buffer PairsFrom { uint data[]; } pairsFrom;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
@@ -28,11 +28,11 @@ void main() {
     const uint voxel = sides.data[i].voxel;
     const ivec3 at = ivec3(coordinates.data[voxel]);
     const uint word = voxelWord(push.grid, at), bit = voxelBit(push.grid, at);
-    uint former = NO_SIDE;
+    uint previous = NO_SIDE;
     if ((changed.words[word] & bit) == 0u) {
         const uint before = rankBefore.before[word] + uint(bitCount(occupancyBefore.words[word] & (bit - 1u)));
-        former = firstSideBefore.data[before] + i - firstSide.data[voxel];
+        previous = firstSideBefore.data[before] + i - firstSide.data[voxel];
     }
-    formerSides.data[i] = former;
-    pairsFrom.data[i] = (near.words[word] & bit) == 0u ? former : NO_SIDE;
+    previousSides.data[i] = previous;
+    pairsFrom.data[i] = (near.words[word] & bit) == 0u ? previous : NO_SIDE;
 }
