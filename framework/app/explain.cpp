@@ -1,4 +1,4 @@
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <memory>
@@ -27,12 +27,21 @@ struct ExplainArguments : ConfigArguments {
     RunOptions options;
 };
 
+/// The variant of that name, or the only one whose name ends so after a '-': `lookup` of `indirect-lookup`.
 const WiredVariant& chosen(const WiredExperiment& wired, const std::string& name) {
-    std::vector<std::string> names;
+    std::vector<std::string> names, endings;
+    const WiredVariant* ending = nullptr;
     for (const WiredVariant& variant : wired.variants) {
         if (variant.name == name || (name.empty() && wired.variants.size() == 1)) return variant;
         names.push_back(variant.name);
+        if (name.empty() || !variant.name.ends_with("-" + name)) continue;
+        ending = &variant;
+        endings.push_back(variant.name);
     }
+    if (endings.size() == 1) return *ending;
+    if (endings.size() > 1)
+        throw UsageError("--variant: '{}' ends the names of {} variants: {}", name, endings.size(),
+                         fmt::join(endings, ", "));
     if (!name.empty()) throw UsageError("--variant: no variant '{}'{}", name, didYouMean(name, names));
     throw UsageError(
         "the config has {} variants, one of which can be explained: choose it with --variant, "
@@ -79,8 +88,10 @@ void addExplainCommand(CLI::App& app, int& status) {
         "and give each its part of the error of the indirect light.");
     command->add_option("CONFIG", arguments->file, "Config file.")->required();
     command
-        ->add_option("--variant", arguments->variant,
-                     "Which variant of the config's sweep is explained, by its name in results.csv.")
+        ->add_option(
+            "--variant", arguments->variant,
+            "Which variant of the config's sweep is explained, by its name in results.csv or the end of "
+            "it, as in lookup for indirect-lookup.")
         ->type_name("NAME");
     addConfigOptions(*command, *arguments);
     addRunOptions(*command, arguments->options, "Results folder; default results/explain_<experiment>.");

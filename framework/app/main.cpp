@@ -38,6 +38,12 @@ void checkCommandName(const CLI::App& app, const std::string& word) {
     throw UsageError("unknown command '{}'{}", word, didYouMean(word, names));
 }
 
+/// "; see voxray run --help": of the command that was asked for.
+std::string seeHelp(const CLI::App& app) {
+    const auto asked = app.get_subcommands();
+    return fmt::format("; see voxray {}--help", asked.empty() ? "" : asked[0]->get_name() + " ");
+}
+
 /// What was written that no command takes, with the nearest option where it is one.
 std::string unknownArguments(const CLI::App& app) {
     const std::string first = app.remaining(true).empty() ? "" : app.remaining(true).front();
@@ -52,7 +58,7 @@ std::string unknownArguments(const CLI::App& app) {
     const auto begins = [&](const std::string& name) { return name.starts_with("-" + option); };
     if (option.size() == 2 && std::ranges::any_of(names, begins)) near = *std::ranges::find_if(names, begins);
     return fmt::format("unknown {} '{}'{}", option.starts_with('-') ? "option" : "argument", option,
-                       near.empty() ? "; see voxray --help" : fmt::format("; did you mean '{}'?", near));
+                       near.empty() ? seeHelp(app) : fmt::format("; did you mean '{}'?", near));
 }
 
 }  // namespace
@@ -96,7 +102,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ExtrasError&) {
         return complain(unknownArguments(app), kBadUsage);
     } catch (const CLI::ParseError& error) {
-        return complain(oneLine(error.what()) + "; see voxray --help", kBadUsage);
+        return complain(oneLine(error.what()) + seeHelp(app), kBadUsage);
     } catch (const UsageError& error) {
         return complain(error.what(), kBadUsage);
     } catch (const std::bad_alloc&) {

@@ -41,7 +41,7 @@ void addParetoCommand(CLI::App& app, int&) {
                            "Chart the methods of many runs, speed against accuracy: which are on the front, "
                            "scene by scene, which "
                            "are beaten everywhere, and what each saves over filtered path tracing.");
-    command->add_option("results", arguments->results, "Results folders of runs, also of several machines.")
+    command->add_option("RESULTS", arguments->results, "Results folders of runs, also of several machines.")
         ->required()
         ->type_name("DIR");
     command->add_option("--out", arguments->out, "The page; a table with all numbers gets its name and .csv.")

@@ -1,4 +1,4 @@
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +14,7 @@
 #include "app/scene_view.h"
 #include "app/source_root.h"
 #include "base/suggest.h"
+#include "experiment/pixel_masks.h"
 #include "experiment/scene_setup.h"
 #include "passes/common/lights/light_sources.h"
 #include "passes/path_trace/path_tracer.h"
@@ -139,6 +140,17 @@ void printMaterials(const SceneState& state) {
     }
 }
 
+/// Objects by the names that `measure.masks` takes.
+void printObjects(const Scene& scene) {
+    constexpr size_t kListed = 20;
+    std::vector<std::string> names = objectNames(scene);
+    const size_t more = names.size() - std::min(names.size(), kListed);
+    names.resize(names.size() - more);
+    fmt::print("objects: {}{}\n",
+               names.empty() ? "none has a name" : fmt::format("'{}'", fmt::join(names, "', '")),
+               more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
 /// A path-traced picture of a few samples. What nothing lights is shown in even light from all sides.
 void writePicture(SceneState state, const EmbreeScene& tracer, const Camera& camera, bool shines,
                   const std::filesystem::path& file) {
@@ -175,6 +187,7 @@ void describe(const SceneArguments& arguments) {
         fmt::print("  '{}'  {}\n", camera.name, block(settingsOf(camera, g)));
     const bool shines = printLights(scene.state);
     printMaterials(scene.state);
+    printObjects(*scene.state.scene);
     if (!shines) fmt::print("nothing shines: add lights, or an environment as in\n  environment: 1\n");
     fmt::print("{}:\n  {}\n", hasCamera ? "the camera in use" : "a camera to begin with",
                block(settingsOf(scene.camera, g)));
@@ -189,8 +202,9 @@ void describe(const SceneArguments& arguments) {
 }  // namespace
 
 void addSceneCommand(CLI::App& app, int&) {
-    CLI::App* command = app.add_subcommand(
-        "scene", "Tell what is in a scene: bounds, cameras, lights, materials, and a camera to paste.");
+    CLI::App* command = app.add_subcommand("scene",
+                                           "Tell what is in a scene: bounds, cameras, lights, materials, "
+                                           "names of objects, and a camera to paste.");
     auto arguments = std::make_shared<SceneArguments>();
     command
         ->add_option("SCENE", arguments->what,

@@ -68,7 +68,11 @@ std::vector<ProfileRun> profileRuns(const StabilityArguments& arguments, const R
     std::vector<std::string> profiles{arguments.config.profile};
     if (profiles[0].empty()) profiles = profileNames(arguments.file);
     std::vector<std::string> scenes, methods;
-    std::vector<std::pair<std::string, Experiment>> experiments;
+    struct Choice {
+        std::string profile;
+        Experiment whole, asked;
+    };
+    std::vector<Choice> experiments;
     for (const std::string& profile : profiles) {
         const Experiment whole = loadExperiment(arguments.file, {profile, arguments.config.assignments});
         Value config = whole.config;
@@ -84,16 +88,21 @@ std::vector<ProfileRun> profileRuns(const StabilityArguments& arguments, const R
         std::erase_if(methodAxis.members,
                       [&](const auto& member) { return !isAsked(arguments.methods, member.key); });
         if (methodAxis.members.empty()) continue;
-        experiments.emplace_back(profile, readExperiment(std::move(config)));
-        experiments.back().second.file = arguments.file;
+        Experiment asked = readExperiment(std::move(config));
+        asked.file = arguments.file;
+        experiments.push_back({profile, whole, std::move(asked)});
     }
     checkAsked(arguments.methods, methods, "method");
     checkAsked(arguments.scenarios, scenes, "scenario");
     if (experiments.empty())
         throw UsageError("{}: none of its profiles has that scene with that method", arguments.file.string());
     std::vector<ProfileRun> runs;
-    for (auto& [profile, experiment] : experiments)
-        runs.push_back({profile, wireExperiment(std::move(experiment), registry)});
+    for (auto& [profile, whole, asked] : experiments) {
+        const WiredExperiment all = wireExperiment(std::move(whole), registry);
+        runs.push_back({profile, wireExperiment(std::move(asked), registry)});
+        for (const auto& [id, count] : variantsWithout(runs.back().wired))
+            if (runsSomewhere(all, id)) runs.back().wired.deselected.push_back(id);
+    }
     return runs;
 }
 

@@ -40,6 +40,7 @@ void tune(TuneArguments arguments) {
             axisOfParameter(loadExperiment(arguments.file, arguments.config), path, registry));
     const WiredExperiment wired = wireExperiment(loadExperiment(arguments.file, arguments.config), registry);
     const std::string space = trialsJson(wired);
+    checkTargets(arguments.targets, wired.experiment.measure);
     if (arguments.out.empty())
         arguments.out = std::filesystem::path("results") / ("tune_" + wired.experiment.setup.general.name);
     if (!arguments.resume && std::filesystem::exists(arguments.out) &&

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <random>
 
+#include "base/disk_full.h"
 #include "base/error.h"
 #include "base/suggest.h"
 
@@ -27,6 +28,14 @@ void syncPath(const fs::path& path) {
     const int reason = errno;
     ::close(descriptor);
     if (result != 0 && reason != EINVAL) throw Error("{}: {}", path.string(), std::strerror(reason));
+}
+
+/// Whether a folder's disk has no room: libraries that write files don't say why they fail.
+bool isFull(const fs::path& folder) {
+    constexpr uint64_t kRoom = 1 << 16;
+    std::error_code code;
+    const fs::space_info space = fs::space(folder.empty() ? "." : folder, code);
+    return !code && space.capacity > 0 && space.available < kRoom;
 }
 
 // For names that no other process takes, on no machine that shares the folder: process ids are of one
@@ -91,11 +100,12 @@ void writeFileAtomically(const fs::path& path, const std::function<void(const fs
         write(temporary);
         syncPath(temporary);
         fs::rename(temporary, path);
-    } catch (const fs::filesystem_error& error) {
+    } catch (const std::exception& error) {
+        const bool full = isFull(path.parent_path());  // Before what was written of the file goes.
         fs::remove(temporary, code);
-        throw Error("{}: {}", path.string(), error.code().message());
-    } catch (...) {
-        fs::remove(temporary, code);
+        if (full) throw DiskFull(path.parent_path());
+        if (const auto* system = dynamic_cast<const fs::filesystem_error*>(&error))
+            throw Error("{}: {}", path.string(), system->code().message());
         throw;
     }
 }
@@ -117,6 +127,9 @@ void writeFolderAtomically(const fs::path& folder, const std::function<void(cons
         fs::create_directories(temporary);
         write(temporary);
         replaceFolder(temporary, folder);
+    } catch (const DiskFull&) {
+        fs::remove_all(temporary, ignored);
+        throw DiskFull(folder.parent_path());
     } catch (...) {
         fs::remove_all(temporary, ignored);
         throw;

@@ -101,6 +101,17 @@ bool isJsonLiteral(const Value& value) {
     return !(s[first] == '0' && first + 1 < s.size() && s[first + 1] >= '0' && s[first + 1] <= '9');
 }
 
+/// @throws UsageError for 032, which some readers of YAML take for an octal number.
+void checkLeadingZero(const Value& value, std::string_view what) {
+    const size_t sign = value.scalar.find_first_of("+-") == 0 ? 1 : 0;
+    const size_t digits = std::min(value.scalar.find_first_not_of('0', sign), value.scalar.size() - 1);
+    const bool isDigits = value.scalar.find_first_not_of("0123456789", sign) == std::string::npos;
+    if (isDigits && digits > sign)
+        throw UsageError(value.where, "{}: '{}' begins with a zero: write {}{}", what,
+                         oneLine(value.scalar, kShown), value.scalar.substr(0, sign),
+                         value.scalar.substr(digits));
+}
+
 void writeJson(const Value& value, int indent, int depth, std::string& out) {
     const std::string newline = indent < 0 ? "" : "\n" + std::string(size_t(indent * (depth + 1)), ' ');
     const std::string lastNewline = indent < 0 ? "" : "\n" + std::string(size_t(indent * depth), ' ');
@@ -185,7 +196,10 @@ bool Value::asBool(std::string_view what) const {
 
 int64_t Value::asInteger(std::string_view what) const {
     int64_t number = 0;
-    if (isScalar() && !quoted && parseAll(scalar, number)) return number;
+    if (isScalar() && !quoted && parseAll(scalar, number)) {
+        checkLeadingZero(*this, what);
+        return number;
+    }
     if (isScalar() && !quoted && !scalar.empty() &&
         scalar.find_first_not_of("0123456789") == std::string::npos)
         throw UsageError(where, "{}: {} is out of range, at most {}", what, scalar,

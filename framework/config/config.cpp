@@ -47,6 +47,9 @@ void checkGraph(const Value& graph) {
             throw UsageError(entry.where, "graph: expected a map with 'pass', as in {{pass: gbuffer}}");
         if (id.find('.') != std::string::npos)
             throw UsageError(entry.where, "graph: the id '{}' must not contain a dot", id);
+        if (id.find_first_of(" \t\n") != std::string::npos)
+            throw UsageError(entry.where, "graph: the id '{}' must not contain a blank; write '_' for it",
+                             id);
         const auto& keys = configKeys();
         if (std::find(keys.begin(), keys.end(), id) != keys.end())
             throw UsageError(entry.where, "graph: the id '{}' is a key of the config; choose another", id);

@@ -21,6 +21,12 @@ SceneAddition readAddition(const Value& entry, const std::string& owner) {
     return addition;
 }
 
+/// Where the second of two values is written: a sweep's or the command line's, or the lower one in the file.
+TextLocation secondOf(const Value& a, const Value& b) {
+    if (a.where.file != b.where.file) return a.where.line == 0 ? a.where : b.where;
+    return a.where.line > b.where.line ? a.where : b.where;
+}
+
 }  // namespace
 
 std::string SceneSource::name() const {
@@ -52,7 +58,7 @@ SceneSource readSceneSource(const Value& map, const std::string& owner,
     // One source
     const bool hasFile = !read.file.empty(), hasBuiltin = !read.builtin.empty();
     if (hasFile && hasBuiltin)
-        throw UsageError(map.where,
+        throw UsageError(secondOf(*map.find("file"), *map.find("builtin")),
                          "{}: both 'file' and 'builtin' are set; take one out (null removes a key)", owner);
     if (!hasFile && !hasBuiltin) throw UsageError(map.where, "{}: needs 'file' or 'builtin'", owner);
     read.where = map.find(hasFile ? "file" : "builtin")->where;

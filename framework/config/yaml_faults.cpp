@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "config/overrides.h"
+
 namespace voxray {
 namespace {
 
@@ -92,10 +94,12 @@ std::optional<YamlFault> indentation(const std::vector<Line>& lines) {
         return YamlFault{line.number, fmt::format("a dash is missing before '{0}', as in line {1}: write '- "
                                                   "{0}: ...'",
                                                   line.key, above->number)};
+    const bool isTop = std::ranges::count(configKeys(), line.key) > 0;
     return YamlFault{line.number,
                      fmt::format("'{}' is indented unlike what the dash in line {} begins with: indent it by "
-                                 "{}",
-                                 line.key, above->number, spaces(above->inner))};
+                                 "{}{}",
+                                 line.key, above->number, spaces(isTop ? 0 : above->inner),
+                                 isTop ? ", as the config's other keys" : "")};
 }
 
 /// Whether a list entry's dash stands right before what it holds.

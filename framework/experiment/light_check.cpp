@@ -141,10 +141,11 @@ std::vector<std::string> lightWarnings(const SceneSettings& scene, const SceneSt
                 "it lights the backs of surfaces alone, from outside of a room or within a solid; is its "
                 "direction the way that the light travels, and are its numbers metres?");
         else if (!isInSight(entry.light, seen, state.geometry, tracer) && !isFound(entry.light))
-            warn(
-                "none of its light comes to what the camera sees: does it stand inside of an object, or "
-                "behind "
-                "a wall?");
+            warn(entry.light.type == LightType::Directional
+                     ? "none of its light comes to what the camera sees: is its direction the way that the "
+                       "light travels?"
+                     : "none of its light comes to what the camera sees: does it stand inside of an object, "
+                       "or behind a wall?");
     }
     return warnings;
 }

@@ -1,8 +1,10 @@
 #include "experiment/pixel_masks.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
+#include <unordered_set>
 
 #include "base/parallel.h"
 #include "base/suggest.h"
@@ -20,27 +22,29 @@ struct MaskCondition {
     float minMetallic, maxRoughness;
 };
 
+/// Of its mesh, and of the node that places it.
+std::array<std::string, 2> namesOf(const Instance& instance, const Scene& scene) {
+    return {scene.meshes[instance.mesh].name,
+            instance.node >= 0 ? scene.nodes[size_t(instance.node)].name : ""};
+}
+
 MaskCondition conditionOf(const MaskSettings& mask, const Scene& scene) {
     MaskCondition condition{{}, {}, mask.minMetallic, mask.maxRoughness};
-    std::vector<std::string> materials, meshes;
+    std::vector<std::string> materials;
     for (const Material& material : scene.materials) {
         condition.materials.push_back(mask.material.empty() || material.name == mask.material);
         materials.push_back(material.name);
     }
-    for (const Instance& instance : scene.instances) {
-        const std::string& mesh = scene.meshes[instance.mesh].name;
-        const std::string node = instance.node >= 0 ? scene.nodes[size_t(instance.node)].name : "";
-        condition.instances.push_back(mask.object.empty() || mesh == mask.object || node == mask.object);
-        meshes.push_back(mesh);
-        if (!node.empty() && node != mesh) meshes.push_back(node);
-    }
+    for (const Instance& instance : scene.instances)
+        condition.instances.push_back(mask.object.empty() ||
+                                      std::ranges::count(namesOf(instance, scene), mask.object) > 0);
     const auto lacks = [](const std::vector<bool>& chosen) { return std::ranges::count(chosen, true) == 0; };
     if (lacks(condition.materials))
         throw UsageError(mask.where, "measure.masks.{}: the scene has no material '{}'{}", mask.name,
                          mask.material, didYouMean(mask.material, materials));
     if (lacks(condition.instances))
         throw UsageError(mask.where, "measure.masks.{}: the scene has no object '{}'{}", mask.name,
-                         mask.object, didYouMean(mask.object, meshes));
+                         mask.object, didYouMean(mask.object, objectNames(scene)));
     return condition;
 }
 
@@ -108,6 +112,15 @@ void forEachPixel(const SceneState& state, const Camera& camera, uint32_t width,
 }
 
 }  // namespace
+
+std::vector<std::string> objectNames(const Scene& scene) {
+    std::vector<std::string> names;
+    std::unordered_set<std::string> known;
+    for (const Instance& instance : scene.instances)
+        for (const std::string& name : namesOf(instance, scene))
+            if (!name.empty() && known.insert(name).second) names.push_back(name);
+    return names;
+}
 
 void checkMaskNames(const std::vector<MaskSettings>& masks, const Scene& scene) {
     for (const MaskSettings& mask : masks) conditionOf(mask, scene);

@@ -21,6 +21,9 @@ struct PixelSelection {
     size_t count = 0;             ///< Of selected pixels.
 };
 
+/// Names that a mask's `object` may have in a scene: of meshes, and of nodes that place them, each once.
+std::vector<std::string> objectNames(const Scene& scene);
+
 /// @throws UsageError with file, line and the nearest name for a material or object that the scene lacks.
 void checkMaskNames(const std::vector<MaskSettings>& masks, const Scene& scene);
 

@@ -160,6 +160,19 @@ std::string overTheLimit(const Experiment& experiment, std::vector<Need> needs) 
     return error.what();
 }
 
+/// What to say of passes that run in no variant: first of one whose image is written over, for passes before
+/// it mostly are left out for that.
+std::vector<std::string> neverRun(const WiredExperiment& wired, const Registry& registry) {
+    std::vector<std::string> ids;
+    for (const auto& [id, count] : variantsWithout(wired))
+        if (!runsSomewhere(wired, id) && std::ranges::count(wired.deselected, id) == 0) ids.push_back(id);
+    const std::string first = overwrittenFinal(wired, registry);
+    std::ranges::stable_partition(ids, [&](const std::string& id) { return id == first; });
+    std::vector<std::string> texts;
+    for (const std::string& id : ids) texts.push_back(whyNeverRun(wired, id, registry));
+    return texts;
+}
+
 }  // namespace
 
 PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
@@ -220,14 +233,7 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
     if (std::string text = unequalHalves(experiment); !text.empty()) warnings.push_back(std::move(text));
     if (std::string text = only ? "" : overTheLimit(experiment, std::move(needs)); !text.empty())
         warnings.push_back(std::move(text));
-    for (const auto& [id, count] : variantsWithout(wired))
-        if (!runsSomewhere(wired, id)) {
-            const auto lacks = [&id = id](const WiredVariant& v) {
-                return std::ranges::count(v.leftOut, id) > 0;
-            };
-            const auto variant = std::ranges::find_if(wired.variants, lacks);
-            warnings.push_back(Graph(registry, variant->setup.graph).whyLeftOut(id));
-        }
+    for (std::string& text : neverRun(wired, registry)) warnings.push_back(std::move(text));
     for (const auto& [text, names] : notices)
         warnings.push_back(names.size() == 1
                                ? fmt::format("{} ({})", text, names[0])

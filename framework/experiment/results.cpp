@@ -12,6 +12,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+const std::vector<std::string> kCostColumns{"build_ms",     "frame_ms_median", "frame_ms_p05", "frame_ms_p95",
+                                            "memory_bytes", "peak_bytes",      "rays"};
+
 // JSON has no infinity: PSNR of equal images is written as text.
 Json numberJson(double value) {
     return std::isfinite(value) ? Json(value) : Json(numberText(value));
@@ -111,6 +114,20 @@ std::string csvField(const std::string& text) {
     return quoted + "\"";
 }
 
+std::vector<std::string> numberColumns(const MeasureSettings& measure) {
+    std::vector<std::string> columns;
+    for (const ScoreColumn& column : scoreColumns(measure))
+        if (std::ranges::count(measure.metrics, column.metric) > 0) columns.push_back(column.name);
+    const auto addLights = [&](std::span<const MetricInfo> metrics) {
+        for (const std::string light : kLightPrefixes)
+            for (const MetricInfo& metric : metrics) columns.push_back(light + metric.name);
+    };
+    if (measure.secondSeed) addLights(seedMetrics());
+    if (measure.compareEvery > 0) addLights(temporalMetrics());
+    append(columns, kCostColumns);
+    return columns;
+}
+
 std::string resultsCsv(const std::vector<VariantResult>& results, const std::vector<std::string>& sweepKeys,
                        const MeasureSettings& measure) {
     std::vector<ScoreColumn> columns = scoreColumns(measure);
@@ -122,8 +139,7 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
     if (measure.compareEvery > 0) addLights(temporalMetrics());
     std::vector<std::string> header{"variant", "status", "error", "device", "tracer"};
     append(header, sweepKeys);
-    append(header, {"build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes",
-                    "peak_bytes", "rays"});
+    append(header, kCostColumns);
     append(header, namesOf(columns));
 
     std::string text = csvLine(header);

@@ -54,6 +54,9 @@ std::string numberText(double value);
 /// One field of CSV (RFC 4180): quoted where it holds a comma, a quote or a line break.
 std::string csvField(const std::string& text);
 
+/// Columns of results.csv that hold a score or a cost, where nothing fails.
+std::vector<std::string> numberColumns(const MeasureSettings& measure);
+
 /// `results.csv`: one row for each variant. Columns of scores are those of the metrics, lights and masks that
 /// are asked for, and of temporal error where frames are compared; metrics that `measure` leaves out stay
 /// empty.

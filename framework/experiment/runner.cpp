@@ -36,6 +36,8 @@ class Run {
     void execute();
 
  private:
+    /// Makes the report of what is finished, where there is room. @throws Error that says why the run ends.
+    [[noreturn]] void giveUp(const std::string& why);
     void takeOverFinished();
     void renderMissing();
     void writeTables();
@@ -54,13 +56,14 @@ class Run {
 void Run::execute() {
     const RunOptions& options = prepared_.options();
     if (options.resume) takeOverFinished();
+    std::string failure;
     try {
         renderMissing();
     } catch (const Error& error) {  // What can't be written.
-        throw Error("{}; finished variants are kept in {}, --resume goes on", error.what(),
-                    summary_.out.string());
+        failure = error.what();
     }
     for (const auto& [index, result] : results_) ++(result.ok ? summary_.ok : summary_.failed);
+    if (!failure.empty()) giveUp(failure);
 
     // Close the books; after an interruption of what there is
     if (!summary_.interrupted) manifest_.finished = utcNow();
@@ -77,6 +80,22 @@ void Run::execute() {
         summary_.reportError = error.what();
     }
     summary_.interrupted = interruptRequested();
+}
+
+void Run::giveUp(const std::string& why) {
+    const std::string kept = fmt::format("{}, {} of {} variants kept", why, summary_.ok, summary_.total);
+    if (summary_.ok == 0) throw Error("{}", kept);
+    std::string report;
+    if (prepared_.options().report) {
+        try {
+            writeTables();
+            makeReport(prepared_.options().sourceRoot, folder_.path());
+            report = fmt::format("; report: {}", (folder_.path() / "report.html").string());
+        } catch (const Error&) {
+            report = "; there is no room for a report of them";
+        }
+    }
+    throw Error("{}{}; --resume goes on", kept, report);
 }
 
 void Run::takeOverFinished() {

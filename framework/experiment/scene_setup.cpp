@@ -186,6 +186,8 @@ fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& fol
     }
     if (advice.empty())
         advice = name.starts_with("~/") ? "; '~' stands for no folder here: write the whole path"
+                 : name.find('$') != std::string::npos
+                     ? "; '$' stands for no variable here: write the whole path"
                  : name.find('\\') != std::string::npos
                      ? "; write paths with '/'"
                      : "; name its folder with --scenes DIR or VOXRAY_SCENES, see docs/scenes.md";

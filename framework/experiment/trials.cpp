@@ -7,6 +7,7 @@
 
 #include "base/suggest.h"
 #include "config/overrides.h"
+#include "experiment/results.h"
 
 namespace voxray {
 namespace {
@@ -69,6 +70,30 @@ std::string axisOfParameter(const Experiment& experiment, const std::string& pat
         throw UsageError("--vary {}: '{}' has no parameter '{}'{}", path, id, name, didYouMean(name, names));
     }
     throw UsageError("--vary {}: no pass '{}' in the graph{}", path, id, didYouMean(id, ids));
+}
+
+void checkTargets(const std::vector<std::string>& targets, const MeasureSettings& measure) {
+    const std::vector<std::string> columns = numberColumns(measure);
+    for (const std::string& target : targets) {
+        const size_t equals = target.rfind('=');
+        const Value number = Value::fromScalar(equals == std::string::npos ? "" : target.substr(equals + 1));
+        if (!number.isNumber())
+            throw UsageError("--target {}: expected NAME=VALUE, as in indirect_relmse=0.02", target);
+        const std::string column = target.substr(0, equals);
+        if (std::ranges::count(columns, column) == 0)
+            throw UsageError("--target {}: no such column of results.csv{}", column,
+                             didYouMean(column, columns));
+        const std::string_view metric = std::string_view(column).substr(0, column.find('@'));
+        const double value = number.asNumber(column);
+        const bool isMet = metric.ends_with("ssim")         ? value < 1
+                           : metric.ends_with("mean_ratio") ? value != 1
+                           : metric.ends_with("psnr_db")    ? true
+                                                            : value > 0;
+        if (!isMet)
+            throw UsageError(
+                "--target {}: a target is above 0 and can be met: ssim below 1, mean_ratio other than 1",
+                target);
+    }
 }
 
 std::string trialsJson(const WiredExperiment& wired) {

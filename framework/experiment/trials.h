@@ -15,6 +15,11 @@ namespace voxray {
 /// range.
 std::string axisOfParameter(const Experiment& experiment, const std::string& path, const Registry& registry);
 
+/// @param targets texts such as "indirect_relmse=0.02".
+/// @throws UsageError for one without a number, of a column that results.csv lacks or leaves empty, or that
+/// nothing but a perfect image meets.
+void checkTargets(const std::vector<std::string>& targets, const MeasureSettings& measure);
+
 /// The experiment's sweep as JSON: `config`, without the graph and the sweep; `axes` by path; `swaps`,
 /// whether an axis swaps a pass; `variants` with `name`, `values` (text, "-" where an axis does not reach it)
 /// and `graph`.

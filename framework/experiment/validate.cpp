@@ -170,8 +170,9 @@ void checkLightsGoOff(const SceneSettings& scene, const MeasureSettings& measure
 }
 
 /// A swept parameter or pass that has no effect in a variant: such variants come once.
-/// @throws UsageError with file and line for an axis that changes nothing in any variant.
-void leaveOutEqual(WiredExperiment& wired) {
+/// @throws UsageError with file and line for an axis that changes nothing in any variant; where a pass that
+/// writes over another's `final` may be the reason, that is told first.
+void leaveOutEqual(WiredExperiment& wired, const Registry& registry) {
     const std::vector<std::string> keys = sweepKeys(wired.experiment);
     std::vector<std::vector<std::string>> labels;  // Of each axis, as its values.
     std::vector<std::vector<Value>> values;
@@ -196,9 +197,22 @@ void leaveOutEqual(WiredExperiment& wired) {
         return false;
     });
     for (size_t a = 0; a < keys.size(); ++a)
-        if (std::ranges::all_of(wired.variants, [&](const auto& v) { return v.values[a] == kNoValue; }))
+        if (std::ranges::all_of(wired.variants, [&](const auto& v) { return v.values[a] == kNoValue; })) {
+            if (const std::string id = overwrittenFinal(wired, registry); !id.empty())
+                throw UsageError("{} (sweep.{} changes nothing: {})", whyNeverRun(wired, id, registry),
+                                 keys[a], reasons[a]);
             throw UsageError(wired.experiment.sweep.members[a].value.where,
                              "sweep.{}: changes nothing in any variant: {}", keys[a], reasons[a]);
+        }
+}
+
+/// @throws UsageError where a pass that writes over another's `final` leaves more passes than that one idle.
+void checkIsNotOverwritten(const WiredExperiment& wired, const Registry& registry) {
+    const std::string id = overwrittenFinal(wired, registry);
+    if (id.empty()) return;
+    for (const auto& [other, count] : variantsWithout(wired))
+        if (other != id && !runsSomewhere(wired, other))
+            throw UsageError("{}", whyNeverRun(wired, id, registry));
 }
 
 }  // namespace
@@ -260,7 +274,8 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
     }
     wired.experiment = std::move(experiment);
     checkSwaps(wired, registry);
-    leaveOutEqual(wired);
+    leaveOutEqual(wired, registry);
+    checkIsNotOverwritten(wired, registry);
     checkIdleParameters(wired);
     return wired;
 }
@@ -270,6 +285,24 @@ std::map<std::string, size_t> variantsWithout(const WiredExperiment& wired) {
     for (const WiredVariant& variant : wired.variants)
         for (const std::string& id : variant.leftOut) ++counts[id];
     return counts;
+}
+
+std::string overwrittenFinal(const WiredExperiment& wired, const Registry& registry) {
+    for (const WiredVariant& variant : wired.variants)
+        for (const Value& entry : variant.setup.graph.items) {
+            const std::string id = passId(entry);
+            if (std::ranges::count(variant.leftOut, id) == 0 || runsSomewhere(wired, id)) continue;
+            const PassKind& kind = registry.require(entry.find("pass")->scalar, entry.where);
+            const auto isFinal = [](const PortDoc& port) { return port.output && port.name == "final"; };
+            if (std::ranges::any_of(kind.ports, isFinal)) return id;
+        }
+    return {};
+}
+
+std::string whyNeverRun(const WiredExperiment& wired, const std::string& id, const Registry& registry) {
+    const auto lacks = [&](const WiredVariant& v) { return std::ranges::count(v.leftOut, id) > 0; };
+    const auto variant = std::ranges::find_if(wired.variants, lacks);
+    return Graph(registry, variant->setup.graph).whyLeftOut(id);
 }
 
 bool runsSomewhere(const WiredExperiment& wired, const std::string& id) {

@@ -24,12 +24,15 @@ struct WiredExperiment {
     Experiment experiment;
     std::vector<WiredVariant> variants;
     Value reference;  ///< The reference's graph with every default filled in; null where there is none.
+    /// Ids of passes that run in variants which the command line left out: no mistake of the config.
+    std::vector<std::string> deselected;
 };
 
 /// Expands the sweep and wires the graph of every variant, once, and the reference's. Touches no device and
 /// no scene.
 /// @throws UsageError with file and line; also for a value of a sweep whose pass runs in no variant, while
-/// another value's does.
+/// another value's does, and for a pass whose `final` is written over by one that needs none of the
+/// passes before it.
 WiredExperiment wireExperiment(Experiment experiment, const Registry& registry);
 
 /// Passes that no image of a variant depends on, by id: in how many variants that is so.
@@ -37,6 +40,12 @@ std::map<std::string, size_t> variantsWithout(const WiredExperiment& wired);
 
 /// Whether any variant runs the pass of this id.
 bool runsSomewhere(const WiredExperiment& wired, const std::string& id);
+
+/// A pass that runs in no variant and writes `final`, which a later one writes too; "" where there is none.
+std::string overwrittenFinal(const WiredExperiment& wired, const Registry& registry);
+
+/// Why a pass runs in no variant, with file and line, and what to do (Graph::whyLeftOut()).
+std::string whyNeverRun(const WiredExperiment& wired, const std::string& id, const Registry& registry);
 
 /// A variant's graph, wired for one more rendering of it: without passes that nothing of what is compared
 /// depends on.

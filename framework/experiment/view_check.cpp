@@ -1,5 +1,7 @@
 #include "experiment/view_check.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -125,6 +127,41 @@ std::string radians(const SceneSettings& scene) {
         .what();
 }
 
+/// The same of spots whose cones are no wider.
+std::vector<std::string> radiansOfSpots(const SceneSettings& scene) {
+    std::vector<std::string> texts;
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const float angle = glm::degrees(scene.lights[i].light.outerConeAngle);
+        if (scene.lights[i].light.type == LightType::Spot && angle <= glm::half_pi<float>())
+            texts.push_back(UsageError(scene.lights[i].where,
+                                       "scene.lights[{0}].outer_deg: {1:.4g} degrees are a thin beam's; "
+                                       "{1:.4g} in radians is {2:.4g} degrees",
+                                       i, angle, glm::degrees(angle))
+                                .what());
+    }
+    return texts;
+}
+
+/// What to say of a black view where lights shine one way, which mostly is the wrong one. Else "".
+std::string directionsOfLights(const SceneSettings& scene) {
+    std::vector<std::string> ways;
+    TextLocation where;
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const auto& [light, move, offAt, place] = scene.lights[i];
+        if (light.type == LightType::Point) continue;
+        if (ways.empty()) where = place;
+        ways.push_back(fmt::format("{}{} (scene.lights[{}])", triple(light.direction),
+                                   light.direction.y > 0 ? ", upwards" : "", i));
+    }
+    if (ways.empty()) return {};
+    return UsageError(where,
+                      "scene.lights: no light was found in the camera's view, so that the image will be "
+                      "black: light travels along {}; is that the way of the light, not the way to it? "
+                      "Else {}",
+                      fmt::join(ways, ", "), advice(scene))
+        .what();
+}
+
 }  // namespace
 
 std::vector<std::string> checkView(const Setup& setup, const PreparedScene& prepared,
@@ -150,6 +187,7 @@ std::vector<std::string> checkView(const Setup& setup, const PreparedScene& prep
     };
     std::vector<std::string> warnings = lightWarnings(scene, state, tracer, seen.points, isFound);
     if (std::string text = radians(scene); !text.empty()) warnings.push_back(std::move(text));
+    for (std::string& text : radiansOfSpots(scene)) warnings.push_back(std::move(text));
     if (isEmpty) {
         warnings.push_back(mostlyEmpty(scene, state.geometry, camera));
         return warnings;
@@ -172,6 +210,10 @@ std::vector<std::string> checkView(const Setup& setup, const PreparedScene& prep
                          "scene.camera: it sees the backs of surfaces, and no light: it stands outside of "
                          "a closed room or inside of a solid; {}",
                          advice(scene));
+    if (std::string text = directionsOfLights(scene); !text.empty()) {
+        warnings.push_back(std::move(text));
+        return warnings;
+    }
     warnings.push_back(UsageError(cameraPlace(scene),
                                   "scene.camera: no light was found in its view, so that the image will be "
                                   "black; {}, and tells what shines",

@@ -23,8 +23,30 @@ std::vector<std::string> idsOf(const std::vector<GraphNode>& nodes) {
     return ids;
 }
 
-GraphNode readNode(const Registry& registry, const Value& entry,
-                   const std::vector<std::string>& reservedKeys) {
+/// @throws UsageError for a parameter that another pass of the graph has, and this one has not.
+void checkParameters(const Registry& registry, const PassKind& kind, const Value& entry,
+                     const std::string& id, const std::vector<std::string>& reservedKeys,
+                     const Value& passList) {
+    const auto has = [](const PassKind& k, const std::string& name) {
+        return std::ranges::count(k.parameters, name, &ParameterDoc::name) > 0;
+    };
+    for (const auto& [key, value] : entry.members) {
+        if (has(kind, key) || std::ranges::count(reservedKeys, key) > 0) continue;
+        for (const Value& other : passList.items) {
+            const Value* name = other.find("pass");
+            const PassKind* otherKind = name && name->isScalar() ? registry.find(name->scalar) : nullptr;
+            if (!otherKind || !has(*otherKind, key)) continue;
+            std::vector<std::string> own;
+            for (const ParameterDoc& doc : kind.parameters) own.push_back(doc.name);
+            throw UsageError(value.where, "{}: unknown parameter '{}', which '{}' has; one of: {}", id, key,
+                             otherKind->name, own.empty() ? "none" : fmt::format("{}", fmt::join(own, ", ")));
+        }
+    }
+}
+
+/// @param passList the graph that the entry stands in.
+GraphNode readNode(const Registry& registry, const Value& entry, const std::vector<std::string>& reservedKeys,
+                   const Value& passList) {
     if (!entry.isMap())
         throw UsageError(entry.where, "graph: each entry is a map with a 'pass', e.g. {{pass: gbuffer}}");
     const Value* passName = entry.find("pass");
@@ -39,6 +61,7 @@ GraphNode readNode(const Registry& registry, const Value& entry,
     node.id = id ? id->asString("graph.id") : kind.name;
     node.where = entry.where;
     node.kind = kind.name;
+    checkParameters(registry, kind, entry, node.id, reservedKeys, passList);
     node.pass = kind.create(entry, node.id, reservedKeys);
     PassBuilder builder;
     node.pass->declare(builder);
@@ -158,7 +181,7 @@ std::optional<size_t> outputNamed(const GraphNode& node, const std::string& name
 }
 
 void checkEntry(const Registry& registry, const Value& entry, const std::vector<std::string>& reservedKeys) {
-    const GraphNode node = readNode(registry, entry, reservedKeys);
+    const GraphNode node = readNode(registry, entry, reservedKeys, {});
     if (const Value* inputs = entry.find("inputs")) checkInputKeys({}, node, *inputs);
 }
 
@@ -170,7 +193,7 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
     // Read every pass; ids are unique.
     std::vector<GraphNode> nodes;
     for (const Value& entry : passList.items) {
-        nodes.push_back(readNode(registry, entry, reservedKeys));
+        nodes.push_back(readNode(registry, entry, reservedKeys, passList));
         for (size_t n = 0; n + 1 < nodes.size(); ++n)
             if (nodes[n].id == nodes.back().id)
                 throw UsageError(entry.where, "graph: two passes have the id '{}'; give one another 'id'",

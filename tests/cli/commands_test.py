@@ -3,6 +3,7 @@ import base64
 import glob
 import json
 import os
+import shutil
 import subprocess
 import unittest
 
@@ -179,6 +180,21 @@ class Devices(CommandTest):
                                   stdout=subprocess.PIPE, text=True)
             self.assertEqual('add "127.0.0.1 localhost" to /etc/hosts' in done.stdout, told, done.stdout)
 
+    def test_a_doctor_that_cannot_build_does_not_send_to_itself(self):
+        # The launcher alone, with a cmake that fails
+        for name in ("scripts", "bin"):
+            os.mkdir(self.path(name))
+        shutil.copy(os.path.join(SOURCE, "voxray"), self.path("voxray"))
+        for name in ("scripts/doctor.sh", "bin/cmake"):
+            os.chmod(self.write(name, f"#!/bin/sh\nexit {int(name == 'bin/cmake')}\n"), 0o755)
+        self.environment |= {"PATH": self.path("bin") + ":" + os.environ["PATH"], "VOXRAY_SKIP_SETUP": "1"}
+        for command, sends in (("doctor", False), ("devices", True)):
+            done = subprocess.run([self.path("voxray"), command], env=self.environment, capture_output=True, text=True,
+                                  timeout=60)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("cmake failed", done.stderr)
+            self.assertEqual("'./voxray doctor' tells" in done.stderr, sends, done.stderr)
+
     def test_no_driver_is_an_error(self):
         for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES"):
             self.environment[name] = self.path("none.json")
@@ -334,6 +350,7 @@ class SceneCommand(CommandTest):
         out = self.expect(0, "scene", "cornell", "--picture", "box.png").stdout
         for words in ("36 triangles", "2 x 2 x 2 m", "emits [20, 20, 20] W/(m² sr)",
                       "lights: 0 punctual, 1 emissive material, no environment",
+                      "objects: 'wall -x', 'wall +x', 'floor', 'ceiling', 'wall -z', 'tall box', 'short box', 'lamp'\n",
                       "camera: {position: [0, 1, 3.8], target: [0, 1, 0], fov_deg: 40}"):
             self.assertIn(words, out)
         with Image.open(self.path("box.png")) as picture:
@@ -348,7 +365,8 @@ class SceneCommand(CommandTest):
         # A square without a camera and lights: what is suggested looks at it.
         data = np.array([[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 0, 0], [2, 2, 0], [0, 2, 0]], np.float32).tobytes()
         self.write("square.gltf", json.dumps({
-            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "name": "square", "children": list(range(1, 25))},
+                      *({"mesh": 0, "name": f"square {i}"} for i in range(1, 25))],
             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
             "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3", "min": [0, 0, 0],
                            "max": [2, 2, 0]}],
@@ -357,6 +375,7 @@ class SceneCommand(CommandTest):
                          "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]}))
         out = self.expect(0, "scene", "square.gltf", "--picture", "square.png").stdout
         self.assertIn("nothing shines", out)
+        self.assertRegex(out, "objects: .*'square', 'square 1', .* and [56] more\n")
         camera = out.splitlines()[out.splitlines().index("a camera to begin with:") + 1].strip()
         with Image.open(self.path("square.png")) as picture:
             pixels = np.asarray(picture, float)

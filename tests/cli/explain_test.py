@@ -69,6 +69,8 @@ class Usage(CommandTest):
         self.assertIn("--variant resolution-16", said)
         said = self.expect(2, "explain", "room.yaml", "--dry-run", "--variant", "resolution-61").stderr
         self.assertIn("did you mean 'resolution-16'", said)
+        self.expect(0, "explain", "room.yaml", "--dry-run", "--variant", "8")
+        self.expect(2, "explain", "room.yaml", "--dry-run", "--variant", "6")
         listed = self.expect(0, "explain", "room.yaml", "--dry-run", "--variant", "resolution-8").stdout
         for name in ("as-it-is", "injection", "gather", "injection-gather", "injection-gather-voxelization-upsampling"):
             self.assertIn(f"explained-{name}", listed)

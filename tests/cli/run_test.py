@@ -5,10 +5,11 @@ import re
 import resource
 import shutil
 import signal
+import subprocess
 import time
 import unittest
 
-from support import TINY, CommandTest
+from support import PROGRAM, TINY, CommandTest
 
 COST_COLUMNS = ["variant", "status", "error", "device", "tracer", "voxelize.resolution", "build_ms",
                 "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays"]
@@ -308,13 +309,29 @@ class Disk(Run):
 
         done = self.expect(1, "run", "tiny.yaml", "--out", "out", "--resume", preexec_fn=limit, restore_signals=False)
         self.assertIn("voxray: error: ", done.stderr)
-        self.assertIn("--resume goes on", done.stderr)
+        self.assertIn("1 of 2 variants kept; there is no room for a report of them; --resume goes on", done.stderr)
         self.assertEqual({name: self.bytes("out", name) for name in before}, before)
         self.check_whole()
 
         self.run_tiny("out", "--resume")
         self.assertEqual([row["status"] for row in self.rows("out", "results.csv")], ["ok", "ok"])
         self.check_whole()
+
+    def test_full_disk_is_told_with_what_is_kept(self):
+        self.write("tiny.yaml", TINY.replace("[8, 16]", "[4, 5, 6, 7, 8, 9, 10, 11]"))
+        os.mkdir(self.path("out"))
+        for size, kept in (("300k", r", [1-7] of 8 variants kept; (report: out/report.html|there is no room for a report of them)"
+                                    "; --resume goes on"), ("32k", ", 0 of 8 variants kept$")):
+            # A disk of that size, which goes with the process; without the right to mount nothing is to be told
+            script = f'mount -t tmpfs -o size={size} tmpfs out || exit 77; "$0" "$@"'
+            done = subprocess.run(["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", script, PROGRAM, "run",
+                                   "tiny.yaml", "--out", "out"], cwd=self.folder, env=self.environment,
+                                  capture_output=True, text=True, timeout=240)
+            if done.returncode == 77 or done.stderr.startswith("unshare:"):
+                return
+            with self.subTest(size):
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertRegex(done.stderr.strip().splitlines()[-1], r"^voxray: error: disk full: out(/\S+)?" + kept)
 
 
 if __name__ == "__main__":

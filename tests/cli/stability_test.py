@@ -46,7 +46,9 @@ class Stability(CommandTest):
         self.assertIn("stability.html", os.listdir(self.path("out")))
 
     def test_every_scene_has_its_limit_and_every_limit_its_scene(self):
-        said = self.expect(0, "stability", "lookup", "--dry-run", "--tracer", "embree", "--out", "out").stdout
+        done = self.expect(0, "stability", "lookup", "--dry-run", "--tracer", "embree", "--out", "out")
+        said = done.stdout
+        self.assertNotIn("is never run", done.stderr)
         scenes = set(re.findall(r"scene-(\S+)_method-lookup", said))
         with open(LIMITS, newline="", encoding="utf-8") as file:
             limited = {re.sub(r"[^\w.-]+", "-", row["scene"]) for row in csv.DictReader(file)}

@@ -69,10 +69,11 @@ TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
     for (const WiredVariant& variant : swapped.variants) names.push_back(variant.name);
     EXPECT_EQ(names, (std::vector<std::string>{"b-constant", "a-x_b-veil", "a-y_b-constant", "a-y_b-veil"}));
 
-    // One that changes nothing anywhere is a mistake
+    // One that changes nothing anywhere is a mistake; an image that is written over is told first
     expectError(
         "graph:\n  - {pass: constant, id: unseen}\n  - {pass: constant}\nsweep:\n  unseen.value: [1, 2]\n",
-        {"x.yaml:7: ", "sweep.unseen.value", "no image depends on 'unseen'"});
+        {"x.yaml:4: ", "'unseen' is never run: 'constant', after it, writes 'final' too",
+         "(sweep.unseen.value changes nothing: no image depends on 'unseen')"});
 }
 
 TEST(Validate, AValueWhosePassNeverRunsIsRefusedWhereAnothersRuns) {

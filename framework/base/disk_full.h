@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "base/error.h"
+
+namespace voxray {
+
+/// A file can't be written whole because its disk has no room left.
+class DiskFull : public Error {
+ public:
+    /// @param folder that the file was to lie in.
+    explicit DiskFull(const std::filesystem::path& folder)
+        : Error("disk full: {}", folder.empty() ? "." : folder.string()) {}
+};
+
+}  // namespace voxray
