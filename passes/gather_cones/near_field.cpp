@@ -125,11 +125,11 @@ void NearField::follow(PassContext& context, const RadianceVoxels& radiance, con
         const uint32_t seed = batch.seed + 0x51u + step * 0x9e3779b9u;
         hitLight_.measure(context, sources_, surfels_[from], surfels, 1, seed, direct_);
         stream.dispatch(reflect_,
-                        {{"surfels", surfels_[from]},
-                         {"direct", direct_},
-                         {"light", light_},
-                         {"goesOn", goesOn_[from]},
-                         {"rays", rays_}},
+                        context.scene.bindings({{"surfels", surfels_[from]},
+                                                {"direct", direct_},
+                                                {"light", light_},
+                                                {"goesOn", goesOn_[from]},
+                                                {"rays", rays_}}),
                         ReflectPush{surfels, seed + 0xa3u}, linearGroups(surfels));
 
         // What those find: the last ones by cones alone.

@@ -4,6 +4,7 @@
 // The first ray of each listed slot, from its g-buffer texel.
 #include "passes/gather_mirror/batch.glsl"
 #include "shaders/scene/lobe_ray.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
@@ -17,7 +18,6 @@ layout(scalar) buffer Paths { MirrorPath data[]; } paths;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 #ifdef HYBRID
 #include "shaders/hybrid_leaves/hybrid_types.h"
-#include "shaders/scene/surface_offset.glsl"
 layout(scalar) writeonly buffer Starts { RayStart data[]; } starts;
 #endif
 layout(push_constant, scalar) uniform Push {

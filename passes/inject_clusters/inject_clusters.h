@@ -40,7 +40,7 @@ class InjectClusters final : public Pass {
         "clusters: what each part of a cluster sends from each of its six faces. With bounces, light goes "
         "on from cluster to face and on, by the lists of cluster_visibility. Biased by: the size of "
         "clusters, over which light is averaged; injected light by that of voxels, too, which may hold both "
-        "sides of a wall. Source: Cosin and Patow 2022, section 4.4.";
+        "sides of a wall. Noisy by: bounce_patches. Source: Cosin and Patow 2022, section 4.4.";
     struct Params {
         uint32_t bounces = 0;
         uint32_t bouncePatches = 0;
