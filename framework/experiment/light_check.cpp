@@ -113,8 +113,9 @@ bool isInSight(const Light& light, std::span<const SeenPoint> seen, const Geomet
         const Ray ray = rayFrom(point, light, offset);
         return ray.tMax > ray.tMin && !tracer.occluded(ray);
     });
-    // Where surfaces meet, a ray along one of them may slip through the edge
-    return 100 * size_t(inSight) > seen.size();
+    // Where surfaces meet, rays along one of them may slip through the edge, which is seen as a line of
+    // points
+    return inSight * inSight > ptrdiff_t(seen.size());
 }
 
 }  // namespace

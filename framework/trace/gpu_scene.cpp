@@ -173,7 +173,7 @@ std::vector<Binding> GpuScene::bindings(std::vector<Binding> more) const {
         {ifUsed({"scenePositions", positions}), ifUsed({"sceneAttributes", attributes}),
          ifUsed({"sceneTriangles", triangles}), ifUsed({"sceneTriangleMaterials", triangleMaterials}),
          ifUsed({"sceneMaterials", materials}), ifUsed({"sceneLights", lights}),
-         ifUsed({"sceneEmitters", emitters}), ifUsed({"sceneExtent", extent}),
+         ifUsed({"sceneEmitters", emitters}), ifUsed({"sceneSize", size}),
          ifUsed({"sceneTextures", textures}), ifUsed({"sceneEnvironment", environment, environmentSampler})});
     return more;
 }
@@ -188,9 +188,8 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
     scene.triangles = uploaded(device, stream, "scene triangles", g.triangles);
     scene.triangleMaterials = uploaded(device, stream, "scene triangle materials", g.triangleMaterials);
     scene.triangleCount = uint32_t(g.triangles.size());
-    const glm::vec3 largest = glm::max(glm::abs(g.boundsMin), glm::abs(g.boundsMax));
-    scene.extent = uploaded(device, stream, "scene extent",
-                            std::vector<float>{std::max({largest.x, largest.y, largest.z})});
+    scene.size =
+        uploaded(device, stream, "scene size", std::vector<float>{glm::length(g.boundsMax - g.boundsMin)});
 
     // Materials and lights.
     std::vector<gpu::GpuMaterial> materials;

@@ -83,8 +83,10 @@ void FindClusterVisibility::plan(PassPlan& plan) {
         return;
     }
     const uint64_t words = (rays + 31) / 32;
-    if (keeps) plan.scratchBuffer(flags_, "rays to trace", words * sizeof(uint32_t));
-    plan.reserveScratch("ranks of rays", Compaction::scratchBytes(uint32_t(words)));
+    if (keeps) {
+        plan.scratchBuffer(flags_, "rays to trace", words * sizeof(uint32_t));
+        plan.reserveScratch("ranks of rays", Compaction::scratchBytes(uint32_t(words)));
+    }
     plan.scratchBuffer(list_, "rays by number", rays * sizeof(uint32_t));
     plan.scratchBuffer(rays_, "rays of patches", rays * sizeof(Ray));
     plan.scratchBuffer(hits_, "hits of patches' rays", rays * sizeof(Hit));
@@ -106,8 +108,10 @@ void FindClusterVisibility::prepare(PassSetup& setup) {
     merge_ = program("merge");
     compact_ = program("compact");
     if (isExact()) {
-        compaction_.emplace(setup.device, setup.compiler);
-        if (!movingRuns(setup.frame.scene->geometry).empty()) kept_.emplace(setup.device, setup.compiler);
+        if (!movingRuns(setup.frame.scene->geometry).empty()) {
+            compaction_.emplace(setup.device, setup.compiler);
+            kept_.emplace(setup.device, setup.compiler);
+        }
         all_ = program("all");
         emit_ = program("emit");
         choose_ = program("choose");

@@ -4,14 +4,13 @@
 
 #extension GL_EXT_scalar_block_layout : require
 
-layout(scalar) readonly buffer SceneExtent { float largest; } sceneExtent;  // Of all coordinates' absolutes, m.
+layout(scalar) readonly buffer SceneSize { float diagonal; } sceneSize;  // Of its bounds, m.
 
-// So far off the surface, m: an error bound of float positions. A point of a large triangle that passes near the
-// origin is as uncertain as the triangle's vertices are, so the scene's extent counts besides the point's own
-// coordinates.
+// So far off the surface, m: an error bound of float positions. A point of a large triangle is as uncertain as the triangle's corners
+// are, so the scene's size counts besides the point's own coordinates: wherever a scene lies near the origin, it is the same offset.
 float surfaceOffset(vec3 position) {
     const vec3 a = abs(position);
-    return 4e-6 * max(a.x, max(a.y, a.z)) + 5e-7 * sceneExtent.largest;
+    return 4e-6 * max(sceneSize.diagonal, max(a.x, max(a.y, a.z)));
 }
 
 #endif

@@ -291,8 +291,9 @@ WARNINGS = {
                                   "'coarse' is never run: 'voxelize', after it, writes 'voxels' too"),
     "a light that points past the scene": ("{point: [0, 1.8, 0],", "{spot: [0, 1.8, 3], direction: [0, 0, 1],", 6,
                                            "scene.lights[0]: it lights nothing"),
-    "a light that shines upwards": ("{point: [0, 1.8, 0], intensity", "{directional: [0, 1, 0], irradiance", 6,
-                                    "is its direction the way that the light travels"),
+    "a light that shines upwards": (
+        "  lights:\n    - {point: [0, 1.8, 0], intensity", "  boxes: false\n  lights:\n    - {directional: [0, 1, 0], irradiance", 7,
+        "it lights the backs of surfaces alone"),
     "a sun that shines upwards, and no lamp": (
         "  lights:\n    - {point: [0, 1.8, 0], intensity: [1, 1, 1]}",
         "  override: {lamp: {emission: 0}}\n  lights:\n    - {directional: [0, 1, 0], irradiance: 5}", 7,

@@ -41,10 +41,7 @@ TEST(SurfelDistance, InASphereItIsTheRadius) {
         ++inside;
     }
     ASSERT_GT(inside, 1000u);
-    // The sphere has facets: where two meet rays are short, and the mean of their inverse grows with the
-    // logarithm of a facet's size over the offset at which they begin. 1.0345 at 4.5 µm, less than 1.03 at 14
-    // µm.
-    EXPECT_NEAR(sum / double(inside) / voxelSize, 1.0, 0.05);
+    EXPECT_NEAR(sum / double(inside) / voxelSize, 1.0, 0.03);
 }
 
 // A black room; on its back wall, which is grey, a white ledge of a fifth of a voxel of 1/8 m, in the light
