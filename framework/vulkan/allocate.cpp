@@ -5,6 +5,7 @@
 
 #include "base/byte_units.h"
 #include "vulkan/size_error.h"
+#include "vulkan/spare_memory.h"
 #include "vulkan/structure.h"
 
 namespace voxray {
@@ -49,8 +50,8 @@ bool isMapped(const Device& device, MemoryKind kind) {
     return kind != MemoryKind::Device || sharesMemory(device);
 }
 
-VkDeviceMemory allocateMemory(Device& device, const std::string& name,
-                              const VkMemoryRequirements& requirements, MemoryKind kind, bool addressable) {
+DeviceMemory allocateMemory(Device& device, const std::string& name, const VkMemoryRequirements& requirements,
+                            MemoryKind kind, bool addressable) {
     // The driver's limit on one allocation.
     auto limits = structure<VkPhysicalDeviceMaintenance3Properties>(
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES);
@@ -72,14 +73,20 @@ VkDeviceMemory allocateMemory(Device& device, const std::string& name,
 
     // Books first, so that a refusal happens before the driver is asked.
     device.reserveMemory(requirements.size, name);
+    SpareMemory& spare = device.spareMemory();
+    if (const auto memory = spare.take(requirements.size, *type, addressable)) return *memory;
     auto flags = structure<VkMemoryAllocateFlagsInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO);
     flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
     auto allocate = structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
                                                     addressable ? &flags : nullptr);
     allocate.allocationSize = requirements.size;
     allocate.memoryTypeIndex = *type;
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    const VkResult result = vkAllocateMemory(device.handle(), &allocate, nullptr, &memory);
+    DeviceMemory memory{VK_NULL_HANDLE, requirements.size, *type, addressable};
+    VkResult result = vkAllocateMemory(device.handle(), &allocate, nullptr, &memory.handle);
+    if (result != VK_SUCCESS && spare.bytes() > 0) {
+        spare.freeAll();
+        result = vkAllocateMemory(device.handle(), &allocate, nullptr, &memory.handle);
+    }
     if (result != VK_SUCCESS) {
         device.releaseMemory(requirements.size, name);
         throw SizeError("device '{}' refused {:.1f} MiB for '{}' ({})", device.info().name,
@@ -88,9 +95,9 @@ VkDeviceMemory allocateMemory(Device& device, const std::string& name,
     return memory;
 }
 
-void freeMemory(Device& device, const std::string& name, VkDeviceMemory memory, uint64_t bytes) {
-    vkFreeMemory(device.handle(), memory, nullptr);
-    device.releaseMemory(bytes, name);
+void freeMemory(Device& device, const std::string& name, const DeviceMemory& memory) {
+    device.spareMemory().keep(memory);
+    device.releaseMemory(memory.bytes, name);
 }
 
 }  // namespace voxray

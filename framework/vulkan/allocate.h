@@ -15,12 +15,12 @@ uint64_t maxBufferBytes(const Device& device);
 /// Whether memory of this kind is mapped for the host.
 bool isMapped(const Device& device, MemoryKind kind);
 
-/// Books and allocates memory. `addressable`: with a device address.
+/// Books and allocates memory, spare memory of that size first. `addressable`: with a device address.
 /// @throws SizeError naming the resource where it is too large, the limit is reached or the driver refuses.
-VkDeviceMemory allocateMemory(Device& device, const std::string& name,
-                              const VkMemoryRequirements& requirements, MemoryKind kind, bool addressable);
+DeviceMemory allocateMemory(Device& device, const std::string& name, const VkMemoryRequirements& requirements,
+                            MemoryKind kind, bool addressable);
 
-/// Frees memory and takes it off the books.
-void freeMemory(Device& device, const std::string& name, VkDeviceMemory memory, uint64_t bytes);
+/// Takes memory, which must not be mapped, off the books and makes it spare.
+void freeMemory(Device& device, const std::string& name, const DeviceMemory& memory);
 
 }  // namespace voxray

@@ -1,3 +1,4 @@
+#include <cstring>
 #include <utility>
 
 #include "base/byte_units.h"
@@ -7,6 +8,13 @@
 #include "vulkan/structure.h"
 
 namespace voxray {
+namespace {
+
+/// What a watched device's buffers hold before anything is written: NaN as floats, -1 as integers. Who reads
+/// what nobody wrote fails its tests.
+constexpr int kUnwritten = 0xff;
+
+}  // namespace
 
 // Delegating first makes the destructor clean up where the rest throws.
 Buffer::Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind,
@@ -34,18 +42,19 @@ Buffer::Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind
     VkMemoryRequirements requirements;
     vkGetBufferMemoryRequirements(device.handle(), handle_, &requirements);
     memory_ = allocateMemory(device, name_, requirements, kind, true);
-    allocatedBytes_ = requirements.size;
-    check(vkBindBufferMemory(device.handle(), handle_, memory_, 0), "vkBindBufferMemory");
+    check(vkBindBufferMemory(device.handle(), handle_, memory_.handle, 0), "vkBindBufferMemory");
     const VkBufferDeviceAddressInfo info{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, nullptr, handle_};
     address_ = vkGetBufferDeviceAddress(device.handle(), &info);
-    if (isMapped(device, kind))
-        check(vkMapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "vkMapMemory");
+    if (!isMapped(device, kind)) return;
+    check(vkMapMemory(device.handle(), memory_.handle, 0, VK_WHOLE_SIZE, 0, &mapped_), "vkMapMemory");
+    if (device.isWatched()) std::memset(mapped_, kUnwritten, bytes_);
 }
 
 Buffer::~Buffer() {
     if (!device_) return;
+    if (mapped_) vkUnmapMemory(device_->handle(), memory_.handle);
     vkDestroyBuffer(device_->handle(), handle_, nullptr);
-    if (memory_) freeMemory(*device_, name_, memory_, allocatedBytes_);
+    if (memory_.handle) freeMemory(*device_, name_, memory_);
 }
 
 Buffer::Buffer(Buffer&& other) noexcept {
@@ -56,7 +65,6 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(name_, other.name_);
     std::swap(bytes_, other.bytes_);
-    std::swap(allocatedBytes_, other.allocatedBytes_);
     std::swap(handle_, other.handle_);
     std::swap(memory_, other.memory_);
     std::swap(address_, other.address_);

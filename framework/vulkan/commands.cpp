@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "vulkan/allocate.h"
 #include "vulkan/commands_impl.h"
 #include "vulkan/structure.h"
 
@@ -11,6 +12,7 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kTimestampsPerPool = 256;
+constexpr uint64_t kSmallBytes = 256 << 10;  ///< Of a kept staging buffer.
 
 void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 dstStage, VkAccessFlags2 dstAccess) {
     auto barrier = structure<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
@@ -31,7 +33,10 @@ void fullBarrier(VkCommandBuffer commands) {
                   VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
 }
 
-CommandStream::Impl::Impl(Device& d) : device(d) {
+CommandStream::Impl::Impl(Device& d)
+    : device(d), smallUploads(d, "small uploads", kSmallBytes, MemoryKind::Upload) {
+    if (!isMapped(device, MemoryKind::Device))
+        smallReads = Buffer(device, "small reads", kSmallBytes, MemoryKind::Readback);
     pushDescriptors = device.function<PFN_vkCmdPushDescriptorSetKHR>("vkCmdPushDescriptorSetKHR");
     if (device.hasDebugLabels()) {
         beginLabel = device.function<PFN_vkCmdBeginDebugUtilsLabelEXT>("vkCmdBeginDebugUtilsLabelEXT");
@@ -91,7 +96,7 @@ void CommandStream::Impl::finish() {
     check(vkResetFences(device.handle(), 1, &fence), "vkResetFences");
     check(vkResetCommandPool(device.handle(), pool, 0), "vkResetCommandPool");
     staging.clear();
-    stagingBytes = 0;
+    stagingBytes = smallUploadBytes = 0;
 }
 
 void CommandStream::Impl::discard() {
@@ -99,7 +104,7 @@ void CommandStream::Impl::discard() {
     recording = false;
     labels.clear();
     staging.clear();
-    stagingBytes = 0;
+    stagingBytes = smallUploadBytes = 0;
     timestamps = 0;
 }
 

@@ -24,8 +24,13 @@ struct CommandStream::Impl {
     void bind(VkCommandBuffer commands, const Program& program, std::span<const Binding> bindings,
               PushConstants push);
 
-    /// A staging buffer that lives until finish().
-    Buffer& stage(uint64_t bytes);
+    /// Where data waits for its upload.
+    struct Staged {
+        const Buffer* buffer;
+        uint64_t offset;
+    };
+    /// Copies data into a staging buffer that lives until finish().
+    Staged stage(std::span<const std::byte> data);
 
     Device& device;
     VkCommandPool pool = VK_NULL_HANDLE;
@@ -33,6 +38,9 @@ struct CommandStream::Impl {
     VkFence fence = VK_NULL_HANDLE;
     bool recording = false;
     std::vector<std::string> labels;  ///< Open ones, outermost first.
+    Buffer smallUploads;              ///< Kept, for uploads of few bytes.
+    Buffer smallReads;              ///< Kept, for reading few bytes back from memory that the host can't see.
+    uint64_t smallUploadBytes = 0;  ///< Waiting in smallUploads.
     std::vector<Buffer> staging;
     uint64_t stagingBytes = 0;
     uint64_t stagingPeakBytes = 0;

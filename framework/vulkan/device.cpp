@@ -6,6 +6,7 @@
 
 #include "base/byte_units.h"
 #include "vulkan/size_error.h"
+#include "vulkan/spare_memory.h"
 #include "vulkan/structure.h"
 #include "vulkan/support.h"
 
@@ -13,6 +14,7 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kMaxTextures = 4096;
+constexpr uint64_t kLargestSpareBytes = 256ull << 20;
 
 std::string lower(std::string text) {
     std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
@@ -43,9 +45,10 @@ DeviceSupport choose(std::vector<DeviceSupport> devices, const std::string& want
 }  // namespace
 
 struct Device::Impl {
-    explicit Impl(bool validation) : instance(validation) {}
+    explicit Impl(bool validation) : instance(validation), isWatched(validation) {}
     ~Impl() {
         if (device) vkDeviceWaitIdle(device);
+        spare.reset();
         if (textureSetLayout) vkDestroyDescriptorSetLayout(device, textureSetLayout, nullptr);
         if (commandPool) vkDestroyCommandPool(device, commandPool, nullptr);
         if (device) vkDestroyDevice(device, nullptr);
@@ -56,6 +59,8 @@ struct Device::Impl {
     void readProperties();
 
     Instance instance;
+    bool isWatched;
+    std::unique_ptr<SpareMemory> spare;
     DeviceSupport support;
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
@@ -148,6 +153,7 @@ void Device::Impl::readProperties() {
 Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>(options.validation)) {
     impl_->support = choose(inspectDevices(impl_->instance.handle()), options.name);
     impl_->createDevice();
+    impl_->spare = std::make_unique<SpareMemory>(impl_->device, kLargestSpareBytes);
     impl_->readProperties();
     impl_->createTextureSetLayout();
 }
@@ -227,6 +233,14 @@ std::vector<std::string> Device::validationMessages() const {
     ValidationLog& log = impl_->instance.log();
     const std::lock_guard lock(log.mutex);
     return log.messages;
+}
+
+bool Device::isWatched() const {
+    return impl_->isWatched;
+}
+
+SpareMemory& Device::spareMemory() {
+    return *impl_->spare;
 }
 
 uint64_t Device::memoryLimitBytes() const {

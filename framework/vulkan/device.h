@@ -11,6 +11,8 @@
 
 namespace voxray {
 
+class SpareMemory;
+
 /// What a Vulkan device can do, as far as Voxray asks.
 struct DeviceInfo {
     std::string name;
@@ -75,6 +77,8 @@ class Device {
     /// Bits of a time stamp that count.
     uint32_t timestampBits() const;
 
+    /// Whether the validation layer is on. What buffers hold at first is then NaN, so that reading it shows.
+    bool isWatched() const;
     /// Messages of the validation layer (warnings and errors) so far. Tests fail on any.
     std::vector<std::string> validationMessages() const;
 
@@ -88,6 +92,8 @@ class Device {
     /// @throws Error naming the resource, its size, what is in use and the limit where it would be exceeded.
     void reserveMemory(uint64_t bytes, const std::string& name);
     void releaseMemory(uint64_t bytes, const std::string& name);
+    /// Memory of resources that are gone, kept for the next ones of the same size.
+    SpareMemory& spareMemory();
     /// Bytes in use now, by resource name.
     std::map<std::string, uint64_t> memoryByResource() const;
 

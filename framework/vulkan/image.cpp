@@ -127,8 +127,7 @@ Image::Image(Device& device, std::string name, const ImageDesc& desc) : Image() 
     VkMemoryRequirements requirements;
     vkGetImageMemoryRequirements(device.handle(), handle_, &requirements);
     memory_ = allocateMemory(device, name_, requirements, MemoryKind::Device, false);
-    allocatedBytes_ = requirements.size;
-    check(vkBindImageMemory(device.handle(), handle_, memory_, 0), "vkBindImageMemory");
+    check(vkBindImageMemory(device.handle(), handle_, memory_.handle, 0), "vkBindImageMemory");
 
     // One view of all levels and one of each; transfer-only images have none.
     constexpr VkImageUsageFlags kViewed = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
@@ -162,7 +161,7 @@ Image::~Image() {
     for (VkImageView view : levelViews_) vkDestroyImageView(device_->handle(), view, nullptr);
     vkDestroyImageView(device_->handle(), view_, nullptr);
     vkDestroyImage(device_->handle(), handle_, nullptr);
-    if (memory_) freeMemory(*device_, name_, memory_, allocatedBytes_);
+    if (memory_.handle) freeMemory(*device_, name_, memory_);
 }
 
 Image::Image(Image&& other) noexcept {
@@ -173,7 +172,6 @@ Image& Image::operator=(Image&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(name_, other.name_);
     std::swap(desc_, other.desc_);
-    std::swap(allocatedBytes_, other.allocatedBytes_);
     std::swap(handle_, other.handle_);
     std::swap(memory_, other.memory_);
     std::swap(view_, other.view_);

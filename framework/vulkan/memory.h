@@ -19,6 +19,14 @@ enum class MemoryKind {
     Readback,  ///< Device writes, host reads.
 };
 
+/// One allocation of the driver's, of a buffer or an image.
+struct DeviceMemory {
+    VkDeviceMemory handle = VK_NULL_HANDLE;
+    uint64_t bytes = 0;  ///< With the driver's padding.
+    uint32_t type = 0;   ///< Index of the memory's type.
+    bool addressable = false;
+};
+
 /// A storage buffer with a device address. Move-only. Usable as storage, indirect, index and vertex buffer,
 /// transfer source and target, and as input of acceleration structures.
 class Buffer {
@@ -47,9 +55,8 @@ class Buffer {
     Device* device_ = nullptr;
     std::string name_;
     uint64_t bytes_ = 0;
-    uint64_t allocatedBytes_ = 0;
     VkBuffer handle_ = VK_NULL_HANDLE;
-    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    DeviceMemory memory_;
     VkDeviceAddress address_ = 0;
     void* mapped_ = nullptr;
 };
@@ -86,7 +93,7 @@ class Image {
     explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
     const std::string& name() const { return name_; }
     const ImageDesc& desc() const { return desc_; }
-    uint64_t bytes() const { return allocatedBytes_; }  ///< With the driver's padding.
+    uint64_t bytes() const { return memory_.bytes; }  ///< With the driver's padding.
     VkImage handle() const { return handle_; }
     VkImageView view() const { return view_; }
     VkImageView levelView(uint32_t level) const;  ///< One mip level, for storage access.
@@ -95,9 +102,8 @@ class Image {
     Device* device_ = nullptr;
     std::string name_;
     ImageDesc desc_;
-    uint64_t allocatedBytes_ = 0;
     VkImage handle_ = VK_NULL_HANDLE;
-    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    DeviceMemory memory_;
     VkImageView view_ = VK_NULL_HANDLE;
     std::vector<VkImageView> levelViews_;
 };

@@ -9,6 +9,8 @@ namespace {
 
 /// Most bytes that wait in staging buffers, and the size of one.
 constexpr uint64_t kStagingBytes = 64ull << 20;
+/// Where small pieces begin in the stream's own staging buffer: a multiple of every texel's size.
+constexpr uint64_t kStagingAlignment = 16;
 
 glm::uvec3 levelExtent(const ImageDesc& desc, uint32_t level) {
     return glm::max(desc.extent >> level, glm::uvec3(1));
@@ -41,11 +43,23 @@ VkOffset3D corner(glm::uvec3 size) {
 
 }  // namespace
 
-Buffer& CommandStream::Impl::stage(uint64_t bytes) {
-    if (stagingBytes > 0 && stagingBytes + bytes > kStagingBytes) finish();
-    stagingBytes += bytes;
+CommandStream::Impl::Staged CommandStream::Impl::stage(std::span<const std::byte> data) {
+    // Small data goes into the buffer that the stream keeps: allocating memory takes a GPU's driver longer
+    // than most passes take.
+    if (const uint64_t room = smallUploads.bytes() - smallUploadBytes; data.size() <= room) {
+        const Staged staged{&smallUploads, smallUploadBytes};
+        std::memcpy(static_cast<std::byte*>(smallUploads.mapped()) + staged.offset, data.data(), data.size());
+        const uint64_t aligned =
+            (data.size() + kStagingAlignment - 1) / kStagingAlignment * kStagingAlignment;
+        smallUploadBytes += std::min(aligned, room);
+        return staged;
+    }
+    if (stagingBytes > 0 && stagingBytes + data.size() > kStagingBytes) finish();
+    stagingBytes += data.size();
     stagingPeakBytes = std::max(stagingPeakBytes, stagingBytes);
-    return staging.emplace_back(device, "staging", bytes, MemoryKind::Upload);
+    const Buffer& buffer = staging.emplace_back(device, "staging", data.size(), MemoryKind::Upload);
+    std::memcpy(buffer.mapped(), data.data(), data.size());
+    return {&buffer, 0};
 }
 
 uint64_t CommandStream::stagingBytes() const {
@@ -114,9 +128,8 @@ void CommandStream::upload(const Buffer& to, std::span<const std::byte> data, ui
     checkRange(to, toOffset, data.size());
     while (!data.empty()) {
         const std::span part = data.first(std::min<size_t>(data.size(), kStagingBytes));
-        const Buffer& staging = impl_->stage(part.size());
-        std::memcpy(staging.mapped(), part.data(), part.size());
-        copy(staging, to, part.size(), 0, toOffset);
+        const Impl::Staged staged = impl_->stage(part);
+        copy(*staged.buffer, to, part.size(), staged.offset, toOffset);
         toOffset += part.size();
         data = data.subspan(part.size());
     }
@@ -136,13 +149,13 @@ void CommandStream::upload(const Image& to, std::span<const std::byte> data, uin
     const uint32_t perCopy = uint32_t(std::clamp<uint64_t>(kStagingBytes / sliceBytes, 1, slices));
     for (uint32_t first = 0; first < slices; first += perCopy) {
         const uint32_t count = std::min(perCopy, slices - first);
-        const Buffer& staging = impl_->stage(count * sliceBytes);
-        std::memcpy(staging.mapped(), data.data() + first * sliceBytes, count * sliceBytes);
+        const Impl::Staged staged = impl_->stage(data.subspan(first * sliceBytes, count * sliceBytes));
         VkBufferImageCopy region = whole;
+        region.bufferOffset = staged.offset;
         (isVolume ? region.imageOffset.z : region.imageOffset.y) = int32_t(first);
         (isVolume ? region.imageExtent.depth : region.imageExtent.height) = count;
-        vkCmdCopyBufferToImage(impl_->next(), staging.handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1,
-                               &region);
+        vkCmdCopyBufferToImage(impl_->next(), staged.buffer->handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL,
+                               1, &region);
     }
 }
 
@@ -150,13 +163,18 @@ std::vector<std::byte> CommandStream::read(const Buffer& buffer, uint64_t bytes,
     checkRange(buffer, offset, bytes);
     std::vector<std::byte> out(bytes);
     if (bytes == 0) return out;
-    finish();
     if (buffer.mapped()) {
+        finish();
         std::memcpy(out.data(), static_cast<const std::byte*>(buffer.mapped()) + offset, bytes);
         return out;
     }
-    const Buffer staging(impl_->device, "staging", std::min(bytes, kStagingBytes), MemoryKind::Readback);
-    impl_->stagingPeakBytes = std::max(impl_->stagingPeakBytes, staging.bytes());
+    // The copy goes into the submission of what was recorded before it: one wait, not two.
+    Buffer own;
+    if (bytes > impl_->smallReads.bytes()) {
+        own = Buffer(impl_->device, "staging", std::min(bytes, kStagingBytes), MemoryKind::Readback);
+        impl_->stagingPeakBytes = std::max(impl_->stagingPeakBytes, own.bytes());
+    }
+    const Buffer& staging = own ? own : impl_->smallReads;
     for (uint64_t done = 0; done < bytes; done += staging.bytes()) {
         const uint64_t part = std::min(staging.bytes(), bytes - done);
         copy(buffer, staging, part, offset + done, 0);
