@@ -13,7 +13,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from report import explain, explain_page  # noqa: E402
 from report.load import ReportError, load  # noqa: E402
-from report.make_report import write_whole  # noqa: E402
+from report.files import write_whole  # noqa: E402
 
 
 def main(arguments: list[str]) -> int:

@@ -12,8 +12,8 @@ sys.dont_write_bytecode = True
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from report import pareto_page  # noqa: E402
+from report.files import write_whole  # noqa: E402
 from report.load import LIGHTS, ReportError, load  # noqa: E402
-from report.make_report import write_whole  # noqa: E402
 
 
 def main(arguments: list[str]) -> int:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from pathlib import Path
 
@@ -11,21 +10,8 @@ sys.dont_write_bytecode = True
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from report import page  # noqa: E402
+from report.files import write_whole  # noqa: E402
 from report.load import ReportError, load  # noqa: E402
-
-
-def write_whole(path: Path, content: str) -> None:
-    """Writes a file that is either the old one or wholly the new one, whatever interrupts the writing."""
-    name = path.with_name(f".{path.stem}.{os.getpid()}.tmp{path.suffix}")
-    try:
-        with open(name, "w", encoding="utf-8", errors="backslashreplace") as out:
-            out.write(content)
-            out.flush()
-            os.fsync(out.fileno())
-        os.replace(name, path)
-    except BaseException:
-        name.unlink(missing_ok=True)
-        raise
 
 
 def main(arguments: list[str]) -> int:

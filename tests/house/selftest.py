@@ -220,6 +220,7 @@ class Commands(Tree):
         self.write("tests/bench/x_bench.cpp", "BENCHMARK(gather)\n    ->Arg(1);\n"
                    "#define RAYS(scene, kind) \\\n    BENCHMARK_CAPTURE(trace, scene##_##kind##_closest, 1)\nRAYS(room, Embree);\n")
         self.write("tests/unit/x_test.cpp", "TEST(Voxels, AreFew) {}\nTEST_F(Rays, Hit) {}\n")
+        self.write("scripts/bench_gpu.py", 'parser.add_argument("--device")\n')
         self.write("tests/all.cmake", "voxray_tests(chain SHARDS 2)\nadd_test(NAME house.docs COMMAND x)\n")
         self.write("program", "#!/usr/bin/env bash\n[[ $1 == run && $2 == --help ]] && echo '  --set PATH=VALUE  --dry-run' && exit\n"
                    "[[ $1 == run && $* == *good=1* ]] && exit\n[[ $1 == run ]] && { echo 'bad key' >&2; exit 2; }\n"
@@ -233,6 +234,7 @@ class Commands(Tree):
 
     def test_what_is_there(self):
         for text in ("run configs/one.yaml", "run CONFIG...", "bench gather", "bench 'gath|none'", "bench room_", "bench [FILTER]",
+                     "bench gpu --device NAME",
                      "test Voxels", "test chain", "test 'house\\.'", "test", "passes gather", "passes NAME", "run --dry-run",
                      "run configs/one.yaml --set good=1"):
             self.assertEqual(self.problems(f"| `./voxray {text}` |"), [], text)
@@ -240,7 +242,7 @@ class Commands(Tree):
         self.assertEqual(self.problems("`configs/one.yaml`, `tests/unit/`, `ninja tests_chain`, `passes/<name>/`"), [])
 
     def test_what_is_not(self):
-        for text in ("run configs/two.yaml", "bench stream", "test Cones", "passes gatherer", "dance", "run --fast",
+        for text in ("run configs/two.yaml", "bench stream", "bench gpu --fast", "test Cones", "passes gatherer", "dance", "run --fast",
                      "run configs/one.yaml --set bad=1"):
             self.assertEqual(len(self.problems(f"Run `./voxray {text}`.")), 1, text)
             self.assertEqual(len(self.problems(f"```\n./voxray {text}\n```")), 1, text)

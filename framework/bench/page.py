@@ -1,0 +1,207 @@
+"""What `voxray bench gpu` measured as a page and as Markdown: the same tables in both."""
+
+from __future__ import annotations
+
+import base64
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import jinja2
+
+from bench import processes
+from report import text
+
+_HERE = Path(__file__).resolve().parent
+_FAR = 0.01  # a mean ratio so far from 1 is marked
+
+
+@dataclass(frozen=True)
+class Cell:
+    text: str
+    css: str = ""
+    title: str = ""
+
+
+@dataclass
+class Table:
+    """`wide`: how many of the first columns are words."""
+
+    title: str
+    headings: list[str]
+    rows: list[list[Cell]] = field(default_factory=list)
+    note: str = ""
+    wide: int = 1
+
+    def add(self, *cells: str | Cell) -> None:
+        self.rows.append([cell if isinstance(cell, Cell) else Cell(cell) for cell in cells])
+
+
+def number(value: float | None, digits: int = 3) -> str:
+    return "" if value is None else text.figures(float(value), digits)
+
+
+def size(value: float | None) -> str:
+    return "" if value is None else text.size(value)
+
+
+def rate(value: float | None) -> str:
+    return "" if value is None else text.count(value)
+
+
+def _status(status: str) -> Cell:
+    return Cell(status, "worse" if status in (processes.FAILED, processes.OUT_OF_TIME) else "")
+
+
+def parts_table(data: dict) -> Table:
+    table = Table("Parts", ["part", "outcome", "s", "of at most", "runs: done, of", "what it measures, and what went wrong"])
+    for part in data["parts"]:
+        ran = part["ran"]
+        done = f"{sum(run['status'] == processes.DONE for run in ran)}, {len(ran)}" if ran else ""
+        table.add(part["name"], _status(part["status"]), number(part["seconds"]), number(part["limit"]), done,
+                  "; ".join(filter(None, (part["what"], part["why"]))))
+    return table
+
+
+def runs_table(data: dict) -> Table:
+    table = Table("Runs that did not end well", ["run", "outcome", "s", "variants failed, of", "what was said last"])
+    for part in data["parts"]:
+        for run in part["ran"]:
+            if run["status"] == processes.DONE and not run.get("alone"):
+                continue
+            failed = run.get("failed", [])
+            said = [run["last"]] if run["last"] and run["status"] != processes.DONE else []
+            said += [f"{entry['variant']}: {entry['error']}" for entry in failed]
+            if run.get("alone"):
+                said.append(f"run again on their own: {', '.join(run['alone'])}")
+            table.add(run["name"], _status(run["status"]), number(run["seconds"]),
+                      f"{len(failed)}, {run['variants']}" if "variants" in run else "", "\n".join(said))
+    return table
+
+
+def parity_table(data: dict) -> Table:
+    rows = data.get("parity", [])
+    pairs = list(dict.fromkeys(row["pair"] for row in rows))
+    table = Table("Parity", ["method", *(f"{pair}: nRMSE, mean ratio, FLIP" for pair in pairs), "nRMSE against the reference, by run"],
+                  note="Indirect light. Two tracers meet other triangles where surfaces touch, and random walks part there: so compare "
+                  f"with a method's own error, in the last column. Mean ratios over {100 * _FAR:g} % from 1 are marked.")
+    found = {(row["pair"], row["method"]): row for row in rows}
+    for method in dict.fromkeys(row["method"] for row in rows):
+        cells = [_difference(found.get((pair, method))) for pair in pairs]
+        errors: dict[str, float | None] = {}
+        for pair in pairs:
+            values = (found.get((pair, method)) or {}).get("errors", [None, None])
+            errors.update({run: value for run, value in zip(pair.split(" against "), values) if value is not None})
+        table.add(method.removeprefix("indirect-"), *cells, "; ".join(f"{run} {number(value)}" for run, value in errors.items()))
+    return table
+
+
+def _difference(row: dict | None) -> Cell:
+    if row is None:
+        return Cell("")
+    if "error" in row:
+        return Cell("failed", "worse", row["error"])
+    if row["same_bytes"]:
+        return Cell("same bytes", "tie")
+    ratio = row["mean_ratio"]
+    far = ratio is None or abs(ratio - 1) > _FAR
+    return Cell(f"{number(row['nrmse'], 2)}, {'–' if ratio is None else text.ratio(ratio)}, {number(row['flip'], 2)}", "worse" if far else "")
+
+
+def passes_table(rows: list[dict], data: dict) -> Table:
+    lacking = data.get("not_covered", [])
+    note = "Of all variants the one in which the pass took longest; gpu.json has all. Memory: of the pass's outputs, and scratch."
+    if lacking:
+        note += f" Not run at all: {', '.join(lacking)}."
+    table = Table("Passes", ["pass", "phase", "config", "variant", "ms", "p05", "p95", "of rows", "memory", "scratch"],
+                  note=note, wide=4)
+    for row in rows:
+        table.add(row["kind"], row["phase"], row["config"], row["variant"], number(row["ms"]), number(row["ms_p05"]),
+                  number(row["ms_p95"]), str(row["of"]), size(row["memory_bytes"]), size(row["scratch_bytes"]))
+    return table
+
+
+def rays_table(rows: list[dict]) -> Table:
+    table = Table("Rays and voxel steps a second, by pass", ["pass", "phase", "tracer", "config, variant", "rays", "rays/s", "steps/s", "ms"],
+                  note="The fastest variant, with all else that the pass does in that time.", wide=4)
+    for row in rows:
+        table.add(row["kind"], row["phase"], row["tracer"], f"{row['config']}, {row['variant']}", rate(row["rays"]),
+                  rate(row["rays_per_s"]), rate(row["voxel_steps_per_s"]), number(row["ms"]))
+    return table
+
+
+def benchmarks_table(data: dict) -> Table:
+    table = Table("Benchmarks", ["program", "benchmark", "time", "counters"], wide=2)
+    for row in data.get("benchmarks", []):
+        counters = ", ".join(f"{name} {rate(value)}" for name, value in row["counters"].items())
+        table.add(row["program"], row["name"], Cell(row["error"], "worse") if row["error"] else f"{number(row['time'])} {row['unit']}", counters)
+    return table
+
+
+def papers_tables(data: dict) -> list[Table]:
+    tables = []
+    for paper in data.get("papers", []):
+        stages = list(dict.fromkeys(name for row in paper["variants"] for name in row.get("passes", {})))
+        table = Table(paper["config"], ["variant", "build ms", "frame ms", "p05 to p95", "memory", "indirect nRMSE", "mean ratio", *stages],
+                      note=f"The paper's numbers, and ours without a GPU, stand in {paper['page']}. Last columns: median ms of each pass.")
+        for row in paper["variants"]:
+            if "error" in row:
+                table.add(row["variant"], Cell("failed", "worse", row["error"]), *[""] * (5 + len(stages)))
+                continue
+            table.add(row["variant"], number(row["build_ms"]), number(row["frame_ms"]),
+                      f"{number(row['frame_ms_p05'])} to {number(row['frame_ms_p95'])}", size(row["memory_bytes"]),
+                      number(row["indirect_nrmse"]), "" if row["mean_ratio"] is None else text.ratio(row["mean_ratio"]),
+                      *(number(row["passes"].get(stage)) for stage in stages))
+        tables.append(table)
+    return tables
+
+
+def tables_of(data: dict, slowest: list[dict], rays: list[dict]) -> list[Table]:
+    """All tables that have rows."""
+    found = [parts_table(data), runs_table(data), parity_table(data), passes_table(slowest, data), rays_table(rays), benchmarks_table(data),
+             *papers_tables(data)]
+    return [table for table in found if table.rows]
+
+
+def markdown(data: dict, tables: list[Table]) -> str:
+    lines = [f"# {title(data)}", "", summary(data), ""]
+    for table in tables:
+        lines += [f"## {table.title}", ""]
+        lines += [table.note, ""] if table.note else []
+        lines += ["| " + " | ".join(table.headings) + " |", "| --- " * len(table.headings) + "|"]
+        lines += ["| " + " | ".join(_plain(cell) for cell in row) + " |" for row in table.rows]
+        lines.append("")
+    return "\n".join(lines)
+
+
+def _plain(cell: Cell) -> str:
+    words = cell.text.replace("\n", "; ").replace("|", "\\|")
+    return f"**{words}**" if cell.css == "worse" and words else words
+
+
+def title(data: dict) -> str:
+    return f"Voxray on {data.get('device') or 'no device'}"
+
+
+def summary(data: dict) -> str:
+    ended = [f"{part['name']} {part['status']}" for part in data["parts"]]
+    return f"{data['started']}, {data.get('version', '')}, profile {data['profile']}, {data.get('cores')} cores: {', '.join(ended)}."
+
+
+def render(data: dict, tables: list[Table]) -> str:
+    """The whole page, self-contained."""
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True,
+                                     undefined=jinja2.StrictUndefined)
+    style = (_HERE.parent / "report" / "style.css").read_text(encoding="utf-8")
+    return environment.get_template("gpu.html.j2").render(style_css=style, title=title(data), summary=summary(data), data=data,
+                                                          tables=tables, strips=_strips(data), devices=data.get("devices", []))
+
+
+def _strips(data: dict) -> list[tuple[str, list[tuple[str, str]]]]:
+    """Of each method the images of all runs that were compared, as they were before any was removed."""
+    strips: dict[str, dict[str, str]] = {}
+    for row in data.get("parity", []):
+        for run, path in zip(row["pair"].split(" against "), row.get("pictures", [])):
+            if Path(path).is_file() and not run.endswith(" again"):
+                strips.setdefault(row["method"].removeprefix("indirect-"), {}).setdefault(run, path)
+    return [(method, [(run, "data:image/png;base64," + base64.b64encode(Path(path).read_bytes()).decode("ascii"))
+                      for run, path in pictures.items()]) for method, pictures in strips.items()]

@@ -1,0 +1,76 @@
+"""The same images by the tracers of a device, by Embree, twice, and on a device in software: do they agree?"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+
+from bench import devices, runs
+from bench.processes import Clock
+from bench.runs import Program, Run
+
+CONFIG = "bench/gpu_parity.yaml"
+_COMPARISON = 20  # seconds that one comparison of two images may take
+_SCORES = ("nrmse", "mean_ratio", "flip")
+_SOFTWARE = "software device"
+
+
+def measure(program: Program, found: list[devices.Device], device: devices.Device, tracers: list[str], out: Path,
+            clock: Clock) -> tuple[list[Run], list[dict]]:
+    """@return the runs, and how images differ: a row for each method and pair of runs.
+
+    @param tracers Those of the device to compare with Embree; none: Embree alone, against itself and another device.
+    """
+    first = tracers[0] if tracers else "embree"
+    again, software = f"{first} again", devices.software(found, device)
+    plan = [(first, first, device), *([("embree", "embree", device)] if tracers else []), (again, first, device)]
+    pairs = [(first, "embree"), (again, first)]
+    if software:
+        plan.append((_SOFTWARE, "embree", software))
+        pairs.append(("embree", _SOFTWARE))
+    plan += [(tracer, tracer, device) for tracer in tracers[1:]]
+    pairs += [(tracer, "embree") for tracer in tracers[1:]]
+
+    done: dict[str, Run] = {}
+    rows: list[dict] = []
+    for i, (name, tracer, on) in enumerate(plan):
+        # A run that takes longer than its part of the time leaves less to those after it, but not nothing
+        own = clock.part(2 * clock.left / (len(plan) - i + 1))
+        done[name] = runs.run_config(program, CONFIG, f"parity.{name.replace(' ', '.')}", out, own, tracer=tracer, device=on.name)
+        for test, reference in pairs:
+            if test != reference and name in (test, reference) and test in done and reference in done:
+                rows += _compare(program, f"{test} against {reference}", done[test], done[reference], clock)
+    return list(done.values()), rows
+
+
+def _compare(program: Program, pair: str, test: Run, reference: Run, clock: Clock) -> list[dict]:
+    """The variants of two runs, one by one."""
+    return [{"pair": pair, "method": variant.name, **_difference(program, test, variant, reference, clock)} for variant in test.variants]
+
+
+def _difference(program: Program, test: Run, variant: runs.Variant, reference: Run, clock: Clock) -> dict:
+    other = reference.variant(variant.name)
+    images = [test.image(variant), reference.image(other) if other else None]
+    if None in images:
+        return {"error": variant.error or (other.error if other else "") or "no image to compare with"}
+    row = {"errors": [_error_of(variant.result), _error_of(other.result)], "same_bytes": _hash(images[0]) == _hash(images[1]),
+           "pictures": [str(image.with_suffix(".png")) for image in images]}
+    if row["same_bytes"]:
+        return {**row, "nrmse": 0.0, "mean_ratio": 1.0, "flip": 0.0}
+    said = program.call("compare", *map(str, images), "--json", limit=min(clock.left, _COMPARISON))
+    try:
+        scores = json.loads(said.output)["scores"]
+    except (ValueError, KeyError):
+        return {**row, "error": f"not compared: {said.last or said.status}"}
+    return {**row, **{score: scores.get(score) for score in _SCORES}}
+
+
+def _error_of(result: dict) -> float | None:
+    """Against the path-traced reference, of indirect light where there is such a score."""
+    scores = result.get("scores") or {}
+    return scores.get("indirect_nrmse", scores.get("nrmse"))
+
+
+def _hash(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()

@@ -1,0 +1,150 @@
+"""The parts of `voxray bench gpu`: each fills its own section of the measurements and tells how it ended."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from bench import devices, parity, processes, runs, tables
+from bench.processes import Clock, Outcome
+from bench.runs import Program, Run
+
+# Configs whose tables stand in docs/papers: first one of each paper, then more.
+PAPERS = ("magalhaes2020/base", "arneback2017/dynamic_light", "sun2015/table1", "cosin2022/table1", "seok2021/table1",
+          "magalhaes2020/published_write_strategies", "arneback2017/dynamic_geometry", "cosin2022/table2", "sun2015/table1_sponza",
+          "arneback2017/dynamic_light_clipmap", "magalhaes2020/published_sampling", "arneback2017/cone_cost", "sun2015/resolution",
+          "seok2021/table1_bunnies")
+_PASSES = "bench/gpu_passes.yaml"
+_LISTING = 30  # seconds for `voxray devices`
+
+
+class PartError(Exception):
+    """Why a part has nothing to show."""
+
+
+@dataclass
+class Bench:
+    """What is measured, on which device, and what has been so far. `data` becomes gpu.json."""
+
+    program: Program
+    out: Path
+    tracer: str
+    benches: Path
+    devices: list[devices.Device] = field(default_factory=list)
+    device: devices.Device | None = None
+    runs: list[Run] = field(default_factory=list)
+    data: dict = field(default_factory=dict)
+
+    @property
+    def tracers(self) -> list[str]:
+        """The tracers to measure by: the one that was named, else the device's own."""
+        return [self.tracer] if self.tracer not in ("auto", "embree") else self.device.own_tracers if self.tracer == "auto" else []
+
+    def find_device(self) -> None:
+        """@throws PartError where none qualifies."""
+        listed = self.program.call("devices", limit=_LISTING)
+        self.devices = devices.parse(listed.output)
+        self.device = devices.chosen(self.devices, self.program.device)
+        self.data["devices"] = [{"name": d.name, "kind": "CPU" if d.is_cpu else "GPU", **d.facts} for d in self.devices]
+        if self.device is None:
+            wanted = f"no device that qualifies has '{self.program.device}' in its name" if self.devices else "no device was found"
+            raise PartError("\n".join(filter(None, (wanted, listed.last if listed.status != processes.DONE else ""))))
+        self.data["device"] = self.device.name
+
+
+@dataclass
+class Ending:
+    """How a part ended: with the outcomes of what it ran, one with `name` each."""
+
+    status: str = processes.DONE
+    why: str = ""
+    ran: list[dict] = field(default_factory=list)
+
+    def add_run(self, run: Run) -> None:
+        self._add(run.record(), run.status)
+
+    def add(self, name: str, outcome: Outcome) -> None:
+        self._add({"name": name, **outcome.record()}, outcome.status)
+
+    def _add(self, record: dict, status: str) -> None:
+        self.ran.append(record)
+        ranks = (processes.DONE, processes.SKIPPED, processes.OUT_OF_TIME, processes.FAILED)
+        self.status = max(self.status, status, key=ranks.index)
+
+
+def list_devices(bench: Bench, clock: Clock) -> Ending:
+    """Its measurements are there before any part begins."""
+    bench.data["cores"] = os.cpu_count()
+    bench.data["version"] = bench.program.call("--version", limit=clock.left).output.strip()
+    return Ending()
+
+
+def compare_images(bench: Bench, clock: Clock) -> Ending:
+    ending = Ending()
+    done, rows = parity.measure(bench.program, bench.devices, bench.device, bench.tracers, bench.out, clock)
+    for run in done:
+        ending.add_run(run)
+    bench.runs += done
+    bench.data["parity"] = rows
+    broken = sum("error" in row for row in rows)
+    if broken and ending.status == processes.DONE:
+        ending.status, ending.why = processes.FAILED, f"{broken} of {len(rows)} pairs of images could not be compared"
+    return ending
+
+
+def time_passes(bench: Bench, clock: Clock) -> Ending:
+    """What parity has not run yet."""
+    ending = Ending()
+    run = runs.run_config(bench.program, _PASSES, "passes", bench.out, clock, tracer=next(iter(bench.tracers), "embree"))
+    ending.add_run(run)
+    bench.runs.append(run)
+    return ending
+
+
+def run_papers(bench: Bench, clock: Clock) -> Ending:
+    ending = Ending()
+    bench.data["papers"] = []
+    for paper in PAPERS:
+        name = paper.replace("/", ".")
+        run = runs.run_config(bench.program, f"papers/{paper}.yaml", name, bench.out, clock.part(clock.left / 2),
+                              tracer=next(iter(bench.tracers), "embree"))
+        ending.add_run(run)
+        bench.runs.append(run)
+        if run.variants:
+            bench.data["papers"].append({"config": f"configs/{run.config}", "page": f"docs/papers/{paper.split('/')[0]}.md",
+                                         "variants": tables.variant_rows(run)})
+    return ending
+
+
+def measure_throughput(bench: Bench, clock: Clock) -> Ending:
+    """Google Benchmark's programs. They choose their device themselves: the best."""
+    ending = Ending()
+    bench.data["benchmarks"] = []
+    if devices.chosen(bench.devices, "") is not bench.device:
+        return Ending(processes.SKIPPED, "the benchmarks run on the best device alone, which is another one")
+    for name, pattern in tables.BENCHMARKS:
+        path = bench.benches / name
+        if not path.is_file():
+            ending.add(name, Outcome(processes.SKIPPED, None, 0.0, "", "is not there", [str(path)]))
+            continue
+        done, rows = tables.benchmark(path, pattern, clock.part(clock.left / 2))
+        ending.add(name, done)
+        bench.data["benchmarks"] += rows
+    return ending
+
+
+@dataclass(frozen=True)
+class Part:
+    name: str
+    fraction: float  # of the whole time, at most; what a part leaves goes to those after it
+    what: str
+    measure: Callable[[Bench, Clock], Ending]
+
+
+PARTS = (Part("devices", 0.1, "devices, their drivers and features", list_devices),
+         Part("parity", 0.45, "the same images by the device's own tracers, by Embree, twice, and by a device in software", compare_images),
+         Part("passes", 0.35, "the time of every pass", time_passes),
+         Part("papers", 0.4, "the configs whose tables stand in docs/papers", run_papers),
+         Part("throughput", 0.35, "rays, steps, scans and sorts a second", measure_throughput))
