@@ -107,16 +107,20 @@ def _difference(row: dict | None) -> Cell:
     return Cell(f"{number(row['nrmse'], 2)}, {'–' if ratio is None else text.ratio(ratio)}, {number(row['flip'], 2)}", "worse" if far else "")
 
 
-def passes_table(rows: list[dict], data: dict) -> Table:
-    lacking = data.get("not_covered", [])
+def passes_table(rows: list[dict]) -> Table:
     note = "Of all variants the one in which the pass took longest; gpu.json has all. Memory: of the pass's outputs, and scratch."
-    if lacking:
-        note += f" Not run at all: {', '.join(lacking)}."
     table = Table("Passes", ["pass", "phase", "config", "variant", "ms", "p05", "p95", "of rows", "memory", "scratch"],
                   note=note, wide=4)
     for row in rows:
         table.add(row["kind"], row["phase"], row["config"], row["variant"], number(row["ms"]), number(row["ms_p05"]),
                   number(row["ms_p95"]), str(row["of"]), size(row["memory_bytes"]), size(row["scratch_bytes"]))
+    return table
+
+
+def absent_table(data: dict) -> Table:
+    table = Table("Passes that did not run", ["passes"])
+    if data.get("not_covered"):
+        table.add(", ".join(data["not_covered"]))
     return table
 
 
@@ -157,7 +161,7 @@ def papers_tables(data: dict) -> list[Table]:
 
 def tables_of(data: dict, slowest: list[dict], rays: list[dict]) -> list[Table]:
     """All tables that have rows."""
-    found = [parts_table(data), runs_table(data), parity_table(data), passes_table(slowest, data), rays_table(rays), benchmarks_table(data),
+    found = [parts_table(data), runs_table(data), parity_table(data), passes_table(slowest), absent_table(data), rays_table(rays), benchmarks_table(data),
              *papers_tables(data)]
     return [table for table in found if table.rows]
 

@@ -82,7 +82,7 @@ def pass_names(program: Program, limit: float) -> list[str]:
 def benchmark(path: Path, pattern: str, clock: Clock) -> tuple[processes.Outcome, list[dict]]:
     """Runs benchmarks of a program: name, time and counters of each that finished."""
     done = processes.run([str(path), f"--benchmark_filter={pattern}", "--benchmark_format=json"], clock.left)
-    found = _finished(done.output)
+    found = finished_entries(done.output)
     rows = [{"program": path.name, "name": entry["name"], "time": entry.get("real_time"), "unit": entry.get("time_unit"),
              "error": entry.get("error_message", ""),
              "counters": {key: value for key, value in entry.items() if key not in _PLUMBING and isinstance(value, (int, float))
@@ -90,7 +90,7 @@ def benchmark(path: Path, pattern: str, clock: Clock) -> tuple[processes.Outcome
     return done, rows
 
 
-def _finished(output: str) -> list[dict]:
+def finished_entries(output: str) -> list[dict]:
     """The entries of Google Benchmark's JSON, also of one that ends early."""
     for text in (output, output[:output.rfind("}") + 1] + "]}"):
         try:
