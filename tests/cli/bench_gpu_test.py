@@ -1,6 +1,7 @@
 """`voxray bench gpu` with the built program: its page, its numbers, and what it makes of runs that fail, crash or take too long."""
 import json
 import os
+import re
 import stat
 import subprocess
 import sys
@@ -38,8 +39,8 @@ class BenchGpu(CommandTest):
         data = self.json("out", "gpu.json")
         self.assertEqual({part["status"] for part in data["parts"]}, {"done"})
         page = self.bytes("out", "gpu.html").decode()
-        self.assertIn(f"<title>Voxray on {data['device']}</title>", page)
-        self.assertNotIn("http", page)
+        self.assertTrue(f"<title>Voxray on {data['device']}</title>" in page)
+        self.assertEqual(re.findall(r'(?:src|href)="(?!data:image/png)[^"]*', page), [])
 
         # Two methods by two tracers, and the first tracer twice
         pairs = {(row["pair"], row["method"]): row for row in data["parity"]}
@@ -50,7 +51,7 @@ class BenchGpu(CommandTest):
             if pair == "ray_query again against ray_query":
                 self.assertTrue(row["same_bytes"])
             self.assertAlmostEqual(row["mean_ratio"], 1, delta=1e-3)
-        self.assertIn("data:image/png;base64,", page)
+        self.assertTrue('src="data:image/png;base64,' in page)
         self.assertEqual([name for name in self.files("out") if name.endswith(".exr")], [])
 
         # Each pass that ran has its times; the others are named
@@ -75,10 +76,10 @@ class BenchGpu(CommandTest):
         self.assertIn("the tracer is broken", parts["parity"]["ran"][0]["last"])
         self.assertIn("SIGSEGV", parts["passes"]["ran"][0]["last"])
         page = self.bytes("out", "gpu.html").decode()
-        self.assertIn("the tracer is broken", page)
-        self.assertIn("SIGSEGV", page)
+        self.assertTrue("the tracer is broken" in page)
+        self.assertTrue("SIGSEGV" in page)
         self.assertEqual(self.json("out", "gpu.json")["passes"], [])
-        self.assertIn("Passes that did not run", page)
+        self.assertTrue("Passes that did not run" in page)
 
     def test_without_time_or_a_device_it_says_so(self):
         self.assertEqual(self.bench("--only", "passes", "--limit", "1").returncode, 1)
