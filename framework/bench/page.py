@@ -81,9 +81,10 @@ def runs_table(data: dict) -> Table:
 def parity_table(data: dict) -> Table:
     rows = data.get("parity", [])
     pairs = list(dict.fromkeys(row["pair"] for row in rows))
-    table = Table("Parity", ["method", *(f"{pair}: nRMSE, mean ratio, FLIP" for pair in pairs), "nRMSE against the reference, by run"],
-                  note="Indirect light. Two tracers meet other triangles where surfaces touch, and random walks part there: so compare "
-                  f"with a method's own error, in the last column. Mean ratios over {100 * _FAR:g} % from 1 are marked.")
+    table = Table("Parity", ["method", *(f"{pair}: nRMSE, mean ratio, FLIP, pixels apart" for pair in pairs), "nRMSE against the reference, by run"],
+                  note="Indirect light. Two tracers meet other triangles at edges and where surfaces touch, and random walks part there: "
+                  "so compare with a method's own error, in the last column. Pixels apart differ by over 1 % of the reference's, or of "
+                  f"its mean: few of them lie at edges. Mean ratios over {100 * _FAR:g} % from 1 are marked.")
     found = {(row["pair"], row["method"]): row for row in rows}
     for method in dict.fromkeys(row["method"] for row in rows):
         cells = [_difference(found.get((pair, method))) for pair in pairs]
@@ -104,7 +105,9 @@ def _difference(row: dict | None) -> Cell:
         return Cell("same bytes", "tie")
     ratio = row["mean_ratio"]
     far = ratio is None or abs(ratio - 1) > _FAR
-    return Cell(f"{number(row['nrmse'], 2)}, {'–' if ratio is None else text.ratio(ratio)}, {number(row['flip'], 2)}", "worse" if far else "")
+    apart = "" if row["pixels_apart"] is None else f", {number(100 * row['pixels_apart'], 2)} %"
+    return Cell(f"{number(row['nrmse'], 2)}, {'–' if ratio is None else text.ratio(ratio)}, {number(row['flip'], 2)}{apart}",
+                "worse" if far else "")
 
 
 def passes_table(rows: list[dict]) -> Table:

@@ -7,9 +7,11 @@ import signal
 import subprocess
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 _GRACE = 8  # seconds between the interruption of a process, which keeps what it finished, and its end by force
+_POLL = 0.25  # seconds between looks at a process
 _LINES = 6  # of what a process said last
 _LONGEST_LINE = 400
 
@@ -39,7 +41,7 @@ class Clock:
 @dataclass(frozen=True)
 class Outcome:
     """How a process ended. `last` is what it said last, of errors alone where it named any; `code` is negative for a signal and
-    None where it ran out of time."""
+    None where it had to be ended."""
 
     status: str
     code: int | None
@@ -59,31 +61,49 @@ def _last(text: str) -> str:
     return "\n".join(line[:_LONGEST_LINE] for line in (errors or lines)[-_LINES:])
 
 
-def run(command: list[str], limit: float, accepted: tuple[int, ...] = (0,), cwd: str | None = None) -> Outcome:
-    """Runs a command for at most `limit` seconds: then it is interrupted, and killed where it goes on all the same."""
+def run(command: list[str], limit: float, accepted: tuple[int, ...] = (0,), progress: Callable[[], object] | None = None) -> Outcome:
+    """Runs a command for at most `limit` seconds: then it is interrupted, and killed where it goes on all the same.
+
+    @param progress What changes while the command gets on; where it does not for a third of the time, the command has failed.
+    """
     start = time.monotonic()
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as errors:
         try:
-            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=out, stderr=errors, start_new_session=True, cwd=cwd)
+            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=out, stderr=errors, start_new_session=True)
         except OSError as error:
             return Outcome(FAILED, None, 0.0, "", f"{command[0]}: {error.strerror or error}", command)
-        in_time = True
         try:
-            code = process.wait(limit)
-        except subprocess.TimeoutExpired:
-            in_time = False
-            code = _end(process)
+            code, why = _wait(process, limit, progress)
         except BaseException:
             _end(process)
             raise
         out.seek(0)
         errors.seek(0)
         said, complained = (file.read().decode("utf-8", "replace") for file in (out, errors))
-    status = OUT_OF_TIME if not in_time else DONE if code in accepted else FAILED
-    last = _last(complained if complained.strip() else said)
-    if code < 0 and in_time:
-        last = "\n".join(filter(None, (last, f"ended by signal {-code} ({_signal_name(-code)})")))
-    return Outcome(status, code if in_time else None, time.monotonic() - start, said, last, command)
+    status = OUT_OF_TIME if code is None and not why else DONE if code in accepted else FAILED
+    if code is not None and code < 0:
+        why = f"ended by signal {-code} ({_signal_name(-code)})"
+    last = "\n".join(filter(None, (_last(complained if complained.strip() else said), why)))
+    return Outcome(status, code, time.monotonic() - start, said, last, command)
+
+
+def _wait(process: subprocess.Popen, limit: float, progress: Callable[[], object] | None) -> tuple[int | None, str]:
+    """The exit status, None where the process had to be ended; and why it was, unless its time was over."""
+    clock, since, state = Clock(limit), Clock(limit / 3), progress() if progress else None
+    while clock.left > 0:
+        try:
+            return process.wait(min(clock.left, _POLL)), ""
+        except subprocess.TimeoutExpired:
+            pass
+        if progress is None:
+            continue
+        if (now := progress()) != state:
+            since, state = Clock(limit / 3), now
+        elif since.left == 0:
+            _end(process)
+            return None, f"got no further for {since.spent:.0f} s"
+    _end(process)
+    return None, ""
 
 
 def _signal_name(number: int) -> str:
@@ -93,14 +113,15 @@ def _signal_name(number: int) -> str:
         return "unknown"
 
 
-def _end(process: subprocess.Popen) -> int:
-    """Interrupts a process and all that it started, then kills it."""
-    for number, patience in ((signal.SIGINT, _GRACE), (signal.SIGKILL, None)):
+def _end(process: subprocess.Popen) -> None:
+    """Interrupts a process and all that it started, then kills it. One that hangs in a driver may outlive even that."""
+    for number in (signal.SIGINT, signal.SIGKILL):
         try:
             os.killpg(process.pid, number)
-            return process.wait(patience)
+            process.wait(_GRACE)
+            return
         except subprocess.TimeoutExpired:
             continue
         except ProcessLookupError:
-            return process.wait()
-    return process.wait()
+            process.poll()
+            return

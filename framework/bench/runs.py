@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -27,8 +28,8 @@ class Program:
     scenes: Path | None
     profile: str
 
-    def call(self, *arguments: str, limit: float, accepted: tuple[int, ...] = (0,)) -> Outcome:
-        return processes.run([str(self.path), *arguments], limit, accepted)
+    def call(self, *arguments: str, limit: float, accepted: tuple[int, ...] = (0,), progress: Callable[[], object] | None = None) -> Outcome:
+        return processes.run([str(self.path), *arguments], limit, accepted, progress)
 
     def profile_of(self, config: str) -> list[str]:
         """The wanted profile, `small` where the config does not have it; none for "full"."""
@@ -97,7 +98,8 @@ def run_config(program: Program, config: str, name: str, out: Path, clock: Clock
     if clock.left < _SHORTEST:
         skipped = Outcome(processes.SKIPPED, None, 0.0, "", "no time was left", [str(program.path), "run", *arguments])
         return Run(name, config, tracer, folder, skipped)
-    outcome = program.call("run", *arguments, "--out", str(folder), "--no-report", limit=clock.left, accepted=_FINISHED)
+    outcome = program.call("run", *arguments, "--out", str(folder), "--no-report", limit=clock.left, accepted=_FINISHED,
+                           progress=lambda: len(list(folder.glob("images/*/*.json"))))
     if outcome.code == 2 and "no file" in outcome.last:
         outcome = Outcome(processes.SKIPPED, 2, outcome.seconds, outcome.output, outcome.last, outcome.command)
     run = Run(name, config, tracer, folder, outcome, read_variants(folder))

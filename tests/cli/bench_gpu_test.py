@@ -5,6 +5,7 @@ import re
 import stat
 import subprocess
 import sys
+import time
 import unittest
 
 from support import PROGRAM, SOURCE, CommandTest
@@ -50,7 +51,8 @@ class BenchGpu(CommandTest):
             self.assertEqual(len(row["errors"]), 2)
             if pair == "ray_query again against ray_query":
                 self.assertTrue(row["same_bytes"])
-            self.assertAlmostEqual(row["mean_ratio"], 1, delta=1e-3)
+                self.assertEqual(row["pixels_apart"], 0)
+            self.assertLess(row["nrmse"], min(row["errors"]))
         self.assertTrue('src="data:image/png;base64,' in page)
         self.assertEqual([name for name in self.files("out") if name.endswith(".exr")], [])
 
@@ -98,6 +100,12 @@ class Processes(unittest.TestCase):
         done = processes.run(["/bin/sh", "-c", "echo begun; sleep 60"], 0.5)
         self.assertEqual((done.status, done.code, done.output), ("out of time", None, "begun\n"))
         self.assertLess(done.seconds, 20)
+
+    def test_what_gets_no_further_has_failed(self):
+        done = processes.run(["/bin/sleep", "60"], 3, progress=lambda: 0)
+        self.assertEqual((done.status, done.code, done.last), ("failed", None, "got no further for 1 s"))
+        done = processes.run(["/bin/sh", "-c", "sleep 2"], 3, progress=time.monotonic)
+        self.assertEqual(done.status, "done")
 
     def test_what_is_not_there(self):
         self.assertEqual(processes.run(["/nowhere/program"], 1).status, "failed")
