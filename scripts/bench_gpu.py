@@ -9,6 +9,7 @@ Exit status: 0 all is measured, 1 something failed or did not fit into the time 
 """
 import argparse
 import json
+import os
 import shlex
 import shutil
 import sys
@@ -86,7 +87,9 @@ def run_part(bench, part, clock):
 
 def main():
     options = arguments()
-    benches = options.benches or options.program.resolve().parents[1] / "tests" / "bench"
+    benches = options.benches or options.program.resolve().parents[1] / "tests"
+    if options.scenes:
+        os.environ["VOXRAY_SCENES"] = str(options.scenes.resolve())  # benchmarks look there
     program = Program(options.program.resolve(), ROOT / "configs", options.device, options.scenes and options.scenes.resolve(),
                       options.profile)
     bench = Bench(program, options.out.resolve(), options.tracer, benches.resolve())

@@ -125,12 +125,12 @@ def measure_throughput(bench: Bench, clock: Clock) -> Ending:
     if devices.chosen(bench.devices, "") is not bench.device:
         return Ending(processes.SKIPPED, "the benchmarks run on the best device alone, which is another one")
     for name, pattern in tables.BENCHMARKS:
-        path = bench.benches / name
-        if not path.is_file():
-            ending.add(name, Outcome(processes.SKIPPED, None, 0.0, "", "is not there", [str(path)]))
+        path = next((path for path in (bench.benches / name, bench.benches / "bench" / name) if path.is_file()), None)
+        if path is None:
+            ending.add(name, Outcome(processes.SKIPPED, None, 0.0, "", f"is not in {bench.benches}", [name]))
             continue
         done, rows = tables.benchmark(path, pattern, clock.part(clock.left / 2))
-        ending.add(name, done)
+        ending.add(f"{name} {pattern}", done)
         bench.data["benchmarks"] += rows
     return ending
 

@@ -11,9 +11,9 @@ from bench import processes
 from bench.processes import Clock
 from bench.runs import Program, Run
 
-# Of each program the benchmarks that tell most; they choose the best device themselves.
-BENCHMARKS = (("bench_compute", "compute.*(Device|Host)"), ("bench_trace", "(cornell|sponza)(Closest|Occluded)"),
-              ("bench_voxel_march", "voxelMarch"), ("bench_cone", "coneGather"))
+# Programs and the benchmarks in them that tell most; they choose the best device themselves.
+BENCHMARKS = (("bench_compute", "Device"), ("bench_trace_backends", "sponza"), ("bench_voxel_march", "voxelMarch"),
+              ("bench_octree", "octreeBuild/resolution:256"), ("bench_cone", "coneGather"), ("bench_trace_backends", "kitchen"))
 _PLUMBING = {"name", "run_name", "run_type", "family_index", "per_family_instance_index", "repetitions", "repetition_index", "threads",
              "iterations", "real_time", "cpu_time", "time_unit"}
 
