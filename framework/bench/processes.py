@@ -61,10 +61,11 @@ def _last(text: str) -> str:
     return "\n".join(line[:_LONGEST_LINE] for line in (errors or lines)[-_LINES:])
 
 
-def run(command: list[str], limit: float, accepted: tuple[int, ...] = (0,), progress: Callable[[], object] | None = None) -> Outcome:
+def run(command: list[str], limit: float, accepted: tuple[int, ...] = (0,), progress: Callable[[], float] | None = None) -> Outcome:
     """Runs a command for at most `limit` seconds: then it is interrupted, and killed where it goes on all the same.
 
-    @param progress What changes while the command gets on; where it does not for a third of the time, the command has failed.
+    @param progress How far the command is. Where that is more than 0 and stays what it is for a third of the time, the command has
+    failed.
     """
     start = time.monotonic()
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as errors:
@@ -87,9 +88,9 @@ def run(command: list[str], limit: float, accepted: tuple[int, ...] = (0,), prog
     return Outcome(status, code, time.monotonic() - start, said, last, command)
 
 
-def _wait(process: subprocess.Popen, limit: float, progress: Callable[[], object] | None) -> tuple[int | None, str]:
+def _wait(process: subprocess.Popen, limit: float, progress: Callable[[], float] | None) -> tuple[int | None, str]:
     """The exit status, None where the process had to be ended; and why it was, unless its time was over."""
-    clock, since, state = Clock(limit), Clock(limit / 3), progress() if progress else None
+    clock, since, state = Clock(limit), Clock(limit / 3), 0.0
     while clock.left > 0:
         try:
             return process.wait(min(clock.left, _POLL)), ""
@@ -99,7 +100,7 @@ def _wait(process: subprocess.Popen, limit: float, progress: Callable[[], object
             continue
         if (now := progress()) != state:
             since, state = Clock(limit / 3), now
-        elif since.left == 0:
+        elif state > 0 and since.left == 0:
             _end(process)
             return None, f"got no further for {since.spent:.0f} s"
     _end(process)

@@ -28,7 +28,7 @@ class Program:
     scenes: Path | None
     profile: str
 
-    def call(self, *arguments: str, limit: float, accepted: tuple[int, ...] = (0,), progress: Callable[[], object] | None = None) -> Outcome:
+    def call(self, *arguments: str, limit: float, accepted: tuple[int, ...] = (0,), progress: Callable[[], float] | None = None) -> Outcome:
         return processes.run([str(self.path), *arguments], limit, accepted, progress)
 
     def profile_of(self, config: str) -> list[str]:
@@ -99,7 +99,7 @@ def run_config(program: Program, config: str, name: str, out: Path, clock: Clock
         skipped = Outcome(processes.SKIPPED, None, 0.0, "", "no time was left", [str(program.path), "run", *arguments])
         return Run(name, config, tracer, folder, skipped)
     outcome = program.call("run", *arguments, "--out", str(folder), "--no-report", limit=clock.left, accepted=_FINISHED,
-                           progress=lambda: len(list(folder.glob("images/*/*.json"))))
+                           progress=lambda: len(list(folder.glob("images/*/result.json"))))
     if outcome.code == 2 and "no file" in outcome.last:
         outcome = Outcome(processes.SKIPPED, 2, outcome.seconds, outcome.output, outcome.last, outcome.command)
     run = Run(name, config, tracer, folder, outcome, read_variants(folder))
