@@ -24,13 +24,13 @@ class Cell:
 
 @dataclass
 class Table:
-    """`wide`: how many of the first columns are words."""
+    """`words`: which columns hold words, not numbers."""
 
     title: str
     headings: list[str]
     rows: list[list[Cell]] = field(default_factory=list)
     note: str = ""
-    wide: int = 1
+    words: tuple[int, ...] = (0,)
 
     def add(self, *cells: str | Cell) -> None:
         self.rows.append([cell if isinstance(cell, Cell) else Cell(cell) for cell in cells])
@@ -53,7 +53,8 @@ def _status(status: str) -> Cell:
 
 
 def parts_table(data: dict) -> Table:
-    table = Table("Parts", ["part", "outcome", "s", "of at most", "runs: done, of", "what it measures, and what went wrong"])
+    table = Table("Parts", ["part", "outcome", "s", "of at most", "runs: done, of", "what it measures, and what went wrong"],
+                  words=(0, 1, 5))
     for part in data["parts"]:
         ran = part["ran"]
         done = f"{sum(run['status'] == processes.DONE for run in ran)}, {len(ran)}" if ran else ""
@@ -63,7 +64,7 @@ def parts_table(data: dict) -> Table:
 
 
 def runs_table(data: dict) -> Table:
-    table = Table("Runs that did not end well", ["run", "outcome", "s", "variants failed, of", "what was said last"])
+    table = Table("Runs that did not end well", ["run", "outcome", "s", "variants failed, of", "what was said last"], words=(0, 1, 4))
     for part in data["parts"]:
         for run in part["ran"]:
             if run["status"] == processes.DONE and not run.get("alone"):
@@ -112,11 +113,12 @@ def _difference(row: dict | None) -> Cell:
 
 def passes_table(rows: list[dict]) -> Table:
     note = "Of all variants the one in which the pass took longest; gpu.json has all. Memory: of the pass's outputs, and scratch."
-    table = Table("Passes", ["pass", "phase", "config", "variant", "ms", "p05", "p95", "of rows", "memory", "scratch"],
-                  note=note, wide=4)
+    table = Table("Passes", ["pass", "phase", "config", "variant", "tracer", "ms", "p05", "p95", "of rows", "memory", "scratch", "dispatches",
+                             "host waits", "host bytes"], note=note, words=(0, 1, 2, 3, 4))
     for row in rows:
-        table.add(row["kind"], row["phase"], row["config"], row["variant"], number(row["ms"]), number(row["ms_p05"]),
-                  number(row["ms_p95"]), str(row["of"]), size(row["memory_bytes"]), size(row["scratch_bytes"]))
+        table.add(row["kind"], row["phase"], row["config"], row["variant"], row["tracer"], number(row["ms"]),
+                  number(row["ms_p05"]), number(row["ms_p95"]), str(row["of"]), size(row["memory_bytes"]), size(row["scratch_bytes"]),
+                  number(row["dispatches"]), number(row["host_waits"]), size(row["host_bytes"]))
     return table
 
 
@@ -129,7 +131,7 @@ def absent_table(data: dict) -> Table:
 
 def rays_table(rows: list[dict]) -> Table:
     table = Table("Rays and voxel steps a second, by pass", ["pass", "phase", "tracer", "config, variant", "rays", "rays/s", "steps/s", "ms"],
-                  note="The fastest variant, with all else that the pass does in that time.", wide=4)
+                  note="The fastest variant, with all else that the pass does in that time.", words=(0, 1, 2, 3))
     for row in rows:
         table.add(row["kind"], row["phase"], row["tracer"], f"{row['config']}, {row['variant']}", rate(row["rays"]),
                   rate(row["rays_per_s"]), rate(row["voxel_steps_per_s"]), number(row["ms"]))
@@ -137,7 +139,7 @@ def rays_table(rows: list[dict]) -> Table:
 
 
 def benchmarks_table(data: dict) -> Table:
-    table = Table("Benchmarks", ["program", "benchmark", "time", "counters"], wide=2)
+    table = Table("Benchmarks", ["program", "benchmark", "time", "counters"], words=(0, 1, 3))
     for row in data.get("benchmarks", []):
         counters = ", ".join(f"{name} {rate(value)}" for name, value in row["counters"].items())
         table.add(row["program"], row["name"], Cell(row["error"], "worse") if row["error"] else f"{number(row['time'])} {row['unit']}", counters)

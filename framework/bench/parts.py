@@ -47,6 +47,8 @@ class Bench:
         listed = self.program.call("devices", limit=_LISTING)
         self.devices = devices.parse(listed.output)
         self.device = devices.chosen(self.devices, self.program.device)
+        self.data["cores"] = os.cpu_count()
+        self.data["version"] = self.program.call("--version", limit=_LISTING).output.strip()
         self.data["devices"] = [{"name": d.name, "kind": "CPU" if d.is_cpu else "GPU", **d.facts} for d in self.devices]
         if self.device is None:
             wanted = f"no device that qualifies has '{self.program.device}' in its name" if self.devices else "no device was found"
@@ -74,10 +76,8 @@ class Ending:
         self.status = max(self.status, status, key=ranks.index)
 
 
-def list_devices(bench: Bench, clock: Clock) -> Ending:
-    """Its measurements are there before any part begins."""
-    bench.data["cores"] = os.cpu_count()
-    bench.data["version"] = bench.program.call("--version", limit=clock.left).output.strip()
+def list_devices(_bench: Bench, _clock: Clock) -> Ending:
+    """What find_device() found before any part began."""
     return Ending()
 
 

@@ -30,7 +30,8 @@ def pass_rows(runs: Iterable[Run]) -> list[dict]:
                              "device": variant.result.get("device", ""), "variant": variant.name, "ms": median, "ms_p05": low,
                              "ms_p95": high, "rays": cost["rays"], "voxel_steps": cost["voxel_steps"],
                              "rays_per_s": _rate(cost["rays"], median), "voxel_steps_per_s": _rate(cost["voxel_steps"], median),
-                             "memory_bytes": cost["memory_bytes"], "scratch_bytes": cost["scratch_bytes"]})
+                             "memory_bytes": cost["memory_bytes"], "scratch_bytes": cost["scratch_bytes"], "dispatches": cost.get("dispatches"),
+                             "host_waits": cost.get("host_waits"), "host_bytes": cost.get("host_bytes")})
     return rows
 
 
