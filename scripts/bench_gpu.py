@@ -5,13 +5,15 @@ Needs the built program, Python with Jinja2, and nothing else: no network, no co
 page with the device's name, gpu.md, gpu.json with all that was measured, and runs/, the result files of the runs. They are written
 after each part, so that what was measured stays whatever comes after. A part that fails, or has no time left, stops no other one.
 
-Exit status: 0 all is measured, 1 something failed or did not fit into the time (the page says what), 2 a wrong argument.
+Exit status: 0 all is measured, 1 something failed or did not fit into the time (the page says what), 2 a wrong argument,
+130 interrupted.
 """
 import argparse
 import json
 import os
 import shlex
 import shutil
+import signal
 import sys
 import time
 from pathlib import Path
@@ -120,4 +122,9 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends what runs, too
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        print("bench gpu: interrupted; the parts before stand on the page", file=sys.stderr)
+        sys.exit(130)

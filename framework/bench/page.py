@@ -112,7 +112,8 @@ def _difference(row: dict | None) -> Cell:
 
 
 def passes_table(rows: list[dict]) -> Table:
-    note = "Of all variants the one in which the pass took longest; gpu.json has all. Memory: of the pass's outputs, and scratch."
+    note = "Of all variants the one in which the pass took longest, Embree's only where no other tracer ran it; gpu.json has all. " \
+           "Memory: of the pass's outputs, and scratch. Dispatches, and waits and copies of the host: in one run of the pass."
     table = Table("Passes", ["pass", "phase", "config", "variant", "tracer", "ms", "p05", "p95", "of rows", "memory", "scratch", "dispatches",
                              "host waits", "host bytes"], note=note, words=(0, 1, 2, 3, 4))
     for row in rows:

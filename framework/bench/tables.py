@@ -40,11 +40,12 @@ def _rate(count: int, milliseconds: float) -> float | None:
 
 
 def slowest(rows: Iterable[dict]) -> list[dict]:
-    """Of each kind of pass and phase the row that took longest, with how many there are."""
+    """Of each kind of pass and phase the row that took longest by the device's own tracers, where those ran it; and how many there are."""
     groups: dict[tuple, list[dict]] = {}
     for row in rows:
         groups.setdefault((row["kind"], row["phase"]), []).append(row)
-    return [{**max(group, key=lambda row: row["ms"]), "of": len(group)} for _, group in sorted(groups.items())]
+    own = {key: [row for row in group if row["tracer"] != "embree"] or group for key, group in groups.items()}
+    return [{**max(group, key=lambda row: row["ms"]), "of": len(group)} for _, group in sorted(own.items())]
 
 
 def fastest_rays(rows: Iterable[dict]) -> list[dict]:
