@@ -11,9 +11,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 _GRACE = 8  # seconds between the interruption of a process, which keeps what it finished, and its end by force
+_PATIENCE = 40  # seconds that a process may take for one step
 _POLL = 0.25  # seconds between looks at a process
 _LINES = 6  # of what a process said last
 _LONGEST_LINE = 400
+_NOT_TOLD = ("voxray: warning:", "voxray: stopping;", "voxray: interrupted;")  # the outcome tells as much
 
 DONE, FAILED, OUT_OF_TIME, SKIPPED = "done", "failed", "out of time", "skipped"
 
@@ -56,16 +58,16 @@ class Outcome:
 
 
 def _last(text: str) -> str:
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    lines = [line.strip() for line in text.splitlines() if line.strip() and not line.startswith(_NOT_TOLD)]
     errors = [line for line in lines if "error" in line.lower() or "failed" in line.lower()]
     return "\n".join(line[:_LONGEST_LINE] for line in (errors or lines)[-_LINES:])
 
 
-def run(command: list[str], limit: float, accepted: tuple[int, ...] = (0,), progress: Callable[[], float] | None = None) -> Outcome:
+def run(command: list[str], limit: float, accepted: tuple[int, ...] = (0,), progress: Callable[[], float] | None = None,
+        patience: float = _PATIENCE) -> Outcome:
     """Runs a command for at most `limit` seconds: then it is interrupted, and killed where it goes on all the same.
 
-    @param progress How far the command is. Where that is more than 0 and stays what it is for a third of the time, the command has
-    failed.
+    @param progress How far the command is. Where that is more than 0 and stays what it is for `patience` seconds, the command has failed.
     """
     start = time.monotonic()
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as errors:
@@ -74,7 +76,7 @@ def run(command: list[str], limit: float, accepted: tuple[int, ...] = (0,), prog
         except OSError as error:
             return Outcome(FAILED, None, 0.0, "", f"{command[0]}: {error.strerror or error}", command)
         try:
-            code, why = _wait(process, limit, progress)
+            code, why = _wait(process, limit, progress, patience)
         except BaseException:
             _end(process)
             raise
@@ -88,9 +90,10 @@ def run(command: list[str], limit: float, accepted: tuple[int, ...] = (0,), prog
     return Outcome(status, code, time.monotonic() - start, said, last, command)
 
 
-def _wait(process: subprocess.Popen, limit: float, progress: Callable[[], float] | None) -> tuple[int | None, str]:
+def _wait(process: subprocess.Popen, limit: float, progress: Callable[[], float] | None,
+          patience: float) -> tuple[int | None, str]:
     """The exit status, None where the process had to be ended; and why it was, unless its time was over."""
-    clock, since, state = Clock(limit), Clock(limit / 3), 0.0
+    clock, since, state = Clock(limit), Clock(patience), 0.0
     while clock.left > 0:
         try:
             return process.wait(min(clock.left, _POLL)), ""
@@ -99,7 +102,7 @@ def _wait(process: subprocess.Popen, limit: float, progress: Callable[[], float]
         if progress is None:
             continue
         if (now := progress()) != state:
-            since, state = Clock(limit / 3), now
+            since, state = Clock(patience), now
         elif state > 0 and since.left == 0:
             _end(process)
             return None, f"got no further for {since.spent:.0f} s"

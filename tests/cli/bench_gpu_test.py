@@ -102,10 +102,10 @@ class Processes(unittest.TestCase):
         self.assertLess(done.seconds, 20)
 
     def test_what_gets_no_further_has_failed(self):
-        done = processes.run(["/bin/sleep", "60"], 3, progress=lambda: 1)
+        done = processes.run(["/bin/sleep", "60"], 20, progress=lambda: 1, patience=1)
         self.assertEqual((done.status, done.code, done.last), ("failed", None, "got no further for 1 s"))
         for progress in (time.monotonic, lambda: 0):  # it gets on, or has not begun
-            self.assertEqual(processes.run(["/bin/sleep", "2"], 3, progress=progress).status, "done")
+            self.assertEqual(processes.run(["/bin/sleep", "2"], 20, progress=progress, patience=1).status, "done")
 
     def test_what_is_not_there(self):
         self.assertEqual(processes.run(["/nowhere/program"], 1).status, "failed")
