@@ -24,12 +24,11 @@ sys.path.append(str(ROOT / "framework"))
 from bench import page, processes, tables  # noqa: E402
 from bench.parts import PARTS, Bench, Ending, PartError  # noqa: E402
 from bench.processes import Clock  # noqa: E402
-from bench.runs import Program  # noqa: E402
+from bench.runs import SHORTEST, Program  # noqa: E402
 from report.files import write_whole  # noqa: E402
 
 KEPT = ("result.json", "reference.json")  # of the images folder of a run
 PICTURES = ("indirect.png", "final.png")  # of runs that are compared
-SHORTEST = 2  # seconds: a part that has less is not begun
 
 
 def arguments():
@@ -78,7 +77,7 @@ def write(bench):
 def run_part(bench, part, clock):
     """How a part ended, whatever happened in it."""
     if clock.left < SHORTEST:
-        return Ending(processes.SKIPPED, "no time was left")
+        return Ending(processes.SKIPPED, processes.NO_TIME)
     try:
         return part.measure(bench, clock)
     except PartError as error:

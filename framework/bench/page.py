@@ -65,9 +65,12 @@ def parts_table(data: dict) -> Table:
 
 def runs_table(data: dict) -> Table:
     table = Table("Runs that did not end well", ["run", "outcome", "s", "variants failed, of", "what was said last"], words=(0, 1, 4))
+    unbegun = []
     for part in data["parts"]:
         for run in part["ran"]:
-            if run["status"] == processes.DONE and not run.get("alone"):
+            if run["last"] == processes.NO_TIME:
+                unbegun.append(run["name"])
+            if run["last"] == processes.NO_TIME or (run["status"] == processes.DONE and not run.get("alone")):
                 continue
             failed = run.get("failed", [])
             said = [run["last"]] if run["last"] and run["status"] != processes.DONE else []
@@ -76,6 +79,8 @@ def runs_table(data: dict) -> Table:
                 said.append(f"run again on their own: {', '.join(run['alone'])}")
             table.add(run["name"], _status(run["status"]), number(run["seconds"]),
                       f"{len(failed)}, {run['variants']}" if "variants" in run else "", "\n".join(said))
+    if unbegun:
+        table.add(", ".join(unbegun), processes.SKIPPED, "", "", processes.NO_TIME)
     return table
 
 

@@ -129,6 +129,9 @@ def measure_throughput(bench: Bench, clock: Clock) -> Ending:
         if path is None:
             ending.add(name, Outcome(processes.SKIPPED, None, 0.0, "", f"is not in {bench.benches}", [name]))
             continue
+        if clock.left < runs.SHORTEST:
+            ending.add(f"{name} {pattern}", Outcome(processes.SKIPPED, None, 0.0, "", processes.NO_TIME, [str(path)]))
+            continue
         done, rows = tables.benchmark(path, pattern, clock.part(clock.left / 2))
         ending.add(f"{name} {pattern}", done)
         bench.data["benchmarks"] += rows

@@ -17,6 +17,7 @@ _LINES = 6  # of what a process said last
 _LONGEST_LINE = 400
 _NOT_TOLD = ("voxray: warning:", "voxray: stopping;", "voxray: interrupted;")  # the outcome tells as much
 
+NO_TIME = "no time was left"
 DONE, FAILED, OUT_OF_TIME, SKIPPED = "done", "failed", "out of time", "skipped"
 
 

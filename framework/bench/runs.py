@@ -12,7 +12,7 @@ from pathlib import Path
 from bench import processes
 from bench.processes import Clock, Outcome
 
-_SHORTEST = 3  # seconds: less is no time to run anything in
+SHORTEST = 3  # seconds: less is no time to run anything in
 _ALONE = 30  # seconds that a variant gets on its own
 _PATIENCE = 3  # so many that fail on their own, one after the other, and the rest is left alone
 _FINISHED = (0, 1)  # 1: some variant failed, which results.csv tells
@@ -95,8 +95,8 @@ def run_config(program: Program, config: str, name: str, out: Path, clock: Clock
     for assignment in assignments:
         arguments += ["--set", assignment]
     folder = out / "runs" / name
-    if clock.left < _SHORTEST:
-        skipped = Outcome(processes.SKIPPED, None, 0.0, "", "no time was left", [str(program.path), "run", *arguments])
+    if clock.left < SHORTEST:
+        skipped = Outcome(processes.SKIPPED, None, 0.0, "", processes.NO_TIME, [str(program.path), "run", *arguments])
         return Run(name, config, tracer, folder, skipped)
     outcome = program.call("run", *arguments, "--out", str(folder), "--no-report", limit=clock.left, accepted=_FINISHED,
                            progress=lambda: len(list(folder.glob("images/*/result.json"))))
@@ -113,7 +113,7 @@ def _run_rest_alone(program: Program, run: Run, arguments: list[str], clock: Clo
     folder = _alone_of(run.folder)
     failures = 0
     for i, variant in enumerate(run.variants):
-        if variant.result or clock.left < _SHORTEST or failures == _PATIENCE:
+        if variant.result or clock.left < SHORTEST or failures == _PATIENCE:
             continue
         done = program.call("run", *arguments, "--out", str(folder), "--no-report", "--part", f"variant.{variant.name}",
                             limit=min(clock.left, _ALONE))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 from bench import processes
@@ -89,7 +90,7 @@ def benchmark(path: Path, pattern: str, clock: Clock) -> tuple[processes.Outcome
              "error": entry.get("error_message", ""),
              "counters": {key: value for key, value in entry.items() if key not in _PLUMBING and isinstance(value, (int, float))
                           and not isinstance(value, bool)}} for entry in found]
-    return done, rows
+    return replace(done, last=done.last if done.status == processes.FAILED else ""), rows
 
 
 def finished_entries(output: str) -> list[dict]:
