@@ -31,6 +31,7 @@ class PhaseSamples {
         cost.milliseconds = percentiles(byPass_[pass]);
         cost.rays = first_[pass].rays;
         cost.voxelSteps = first_[pass].voxelSteps;
+        cost.work = first_[pass].work;
         return cost;
     }
 
@@ -42,10 +43,12 @@ class PhaseSamples {
 
 PassSample timeOnHost(CommandStream& stream, const std::function<void()>& work) {
     stream.finish();
+    const StreamCounts before = stream.counts();
     const auto start = std::chrono::steady_clock::now();
     work();
     stream.finish();
     PassSample sample;
+    sample.work = stream.counts() - before;
     sample.milliseconds =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return sample;

@@ -29,6 +29,7 @@ struct PassCost {
     uint64_t voxelSteps = 0;    ///< In one run.
     uint64_t memoryBytes = 0;   ///< That it keeps.
     uint64_t scratchBytes = 0;  ///< That it takes besides while it runs.
+    StreamCounts work = {};     ///< In one run.
 };
 
 /// A number that a pass reported.

@@ -159,14 +159,17 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
 }
 
 std::string passesCsv(const std::vector<VariantResult>& results) {
-    std::string text = csvLine({"variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays",
-                                "voxel_steps", "memory_bytes", "scratch_bytes"});
+    std::string text =
+        csvLine({"variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps",
+                 "memory_bytes", "scratch_bytes", "dispatches", "host_waits", "host_bytes"});
     for (const VariantResult& r : results)
         for (const PassCost& p : r.passes)
-            text += csvLine({r.variant, p.id, phaseName(p.phase), numberText(p.milliseconds.median),
-                             numberText(p.milliseconds.p05), numberText(p.milliseconds.p95),
-                             std::to_string(p.rays), std::to_string(p.voxelSteps),
-                             std::to_string(p.memoryBytes), std::to_string(p.scratchBytes)});
+            text +=
+                csvLine({r.variant, p.id, phaseName(p.phase), numberText(p.milliseconds.median),
+                         numberText(p.milliseconds.p05), numberText(p.milliseconds.p95),
+                         std::to_string(p.rays), std::to_string(p.voxelSteps), std::to_string(p.memoryBytes),
+                         std::to_string(p.scratchBytes), std::to_string(p.work.dispatches),
+                         std::to_string(p.work.waits), std::to_string(p.work.hostBytes)});
     return text;
 }
 
@@ -224,7 +227,10 @@ std::string resultJson(const VariantResult& r, const VariantInputs& inputs) {
                                   {"rays", p.rays},
                                   {"voxel_steps", p.voxelSteps},
                                   {"memory_bytes", p.memoryBytes},
-                                  {"scratch_bytes", p.scratchBytes}});
+                                  {"scratch_bytes", p.scratchBytes},
+                                  {"dispatches", p.work.dispatches},
+                                  {"host_waits", p.work.waits},
+                                  {"host_bytes", p.work.hostBytes}});
     json["values"] = Json::array();
     for (const ReportedValue& v : r.values) {
         json["values"].push_back({{"pass", v.pass}, {"name", v.name}, {"value", v.value}});
@@ -256,9 +262,15 @@ std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text)
         r.scores = scoresFrom(json.at("scores"));
         for (const Json& p : json.at("passes")) {
             const Phase phase = p.at("phase").get<std::string>() == "build" ? Phase::Build : Phase::Frame;
-            r.passes.push_back({p.at("pass").get<std::string>(), phase, percentilesFrom(p.at("ms")),
-                                p.at("rays").get<uint64_t>(), p.at("voxel_steps").get<uint64_t>(),
-                                p.at("memory_bytes").get<uint64_t>(), p.at("scratch_bytes").get<uint64_t>()});
+            r.passes.push_back({p.at("pass").get<std::string>(),
+                                phase,
+                                percentilesFrom(p.at("ms")),
+                                p.at("rays").get<uint64_t>(),
+                                p.at("voxel_steps").get<uint64_t>(),
+                                p.at("memory_bytes").get<uint64_t>(),
+                                p.at("scratch_bytes").get<uint64_t>(),
+                                {p.at("dispatches").get<uint64_t>(), p.at("host_waits").get<uint64_t>(),
+                                 p.at("host_bytes").get<uint64_t>()}});
         }
         for (const Json& v : json.at("values")) {
             std::optional<uint32_t> frame;

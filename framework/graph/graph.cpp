@@ -228,6 +228,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         // Time the pass on the device; the Embree backend's host work falls between the stamps.
         PassContext context(node.resources, frame, device, stream, tracer, scene, frameIndex);
         context.spareBytes = impl_->spareBytes(n);
+        const StreamCounts before = stream.counts();
         uint32_t begin = 0, end = 0;
         const auto record = [&] {
             stream.beginLabel(node.id);
@@ -240,6 +241,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
 
         PassSample sample;
         sample.rays = tracer.raysTraced() - raysBefore + context.extraRays;
+        sample.work = stream.counts() - before;
         sample.reported = std::move(context.reported);
         for (const PassContext::Value& value : sample.reported)
             if (!std::isfinite(value.value))

@@ -17,6 +17,7 @@ struct PassSample {
     double milliseconds = 0;
     uint64_t rays = 0;
     uint64_t voxelSteps = 0;  ///< Of rays that walk through voxels, counted on the device.
+    StreamCounts work = {};   ///< Recorded by the pass; waits and copies of the measurement itself apart.
     std::vector<PassContext::Value> reported;
 };
 

@@ -144,5 +144,6 @@ def _timeline(passes: pd.DataFrame, colors: dict[str, str]) -> list[PassRow]:
         rows.append(PassRow(name, row["phase"], colors[row["kind"]], part * start, part * ms,
                             [*(text.figures(row[key]) for key in ("ms_median", "ms_p05", "ms_p95")),
                              text.count(row["rays"]), text.count(row["voxel_steps"]),
-                             text.size(row["memory_bytes"]), text.size(row["scratch_bytes"])]))
+                             text.size(row["memory_bytes"]), text.size(row["scratch_bytes"]),
+                             text.count(row["dispatches"]), text.count(row["host_waits"]), text.size(row["host_bytes"])]))
     return rows

@@ -45,7 +45,8 @@ BASELINES = ("black", "constant")
 _TEXT = ("variant", "status", "error", "device", "tracer")
 _COST = ("build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes",
          "peak_bytes", "rays")
-_PASS_NUMBERS = ("ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes", "scratch_bytes")
+_PASS_NUMBERS = ("ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes", "scratch_bytes", "dispatches",
+                 "host_waits", "host_bytes")
 
 
 @dataclass

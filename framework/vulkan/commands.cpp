@@ -92,6 +92,7 @@ void CommandStream::Impl::finish() {
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands;
     check(vkQueueSubmit(device.queue(), 1, &submit, fence), "vkQueueSubmit");
+    ++counts.waits;
     check(vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
     check(vkResetFences(device.handle(), 1, &fence), "vkResetFences");
     check(vkResetCommandPool(device.handle(), pool, 0), "vkResetCommandPool");
@@ -119,6 +120,10 @@ void CommandStream::finish() {
     impl_->finish();
 }
 
+const StreamCounts& CommandStream::counts() const {
+    return impl_->counts;
+}
+
 void CommandStream::discard() {
     impl_->discard();
 }
@@ -138,10 +143,12 @@ void CommandStream::dispatch(const Program& program, std::span<const Binding> bi
     const VkCommandBuffer commands = impl_->next();
     impl_->bind(commands, program, bindings, push);
     vkCmdDispatch(commands, groups.x, groups.y, groups.z);
+    ++impl_->counts.dispatches;
 }
 
 void CommandStream::record(const std::function<void(VkCommandBuffer)>& commands) {
     commands(impl_->next());
+    ++impl_->counts.dispatches;
 }
 
 void CommandStream::record(const Program& program, std::span<const Binding> bindings, PushConstants push,
@@ -149,6 +156,7 @@ void CommandStream::record(const Program& program, std::span<const Binding> bind
     const VkCommandBuffer buffer = impl_->next();
     impl_->bind(buffer, program, bindings, push);
     commands(buffer);
+    ++impl_->counts.dispatches;
 }
 
 void CommandStream::draw(const Program& program, std::initializer_list<Binding> bindings, PushConstants push,
@@ -200,6 +208,7 @@ void CommandStream::draw(const Program& program, std::span<const Binding> bindin
     vkCmdSetScissor(commands, 0, 1, &area);
     vkCmdDraw(commands, vertexCount, instanceCount, 0, 0);
     vkCmdEndRendering(commands);
+    ++impl_->counts.dispatches;
 }
 
 void CommandStream::beginLabel(const std::string& name) {

@@ -70,6 +70,17 @@ struct RasterTargets {
     glm::uvec3 extent{0, 0, 1};  ///< Viewport, from (0, 0); also what is rendered where there are no targets.
 };
 
+/// What a stream has done so far.
+struct StreamCounts {
+    uint64_t dispatches = 0;  ///< Compute, raster and ray calls and builds of acceleration structures.
+    uint64_t waits = 0;       ///< Submissions whose end the host waited for.
+    uint64_t hostBytes = 0;   ///< Of upload() and read(): copied from the host or to it.
+
+    StreamCounts operator-(const StreamCounts& earlier) const {
+        return {dispatches - earlier.dispatches, waits - earlier.waits, hostBytes - earlier.hostBytes};
+    }
+};
+
 /// Records commands and runs them. Each call is ordered after all calls before it (a full memory barrier
 /// between them), so passes need no barriers of their own. Every binding that the program reflects must be
 /// given, and no other; programs and resources must outlive finish(). What was recorded but not finished is
@@ -139,6 +150,9 @@ class CommandStream {
     /// Drops what was recorded since the last finish(), open labels and time stamps with it: after an error,
     /// when resources that the commands name may be gone already.
     void discard();
+
+    /// Of all that was recorded since the stream was made. Dispatches without work groups do not count.
+    const StreamCounts& counts() const;
 
     /// Bytes of the staging buffers that wait for finish().
     uint64_t stagingBytes() const;

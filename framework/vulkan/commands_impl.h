@@ -44,6 +44,7 @@ struct CommandStream::Impl {
     std::vector<Buffer> staging;
     uint64_t stagingBytes = 0;
     uint64_t stagingPeakBytes = 0;
+    StreamCounts counts;
     std::vector<VkQueryPool> queryPools;
     uint32_t timestamps = 0;
     PFN_vkCmdPushDescriptorSetKHR pushDescriptors = nullptr;

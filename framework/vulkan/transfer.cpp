@@ -126,6 +126,7 @@ void CommandStream::makeMipLevels(const Image& image) {
 
 void CommandStream::upload(const Buffer& to, std::span<const std::byte> data, uint64_t toOffset) {
     checkRange(to, toOffset, data.size());
+    impl_->counts.hostBytes += data.size();
     while (!data.empty()) {
         const std::span part = data.first(std::min<size_t>(data.size(), kStagingBytes));
         const Impl::Staged staged = impl_->stage(part);
@@ -140,6 +141,7 @@ void CommandStream::upload(const Image& to, std::span<const std::byte> data, uin
     const uint64_t bytes = levelBytes(to.desc(), level);
     if (data.size() != bytes)
         throw Error("image '{}', level {}: {} bytes given, {} needed", to.name(), level, data.size(), bytes);
+    impl_->counts.hostBytes += bytes;
 
     // Slices of depth for volumes, blocks of rows for flat images, as many as fit into a staging buffer.
     const VkExtent3D size = whole.imageExtent;
@@ -163,6 +165,7 @@ std::vector<std::byte> CommandStream::read(const Buffer& buffer, uint64_t bytes,
     checkRange(buffer, offset, bytes);
     std::vector<std::byte> out(bytes);
     if (bytes == 0) return out;
+    impl_->counts.hostBytes += bytes;
     if (buffer.mapped()) {
         finish();
         std::memcpy(out.data(), static_cast<const std::byte*>(buffer.mapped()) + offset, bytes);

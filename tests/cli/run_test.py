@@ -14,7 +14,7 @@ from support import PROGRAM, TINY, CommandTest
 COST_COLUMNS = ["variant", "status", "error", "device", "tracer", "voxelize.resolution", "build_ms",
                 "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays"]
 PASS_COLUMNS = ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes",
-                "scratch_bytes"]
+                "scratch_bytes", "dispatches", "host_waits", "host_bytes"]
 VARIANTS = ["resolution-8", "resolution-16"]
 
 # As TINY, but each variant takes long enough to be interrupted.

@@ -35,6 +35,27 @@ TEST_F(VulkanCompute, DispatchWritesABuffer) {
     EXPECT_EQ(result[kCount - 1], 7u);
 }
 
+TEST_F(VulkanCompute, StreamsCountWhatTheyDo) {
+    const Program program = computeProgram("vulkan_scale.comp");
+    const Buffer source(device(), "source", kCount * 4), target(device(), "target", kCount * 4);
+    CommandStream stream(device());
+    stream.upload(source, std::vector<uint32_t>(kCount));
+    stream.fill(target, 7);
+    stream.dispatch(program, {{"source", source}, {"Target", target}}, Push{kCount, 1}, {1, 1, 1});
+    stream.dispatch(program, {{"source", source}, {"Target", target}}, Push{kCount, 1}, {0, 1, 1});
+    EXPECT_EQ(stream.counts().dispatches, 1u);
+    EXPECT_EQ(stream.counts().waits, 0u);
+    EXPECT_EQ(stream.counts().hostBytes, kCount * 4u);
+
+    const StreamCounts before = stream.counts();
+    stream.readAs<uint32_t>(target, 10);
+    stream.finish();  // Nothing is left to wait for.
+    const StreamCounts since = stream.counts() - before;
+    EXPECT_EQ(since.dispatches, 0u);
+    EXPECT_EQ(since.waits, target.mapped() ? 1u : 2u);
+    EXPECT_EQ(since.hostBytes, 40u);
+}
+
 TEST_F(VulkanCompute, PushConstantsOfOtherNamesOrPlacesAreRefused) {
     const Program program = computeProgram("vulkan_scale.comp");
     const Buffer source(device(), "source", 4), target(device(), "target", 4);

@@ -247,7 +247,7 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     r.peakBytes = uint64_t(1) << 41;
     r.rays = 77;
     r.scores = {{"psnr_db", HUGE_VAL}, {"nrmse", 0.1}};
-    r.passes.push_back({"p", Phase::Build, {1, 2, 3}, 4, 5, 6, 7});
+    r.passes.push_back({"p", Phase::Build, {1, 2, 3}, 4, 5, 6, 7, {8, 9, 10}});
     r.values = {{"p", "voxels, missed", std::nullopt, 7}, {"p", "change", 3, 0.1}};
     const VariantInputs inputs{{"seed", "3"}, {"graph", "{a: \"b\"}"}};
     const auto [back, backInputs] = parseResultJson(resultJson(r, inputs));
@@ -259,6 +259,8 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     EXPECT_EQ(back.memoryBytes, r.memoryBytes);
     EXPECT_EQ(back.peakBytes, r.peakBytes);
     EXPECT_EQ(back.passes.at(0).scratchBytes, 7u);
+    EXPECT_EQ(passesCsv({back}), passesCsv({r}));
+    EXPECT_CONTAINS(passesCsv({back}), ",4,5,6,7,8,9,10\n");
     EXPECT_EQ(back.scores, r.scores);
     EXPECT_EQ(back.passes.at(0).voxelSteps, 5u);
     EXPECT_EQ(valuesCsv({back}), valuesCsv({r}));

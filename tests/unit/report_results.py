@@ -96,7 +96,7 @@ def passes(rows: list[dict]) -> list[dict]:
             ms = fraction * row["build_ms" if phase == "build" else "frame_ms_median"]
             table.append({"variant": row["variant"], "pass": name, "phase": phase, "ms_median": ms,
                           "ms_p05": 0.9 * ms, "ms_p95": 1.1 * ms, "rays": 1000, "voxel_steps": 0,
-                          "memory_bytes": 2**20, "scratch_bytes": 2**19})
+                          "memory_bytes": 2**20, "scratch_bytes": 2**19, "dispatches": 3, "host_waits": 1, "host_bytes": 2**10})
     return table
 
 
@@ -124,7 +124,7 @@ def write_results(directory: Path, rows: list[dict], run: dict | None, *, refere
     directory.mkdir(parents=True, exist_ok=True)
     write_csv(directory / "results.csv", columns, rows)
     write_csv(directory / "passes.csv", ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays",
-                                          "voxel_steps", "memory_bytes", "scratch_bytes"], passes(rows))
+                                          "voxel_steps", "memory_bytes", "scratch_bytes", "dispatches", "host_waits", "host_bytes"], passes(rows))
     if run is not None:
         (directory / "manifest.json").write_text(json.dumps(run), encoding="utf-8")
 
