@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "passes/common/compute/dispatch.h"
+#include "passes/filter_voxels/dense_fill.h"
 #include "passes/filter_voxels/radiance_storage.h"
 #include "shaders/radiance/radiance_dense_types.h"
 
@@ -18,15 +18,6 @@ struct Header {
     std::array<gpu::DenseLevel, RADIANCE_DENSE_LEVELS> levels;
 };
 static_assert(sizeof(gpu::RadianceGrid) % 8 == 0);
-
-struct SurfacePush {
-    gpu::VoxelGrid grid;
-    float emission;
-};
-
-uint64_t voxelsOf(glm::uvec3 resolution) {
-    return uint64_t(resolution.x) * resolution.y * resolution.z;
-}
 
 uint64_t allVoxels(const gpu::RadianceGrid& grid) {
     uint64_t voxels = 0;
@@ -59,26 +50,16 @@ class DenseStorage final : public RadianceStorage {
             first += uint32_t(voxelsOf(header.levels[level].resolution));
         }
         setup.stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
-        const auto program = [&](const char* file) {
-            return makeComputeProgram(setup.device, setup.compiler.compile(file, radiance.defines()));
-        };
-        surface_ = program("passes/filter_voxels/dense_surface.comp");
-        level_ = program("passes/filter_voxels/dense_level.comp");
+        fill_ = DenseFill(setup, radiance);
     }
 
     void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
              RadianceVoxels& radiance, float emission) override {
-        std::vector<Binding> bindings = surfaceRadianceBindings(voxels, light);
-        for (const Binding& binding : radiance.bindings()) bindings.push_back(binding);
-        context.stream.dispatch(surface_, bindings, SurfacePush{voxels.grid, emission},
-                                linearGroups(voxelsOf(radiance.grid.resolution)));
-        for (uint32_t level = 1; level < radiance.grid.levels; ++level)
-            context.stream.dispatch(level_, radiance.bindings(), level,
-                                    linearGroups(voxelsOf(levelResolution(radiance.grid.resolution, level))));
+        fill_.run(context.stream, voxels, light, radiance, emission);
     }
 
  private:
-    Program surface_, level_;
+    DenseFill fill_;
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Level 0 of dense radiance voxels: the surfaces' own radiance and opacity; nothing where there are none.
+// Level 0 of radiance voxels in full grids: the surfaces' own radiance and opacity; nothing where there are none.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance/radiance_voxels.glsl"
 #include "shaders/radiance/surface_radiance.glsl"
@@ -15,13 +15,15 @@ void main() {
     const uint i = linearIndex();
     const uvec3 size = radianceVoxels.grid.resolution;
     if (i >= size.x * size.y * size.z) return;
-    const uint voxel = voxelNumber(push.grid, ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y)));
+    const ivec3 at = ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
+    const uint voxel = voxelNumber(push.grid, at);
+    const RADIANCE_PLACE place = radiancePlace(0u, at);
     const uint directions = radianceVoxels.grid.directions;
     for (uint face = 0u; face < directions; ++face) {
         vec4 value = vec4(0.0);
         if (voxel != NO_VOXEL)
             value = directions == 6u ? faceRadiance(push.grid, voxel, face, push.emission)
                                      : meanRadiance(push.grid, voxel, push.emission);
-        storeRadiance(i, face, value / vec4(vec3(radianceVoxels.grid.unit), 1.0));
+        storeRadiance(place, face, value / vec4(vec3(radianceVoxels.grid.unit), 1.0));
     }
 }

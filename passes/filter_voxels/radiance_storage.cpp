@@ -6,6 +6,7 @@ namespace voxray {
 std::unique_ptr<RadianceStorage> makeDenseStorage();
 std::unique_ptr<RadianceStorage> makeSvoStorage();
 std::unique_ptr<RadianceStorage> makeClipmapStorage(uint32_t side);
+std::unique_ptr<RadianceStorage> makeTexturesStorage();
 
 std::unique_ptr<RadianceStorage> makeRadianceStorage(RadianceLayout layout, const ClipmapParams& clipmap) {
     switch (layout) {
@@ -15,6 +16,8 @@ std::unique_ptr<RadianceStorage> makeRadianceStorage(RadianceLayout layout, cons
             return makeSvoStorage();
         case RadianceLayout::Clipmap:
             return makeClipmapStorage(clipmap.clipmapResolution);
+        case RadianceLayout::Textures:
+            return makeTexturesStorage();
     }
     return nullptr;
 }

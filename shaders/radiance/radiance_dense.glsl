@@ -33,6 +33,10 @@ void storeRadiance(uint index, uint face, vec4 value) {
         uvec2(packHalf2x16(bounded.rg), packHalf2x16(bounded.ba));
 }
 
+// What the shaders that fill levels read and write.
+#define RADIANCE_PLACE uint
+uint radiancePlace(uint level, ivec3 voxel) { return radianceIndex(radianceVoxels.level[level], voxel); }
+
 #include "shaders/radiance/radiance_interpolation.glsl"
 
 vec4 sampleLevel(uint level, vec3 position, vec3 direction) {

@@ -4,6 +4,12 @@
 #ifndef VOXRAY_RADIANCE_FILTER_GLSL
 #define VOXRAY_RADIANCE_FILTER_GLSL
 
+// A position in voxels of a level, whose centers are whole numbers; to 1/1024 of a voxel, so that positions in the center of a layer
+// read that layer alone.
+vec3 placeInLevel(RadianceGrid g, uint level, vec3 position) {
+    return round(((position - g.origin) / (g.voxelSize * float(1u << level)) - 0.5) * 1024.0) / 1024.0;
+}
+
 // What a ray meets in two voxels in a row. Their surfaces are parts of one surface that runs through both, more often than not, so
 // their opacities add up; only what goes beyond 1 is hidden.
 vec4 inARow(vec4 front, vec4 rear) {

@@ -7,13 +7,11 @@
 
 #include "shaders/radiance/radiance_filter.glsl"
 
-// The first of the two voxels along each axis between whose centers a position lies, and how far it is on the way to the second:
-// to 1/1024 of a voxel, so that positions in the center of a layer read that layer alone.
+// The first of the two voxels along each axis between whose centers a position lies, and how far it is on the way to the second.
 ivec3 cornerVoxel(uint level, vec3 position, out vec3 at) {
-    const RadianceGrid g = radianceVoxels.grid;
-    const vec3 inLevel = round(((position - g.origin) / (g.voxelSize * float(1u << level)) - 0.5) * 1024.0) / 1024.0;
-    const vec3 corner = floor(inLevel);
-    at = inLevel - corner;
+    const vec3 place = placeInLevel(radianceVoxels.grid, level, position);
+    const vec3 corner = floor(place);
+    at = place - corner;
     return ivec3(corner);
 }
 

@@ -12,6 +12,9 @@
 
 #include "shaders/radiance/radiance_types.h"
 
+// Voxels of a level along each axis: half as many as of the level below, rounded up.
+uvec3 levelResolution(RadianceGrid g, uint level) { return (g.resolution + ((1u << level) - 1u)) >> level; }
+
 // A layout declares `radianceVoxels`, a buffer whose first member is a RadianceGrid named `grid`, and defines, for a position in
 // metres:
 //  - vec4 sampleLevel(uint level, vec3 position, vec3 direction): what a ray along `direction` (unit) meets in a cube of a
@@ -22,6 +25,8 @@
 //    levels it is drawn by `dither`, 0 to 1.
 #if defined(RADIANCE_DENSE)
 #include "shaders/radiance/radiance_dense.glsl"
+#elif defined(RADIANCE_TEXTURES)
+#include "shaders/radiance/radiance_textures.glsl"
 #elif defined(RADIANCE_SVO)
 #include "shaders/radiance/radiance_svo.glsl"
 #elif defined(RADIANCE_CLIPMAP)

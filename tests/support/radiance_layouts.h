@@ -13,7 +13,7 @@ struct TestedLayout {
 };
 
 inline const TestedLayout kRadianceLayouts[] = {
-    {"dense"}, {"svo"}, {"clipmap, clipmap_resolution: 16", true}};
+    {"dense"}, {"svo"}, {"clipmap, clipmap_resolution: 16", true}, {"textures"}};
 static_assert(std::size(kRadianceLayouts) == EnumNames<RadianceLayout>::names.size(),
               "a layout that no test knows");
 

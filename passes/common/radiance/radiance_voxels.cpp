@@ -14,6 +14,13 @@ std::vector<Binding> RadianceVoxels::bindings() const {
     std::vector<Binding> all{{"radianceVoxels", header}};
     if (octree.header)
         for (const Binding& binding : octree.bindings()) all.push_back(ifUsed(binding));
+    if (texture) all.push_back(ifUsed({"radianceTexture", texture, sampler}));
+    return all;
+}
+
+std::vector<Binding> RadianceVoxels::fillBindings(uint32_t level) const {
+    std::vector<Binding> all = bindings();
+    if (texture) all.emplace_back("radianceTarget", texture, level);
     return all;
 }
 

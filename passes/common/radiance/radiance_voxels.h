@@ -11,16 +11,18 @@ namespace voxray {
 
 /// How radiance voxels are stored. Shaders of layout `x` are compiled with RADIANCE_X
 /// (shaders/radiance/radiance_voxels.glsl).
-enum class RadianceLayout { Dense, Svo, Clipmap };
+enum class RadianceLayout { Dense, Svo, Clipmap, Textures };
 template <>
 struct EnumNames<RadianceLayout> {
-    static constexpr std::array names{std::pair{RadianceLayout::Dense, "dense"},
-                                      std::pair{RadianceLayout::Svo, "svo"},
-                                      std::pair{RadianceLayout::Clipmap, "clipmap"}};
+    static constexpr std::array names{
+        std::pair{RadianceLayout::Dense, "dense"}, std::pair{RadianceLayout::Svo, "svo"},
+        std::pair{RadianceLayout::Clipmap, "clipmap"}, std::pair{RadianceLayout::Textures, "textures"}};
 };
 constexpr const char* kRadianceLayoutHelp =
     "How voxels are stored: dense, a full grid for each level; svo, a sparse octree: only what surfaces pass "
-    "through; clipmap, of each level a window round the camera, which follows it in each frame.";
+    "through; clipmap, of each level a window round the camera, which follows it in each frame; "
+    "textures, dense in a 3D texture that the device's sampler filters, to compare hardware filtering with "
+    "ours.";
 
 /// Radiance that leaves surfaces and their opacity, prefiltered at all scales. A shader that samples it is
 /// compiled with defines(), includes shaders/radiance/radiance_voxels.glsl and is given bindings(): it is
@@ -31,10 +33,14 @@ struct RadianceVoxels : Resource {
     bool emission = false;        ///< With what surfaces emit. Known from plan() on.
     Buffer header;                ///< RadianceGrid, then what the layout needs to find its values.
     std::vector<Buffer> storage;  ///< What the header's addresses lead to.
+    Image texture;                ///< Where values stand in one: a mip level for each level.
+    Sampler sampler;              ///< Of the texture.
     Octree octree;                ///< Where there is one: the structure whose nodes' values `storage` holds.
 
     Defines defines() const;
     std::vector<Binding> bindings() const;
+    /// The same for a shader that fills `level` of full grids.
+    std::vector<Binding> fillBindings(uint32_t level) const;
 };
 
 }  // namespace voxray

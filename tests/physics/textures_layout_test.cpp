@@ -1,0 +1,145 @@
+// The layout textures of filter_voxels, filtered by the sampler, next to full grids, filtered by our shaders.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtx/component_wise.hpp>
+
+#include "tests/gpu/radiance_samples.h"
+
+namespace voxray::test {
+namespace {
+
+std::string filterGraph(const std::string& layout, const std::string& resolution,
+                        const std::string& directions) {
+    return graphYaml({"gbuffer", "voxelize, resolution: " + resolution + ", directions: " + directions,
+                      "inject_light_rays, rays_per_light: 131072, bounces: 2",
+                      "filter_voxels, layout: " + layout, "gather_cones"});
+}
+
+const RadianceVoxels& radiance(const Chain& chain) {
+    return *chain.graph().resource<RadianceVoxels>("radiance");
+}
+
+/// What a weight of the sampler may be off by along an axis, where it is cut off; half of that where rounded.
+double weightError() {
+    return std::exp2(-double(device().properties().limits.subTexelPrecisionBits));
+}
+
+/// A place in the center of a layer across `axis`, as cones read it, in voxels of a level.
+struct LayerPlace {
+    glm::vec3 voxels;
+    uint32_t level;
+    int axis;
+    float sign;  ///< Of the ray's direction along the axis.
+};
+
+/// Anywhere in the grid and up to two voxels outside.
+std::vector<LayerPlace> randomPlaces(const gpu::RadianceGrid& grid, size_t count) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> uniform(0, 1);
+    std::vector<LayerPlace> places(count);
+    for (LayerPlace& p : places) {
+        p.level = random() % grid.levels;
+        p.axis = int(random() % 3);
+        p.sign = random() % 2 ? 1.0f : -1.0f;
+        const glm::vec3 size(levelResolution(grid.resolution, p.level));
+        for (int k = 0; k < 3; ++k) p.voxels[k] = (size[k] + 4) * uniform(random) - 2.5f;
+        p.voxels[p.axis] = std::floor(p.voxels[p.axis]);
+    }
+    return places;
+}
+
+RadianceQuery queryAt(const gpu::RadianceGrid& grid, const LayerPlace& p, glm::vec3 voxels) {
+    const float voxel = grid.voxelSize * float(1u << p.level);
+    glm::vec3 direction(0.0f);
+    direction[p.axis] = p.sign;
+    return {grid.origin + voxel * (voxels + 0.5f), voxel, direction};
+}
+
+/// Of each place the twelve voxels that a filter may read: two along each of the axes across, and the layers
+/// before and after, since a weight of 0 may be off as well.
+std::vector<RadianceQuery> voxelsRound(const gpu::RadianceGrid& grid, const std::vector<LayerPlace>& places) {
+    std::vector<RadianceQuery> queries;
+    for (const LayerPlace& p : places) {
+        const int u = (p.axis + 1) % 3, v = (p.axis + 2) % 3;
+        for (int i = 0; i < 12; ++i) {
+            glm::vec3 at = glm::floor(p.voxels);
+            at[u] += float(i % 2);
+            at[v] += float(i / 2 % 2);
+            at[p.axis] += float(i / 4 - 1);
+            queries.push_back(queryAt(grid, p, at));
+        }
+    }
+    return queries;
+}
+
+TEST(TexturesLayout, SamplesInLayersAgreeWithFullGrids) {
+    // Three weights, each off by what the sampler's precision allows, of what the voxels round the place
+    // hold; and a rounding to half floats for each level on the way up and for the answer. Of 24 voxels'
+    // levels some round up, of the box's grid no side is a power of two.
+    for (const std::string resolution : {"24", "32"})
+        for (const std::string directions : {"1", "6"}) {
+            const Chain dense("cornell", "{lights: point}", filterGraph("dense", resolution, directions), 8,
+                              8);
+            const Chain textures("cornell", "{lights: point}",
+                                 filterGraph("textures", resolution, directions), 8, 8);
+            const gpu::RadianceGrid& grid = radiance(dense).grid;
+            const std::vector<LayerPlace> places = randomPlaces(grid, 50000);
+            std::vector<RadianceQuery> queries;
+            for (const LayerPlace& p : places) queries.push_back(queryAt(grid, p, p.voxels));
+            const std::vector<glm::vec4> expected = sampleRadiance(radiance(dense), queries);
+            const std::vector<glm::vec4> found = sampleRadiance(radiance(textures), queries);
+            const std::vector<glm::vec4> round = sampleRadiance(radiance(dense), voxelsRound(grid, places));
+            double worst = 0;
+            size_t lit = 0;
+            for (size_t i = 0; i < places.size(); ++i) {
+                glm::vec4 most(0.0f);
+                for (size_t j = 12 * i; j < 12 * i + 12; ++j) most = glm::max(most, round[j]);
+                const double part = 3 * weightError() + (places[i].level + 2) * std::exp2(-10);
+                for (int c = 0; c < 4; ++c) {
+                    const double difference = std::abs(double(found[i][c]) - expected[i][c]);
+                    ASSERT_LE(difference, part * most[c] + 1e-7)
+                        << resolution << ", " << directions << ", place " << i << ", channel " << c;
+                    if (most[c] > 0) worst = std::max(worst, difference / most[c]);
+                }
+                if (expected[i].y > 0) ++lit;
+            }
+            EXPECT_GT(lit, places.size() / 20);
+            std::printf(
+                "%s voxels, %s directions: off by %.2g of the brightest voxel round a place at most\n",
+                resolution.c_str(), directions.c_str(), worst);
+        }
+}
+
+TEST(TexturesLayout, ConesGatherWhatTheyGatherInFullGrids) {
+    // A sample is off by two weights' error of what lies round it, the light of a cone is a mean of samples.
+    for (const std::string directions : {"1", "6"}) {
+        const auto indirect = [&](const std::string& layout) {
+            Chain chain("cornell", "{lights: point}", filterGraph(layout, "32", directions));
+            return chain.image("indirect");
+        };
+        const ImageF dense = indirect("dense"), textures = indirect("textures");
+        double squares = 0;
+        for (size_t i = 0; i < dense.data.size(); ++i)
+            squares += std::pow(double(textures.data[i]) - dense.data[i], 2);
+        const double difference = std::sqrt(squares / double(dense.data.size())) / mean(dense);
+        const double ratio = mean(textures) / mean(dense);
+        std::printf("%s directions: mean ratio %.6f, root mean square difference %.2g of the mean\n",
+                    directions.c_str(), ratio, difference);
+        EXPECT_NEAR(ratio, 1.0, 2 * weightError());
+        EXPECT_LT(difference, 2 * weightError());
+    }
+}
+
+TEST(TexturesLayout, MemoryIsPredicted) {
+    // A cube with a side of a power of two takes what full grids take.
+    const Chain dense("cornell", "{lights: point}", filterGraph("dense", "32", "6"), 8, 8);
+    const Chain textures("cornell", "{lights: point}", filterGraph("textures", "32", "6"), 8, 8);
+    const RadianceVoxels& r = radiance(textures);
+    ASSERT_EQ(r.grid.resolution, glm::uvec3(32));
+    EXPECT_EQ(imageBytes(r.texture.desc()), radiance(dense).storage[0].bytes());
+    EXPECT_EQ(textures.predicted.at(3).bytes, r.header.bytes() + imageBytes(r.texture.desc()));
+}
+
+}  // namespace
+}  // namespace voxray::test
