@@ -17,13 +17,13 @@ void main() {
     if (i >= size.x * size.y * size.z) return;
     const ivec3 at = ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
     const uint voxel = voxelNumber(push.grid, at);
-    const RADIANCE_PLACE place = radiancePlace(0u, at);
+    const RADIANCE_LEVEL level = radianceLevel(0u);
     const uint directions = radianceVoxels.grid.directions;
     for (uint face = 0u; face < directions; ++face) {
         vec4 value = vec4(0.0);
         if (voxel != NO_VOXEL)
             value = directions == 6u ? faceRadiance(push.grid, voxel, face, push.emission)
                                      : meanRadiance(push.grid, voxel, push.emission);
-        storeRadiance(place, face, value / vec4(vec3(radianceVoxels.grid.unit), 1.0));
+        storeRadiance(radianceIndex(level, at), face, value / vec4(vec3(radianceVoxels.grid.unit), 1.0));
     }
 }

@@ -33,9 +33,9 @@ void storeRadiance(uint index, uint face, vec4 value) {
         uvec2(packHalf2x16(bounded.rg), packHalf2x16(bounded.ba));
 }
 
-// What the shaders that fill levels read and write.
-#define RADIANCE_PLACE uint
-uint radiancePlace(uint level, ivec3 voxel) { return radianceIndex(radianceVoxels.level[level], voxel); }
+// What the shaders that fill levels know a level by.
+#define RADIANCE_LEVEL DenseLevel
+DenseLevel radianceLevel(uint level) { return radianceVoxels.level[level]; }
 
 #include "shaders/radiance/radiance_interpolation.glsl"
 

@@ -19,9 +19,10 @@ layout(rgba16f) uniform writeonly image3D radianceTarget;  // The mip level that
 // Texels of one face in a mip level.
 uvec3 faceExtent(uint level) { return max(radianceVoxels.layout_.extent >> level, 1u); }
 
-// What the shaders that fill levels read and write: a voxel and its level.
-#define RADIANCE_PLACE ivec4
-ivec4 radiancePlace(uint level, ivec3 voxel) { return ivec4(voxel, level); }
+// What the shaders that fill levels know a level by, and a voxel's place: the voxel and its level.
+#define RADIANCE_LEVEL uint
+uint radianceLevel(uint level) { return level; }
+ivec4 radianceIndex(uint level, ivec3 voxel) { return ivec4(voxel, level); }
 
 ivec3 texelOf(ivec4 place, uint face) {
     return place.xyz + ivec3(face * faceExtent(uint(place.w)) * radianceVoxels.layout_.along);
