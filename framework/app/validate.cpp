@@ -27,6 +27,7 @@ DeviceInfo capableDevice() {
     device.name = "any";
     device.rayQuery = device.rayPipeline = device.geometryShader = true;
     device.shaderInt64Atomics = device.floatAtomics = true;
+    device.filteredVolumeSide = UINT32_MAX;
     return device;
 }
 

@@ -22,7 +22,10 @@ struct DeviceInfo {
     bool rayPipeline = false;
     bool geometryShader = false;
     bool shaderInt64Atomics = false;
-    bool floatAtomics = false;         ///< 32-bit float atomicAdd on storage buffers.
+    bool floatAtomics = false;  ///< 32-bit float atomicAdd on storage buffers.
+    /// Longest side of a 3D image of four half floats that can be stored to and sampled with linear
+    /// filtering; 0: it can't.
+    uint32_t filteredVolumeSide = 0;
     std::vector<std::string> missing;  ///< Required features it lacks; empty: the device qualifies.
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "vulkan/memory.h"
 #include "vulkan/structure.h"
 
 namespace voxray {
@@ -123,6 +124,20 @@ void chooseQueue(DeviceSupport& support) {
     support.info.missing.emplace_back("a queue with graphics, compute and time stamps");
 }
 
+uint32_t filteredVolumeSide(VkPhysicalDevice physical) {
+    constexpr VkFormat kFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+    VkFormatProperties offered{};
+    vkGetPhysicalDeviceFormatProperties(physical, kFormat, &offered);
+    constexpr VkFormatFeatureFlags kNeeded =
+        VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT | VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
+    if ((offered.optimalTilingFeatures & kNeeded) != kNeeded) return 0;
+    VkImageFormatProperties image{};
+    if (vkGetPhysicalDeviceImageFormatProperties(physical, kFormat, VK_IMAGE_TYPE_3D, VK_IMAGE_TILING_OPTIMAL,
+                                                 ImageDesc().usage, 0, &image) != VK_SUCCESS)
+        return 0;
+    return std::min({image.maxExtent.width, image.maxExtent.height, image.maxExtent.depth});
+}
+
 DeviceSupport inspect(VkPhysicalDevice physical) {
     DeviceSupport support;
     support.physical = physical;
@@ -156,6 +171,7 @@ DeviceSupport inspect(VkPhysicalDevice physical) {
     info.rayPipeline = structures && enabled.rayPipeline.rayTracingPipeline;
     info.geometryShader = enabled.core.features.geometryShader;
     info.shaderInt64Atomics = enabled.v12.shaderBufferInt64Atomics;
+    info.filteredVolumeSide = filteredVolumeSide(physical);
     info.floatAtomics = enabled.atomicFloat.shaderBufferFloat32AtomicAdd;
     return support;
 }

@@ -8,8 +8,6 @@
 namespace voxray {
 namespace {
 
-constexpr VkFormat kFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
-
 /// The buffer `radianceVoxels` of shaders/radiance/radiance_textures.glsl.
 struct Header {
     gpu::RadianceGrid grid;
@@ -27,20 +25,6 @@ gpu::TextureLayout layoutOf(glm::uvec3 resolution) {
     return layout;
 }
 
-/// @throws Error where the device can't filter the texture, or shaders can't store to it.
-void requireLinearFilter(const Device& device) {
-    VkFormatProperties offered{};
-    vkGetPhysicalDeviceFormatProperties(device.physical(), kFormat, &offered);
-    constexpr VkFormatFeatureFlags kNeeded =
-        VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT | VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
-    if ((offered.optimalTilingFeatures & kNeeded) != kNeeded)
-        throw Error(
-            "filter_voxels: device '{}' can't store to and filter images of half floats "
-            "(R16G16B16A16_SFLOAT, "
-            "storage image and linear filter); set 'layout' to dense",
-            device.info().name);
-}
-
 /// Full grids as mip levels of a 3D texture, filtered by the device as Arnebäck 2017 does. Docs:
 /// docs/cone-tracing.md.
 class TexturesStorage final : public RadianceStorage {
@@ -49,15 +33,27 @@ class TexturesStorage final : public RadianceStorage {
         const gpu::RadianceGrid& grid = radiance.grid;
         layout_ = layoutOf(grid.resolution);
         ImageDesc desc;
-        desc.format = kFormat;
+        desc.format = VK_FORMAT_R16G16B16A16_SFLOAT;
         desc.extent = layout_.extent * (1u + (grid.directions - 1u) * layout_.along);
         desc.mipLevels = grid.levels;
+        const uint32_t largest = plan.device.filteredVolumeSide;
+        if (largest == 0)
+            throw Error(
+                "filter_voxels: device '{}' can't store to and filter 3D images of half floats "
+                "(R16G16B16A16_SFLOAT, storage image and linear filter); set 'layout' to dense",
+                plan.device.name);
+        if (std::max({desc.extent.x, desc.extent.y, desc.extent.z}) > largest)
+            throw Error(
+                "filter_voxels: the 3D texture has {}x{}x{} texels, device '{}' takes at most {} along an "
+                "axis "
+                "(maxImageDimension3D); lower voxelize's 'resolution' or 'directions', or set 'layout' to "
+                "dense",
+                desc.extent.x, desc.extent.y, desc.extent.z, plan.device.name, largest);
         plan.image(radiance.texture, "radiance voxels", desc);
         plan.buffer(radiance.header, "radiance voxels' header", sizeof(Header));
     }
 
     void prepare(PassSetup& setup, RadianceVoxels& radiance) override {
-        requireLinearFilter(setup.device);
         const Header header{radiance.grid, layout_};
         setup.stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
         // Filtering reads texels round the grid's with a weight of 0.

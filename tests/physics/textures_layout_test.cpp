@@ -5,6 +5,7 @@
 #include <glm/gtx/component_wise.hpp>
 
 #include "tests/gpu/radiance_samples.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -139,6 +140,26 @@ TEST(TexturesLayout, MemoryIsPredicted) {
     ASSERT_EQ(r.grid.resolution, glm::uvec3(32));
     EXPECT_EQ(imageBytes(r.texture.desc()), radiance(dense).storage[0].bytes());
     EXPECT_EQ(textures.predicted.at(3).bytes, r.header.bytes() + imageBytes(r.texture.desc()));
+}
+
+TEST(TexturesLayout, WhatADeviceLacksIsNamed) {
+    const auto plan = [](uint32_t side) {
+        const SceneState state = evaluate(makeBuiltinScene("cornell", parseYaml("{}", "scene")), 0.0);
+        Registry registry;
+        registerPasses(registry);
+        Frame frame;
+        frame.scene = &state;
+        frame.camera = state.cameras.at(0);
+        frame.width = frame.height = 8;
+        DeviceInfo info = device().info();
+        info.filteredVolumeSide = side;
+        Graph(registry, parseYaml(filterGraph("textures", "32", "6"), "graph"))
+            .plan(frame, info, device().memoryLimitBytes());
+    };
+    EXPECT_CONTAINS(errorOf([&] { plan(0); }), "storage image and linear filter");
+    EXPECT_CONTAINS(errorOf([&] { plan(191); }), "192x32x32 texels");
+    EXPECT_CONTAINS(errorOf([&] { plan(191); }), "maxImageDimension3D");
+    plan(192);
 }
 
 }  // namespace
