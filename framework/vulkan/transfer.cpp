@@ -9,7 +9,7 @@ namespace {
 
 /// Most bytes that wait in staging buffers, and the size of one.
 constexpr uint64_t kStagingBytes = 64ull << 20;
-/// Where small pieces begin in the stream's own staging buffer: a multiple of every texel's size.
+/// Where small data begins in the stream's own staging buffer: a multiple of every texel's size.
 constexpr uint64_t kStagingAlignment = 16;
 
 glm::uvec3 levelExtent(const ImageDesc& desc, uint32_t level) {

@@ -1,9 +1,11 @@
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
 #include <numeric>
 
 #include "gpu/vulkan_fixture.h"
 #include "vulkan/size_error.h"
+#include "vulkan/spare_memory.h"
 
 namespace voxray {
 namespace {
@@ -98,6 +100,55 @@ TEST_F(VulkanMemory, UploadsLargerThanTheStagingBufferArriveWhole) {
     stream.upload(buffer, values);
     EXPECT_LE(device().memoryByResource().at("staging"), 65 * kMiB);
     EXPECT_EQ(stream.readAs<uint32_t>(buffer, values.size()), values);
+}
+
+TEST_F(VulkanMemory, ManySmallUploadsArriveEachInItsPlace) {
+    // More than the buffer that a stream keeps for them holds, of sizes that don't divide it.
+    constexpr uint32_t kWords = 5001, kUploads = 40;
+    const Buffer buffer(device(), "buffer", uint64_t(kWords) * kUploads * 4);
+    CommandStream stream(device());
+    std::vector<uint32_t> expected;
+    for (uint32_t i = 0; i < kUploads; ++i) {
+        const std::vector<uint32_t> values(kWords, i + 1);
+        stream.upload(buffer, std::as_bytes(std::span(values)), uint64_t(i) * kWords * 4);
+        expected.insert(expected.end(), values.begin(), values.end());
+    }
+    EXPECT_EQ(stream.readAs<uint32_t>(buffer, expected.size()), expected);
+}
+
+TEST_F(VulkanMemory, OfAFreedBufferServesTheNextOfItsSize) {
+    constexpr uint64_t kBytes = 3 * kMiB + 64;
+    SpareMemory& spare = device().spareMemory();
+    spare.freeAll();
+    const uint64_t used = device().memoryUsedBytes();
+    { const Buffer buffer(device(), "first", kBytes); }
+    EXPECT_GE(spare.bytes(), kBytes);
+    EXPECT_EQ(device().memoryUsedBytes(), used);  // Spare memory is on nobody's books.
+    {
+        const Buffer smaller(device(), "smaller", kMiB);
+        EXPECT_GE(spare.bytes(), kBytes);
+        const Buffer next(device(), "next", kBytes);
+        EXPECT_EQ(spare.bytes(), 0u);
+        EXPECT_GE(device().memoryUsedBytes(), used + kBytes + kMiB);
+    }
+    spare.freeAll();
+    EXPECT_EQ(spare.bytes(), 0u);
+}
+
+TEST_F(VulkanMemory, NoMoreIsSpareThanAllowed) {
+    SpareMemory& spare = device().spareMemory();
+    spare.freeAll();
+    for (uint64_t i = 1; i <= 8; ++i) {
+        const Buffer buffer(device(), "buffer", 60 * kMiB + i * kMiB);
+    }
+    EXPECT_GT(spare.bytes(), 190 * kMiB);
+    EXPECT_LE(spare.bytes(), 256 * kMiB);
+    spare.freeAll();
+}
+
+TEST_F(VulkanMemory, WhatNobodyWroteIsNoNumberOnAWatchedDevice) {
+    const Buffer first(device(), "first", 64, MemoryKind::Readback);
+    for (const float value : first.mappedAs<float>()) EXPECT_TRUE(std::isnan(value));
 }
 
 TEST_F(VulkanMemory, TransfersOutOfRangeAreRefused) {
