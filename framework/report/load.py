@@ -118,6 +118,10 @@ class Results:
 
     def references(self) -> list[dict]:
         """The records of the run's references; more than one where the sweep varies what is lit or seen."""
+        return self._references
+
+    @functools.cached_property
+    def _references(self) -> list[dict]:
         listed = self.manifest.get("references")
         records = [r for r in listed if isinstance(r, dict)] if isinstance(listed, list) else []
         return records or [section(self.manifest, "reference")]

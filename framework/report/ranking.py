@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Mapping
 
 import pandas as pd
@@ -103,7 +104,7 @@ def pareto_front(points: list[tuple[float, float]]) -> list[int]:
     """The indices of the (cost, error) points that no other dominates, by rising cost."""
     front: list[int] = []
     lowest = math.inf
-    for index in sorted(range(len(points)), key=lambda i: points[i]):
+    for index in sorted(range(len(points)), key=points.__getitem__):
         if points[index][1] < lowest:
             front.append(index)
             lowest = points[index][1]
@@ -113,13 +114,19 @@ def pareto_front(points: list[tuple[float, float]]) -> list[int]:
 def pareto_layers(points: list[tuple[float, float]], count: int) -> list[int]:
     """The indices of `count` points, or of all where they are fewer: the Pareto front, then the front of what is left,
     and so on."""
-    left, found = list(range(len(points))), []
-    while left and len(found) < count:
-        front = [left[i] for i in pareto_front([points[i] for i in left])]
-        found += front
-        taken = set(front)
-        left = [i for i in left if i not in taken]
-    return found[:count]
+    # By rising cost a point is on the first front whose lowest error so far lies above its own; these rise from front to
+    # front.
+    fronts: list[list[int]] = []
+    lowest: list[float] = []
+    for index in sorted(range(len(points)), key=points.__getitem__):
+        error = points[index][1]
+        number = bisect_right(lowest, error)
+        if number == len(fronts):
+            fronts.append([])
+            lowest.append(error)
+        fronts[number].append(index)
+        lowest[number] = error
+    return [index for front in fronts for index in front][:count]
 
 
 def is_numeric(values: pd.Series) -> bool:

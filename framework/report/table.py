@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from report import ranking, text
 from report.load import BASELINES, LIGHTS, Metric, Results, interval_columns
@@ -42,8 +43,7 @@ class Column:
     metric: Metric | None = None
 
 
-@dataclass(frozen=True)
-class Cell:
+class Cell(NamedTuple):
     """`sort` is a number or a text to sort by; `mark` is "", "best", "tie" or "worse"; `interval` is "" for none."""
 
     text: str
@@ -57,7 +57,8 @@ class Cell:
     @property
     def css(self) -> str:
         """Its classes."""
-        return " ".join(filter(None, (f"only-{self.light}" if self.light else "", self.mark, "words" if self.is_text else "")))
+        light = f"only-{self.light}" if self.light else ""
+        return " ".join([word for word in (light, self.mark, "words" if self.is_text else "") if word])
 
 
 @dataclass(frozen=True)
@@ -139,16 +140,19 @@ def _cell(row: Mapping, column: Column, mark: str, beaten_by: list[str]) -> Cell
         return Cell(_score(value, column.metric), _sort(value), column.light, "worse" if beaten_by else mark, title,
                     interval=_interval(row, column))
     if column.key in _COSTS:
-        spread = f"p05 {text.figures(row['frame_ms_p05'])}, p95 {text.figures(row['frame_ms_p95'])} ms"
-        peak = f"{text.size(row['peak_bytes'])} at the most, with scratch memory"
-        title = {"frame_ms_median": spread, "memory_bytes": peak}.get(column.key, "")
-        return Cell(_COSTS[column.key].write(value), _sort(value), mark=mark, title=title)
+        return Cell(_COSTS[column.key].write(value), _sort(value), mark=mark, title=_cost_title(row, column.key))
     return Cell(value, value, is_text=column.align_text)
 
 
+def _cost_title(row: Mapping, key: str) -> str:
+    if key == "frame_ms_median":
+        return f"p05 {text.figures(row['frame_ms_p05'])}, p95 {text.figures(row['frame_ms_p95'])} ms"
+    return f"{text.size(row['peak_bytes'])} at the most, with scratch memory" if key == "memory_bytes" else ""
+
+
 def _interval(row: Mapping, column: Column) -> str:
-    ends = [row.get(name, math.nan) for name in interval_columns(column.key)]
-    return text.span(*ends) if all(map(math.isfinite, ends)) else ""
+    low, high = (row.get(name, math.nan) for name in interval_columns(column.key))
+    return text.span(low, high) if math.isfinite(low) and math.isfinite(high) else ""
 
 
 def baseline_rows(results: Results, columns: list[Column]) -> list[Row]:

@@ -37,8 +37,11 @@ def ratio(value: float) -> str:
 
 def span(low: float, high: float) -> str:
     """An interval to two significant digits of its wider end, at least as many as tell its ends apart."""
-    digits = next((d for d in (2, 3, 4) if figures(low, d) != figures(high, d)), 4)
-    return f"{figures(low, digits)}–{figures(high, digits)}"
+    for digits in (2, 3, 4):
+        first, last = figures(low, digits), figures(high, digits)
+        if first != last:
+            break
+    return f"{first}–{last}"
 
 
 def exact(value: float) -> str:
