@@ -1,9 +1,9 @@
 #include "passes/cluster_visibility/kept_rays.h"
 
-#include <algorithm>
 #include <glm/common.hpp>
 
 #include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/uints.h"
 #include "passes/common/voxel_builder/changed_voxels.h"
 
 namespace voxray {
@@ -28,10 +28,6 @@ std::vector<Box> testedBoxes(const std::vector<Box>& changed, float voxelSize) {
     }
     for (Box& box : boxes) box = {box.min - margin, box.max + margin};
     return boxes;
-}
-
-uint64_t uints(uint64_t count) {
-    return std::max<uint64_t>(count, 1) * sizeof(uint32_t);
 }
 
 }  // namespace

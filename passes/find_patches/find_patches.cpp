@@ -1,18 +1,15 @@
 #include "passes/find_patches/find_patches.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "base/error.h"
+#include "passes/common/compute/bindings.h"
 #include "passes/common/compute/dispatch.h"
-#include "trace/ray.h"
+#include "passes/common/compute/uints.h"
 
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBatchRays = 1u << 20;
-/// Of a voxel, open or covered: what is left is on the last one.
-constexpr uint32_t kMaxSides = 8;
 /// Of a side, in the mean: two layers of the voxels round it.
 constexpr uint64_t kNeighbours = 18;
 
@@ -20,32 +17,6 @@ struct ChunkPush {
     gpu::VoxelGrid grid;
     uint32_t count;
     uint32_t firstNumber;
-};
-
-struct AcrossPush {
-    uint32_t first;
-    uint32_t count;
-    float voxelSize;
-};
-
-struct PivotPush {
-    uint32_t voxels;
-    uint32_t round;
-    uint32_t isCovered;
-};
-
-struct AimPush {
-    uint32_t first;
-    uint32_t count;
-    uint32_t isCovered;
-};
-
-struct JoinPush {
-    uint32_t first;
-    uint32_t count;
-    uint32_t round;
-    uint32_t isLast;
-    uint32_t isCovered;
 };
 
 struct NearPush {
@@ -57,22 +28,6 @@ struct PairPush {
     uint32_t first;
     uint32_t count;
 };
-
-struct AssignPush {
-    uint32_t sides;
-    uint32_t parts;
-};
-
-/// Calls f with the first and the number of each batch of rays.
-template <class F>
-void inBatches(uint32_t count, F f) {
-    for (uint32_t first = 0; first < count; first += kBatchRays)
-        f(first, std::min(kBatchRays, count - first));
-}
-
-uint64_t uints(uint64_t count) {
-    return std::max<uint64_t>(count, 1) * sizeof(uint32_t);
-}
 
 }  // namespace
 
@@ -86,21 +41,20 @@ void FindPatches::declare(PassBuilder& builder) {
 void FindPatches::plan(PassPlan& plan) {
     const uint64_t voxels = plan.get(voxels_).voxelCount, surfels = plan.get(surfels_).maxCount;
     const uint64_t sides = kSidesPerVoxel * voxels, pairs = kNeighbours * sides;
-    SurfelsByVoxel lists;
-    SurfelSort::plan(plan, plan.get(surfels_), voxels, lists);
     plan.reserve("surfels by side (estimated)", surfels * sizeof(gpu::PatchSurfel) + uints(surfels));
     plan.reserve(
         "sides of voxels (estimated)",
         sides * (sizeof(gpu::SurfaceSide) + sizeof(gpu::PackedVoxelMaterial)) + uints(voxels + sides));
-    plan.reserve("neighbours of sides (estimated)", uints(pairs));
-    plan.reserve("parts of clusters (estimated)", sides * sizeof(gpu::ClusterPart) + 2 * uints(sides));
-    plan.reserveScratch("search of parts (estimated)",
-                        uints(pairs) + 8 * uints(sides) + RadixSort::scratchBytes(uint32_t(sides)));
-    plan.scratchBuffer(rays_, "rays between surfels", uint64_t(kBatchRays) * sizeof(Ray));
-    plan.scratchBuffer(occluded_, "visibility of surfels", uint64_t(kBatchRays) * sizeof(uint32_t));
-    if (plan.get(surfels_).coveredSides)
-        plan.scratchBuffer(hits_, "gaps before surfels", uint64_t(kBatchRays) * sizeof(Hit));
-    plan.scratchBuffer(counter_, "what is left", sizeof(uint32_t));
+    plan.reserve("neighbours of sides (estimated)", uints(sides) + uints(pairs));
+    PartSearch::plan(plan, sides);
+
+    // One after another: surfels are sorted by voxel, and the lists stay until sides are found, which takes a
+    // uint a voxel or a side (less than the sort did); then come whose neighbours they are, then parts
+    plan.reserveScratch(
+        "search of sides and parts (estimated)",
+        std::max({SurfelSort::listBytes(surfels, voxels) + SurfelSort::scratchBytes(voxels),
+                  uints(pairs) + PrefixSum::scratchBytes(uint32_t(sides)), PartSearch::scratchBytes(sides)}));
+    batch_.plan(plan, plan.get(surfels_).coveredSides);
     if (!movingRuns(plan.frame.scene->geometry).empty())
         KeptSides::plan(plan, plan.get(voxels_), surfels, sides, pairs);
 }
@@ -110,9 +64,8 @@ void FindPatches::prepare(PassSetup& setup) {
     kept_.reset();
     sort_.prepare(setup);
     prefixSum_.emplace(setup.device, setup.compiler, PrefixSum::Of::Values);
-    compaction_.emplace(setup.device, setup.compiler);
-    histogram_.emplace(setup.device, setup.compiler);
-    radixSort_.emplace(setup.device, setup.compiler);
+    sideSearch_.emplace(setup.device, setup.compiler);
+    partSearch_.emplace(setup.device, setup.compiler);
     const auto program = [&](const char* name, const Defines& defines = {}) {
         const std::string file = std::string("passes/find_patches/") + name + ".comp";
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
@@ -125,11 +78,6 @@ void FindPatches::prepare(PassSetup& setup) {
         partNearKept_ = program("part_near", keep);
     }
     begin_ = program("begin");
-    aimAcross_ = program("aim_across");
-    raise_ = program("raise");
-    pivot_ = program("pivot");
-    aim_ = program("aim");
-    join_ = program("join");
     order_ = program("order");
     list_ = program("list");
     describe_ = program("describe");
@@ -138,12 +86,6 @@ void FindPatches::prepare(PassSetup& setup) {
     listNear_ = program("near", {{"LIST", "1"}});
     aimNear_ = program("aim_near");
     partNear_ = program("part_near");
-    label_ = program("label");
-    spread_ = program("spread");
-    flag_ = program("flag");
-    number_ = program("number");
-    assign_ = program("assign");
-    parts_ = program("parts");
 }
 
 void FindPatches::record(PassContext& context) {
@@ -168,7 +110,7 @@ void FindPatches::record(PassContext& context) {
     listSides(context, lists);
     lists = {};
     findNeighbours(context);
-    findParts(context);
+    partSearch_->find(context.stream, context.get(clusters_), patches);
     if (kept_) kept_->end();
     if (kept_) kept_->rememberVoxels(context.stream, voxels);
     context.report("sides of voxels", patches.sideCount);
@@ -198,54 +140,8 @@ void FindPatches::findSides(PassContext& context, SurfelsByVoxel& lists) {
     stream.finish();
     patches.places = std::move(lists.slots);
     lists.sorted = {};
-    splitByRays(context, lists, 0);
-    if (context.get(surfels_).coveredSides) {
-        raiseCovered(context);
-        splitByRays(context, lists, 1);
-    }
+    sideSearch_->find(context, batch_, voxels, context.get(surfels_).coveredSides, lists, patches);
     if (kept_) kept_->rememberSurfels(stream, patches, context.get(surfels_).maxCount);
-}
-
-void FindPatches::raiseCovered(PassContext& context) {
-    const float voxelSize = context.get(voxels_).grid.voxelSize;
-    const VoxelPatches& patches = context.get(patches_);
-    CommandStream& stream = context.stream;
-    inBatches(patches.surfelCount, [&](uint32_t first, uint32_t count) {
-        stream.dispatch(aimAcross_,
-                        context.scene.bindings({{"rays", rays_}, {"PatchSurfelsAt", patches.surfels.at()}}),
-                        AcrossPush{first, count, voxelSize}, linearGroups(count));
-        context.tracer.closestHit(stream, rays_, hits_, count);
-        stream.dispatch(raise_, {{"hits", hits_}, {"PatchSurfelsAt", patches.surfels.at()}},
-                        PairPush{first, count}, linearGroups(count));
-    });
-}
-
-void FindPatches::splitByRays(PassContext& context, const SurfelsByVoxel& lists, uint32_t isCovered) {
-    const SurfaceVoxels& voxels = context.get(voxels_);
-    const VoxelPatches& patches = context.get(patches_);
-    CommandStream& stream = context.stream;
-    const Buffer pivots(context.device, "surfels that began sides", uints(voxels.voxelCount));
-    for (uint32_t i = 0; i < kMaxSides; ++i) {
-        const uint32_t round = isCovered * kMaxSides + i;
-        stream.fill(counter_, 0);
-        stream.dispatch(pivot_,
-                        {{"lists", lists.lists},
-                         {"pivots", pivots},
-                         {"left", counter_},
-                         {"PatchSurfelsAt", patches.surfels.at()}},
-                        PivotPush{voxels.voxelCount, round, isCovered}, linearGroups(voxels.voxelCount));
-        if (stream.readAs<uint32_t>(counter_, 1)[0] == 0) break;
-        inBatches(patches.surfelCount, [&](uint32_t first, uint32_t count) {
-            stream.dispatch(aim_,
-                            {{"pivots", pivots}, {"rays", rays_}, {"PatchSurfelsAt", patches.surfels.at()}},
-                            AimPush{first, count, isCovered}, linearGroups(count));
-            context.tracer.occluded(stream, rays_, occluded_, count);
-            stream.dispatch(join_, {{"occluded", occluded_}, {"PatchSurfelsAt", patches.surfels.at()}},
-                            JoinPush{first, count, round, i + 1 == kMaxSides ? 1u : 0u, isCovered},
-                            linearGroups(count));
-        });
-    }
-    stream.finish();
 }
 
 void FindPatches::listSides(PassContext& context, const SurfelsByVoxel& lists) {
@@ -293,12 +189,11 @@ void FindPatches::findNeighbours(PassContext& context) {
     const uint32_t sides = patches.sideCount;
     const NearPush push{voxels.grid, sides};
     const auto shared = [&](std::initializer_list<Binding> more) {
-        std::vector<Binding> bindings = {{"coordinates", context.get(clusters_).coordinates},
-                                         {"sides", patches.sides},
-                                         {"firstSide", patches.firstSide},
-                                         {"SideMaterialsAt", patches.materials.at()}};
-        bindings.insert(bindings.end(), more.begin(), more.end());
-        return voxels.bindings(bindings);
+        return voxels.bindings(joined({{"coordinates", context.get(clusters_).coordinates},
+                                       {"sides", patches.sides},
+                                       {"firstSide", patches.firstSide},
+                                       {"SideMaterialsAt", patches.materials.at()}},
+                                      more));
     };
     patches.firstNeighbour = Buffer(context.device, "first neighbour of each side", uints(sides + 1));
     stream.dispatch(countNear_, shared({{"counts", patches.firstNeighbour}}), push, linearGroups(sides + 1));
@@ -310,74 +205,20 @@ void FindPatches::findNeighbours(PassContext& context) {
                             {"NeighboursAt", patches.neighbours.at()},
                             {"WhoseAt", whose.at()}}),
                     push, linearGroups(sides + 1));
-    inBatches(pairs, [&](uint32_t first, uint32_t count) {
+    RayBatch::inBatches(pairs, [&](uint32_t first, uint32_t count) {
         const std::vector<Binding> aimed{{"sides", patches.sides},
                                          {"NeighboursAt", patches.neighbours.at()},
                                          {"WhoseAt", whose.at()},
-                                         {"rays", rays_}};
+                                         {"rays", batch_.rays}};
         stream.dispatch(isUpdate() ? aimNearKept_ : aimNear_, isUpdate() ? kept_->pairBindings(aimed) : aimed,
                         PairPush{first, count}, linearGroups(count));
-        context.tracer.occluded(stream, rays_, occluded_, count);
-        std::vector<Binding> hidden{{"occluded", occluded_}, {"NeighboursAt", patches.neighbours.at()}};
+        context.tracer.occluded(stream, batch_.rays, batch_.occluded, count);
+        std::vector<Binding> hidden{{"occluded", batch_.occluded}, {"NeighboursAt", patches.neighbours.at()}};
         if (isUpdate())
             hidden = kept_->hiddenBindings(patches, {{"WhoseAt", whose.at()}, hidden[0], hidden[1]});
         stream.dispatch(isUpdate() ? partNearKept_ : partNear_, hidden, PairPush{first, count},
                         linearGroups(count));
     });
-    stream.finish();
-}
-
-void FindPatches::findParts(PassContext& context) {
-    const VoxelClusters& clusters = context.get(clusters_);
-    VoxelPatches& patches = context.get(patches_);
-    CommandStream& stream = context.stream;
-    Device& device = context.device;
-    const uint32_t sides = patches.sideCount, words = (sides + 31) / 32;
-    const Buffer labels(device, "labels of sides", uints(sides));
-    stream.dispatch(label_, {{"labels", labels}}, sides, linearGroups(sides));
-    for (bool isDone = false; !isDone;) {
-        stream.fill(counter_, 0);
-        stream.dispatch(spread_,
-                        {{"sides", patches.sides},
-                         {"firstNeighbour", patches.firstNeighbour},
-                         {"NeighboursAt", patches.neighbours.at()},
-                         {"ofVoxel", clusters.ofVoxel},
-                         {"labels", labels},
-                         {"changed", counter_}},
-                        sides, linearGroups(sides));
-        isDone = stream.readAs<uint32_t>(counter_, 1)[0] == 0;
-    }
-    const Buffer flags(device, "sides that lead parts", uints(words));
-    const Buffer leaders(device, "leaders of parts", uints(sides)), numbers(device, "parts", uints(sides));
-    stream.dispatch(
-        flag_,
-        {{"sides", patches.sides}, {"ofVoxel", clusters.ofVoxel}, {"labels", labels}, {"flags", flags}},
-        sides, linearGroups(words));
-    patches.partCount = compaction_->run(stream, flags, leaders, words);
-    stream.fill(numbers, NO_PART);
-    stream.dispatch(number_, {{"leaders", leaders}, {"numbers", numbers}}, patches.partCount,
-                    linearGroups(patches.partCount));
-
-    // Sides by part: the sort is stable, so those of a part stay in their order
-    Buffer keys(device, "parts of sides", uints(sides));
-    patches.ofSide = Buffer(device, "parts of sides", uints(sides));
-    patches.members = Buffer(device, "sides by part", uints(sides));
-    patches.parts =
-        Buffer(device, "parts of clusters", std::max(patches.partCount, 1u) * sizeof(gpu::ClusterPart));
-    stream.dispatch(assign_,
-                    {{"labels", labels},
-                     {"numbers", numbers},
-                     {"ofSide", patches.ofSide},
-                     {"keys", keys},
-                     {"members", patches.members}},
-                    AssignPush{sides, patches.partCount}, linearGroups(sides));
-    radixSort_->record(stream, keys, patches.members, sides, uint32_t(std::bit_width(patches.partCount)));
-    const Buffer counts(device, "sides of parts", uints(patches.partCount));
-    const Buffer before(device, "sides before parts", uints(patches.partCount));
-    histogram_->record(stream, patches.ofSide, counts, sides, patches.partCount);
-    prefixSum_->run(stream, counts, before, patches.partCount);
-    stream.dispatch(parts_, {{"counts", counts}, {"before", before}, {"parts", patches.parts}},
-                    patches.partCount, linearGroups(patches.partCount));
     stream.finish();
 }
 

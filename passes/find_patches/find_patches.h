@@ -6,11 +6,10 @@
 #include "graph/registry.h"
 #include "passes/common/clusters/voxel_clusters.h"
 #include "passes/common/clusters/voxel_patches.h"
-#include "passes/common/compute/compaction.h"
-#include "passes/common/compute/histogram.h"
-#include "passes/common/compute/radix_sort.h"
 #include "passes/common/surfels/surfel_sort.h"
 #include "passes/find_patches/kept_sides.h"
+#include "passes/find_patches/part_search.h"
+#include "passes/find_patches/side_search.h"
 
 namespace voxray {
 
@@ -41,15 +40,9 @@ class FindPatches final : public Pass {
  private:
     /// The side of its voxel that each surfel is on.
     void findSides(PassContext& context, SurfelsByVoxel& lists);
-    /// The height of covered surfels.
-    void raiseCovered(PassContext& context);
-    /// The sides of open surfels, or those of covered ones.
-    void splitByRays(PassContext& context, const SurfelsByVoxel& lists, uint32_t isCovered);
     void listSides(PassContext& context, const SurfelsByVoxel& lists);
     /// Sides next to each other that nothing hides.
     void findNeighbours(PassContext& context);
-    /// Sides of a cluster that hang together by neighbours.
-    void findParts(PassContext& context);
 
     bool isUpdate() const { return kept_ && kept_->isActive(); }
 
@@ -59,14 +52,13 @@ class FindPatches final : public Pass {
     Port<VoxelPatches> patches_;
     SurfelSort sort_;
     std::optional<PrefixSum> prefixSum_;
-    std::optional<Compaction> compaction_;
-    std::optional<Histogram> histogram_;
-    std::optional<RadixSort> radixSort_;
+    std::optional<SideSearch> sideSearch_;
+    std::optional<PartSearch> partSearch_;
     std::optional<KeptSides> kept_;  ///< Where surfaces move.
     Program beginKept_, aimNearKept_, partNearKept_;
-    Program begin_, aimAcross_, raise_, pivot_, aim_, join_, order_, list_, describe_, numberPatches_;
-    Program countNear_, listNear_, aimNear_, partNear_, label_, spread_, flag_, number_, assign_, parts_;
-    Buffer rays_, hits_, occluded_, counter_;               ///< Scratch.
+    Program begin_, order_, list_, describe_, numberPatches_;
+    Program countNear_, listNear_, aimNear_, partNear_;
+    RayBatch batch_;                                        ///< Scratch.
     std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of the voxels and their clusters.
 };
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "passes/common/compute/bindings.h"
 #include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/uints.h"
 #include "passes/common/voxel_builder/changed_voxels.h"
 #include "passes/find_patches/saved_side.h"
 
@@ -14,15 +16,6 @@ struct PreviousPush {
     gpu::VoxelGrid grid;
     uint32_t sides;
 };
-
-uint64_t uints(uint64_t count) {
-    return std::max<uint64_t>(count, 1) * sizeof(uint32_t);
-}
-
-std::vector<Binding> joined(std::vector<Binding> bindings, const std::vector<Binding>& more) {
-    bindings.insert(bindings.end(), more.begin(), more.end());
-    return bindings;
-}
 
 }  // namespace
 

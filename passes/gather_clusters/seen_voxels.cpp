@@ -1,8 +1,7 @@
 #include "passes/gather_clusters/seen_voxels.h"
 
-#include <algorithm>
-
 #include "passes/common/compute/dispatch.h"
+#include "passes/common/compute/uints.h"
 #include "passes/common/view/frame_image.h"
 
 namespace voxray {
@@ -18,10 +17,6 @@ struct SpreadPush {
     uint32_t first;
     uint32_t count;
 };
-
-uint64_t uints(uint64_t count) {
-    return std::max<uint64_t>(count, 1) * sizeof(uint32_t);
-}
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/common/compute/bindings.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/view/frame_image.h"
@@ -23,11 +24,6 @@ struct GoOnPush {
     float width;
     uint32_t seed;
 };
-
-std::vector<Binding> joined(std::vector<Binding> all, const std::vector<Binding>& more) {
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
-}
 
 }  // namespace
 

@@ -294,6 +294,18 @@ TEST(ClusterVisibility, LookAlongTheNormalOfEachWallOfACorner) {
     EXPECT_GT(difference[0], 0.01 * sum[0]);
 }
 
+TEST(FindPatches, PlansForManySurfelsInFewVoxels) {
+    // Lists of surfels take more than all that is searched afterwards; a pass that takes more than it planned
+    // fails
+    for (const char* points :
+         {"points_per_voxel: 40", "points_per_voxel: 40, sides: all", "points_per_voxel: 1"})
+        EXPECT_NO_THROW(Chain("white_room", "{}",
+                              graphYaml({"voxelize, resolution: 8", std::string("place_surfels, ") + points,
+                                         "cluster_voxels, target: 20", "find_patches"}),
+                              16, 16))
+            << points;
+}
+
 TEST(ClusterVisibility, RefusesWhatMakesNoSense) {
     const auto message = [](const std::string& visibility) {
         return errorOf([&] {

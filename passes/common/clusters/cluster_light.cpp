@@ -1,5 +1,6 @@
 #include "passes/common/clusters/cluster_light.h"
 
+#include "passes/common/compute/bindings.h"
 #include "passes/common/compute/dispatch.h"
 
 namespace voxray {
@@ -14,11 +15,10 @@ struct Push {
 
 std::vector<Binding> gatherBindings(const ClusterVisibility& visibility, const ClusterLight& light,
                                     std::initializer_list<Binding> more) {
-    std::vector<Binding> bindings = {{"seenChunks", visibility.addresses},
-                                     {"partRadiosity", light.parts},
-                                     {"PatchRadiosityAt", light.patches.at()}};
-    bindings.insert(bindings.end(), more.begin(), more.end());
-    return bindings;
+    return joined({{"seenChunks", visibility.addresses},
+                   {"partRadiosity", light.parts},
+                   {"PatchRadiosityAt", light.patches.at()}},
+                  more);
 }
 
 ClusterGather::ClusterGather(Device& device, const ShaderCompiler& compiler)

@@ -1,6 +1,7 @@
 #include "passes/common/final_gather/final_gather.h"
 
 #include "base/error.h"
+#include "passes/common/compute/bindings.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/view/frame_image.h"
@@ -149,10 +150,12 @@ void FinalGather::gather(PassContext& context, const std::vector<Binding>& store
 
 std::vector<Binding> FinalGather::endBindings(PassContext& context, const std::vector<Binding>& stored,
                                               const Buffer& hits, const Buffer& surfels) const {
-    std::vector<Binding> all = context.scene.bindings(
-        {{"hits", hits}, {"light", light_}, {"surfels", surfels}, {"goesOn", goesOn_}, {"counts", counts_}});
-    all.insert(all.end(), stored.begin(), stored.end());
-    return all;
+    return joined(context.scene.bindings({{"hits", hits},
+                                          {"light", light_},
+                                          {"surfels", surfels},
+                                          {"goesOn", goesOn_},
+                                          {"counts", counts_}}),
+                  stored);
 }
 
 uint32_t FinalGather::takeCounts(CommandStream& stream) {

@@ -20,9 +20,16 @@ struct SortPush {
 void SurfelSort::plan(PassPlan& plan, const Surfels& surfels, uint64_t voxels, SurfelsByVoxel& lists) {
     lists.maxCount = surfels.maxCount;
     plan.reserve("surfels by voxel (estimated)",
-                 surfels.maxCount * (sizeof(gpu::SortedSurfel) + sizeof(uint32_t)) + kListBytes * voxels);
-    plan.reserveScratch("counts of surfels (estimated)",
-                        2 * voxels * sizeof(uint32_t) + PrefixSum::scratchBytes(uint32_t(voxels)));
+                 listBytes(surfels.maxCount, voxels) + surfels.maxCount * sizeof(uint32_t));
+    plan.reserveScratch("counts of surfels (estimated)", scratchBytes(voxels));
+}
+
+uint64_t SurfelSort::listBytes(uint64_t surfels, uint64_t voxels) {
+    return surfels * sizeof(gpu::SortedSurfel) + kListBytes * voxels;
+}
+
+uint64_t SurfelSort::scratchBytes(uint64_t voxels) {
+    return 2 * voxels * sizeof(uint32_t) + PrefixSum::scratchBytes(uint32_t(voxels));
 }
 
 void SurfelSort::prepare(PassSetup& setup) {

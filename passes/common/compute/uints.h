@@ -1,0 +1,13 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace voxray {
+
+/// Bytes of so many uints in a shader: at least one's, for no buffer is empty.
+inline uint64_t uints(uint64_t count) {
+    return std::max<uint64_t>(count, 1) * sizeof(uint32_t);
+}
+
+}  // namespace voxray
