@@ -333,8 +333,21 @@ PreparedScene SceneLoader::prepare(const SceneSettings& settings, Origin origin)
         moved->contentHash = hashScene(*moved);
         prepared.state = evaluate(std::move(moved), settings.options.time, playback);
     }
+    prepared.memo = memoOf(fmt::format("{} {} {}", prepared.state.scene->contentHash, settings.options.time,
+                                       playback == Playback::Looping));
     chooseLightsAndCamera(prepared, settings, 0);
     return prepared;
+}
+
+std::shared_ptr<PlanMemo> SceneLoader::memoOf(const std::string& surfaces) {
+    constexpr size_t kMemos = 8;  // What they hold may be large.
+    const auto known = std::ranges::find(memos_, surfaces, &decltype(memos_)::value_type::first);
+    std::pair entry =
+        known == memos_.end() ? std::pair(surfaces, std::make_shared<PlanMemo>()) : std::move(*known);
+    if (known != memos_.end()) memos_.erase(known);
+    memos_.push_front(std::move(entry));
+    if (memos_.size() > kMemos) memos_.pop_back();
+    return memos_.front().second;
 }
 
 std::vector<Box> SceneLoader::goToFrame(PreparedScene& prepared, const SceneSettings& settings, int frame) {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config/config.h"
@@ -73,11 +75,14 @@ class SceneLoader {
     /// The scene with all that is added and overridden.
     std::shared_ptr<const Scene> compose(const SceneSettings& settings);
     std::shared_ptr<const ImageF> loadMap(const SceneSettings& settings);
+    /// The memo of these surfaces: other cameras, lights, profiles and configs plan on the same ones.
+    std::shared_ptr<PlanMemo> memoOf(const std::string& surfaces);
 
     std::vector<std::filesystem::path> folders_;
     std::map<std::string, std::shared_ptr<const Scene>>
         scenes_;  ///< By file or built-in scene and parameters.
-    std::map<std::string, std::shared_ptr<const ImageF>> maps_;  ///< By path.
+    std::map<std::string, std::shared_ptr<const ImageF>> maps_;            ///< By path.
+    std::deque<std::pair<std::string, std::shared_ptr<PlanMemo>>> memos_;  ///< Of the last few surfaces.
 };
 
 }  // namespace voxray

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "base/error.h"
 #include "passes/build_hybrid_leaves/cell_size.h"
@@ -99,7 +100,9 @@ void BuildHybridLeaves::plan(PassPlan& plan) {
             "build_hybrid_leaves needs all voxels, and this grid holds a window of them: take voxelize");
     const Geometry& geometry = plan.frame.scene->geometry;
     const std::string key = fmt::format("triangles of leaves {}", grid.voxelSize);
-    const LeafCounts counts = plan.ofScene(key, [&] { return countLeaves(geometry, grid); });
+    const auto counted =
+        plan.ofScene(key, [&] { return std::make_shared<const LeafCounts>(countLeaves(geometry, grid)); });
+    const LeafCounts& counts = *counted;
     const uint64_t items = counts.items(params_.primitives);
     const uint64_t grids = counts.grids(params_.primitives);
     const uint64_t gridWords = grids * wordsPerGrid(params_.grid, gridLevels());

@@ -17,8 +17,9 @@ class ExactWalk final : public TriangleWalk {
  public:
     void plan(PassPlan& plan, const gpu::VoxelGrid& grid) override {
         const glm::vec3& o = grid.origin;
-        const std::string key =
-            fmt::format("tiles for voxels of {} m from {} {} {} on", grid.voxelSize, o.x, o.y, o.z);
+        const glm::uvec3& r = grid.resolution;
+        const std::string key = fmt::format("tiles for {} x {} x {} voxels of {} m from {} {} {} on", r.x,
+                                            r.y, r.z, grid.voxelSize, o.x, o.y, o.z);
         plan.reserveScratch("tiles of triangles", plan.ofScene(key, [&] {
             return TriangleTiles::bytes(plan.frame.scene->geometry, grid);
         }));
