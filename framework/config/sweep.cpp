@@ -91,14 +91,36 @@ void setValue(Value& config, const Axis& axis, size_t chosen) {
     applyOverride(config, axis.path, value, Merge::Replace);
 }
 
-Value withPassesSwapped(const Experiment& experiment, const std::vector<Axis>& axes,
-                        const std::vector<size_t>& chosen) {
-    Value config = experiment.config;
-    config.erase("sweep");
-    for (size_t a = 0; a < axes.size(); ++a)
-        if (swapsPass(axes[a])) setValue(config, axes[a], chosen[a]);
-    return config;
-}
+/// The config without its sweep, with whole passes in place: variants that differ in values alone share it.
+class SwappedConfigs {
+ public:
+    SwappedConfigs(const Experiment& experiment, const std::vector<Axis>& axes)
+        : axes_(axes), plain_(experiment.config) {
+        plain_.erase("sweep");
+    }
+
+    /// @param chosen a value of each axis, by its number; those that swap no pass are not looked at.
+    const Value& with(std::vector<size_t> chosen) {
+        for (size_t a = 0; a < axes_.size(); ++a)
+            if (!swapsPass(axes_[a])) chosen[a] = 0;
+        const auto [config, isNew] = configs_.try_emplace(chosen);
+        if (isNew) {
+            config->second = plain_;
+            for (size_t a = 0; a < axes_.size(); ++a)
+                if (swapsPass(axes_[a])) setValue(config->second, axes_[a], chosen[a]);
+        }
+        return config->second;
+    }
+    /// Whether any of the configs so far has what an axis leads to.
+    bool hasSomewhere(const std::string& path) const {
+        return std::ranges::any_of(configs_, [&](const auto& c) { return hasTarget(c.second, path); });
+    }
+
+ private:
+    const std::vector<Axis>& axes_;
+    Value plain_;
+    std::map<std::vector<size_t>, Value> configs_;  ///< By the values that swap passes.
+};
 
 std::string shortened(const std::string& name) {
     if (name.size() <= kMaxNameLength) return name;
@@ -137,18 +159,16 @@ std::vector<Variant> expandSweep(const Experiment& experiment) {
 
     // Whole passes are swapped first, so that parameters reach the pass that is there in the end. An axis of
     // a pass that some graphs have and others lack does not split those that lack it
-    std::vector<bool> somewhere(axes.size(), false);
-    for (size_t index = 0; index < count; ++index) {
-        const Value config = withPassesSwapped(experiment, axes, choose(axes, index));
-        for (size_t a = 0; a < axes.size(); ++a)
-            if (hasTarget(config, axes[a].path)) somewhere[a] = true;
-    }
+    SwappedConfigs configs(experiment, axes);
+    for (size_t index = 0; index < count; ++index) configs.with(choose(axes, index));
+    std::vector<bool> somewhere(axes.size());
+    for (size_t a = 0; a < axes.size(); ++a) somewhere[a] = configs.hasSomewhere(axes[a].path);
 
     std::vector<Variant> variants;
     for (size_t index = 0; index < count; ++index) {
         const std::vector<size_t> chosen = choose(axes, index);
         Variant variant;
-        variant.config = withPassesSwapped(experiment, axes, chosen);
+        variant.config = configs.with(chosen);
         bool isRepeat = false;
         for (size_t a = 0; a < axes.size(); ++a) {
             if (!swapsPass(axes[a])) {

@@ -1,5 +1,6 @@
 #include "experiment/idle_parameters.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -7,17 +8,6 @@
 #include "experiment/validate.h"
 
 namespace voxray {
-
-std::vector<IdlePath> idlePaths(const Variant& variant, const Registry& registry) {
-    std::vector<IdlePath> paths;
-    for (const Value& entry : variant.setup.graph.items) {
-        const std::string id = passId(entry);
-        const PassKind& kind = registry.require(entry.find("pass")->scalar, entry.where);
-        for (IdleParameter& parameter : kind.idle(entry, id, Graph::reservedKeys()))
-            paths.push_back({id + "." + parameter.name, std::move(parameter)});
-    }
-    return paths;
-}
 
 void checkIdleParameters(const WiredExperiment& wired) {
     // Sweeps over whole passes bring parameters of their own: each choice of them is looked at alone
@@ -30,22 +20,25 @@ void checkIdleParameters(const WiredExperiment& wired) {
         return place;
     };
 
-    std::set<std::vector<std::string>> working;
-    std::map<std::vector<std::string>, IdlePath> idle;
-    for (const WiredVariant& variant : wired.variants) {
-        std::set<std::string> idleHere;
-        for (const IdlePath& entry : variant.idle) {
-            idleHere.insert(entry.path);
-            idle.emplace(placeOf(variant, entry.path, entry.parameter.where), entry);
+    std::map<std::vector<std::string>, IdleParameter> idle;
+    std::set<std::string> paths;
+    for (const WiredVariant& variant : wired.variants)
+        for (const IdleParameter& parameter : variant.idle) {
+            paths.insert(parameter.name);
+            idle.emplace(placeOf(variant, parameter.name, parameter.where), parameter);
         }
+    if (idle.empty()) return;
+    std::set<std::vector<std::string>> working;
+    for (const WiredVariant& variant : wired.variants)
         for (const Value& pass : variant.setup.graph.items)
-            for (const auto& [key, value] : pass.members)
-                if (const std::string path = passId(pass) + "." + key; idleHere.count(path) == 0)
+            for (const auto& [key, value] : pass.members) {
+                const std::string path = passId(pass) + "." + key;
+                if (paths.contains(path) && std::ranges::count(variant.idle, path, &IdleParameter::name) == 0)
                     working.insert(placeOf(variant, path, value.where));
-    }
-    for (const auto& [place, entry] : idle)
+            }
+    for (const auto& [place, parameter] : idle)
         if (working.count(place) == 0)
-            throw UsageError(entry.parameter.where, "{}: {}; leave it out", entry.path, entry.parameter.why);
+            throw UsageError(parameter.where, "{}: {}; leave it out", parameter.name, parameter.why);
 }
 
 }  // namespace voxray

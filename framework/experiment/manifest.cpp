@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/files.h"
+#include "experiment/json_text.h"
 #include "image/seed_error.h"
 #include "image/temporal.h"
 
@@ -18,6 +19,8 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kIdentity = "identity";
 
 /// Of the keys under which a reference's noise floors stand, behind the metric's column.
 constexpr const char* kNoiseSuffix = "_noise";
@@ -65,14 +68,16 @@ Json entryJson(const ReferenceRecord& r, const Value& pass) {
 
 /// Writes `references`, and on top what most runs have: one reference.
 void setReferences(Json& manifest, const std::vector<ReferenceEntry>& references) {
+    std::map<std::string, Json> variants;  // By the hash of their reference.
+    for (const auto& [variant, inputs] : manifest["inputs"].items())
+        variants.try_emplace(inputs.at("reference").get<std::string>(), Json::array())
+            .first->second.push_back(variant);
     manifest["references"] = Json::array();
     for (const ReferenceEntry& reference : references) {
         Json entry = Json::parse(reference.text);
         entry["folder"] = reference.folder;
-        entry["variants"] = Json::array();
-        for (const auto& [variant, inputs] : manifest["inputs"].items())
-            if (inputs.at("reference").get<std::string>() == reference.hash)
-                entry["variants"].push_back(variant);
+        const auto own = variants.find(reference.hash);
+        entry["variants"] = own == variants.end() ? Json::array() : own->second;
         manifest["references"].push_back(std::move(entry));
     }
     if (references.empty()) return;
@@ -130,8 +135,9 @@ std::string cpuName() {
 }  // namespace
 
 std::string manifestJson(const ManifestData& data) {
-    const Experiment& experiment = *data.experiment;
+    const Experiment& experiment = data.wired->experiment;
     Json json;
+    json[kIdentity] = identityOf(data);
     json["voxray_version"] = data.version;
     json["commit"] = data.commit;
     json["started"] = data.started;
@@ -158,18 +164,34 @@ std::string manifestJson(const ManifestData& data) {
     json["auto"] = {{"tracer", data.tracer}, {"device", data.device.name}};
     json["requested"] = {{"tracer", schema_detail::textOf(experiment.setup.general.tracer)},
                          {"device", data.requestedDevice.empty() ? "best" : data.requestedDevice}};
-    json["variants"] = Json::object();
-    for (const auto& [name, graph] : data.graphs) json["variants"][name] = Json::parse(graph.json());
-    json["inputs"] = Json::object();
-    for (const auto& [name, graph] : data.graphs)
-        json["inputs"][name] = {{"scene", data.sceneKeys.at(name)},
-                                {"reference", data.referenceHashes.at(name)}};
-    json["noise_parameters"] = data.noiseParameters;
+    // Names are unique: they are added without a look at the others
+    Json::object_t graphs, inputs;
+    std::map<std::string, std::map<std::string, std::vector<std::string>>> noise;  // By image and variant.
+    for (const WiredVariant& variant : data.wired->variants) {
+        const std::string& name = variant.name;
+        graphs.emplace_back(name, Json::parse(variant.resolved.json(-1)));
+        inputs.emplace_back(
+            name, Json{{"scene", data.sceneKeys.at(name)}, {"reference", data.referenceHashes.at(name)}});
+        for (const auto& [image, parameters] : variant.noiseParameters) noise[image][name] = parameters;
+    }
+    json["variants"] = std::move(graphs);
+    json["inputs"] = std::move(inputs);
+    json["noise_parameters"] = noise;
     for (const char* later : {"warnings", "notes"}) json[later] = nullptr;
     json["versions"] = {{"voxray", data.version}, {"driver", data.device.driver}, {"compiler", __VERSION__}};
     json["machine"] = {{"cpu", cpuName()}, {"cores", std::thread::hardware_concurrency()}};
     setOutcome(json, {data.finished, data.sessions, data.references, data.warnings, data.notes});
     return textOf(json);
+}
+
+std::string identityOf(const ManifestData& data) {
+    Hasher hasher;
+    hasher.add(data.version).add(data.commit).add(data.wired->experiment.config.json());
+    for (const WiredVariant& variant : data.wired->variants)
+        hasher.add(variant.name)
+            .add(data.sceneKeys.at(variant.name))
+            .add(data.referenceHashes.at(variant.name));
+    return hasher.hex();
 }
 
 std::string referenceJson(const ReferenceRecord& record, const Value& pass) {
@@ -199,13 +221,25 @@ std::vector<ReferenceEntry> referencesIn(const fs::path& images) {
     return entries;
 }
 
-std::string manifestDifference(const std::string& first, const std::string& second) {
-    const Json a = Json::parse(first, nullptr, false), b = Json::parse(second, nullptr, false);
-    for (const Json* manifest : {&a, &b})
-        if (!manifest->is_object() || !manifest->contains("inputs"))
-            throw Error("the manifest is broken, or of an older version of Voxray");
+std::string identityIn(const std::string& manifest) {
+    return jsonTextAt(manifest, {kIdentity});
+}
+
+std::string experimentIn(const std::string& manifest) {
+    return jsonTextAt(manifest, {"config", "name"});
+}
+
+Json parseManifest(const std::string& text) {
+    Json manifest = Json::parse(text, nullptr, false);
+    if (!manifest.is_object() || !manifest.contains("inputs"))
+        throw Error("the manifest is broken, or of an older version of Voxray");
+    return manifest;
+}
+
+std::string manifestDifference(const Json& first, const Json& second) {
     for (const char* key : {"voxray_version", "commit", "config", "inputs"})
-        if (std::string text = firstDifference(a.at(key), b.at(key), key); !text.empty()) return text;
+        if (std::string text = firstDifference(first.at(key), second.at(key), key); !text.empty())
+            return text;
     return {};
 }
 
@@ -215,13 +249,12 @@ Sessions sessionsOf(const std::vector<VariantResult>& results) {
     return sessions;
 }
 
-std::string mergedManifest(const std::string& first, const std::vector<ReferenceEntry>& references,
+std::string mergedManifest(Json first, const std::vector<ReferenceEntry>& references,
                            const Sessions& sessions, const std::vector<std::string>& warnings,
                            const std::vector<std::string>& notes, bool isWhole) {
-    Json json = Json::parse(first);
     const std::string finished = isWhole ? utcNow() : "";
-    setOutcome(json, {finished, sessions, references, warnings, notes});
-    return textOf(json);
+    setOutcome(first, {finished, sessions, references, warnings, notes});
+    return textOf(first);
 }
 
 std::string commitOf(const fs::path& sourceRoot) {

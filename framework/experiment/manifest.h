@@ -2,12 +2,13 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "config/config.h"
 #include "experiment/reference.h"
 #include "experiment/results.h"
+#include "experiment/validate.h"
 #include "vulkan/device.h"
 
 namespace voxray {
@@ -39,11 +40,7 @@ Sessions sessionsOf(const std::vector<VariantResult>& results);
 
 /// What `manifest.json` records.
 struct ManifestData {
-    const Experiment* experiment = nullptr;
-    std::vector<std::pair<std::string, Value>>
-        graphs;  ///< Variant -> its passes with every default filled in.
-    /// Image ("final", "indirect") -> variant -> what lowers its noise there (noiseParameters()).
-    std::map<std::string, std::map<std::string, std::vector<std::string>>> noiseParameters;
+    const WiredExperiment* wired = nullptr;
     Value referencePass;  ///< With every default filled in; null: none.
     DeviceInfo device;
     std::string requestedDevice;  ///< Empty: the best.
@@ -62,20 +59,30 @@ struct ManifestData {
 /// @return the text of manifest.json.
 std::string manifestJson(const ManifestData& data);
 
+/// A hash of what results of one experiment have in common: config, version, scenes and references. It stands
+/// first in the manifest, so that a part can tell whose folder it writes into without reading the rest.
+std::string identityOf(const ManifestData& data);
+
 /// @return the text of reference.json, which lies with a reference's images.
 /// @param pass with every default filled in.
 std::string referenceJson(const ReferenceRecord& record, const Value& pass);
 /// Reads the references below images/, in the order of their folders; what isn't whole is left out.
 std::vector<ReferenceEntry> referencesIn(const std::filesystem::path& images);
 
+/// The identity, and the name of the experiment, in a manifest's text; "" where there is none.
+std::string identityIn(const std::string& manifest);
+std::string experimentIn(const std::string& manifest);
+
+/// A manifest's text, read. @throws Error for text that manifestJson didn't write.
+nlohmann::ordered_json parseManifest(const std::string& text);
+
 /// What keeps results of two manifests from being those of one experiment: config, version or scenes, as
 /// "config.seed: 7 and 8"; empty where nothing does.
-/// @throws Error for text that manifestJson didn't write.
-std::string manifestDifference(const std::string& first, const std::string& second);
+std::string manifestDifference(const nlohmann::ordered_json& first, const nlohmann::ordered_json& second);
 
 /// The manifest of results that were put together. @param first one of theirs.
 /// @param warnings, notes of all of them. @param isWhole whether no variant is missing.
-std::string mergedManifest(const std::string& first, const std::vector<ReferenceEntry>& references,
+std::string mergedManifest(nlohmann::ordered_json first, const std::vector<ReferenceEntry>& references,
                            const Sessions& sessions, const std::vector<std::string>& warnings,
                            const std::vector<std::string>& notes, bool isWhole);
 

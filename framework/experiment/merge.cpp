@@ -28,7 +28,6 @@ using Json = nlohmann::ordered_json;
 /// A results folder that is read.
 struct Source {
     fs::path path;
-    std::string text;  ///< Of its manifest.
     Json manifest;
     std::map<std::string, PartRecord> records;  ///< By the ids of parts.
 };
@@ -39,16 +38,16 @@ std::vector<Source> readSources(const std::vector<fs::path>& folders) {
     for (const fs::path& path : folders) {
         const fs::path file = path / "manifest.json";
         if (!fs::exists(file)) throw UsageError("{}: holds no results of Voxray", path.string());
-        Source source{path, readTextFile(file), {}, PartRecords(path).load()};
-        std::string what;
+        Source source{path, {}, PartRecords(path).load()};
         try {
-            what = manifestDifference(sources.empty() ? source.text : sources[0].text, source.text);
+            source.manifest = parseManifest(readTextFile(file));
         } catch (const Error& error) {
             throw UsageError("{}: {}", file.string(), error.what());
         }
+        const std::string what =
+            sources.empty() ? "" : manifestDifference(sources[0].manifest, source.manifest);
         if (!what.empty())
             throw UsageError("{} and {} can't be merged: {}", sources[0].path.string(), path.string(), what);
-        source.manifest = Json::parse(source.text);
         sources.push_back(std::move(source));
     }
     return sources;
@@ -76,15 +75,16 @@ void copyImages(const fs::path& from, const ResultsFolder& target, const std::st
 
 /// Takes over the references that the target lacks, each under a name of its own.
 void mergeReferences(const std::vector<Source>& sources, const ResultsFolder& target) {
+    std::vector<ReferenceEntry> known = target.references();
     for (const Source& source : sources) {
         if (isSameFolder(source.path, target.path())) continue;
         for (const ReferenceEntry& reference : referencesIn(source.path / "images")) {
-            const std::vector<ReferenceEntry> known = target.references();
             if (std::ranges::count(known, reference.hash, &ReferenceEntry::hash) > 0) continue;
             std::string name = reference.folder;
             for (int number = 2; std::ranges::count(known, name, &ReferenceEntry::folder) > 0; ++number)
                 name = fmt::format("reference.{}", number);
             copyImages(source.path / "images" / reference.folder, target, name);
+            known.push_back({name, reference.hash, reference.text});
         }
     }
 }
@@ -129,16 +129,20 @@ struct Failure {
 };
 
 /// Why a variant has no result: its own part failed, or else one of its reference.
-std::optional<Failure> failureOf(const std::string& name, const std::vector<Source>& sources) {
-    const std::string own = "variant." + name;
-    const std::string hash = sources[0].manifest["inputs"][name]["reference"].get<std::string>();
+/// @param hash of its reference.
+std::optional<Failure> failureOf(const std::string& name, const std::string& hash,
+                                 const std::vector<Source>& sources) {
     const std::string whole = ReferenceParts::id(hash, {});
     const std::string reference = whole.substr(0, whole.rfind('.') + 1);
     std::optional<Failure> failure;
-    for (const Source& source : sources)
-        for (const auto& [part, record] : source.records)
-            if (!record.error.empty() && (part == own || (!failure && part.starts_with(reference))))
-                failure = {part, &record};
+    for (const Source& source : sources) {
+        if (const auto own = source.records.find("variant." + name);
+            own != source.records.end() && !own->second.error.empty())
+            failure = {own->first, &own->second};
+        auto record = source.records.lower_bound(reference);
+        for (; !failure && record != source.records.end() && record->first.starts_with(reference); ++record)
+            if (!record->second.error.empty()) failure = {record->first, &record->second};
+    }
     return failure;
 }
 
@@ -149,8 +153,11 @@ std::vector<VariantResult> failedRows(std::vector<std::string>& missing, const s
     if (missing.empty()) return rows;
     std::map<std::string, std::vector<std::string>> sweepValues;
     for (Variant& variant : expandSweep(experiment)) sweepValues[variant.name] = std::move(variant.values);
+    std::map<std::string, std::string> hashes;  // Of each variant's reference.
+    for (const auto& [name, keys] : sources[0].manifest["inputs"].items())
+        hashes[name] = keys.at("reference").get<std::string>();
     std::erase_if(missing, [&](const std::string& name) {
-        const auto failure = failureOf(name, sources);
+        const auto failure = failureOf(name, hashes.at(name), sources);
         if (!failure) return false;
         const bool isOwn = failure->part.starts_with("variant.");
         const PartRecord& record = *failure->record;
@@ -211,7 +218,7 @@ std::vector<std::string> differences(const std::vector<VariantResult>& rows) {
 
 RunSummary mergeResults(const std::vector<fs::path>& folders, const fs::path& out,
                         const RunOptions& options) {
-    const std::vector<Source> sources = readSources(folders);
+    std::vector<Source> sources = readSources(folders);
     checkTarget(sources, out);
     const Experiment experiment =
         readExperiment(parseYaml(sources[0].manifest.at("config").dump(), "manifest.json"));
@@ -248,8 +255,9 @@ RunSummary mergeResults(const std::vector<fs::path>& folders, const fs::path& ou
     }
     for (const std::string& name : missing)
         fmt::print(stderr, "voxray: warning: there is no result of '{}'\n", name);
-    target.writeText("manifest.json", mergedManifest(sources[0].text, target.references(), sessionsOf(rows),
-                                                     warnings, textsOf(sources, "notes"), missing.empty()));
+    const std::vector<std::string> notes = textsOf(sources, "notes");
+    target.writeText("manifest.json", mergedManifest(std::move(sources[0].manifest), target.references(),
+                                                     sessionsOf(rows), warnings, notes, missing.empty()));
     target.writeTables(rows, experiment);
 
     if (!options.report) return summary;

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <tuple>
 
 #include "base/byte_units.h"
 #include "base/interrupt.h"
@@ -126,6 +127,34 @@ std::string unequalHalves(const Experiment& experiment) {
         .what();
 }
 
+constexpr uint64_t kAnySize = std::numeric_limits<uint64_t>::max();
+
+/// The reference's graph, planned once for variants in a row that share scene and size of the image.
+class ReferencePlan {
+ public:
+    ReferencePlan(const Experiment& experiment, const Registry& registry, const DeviceInfo& device)
+        : experiment_(experiment), registry_(registry), device_(device) {}
+
+    /// @param scene the key of the frame's scene. @throws Error for what the reference refuses.
+    const Graph& in(const Frame& frame, const std::string& scene) {
+        const Place place{scene, frame.width, frame.height};
+        if (graph_ && place == place_) return *graph_;
+        graph_.reset();
+        Graph graph = referenceGraph(experiment_, registry_);
+        graph.plan(frame, device_, kAnySize);
+        place_ = place;
+        return graph_.emplace(std::move(graph));
+    }
+
+ private:
+    using Place = std::tuple<std::string, uint32_t, uint32_t>;
+    const Experiment& experiment_;
+    const Registry& registry_;
+    const DeviceInfo& device_;
+    std::optional<Graph> graph_;
+    Place place_;
+};
+
 /// A variant and the memory that it takes.
 struct Need {
     std::string variant;
@@ -177,13 +206,13 @@ std::vector<std::string> neverRun(const WiredExperiment& wired, const Registry& 
 
 PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
                      const Registry& registry, std::optional<size_t> only) {
-    constexpr uint64_t kAnySize = std::numeric_limits<uint64_t>::max();
     const Experiment& experiment = wired.experiment;
     std::map<std::string, std::vector<std::string>> notices;  // What is said, of which variants.
     std::vector<Need> needs;
     IdleMotion motion(experiment.measure);
     std::string key;
     PreparedScene prepared;
+    ReferencePlan reference(experiment, registry, device);
     PlanCheck found;
     const std::span<WiredVariant> all(wired.variants);
     for (WiredVariant& variant : only ? all.subspan(*only, 1) : all) {
@@ -218,9 +247,8 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
             say(shortHistory(variant, experiment.measure));
             if (wired.reference.isNull()) continue;
             say(missingLight(variant, registry));
-            Graph reference = referenceGraph(experiment, registry);
-            reference.plan(frame, device, kAnySize);
-            if (std::string text = bounceDifference(variant, wired, reference); !text.empty()) say({text});
+            const Graph& planned = reference.in(frame, key);
+            if (std::string text = bounceDifference(variant, wired, planned); !text.empty()) say({text});
         } catch (const Error& error) {
             throw UsageError("{}{}", error.what(),
                              wired.variants.size() > 1 ? fmt::format(" (variant {})", variant.name) : "");

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "experiment/noise_parameters.h"
 #include "experiment/parts.h"
 #include "experiment/plan_checks.h"
 
@@ -55,11 +54,8 @@ std::optional<size_t> PreparedExperiment::ownVariant() {
 }
 
 void PreparedExperiment::recordInputs() {
-    manifest_.experiment = &wired_.experiment;
+    manifest_.wired = &wired_;
     for (const WiredVariant& variant : wired_.variants) {
-        manifest_.graphs.emplace_back(variant.name, variant.resolved);
-        for (const char* image : {"final", "indirect"})
-            manifest_.noiseParameters[image][variant.name] = noiseParameters(variant, registry_, image);
         manifest_.sceneKeys[variant.name] = session_->loader().key(variant.setup.scene);
         manifest_.referenceHashes[variant.name] = session_->referenceHashOf(wired_, variant.setup);
     }

@@ -85,11 +85,14 @@ ProcessLock ResultsFolder::lockPart(const std::string& id, ProcessLock::IfHeld i
     return {path_ / kParts / ("." + id + ".lock"), ProcessLock::Kind::Alone, path_ / kParts / id, ifHeld};
 }
 
-void ResultsFolder::claim(const std::string& manifest) const {
+void ResultsFolder::claim(const ManifestData& manifest) const {
     const fs::path file = path_ / kManifest;
-    if (!fs::exists(file)) writeText(kManifest, manifest);
+    if (!fs::exists(file)) writeText(kManifest, manifestJson(manifest));
     // Again: another process may have written it at the same time
-    if (const std::string what = manifestDifference(readTextFile(file), manifest); !what.empty())
+    const std::string text = readTextFile(file);
+    if (identityIn(text) == identityOf(manifest)) return;
+    const std::string what = manifestDifference(parseManifest(text), parseManifest(manifestJson(manifest)));
+    if (!what.empty())
         throw UsageError("{}: holds parts of another experiment: {}; choose another folder with --out",
                          path_.string(), what);
 }
@@ -97,10 +100,7 @@ void ResultsFolder::claim(const std::string& manifest) const {
 void ResultsFolder::checkOwner(const std::string& experiment) const {
     const fs::path manifest = path_ / kManifest;
     if (fs::exists(manifest)) {
-        const auto json = nlohmann::json::parse(readTextFile(manifest), nullptr, false);
-        const bool hasName = json.is_object() && json.contains("config") && json["config"].is_object() &&
-                             json["config"].contains("name") && json["config"]["name"].is_string();
-        const std::string name = hasName ? json["config"]["name"].get<std::string>() : std::string();
+        const std::string name = experimentIn(readTextFile(manifest));
         if (name != experiment)
             throw UsageError(
                 "{}: holds the results of another experiment, '{}'; choose another folder with --out",

@@ -37,7 +37,7 @@ class ResultsFolder {
 
     /// Writes the manifest where there is none, so that all parts of a folder are of one experiment.
     /// @throws UsageError that tells what differs from the one that is there.
-    void claim(const std::string& manifest) const;
+    void claim(const ManifestData& manifest) const;
 
     /// A finished variant of an older run. @throws UsageError naming what differs where it was run with other
     /// inputs.

@@ -223,7 +223,7 @@ RunSummary executePart(PreparedExperiment& prepared, RunSummary summary) {
     manifest.warnings = prepared.warnings();
     {
         const ResultsFolder folder(summary.out, prepared.experiment().setup.general.name, FolderUse::Part);
-        folder.claim(manifestJson(manifest));
+        folder.claim(manifest);
         if (part.kind != Part::Kind::Merge) runPart(part, prepared, folder, summary);
     }
     return part.kind == Part::Kind::Merge ? mergeResults({summary.out}, summary.out, prepared.options())

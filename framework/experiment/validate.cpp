@@ -117,8 +117,8 @@ std::string whyWithoutEffect(const WiredVariant& variant, const std::string& axi
     const bool isPass = dot == std::string::npos;
     if (runsNothingOf(variant, id, isPass ? chosen : Value()))
         return fmt::format("no image depends on '{}'", id);
-    for (const IdlePath& idle : variant.idle)
-        if (idle.path == axis) return idle.parameter.why;
+    for (const IdleParameter& idle : variant.idle)
+        if (idle.name == axis) return idle.why;
     return {};
 }
 
@@ -174,20 +174,21 @@ void checkLightsGoOff(const SceneSettings& scene, const MeasureSettings& measure
 /// writes over another's `final` may be the reason, that is told first.
 void leaveOutEqual(WiredExperiment& wired, const Registry& registry) {
     const std::vector<std::string> keys = sweepKeys(wired.experiment);
-    std::vector<std::vector<std::string>> labels;  // Of each axis, as its values.
-    std::vector<std::vector<Value>> values;
-    for (const auto& [key, axis] : wired.experiment.sweep.members) {
-        labels.push_back(sweepLabels(axis));
-        values.push_back(sweepValues(axis));
+    std::vector<std::map<std::string, Value>> values(keys.size());  // Of each axis, by label.
+    for (size_t a = 0; a < keys.size(); ++a) {
+        const Value& axis = wired.experiment.sweep.members[a].value;
+        const std::vector<std::string> labels = sweepLabels(axis);
+        std::vector<Value> all = sweepValues(axis);
+        for (size_t i = 0; i < labels.size(); ++i) values[a].emplace(labels[i], std::move(all[i]));
     }
     std::set<std::vector<std::string>> seen;
     VariantNames names(wired.experiment);
     std::vector<std::string> reasons(keys.size());
     std::erase_if(wired.variants, [&](WiredVariant& variant) {
         for (size_t a = 0; a < keys.size(); ++a) {
-            const size_t chosen = size_t(std::ranges::find(labels[a], variant.values[a]) - labels[a].begin());
-            if (chosen == labels[a].size()) continue;  // It has none.
-            const std::string why = whyWithoutEffect(variant, keys[a], values[a][chosen]);
+            const auto chosen = values[a].find(variant.values[a]);
+            if (chosen == values[a].end()) continue;  // It has none.
+            const std::string why = whyWithoutEffect(variant, keys[a], chosen->second);
             if (why.empty()) continue;
             variant.values[a] = kNoValue;
             reasons[a] = why;
@@ -243,11 +244,13 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
                              "graph: no pass writes 'final', the image that is compared; these can: {}",
                              fmt::join(registry.writersOf("final"), ", "));
         for (const char* part : {"direct", "indirect"}) graph.checkIsMadeOf("final", part);
+        std::vector<IdleParameter> idle = graph.idle();
         std::vector<std::string> leftOut = graph.keepOnly(comparedPorts());
         Value resolved = graph.resolved();
-        std::vector<IdlePath> idle = idlePaths(variant, registry);
-        wired.variants.push_back(
-            {std::move(variant), std::move(graph), std::move(resolved), std::move(leftOut), std::move(idle)});
+        std::map<std::string, std::vector<std::string>> noise;
+        for (const std::string& port : comparedPorts()) noise[port] = graph.noiseParameters(port);
+        wired.variants.push_back({std::move(variant), std::move(graph), std::move(resolved),
+                                  std::move(leftOut), std::move(noise), std::move(idle)});
     }
     checkOwnValues(experiment, wired.variants, registry);
     if (!experiment.reference.isNull()) {
@@ -288,10 +291,14 @@ std::map<std::string, size_t> variantsWithout(const WiredExperiment& wired) {
 }
 
 std::string overwrittenFinal(const WiredExperiment& wired, const Registry& registry) {
+    std::set<std::string> idle;  // Passes that run in no variant.
+    for (const auto& [id, count] : variantsWithout(wired))
+        if (!runsSomewhere(wired, id)) idle.insert(id);
+    if (idle.empty()) return {};
     for (const WiredVariant& variant : wired.variants)
         for (const Value& entry : variant.setup.graph.items) {
             const std::string id = passId(entry);
-            if (std::ranges::count(variant.leftOut, id) == 0 || runsSomewhere(wired, id)) continue;
+            if (!idle.contains(id) || std::ranges::count(variant.leftOut, id) == 0) continue;
             const PassKind& kind = registry.require(entry.find("pass")->scalar, entry.where);
             const auto isFinal = [](const PortDoc& port) { return port.output && port.name == "final"; };
             if (std::ranges::any_of(kind.ports, isFinal)) return id;

@@ -16,7 +16,9 @@ struct WiredVariant : Variant {
     Graph graph;     ///< Without passes that nothing of what is compared (`final`, `indirect`) depends on.
     Value resolved;  ///< The graph with every default filled in.
     std::vector<std::string> leftOut;  ///< Ids of the passes that the graph does without.
-    std::vector<IdlePath> idle;        ///< What is written in the graph without effect.
+    /// By image ("final", "indirect"): what lowers its noise (Graph::noiseParameters()).
+    std::map<std::string, std::vector<std::string>> noiseParameters;
+    std::vector<IdleParameter> idle;  ///< What is written in the graph without effect: "<id>.<parameter>".
 };
 
 /// An experiment whose graphs are known to be right.

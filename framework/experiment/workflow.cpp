@@ -46,7 +46,7 @@ std::unique_ptr<ProcessLock> writeWorkflow(PreparedExperiment& prepared, const f
                                ProcessLock::IfHeld::Wait);
     ManifestData manifest = prepared.manifest();
     manifest.warnings = prepared.warnings();
-    folder.claim(manifestJson(manifest));
+    folder.claim(manifest);
 
     const fs::path workflow = workflowFolder(results), done = workflow / "done";
     fs::create_directories(done);

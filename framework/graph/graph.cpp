@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <set>
 
@@ -112,32 +111,33 @@ std::string Graph::whyLeftOut(const std::string& id) const {
 }
 
 std::vector<std::string> Graph::keepOnly(const std::vector<std::string>& portNames) {
-    // Backwards from the last writers: a node is needed if it writes nothing, or if a needed one reads what
-    // it writes.
     std::vector<GraphNode>& nodes = impl_->nodes;
-    std::set<const Resource*> wanted;
-    std::set<std::string> open(portNames.begin(), portNames.end());
+    const Needed needed = neededFor(nodes, portNames);
     std::vector<GraphNode> kept;
     std::vector<std::string> dropped;
-    for (size_t n = nodes.size(); n-- > 0;) {
-        bool needed = std::ranges::none_of(nodes[n].ports, &PortInfo::output);
-        for (size_t p = 0; p < nodes[n].ports.size(); ++p) {
-            if (!nodes[n].ports[p].output) continue;
-            const bool isLast = open.erase(nodes[n].ports[p].name) > 0;
-            nodes[n].resources[p]->isRead = isLast || wanted.count(nodes[n].resources[p]) > 0;
-            needed |= nodes[n].resources[p]->isRead;
-        }
-        if (!needed) {
+    for (size_t n = 0; n < nodes.size(); ++n) {
+        if (!needed.nodes[n]) {
             dropped.push_back(nodes[n].id);
             continue;
         }
-        wanted.insert(nodes[n].resources.begin(), nodes[n].resources.end());
+        for (const std::unique_ptr<Resource>& output : nodes[n].outputs)
+            output->isRead = needed.read.contains(output.get());
         kept.push_back(std::move(nodes[n]));
     }
-    nodes.assign(std::make_move_iterator(kept.rbegin()), std::make_move_iterator(kept.rend()));
+    nodes = std::move(kept);
     impl_->books.assign(nodes.size(), {});
-    std::reverse(dropped.begin(), dropped.end());
     return dropped;
+}
+
+std::vector<std::string> Graph::noiseParameters(const std::string& portName) const {
+    const auto& nodes = impl_->nodes;
+    std::vector<std::string> paths;
+    if (!writes(portName)) return paths;
+    const Needed needed = neededFor(nodes, {portName});
+    for (size_t n = 0; n < nodes.size(); ++n)
+        if (needed.nodes[n])
+            for (const std::string& name : nodes[n].lessNoise) paths.push_back(nodes[n].id + "." + name);
+    return paths;
 }
 
 std::vector<std::pair<std::string, std::vector<Aov>>> Graph::aovs() const {
@@ -156,6 +156,14 @@ Value Graph::resolved() const {
     Value list = Value::list();
     for (const GraphNode& node : impl_->nodes) list.items.push_back(node.resolved);
     return list;
+}
+
+std::vector<IdleParameter> Graph::idle() const {
+    std::vector<IdleParameter> all;
+    for (const GraphNode& node : impl_->nodes)
+        for (const IdleParameter& own : node.idle)
+            all.push_back({node.id + "." + own.name, own.where, own.why});
+    return all;
 }
 
 bool Graph::writes(const std::string& portName) const {

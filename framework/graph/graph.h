@@ -54,10 +54,19 @@ class Graph {
     /// The config's list with every default filled in, in execution order.
     Value resolved() const;
 
+    /// The parameters that the config's list names although others leave them without effect:
+    /// "<id>.<parameter>".
+    std::vector<IdleParameter> idle() const;
+
     /// Drops every pass that none of the last writers of `portNames` depends on: it would take time and
     /// memory for nothing. A pass that writes nothing is there for what it reports, and stays. @return the
     /// dropped passes' ids.
     std::vector<std::string> keepOnly(const std::vector<std::string>& portNames);
+
+    /// The parameters whose larger values lower the noise of what is written last under a name,
+    /// "<id>.<parameter>", in execution order; without those that other parameters leave no effect. Empty: it
+    /// has no such noise.
+    std::vector<std::string> noiseParameters(const std::string& portName) const;
 
     /// Checks that what is written last under the name `part` is what the last writer of `whole` reads under
     /// it, unless that one's `inputs` choose another. @throws UsageError with file and line: a pass changes

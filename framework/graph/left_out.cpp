@@ -18,6 +18,26 @@ bool reads(const GraphNode& node, const std::string& port) {
 
 }  // namespace
 
+Needed neededFor(const std::vector<GraphNode>& nodes, const std::vector<std::string>& portNames) {
+    // Backwards from the last writers: a node is needed if it writes nothing, or if a needed one reads what
+    // it writes.
+    Needed needed{std::vector<bool>(nodes.size()), {}};
+    std::set<std::string> open(portNames.begin(), portNames.end());
+    for (size_t n = nodes.size(); n-- > 0;) {
+        const GraphNode& node = nodes[n];
+        bool isNeeded = std::ranges::none_of(node.ports, &PortInfo::output);
+        for (size_t p = 0; p < node.ports.size(); ++p) {
+            if (!node.ports[p].output) continue;
+            if (open.erase(node.ports[p].name) > 0) needed.read.insert(node.resources[p]);
+            isNeeded |= needed.read.contains(node.resources[p]);
+        }
+        needed.nodes[n] = isNeeded;
+        for (size_t p = 0; isNeeded && p < node.ports.size(); ++p)
+            if (!node.ports[p].output) needed.read.insert(node.resources[p]);
+    }
+    return needed;
+}
+
 std::string whyLeftOut(const std::vector<GraphNode>& nodes, const std::string& id) {
     const auto pass = std::ranges::find(nodes, id, &GraphNode::id);
     std::string why =

@@ -22,6 +22,8 @@ struct GraphNode {
     std::vector<std::unique_ptr<Resource>> outputs;  ///< What this pass owns.
     Value resolved;                                  ///< The config's entry with defaults filled in.
     std::vector<std::string> counts;                 ///< Its whole-number parameters that can be lowered.
+    std::vector<std::string> lessNoise;              ///< Parameters whose larger values lower its noise.
+    std::vector<IdleParameter> idle;  ///< What its entry names although it has no effect there.
     TextLocation where;
 };
 

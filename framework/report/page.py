@@ -21,7 +21,7 @@ _MAX_NAMED_POINTS = 12
 _MAX_LISTED = 12  # variants that a note names
 _MAX_ROWS = 500  # of the table that are in sight at first: browsers take long to lay out thousands
 # Of the manifest:
-_SHOWN_ELSEWHERE = ("config", "metrics", "seed_metrics", "temporal_metrics", "warnings", "baselines", "reference", "references", "variants",
+_SHOWN_ELSEWHERE = ("identity", "config", "metrics", "seed_metrics", "temporal_metrics", "warnings", "baselines", "reference", "references", "variants",
                     "noise_parameters", "sessions", "inputs")
 
 

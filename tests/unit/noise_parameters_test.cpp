@@ -1,7 +1,5 @@
 // Parameters that lower noise: which of a graph's passes an image takes it from, and that help texts name
 // them.
-#include "experiment/noise_parameters.h"
-
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -32,8 +30,9 @@ Names noiseOf(const std::string& injection, const std::string& image) {
         "}\n"
         "  - {pass: trace_gather_rays, id: trace}\n  - {pass: gather_rays}\n"
         "  - {pass: direct_shadow_rays, id: direct}\n  - {pass: composite}\n";
-    return noiseParameters(wireExperiment(parseExperiment(config, "x.yaml"), registry).variants.at(0),
-                           registry, image);
+    return wireExperiment(parseExperiment(config, "x.yaml"), registry)
+        .variants.at(0)
+        .graph.noiseParameters(image);
 }
 
 }  // namespace
