@@ -279,3 +279,13 @@ TEST_F(SceneSize, ASceneThatTheDeviceHasNoRoomForIsToldWithAdvice) {
     session.device().setMemoryLimitBytes(limit);
     EXPECT_EQ(session.scene(setup).gpu.triangleCount, 9216u);
 }
+
+TEST(ComposedSceneLoader, SurfacesKeepWhatPlansCounted) {
+    SceneLoader loader({});
+    const auto memo = loader.prepare(settingsOf("")).memo;
+    EXPECT_EQ(loader.prepare(settingsOf("  camera: {position: [0, 1, 3], target: [0, 1, 0]}\n")).memo, memo);
+    EXPECT_NE(loader.prepare(settingsOf("  add: [{builtin: spheres}]\n")).memo, memo);
+    EXPECT_NE(loader.prepare(settingsOf("  moving_spheres: {count: 1}\n  time: 1\n")).memo,
+              loader.prepare(settingsOf("  moving_spheres: {count: 1}\n  time: 2\n")).memo);
+    EXPECT_EQ(loader.prepare(settingsOf("")).memo, memo) << "whatever was prepared meanwhile";
+}
