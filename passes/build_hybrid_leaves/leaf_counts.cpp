@@ -22,6 +22,19 @@ std::vector<uint32_t> weights(const Geometry& geometry) {
     return result;
 }
 
+/// Marks the cells of a level that hold marked ones of the level before.
+/// @param first of the grid's cells.
+void markCoarser(std::vector<bool>& marked, size_t first, uint32_t m, uint32_t level) {
+    const uint32_t edge = GRID_EDGE(m, level - 1), coarseEdge = GRID_EDGE(m, level);
+    size_t from = first + gridCells(m, 0, level - 1);
+    const size_t to = first + gridCells(m, 0, level);
+    for (uint32_t z = 0; z < edge; ++z)
+        for (uint32_t y = 0; y < edge; ++y)
+            for (uint32_t x = 0; x < edge; ++x, ++from)
+                if (marked[from])
+                    marked[to + x / 2 + coarseEdge * (y / 2 + size_t(coarseEdge) * (z / 2))] = true;
+}
+
 }  // namespace
 
 uint64_t LeafCounts::items(uint32_t capacity) const {
@@ -78,15 +91,14 @@ uint64_t countGridCells(const Geometry& geometry, const gpu::VoxelGrid& grid, co
                 std::array<glm::dvec3, 3> inCells;
                 for (size_t k = 0; k < 3; ++k) inCells[k] = (corners[k] - glm::dvec3(voxel)) * double(m);
                 visitVoxels(glm::uvec3(m), inCells, kMargin, [&](glm::ivec3 finest) {
-                    for (uint32_t level = 0; level < levels; ++level) {
-                        const glm::uvec3 cell = glm::uvec3(finest) >> level;
-                        const size_t edge = GRID_EDGE(m, level);
-                        marked[first + gridCells(m, 0, level) + cell.x + edge * (cell.y + edge * cell.z)] =
-                            true;
-                    }
+                    const glm::uvec3 cell(finest);
+                    marked[first + cell.x + size_t(m) * (cell.y + size_t(m) * cell.z)] = true;
                 });
             });
         }
+        for (size_t grid = 0; grid < grids.size(); ++grid)
+            for (uint32_t level = 1; level < levels; ++level)
+                markCoarser(marked, grid * cellsOfGrid, m, level);
         return uint64_t(std::ranges::count(marked, true));
     };
     if (grids.empty()) return 0;
