@@ -44,8 +44,10 @@ def size(value: float | None) -> str:
     return "" if value is None else text.size(value)
 
 
-def rate(value: float | None) -> str:
-    return "" if value is None else text.count(value)
+def count(value: float | None) -> str:
+    if value is None:
+        return ""
+    return str(value) if isinstance(value, int) and value < 1000 else text.count(value)
 
 
 def _status(status: str) -> Cell:
@@ -124,7 +126,7 @@ def passes_table(rows: list[dict]) -> Table:
     for row in rows:
         table.add(row["kind"], row["phase"], row["config"], row["variant"], row["tracer"], number(row["ms"]),
                   number(row["ms_p05"]), number(row["ms_p95"]), str(row["of"]), size(row["memory_bytes"]), size(row["scratch_bytes"]),
-                  number(row["dispatches"]), number(row["host_waits"]), size(row["host_bytes"]))
+                  count(row["dispatches"]), count(row["host_waits"]), size(row["host_bytes"]))
     return table
 
 
@@ -139,15 +141,15 @@ def rays_table(rows: list[dict]) -> Table:
     table = Table("Rays and voxel steps a second, by pass", ["pass", "phase", "tracer", "config, variant", "rays", "rays/s", "steps/s", "ms"],
                   note="The fastest variant, with all else that the pass does in that time.", words=(0, 1, 2, 3))
     for row in rows:
-        table.add(row["kind"], row["phase"], row["tracer"], f"{row['config']}, {row['variant']}", rate(row["rays"]),
-                  rate(row["rays_per_s"]), rate(row["voxel_steps_per_s"]), number(row["ms"]))
+        table.add(row["kind"], row["phase"], row["tracer"], f"{row['config']}, {row['variant']}", count(row["rays"]),
+                  count(row["rays_per_s"]), count(row["voxel_steps_per_s"]), number(row["ms"]))
     return table
 
 
 def benchmarks_table(data: dict) -> Table:
     table = Table("Benchmarks", ["program", "benchmark", "time", "counters"], words=(0, 1, 3))
     for row in data.get("benchmarks", []):
-        counters = ", ".join(f"{name} {rate(value)}" for name, value in row["counters"].items())
+        counters = ", ".join(f"{name} {count(value)}" for name, value in row["counters"].items())
         table.add(row["program"], row["name"], Cell(row["error"], "worse") if row["error"] else f"{number(row['time'])} {row['unit']}", counters)
     return table
 
