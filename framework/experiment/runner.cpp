@@ -1,5 +1,6 @@
 #include "experiment/runner.h"
 
+#include <chrono>
 #include <map>
 #include <utility>
 
@@ -41,6 +42,7 @@ class Run {
     void takeOverFinished();
     void renderMissing();
     void writeTables();
+    void keepTablesFresh();
     std::string buildOf(size_t variant);
     std::vector<std::string> disturbedTimes();
 
@@ -49,8 +51,9 @@ class Run {
     ResultsFolder folder_;
     PartRunner parts_;
     ManifestData manifest_;
-    std::map<size_t, VariantResult> results_;  ///< By index of the variant.
-    std::vector<std::string> disturbed_;       ///< What is to say of times, once all are known.
+    std::map<size_t, VariantResult> results_;            ///< By index of the variant.
+    std::chrono::steady_clock::time_point tablesDue_{};  ///< Tables between variants are not written before.
+    std::vector<std::string> disturbed_;                 ///< What is to say of times, once all are known.
 };
 
 void Run::execute() {
@@ -125,7 +128,7 @@ void Run::renderMissing() {
         if (results_.count(i)) continue;
         if (auto result = parts_.runVariant(variants[i], progress)) {
             results_.emplace(i, std::move(*result));
-            writeTables();
+            keepTablesFresh();
         } else {
             summary_.interrupted = true;
         }
@@ -143,6 +146,16 @@ void Run::writeTables() {
     manifest_.references = parts_.references();
     folder_.writeText("manifest.json", manifestJson(manifest_));
     folder_.writeTables(rows, prepared_.experiment());
+}
+
+/// Writes the tables where that leaves them a twentieth of the run's time at most: each writing is of all
+/// that is finished, so thousands of variants would spend more time on their tables than on themselves.
+void Run::keepTablesFresh() {
+    const auto begin = std::chrono::steady_clock::now();
+    if (begin < tablesDue_) return;
+    writeTables();
+    const auto end = std::chrono::steady_clock::now();
+    tablesDue_ = end + 19 * (end - begin);
 }
 
 /// What the time of a variant's build depends on; "" where its first run is timed, with what comes once.

@@ -101,16 +101,19 @@ def _score(column: str) -> Callable[[Variant, float], float]:
     return lambda variant, _: number(variant.scores.get(column))
 
 
+# Measures that are scores with an interval, and their columns.
+_SCORES = {"bias": "indirect_bias_nrmse", "drift": "indirect_temporal_bias", "flicker": "indirect_temporal_flicker"}
+
 # What is measured of the indirect light, and what that says.
 MEASURES: dict[str, tuple[Callable[[Variant, float], float], str]] = {
     "leak": (_leak, "mean radiance where all is black, over that of the lit side"),
     "energy": (lambda variant, _: abs(number(variant.scores.get("indirect_mean_ratio")) - 1),
                "mean radiance over the reference's, less 1, absolute"),
-    "bias": (_score("indirect_bias_nrmse"), "error apart from noise (bias_nrmse), over the reference's mean"),
+    "bias": (_score(_SCORES["bias"]), "error apart from noise (bias_nrmse), over the reference's mean"),
     "mean": (_mean, "mean radiance over that in the profile's first scene, less 1, absolute"),
     "image": (_image, "root mean square of the difference from the image of the profile's first scene, over its mean"),
-    "drift": (_score("indirect_temporal_bias"), "temporal bias: how much the error grows each frame, over the reference's mean"),
-    "flicker": (_score("indirect_temporal_flicker"), "temporal flicker: how much the error varies from frame to frame"),
+    "drift": (_score(_SCORES["drift"]), "temporal bias: how much the error grows each frame, over the reference's mean"),
+    "flicker": (_score(_SCORES["flicker"]), "temporal flicker: how much the error varies from frame to frame"),
 }
 
 
@@ -155,6 +158,15 @@ def reason_of(reasons: list[dict[str, str]], row: Row, method: str) -> str:
     return fitting[-1] if fitting else UNKNOWN
 
 
+def _undecided(cell: Cell, scores: dict) -> str:
+    """Says so where the limit lies within the value's interval of 95 %; else ""."""
+    column = _SCORES.get(cell.row.measure, "")
+    low, high = number(scores.get(f"{column}_low")), number(scores.get(f"{column}_high"))
+    if not low <= cell.limit <= high:
+        return ""
+    return f"undecided: the interval of 95 %, {100 * low:.2g} to {100 * high:.2g} %, holds the limit"
+
+
 def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, str]]) -> list[Cell]:
     variants = results.variants.to_dict("records")
     if not variants or not {"scene", "method"} <= set(variants[0]):
@@ -173,7 +185,9 @@ def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, st
             truth = base if row.measure in ("mean", "image") else results.reference_folder(name)
             cell = Cell(row, method, MEASURES[row.measure][0](variant, row.scale), "", results.image(name, png),
                         results.image(truth, png) if truth else None)
-            cells.append(replace(cell, reason=reason_of(reasons, row, method)) if cell.fails else cell)
+            if cell.fails:
+                cell = replace(cell, reason=_undecided(cell, entry) or reason_of(reasons, row, method))
+            cells.append(cell)
     return cells
 
 

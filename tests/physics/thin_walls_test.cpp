@@ -3,6 +3,7 @@
 
 #include "scene/shapes.h"
 #include "tests/gpu/radiance_samples.h"
+#include "tests/physics/voxels_read.h"
 #include "tests/support/radiance_layouts.h"
 
 namespace voxray::test {
@@ -84,6 +85,39 @@ TEST(ThinWalls, RaysLeakWhereVoxelsAreShared) {
     // floor and ceiling of both rooms share voxels, by those of the lit room, too.
     EXPECT_EQ(leakOfGatherRays("inject_light_rays, rays_per_light: 262144"), 0.0);
     EXPECT_LT(leakOfGatherRays("inject_voxel_rays, paths_per_point: 16"), 0.005);
+}
+
+/// Area that light can reach, m², front and back: of so many plates in one place, 2 m x 2 m, tilted by
+/// `rise`, and of a plate in front of a part of them, in the same plane.
+double visibleArea(int copies, bool hasPart, float rise) {
+    SceneBuilder b("plates");
+    const uint32_t white = b.lambert("white", glm::vec3(0.8f));
+    const glm::vec3 corner(-1, 0.01f, -1), along(0, rise, 2), across(2, 0.5f * rise, 0);
+    for (int i = 0; i < copies; ++i) b.quad("plate", corner, along, across, white);
+    if (hasPart) b.quad("part", corner + 0.3f * along + 0.2f * across, 0.5f * along, 0.5f * across, white);
+    for (const float y : {-1.3f, 1.29f}) b.box("speck", {0, y, 0}, glm::vec3(0.01f), 0, white);
+    b.pointLight({0, 1, 0}, glm::vec3(1.0f));
+    b.camera({0, 1, 0}, {0, 0, 0.1f}, 60);
+    Chain chain(std::make_shared<SceneState>(evaluate(b.finish(), 0.0)),
+                graphYaml({"voxelize, resolution: 16, visibility_rays: 64"}), 16, 16, 1);
+    const Voxels voxels(chain);
+    double faces = 0;
+    for (const gpu::VoxelMaterial& m : voxels.materials)
+        for (int axis = 0; axis < 3; ++axis) faces += m.unoccludedPositive[axis] + m.unoccludedNegative[axis];
+    return faces * voxels.grid.voxelSize * voxels.grid.voxelSize;
+}
+
+TEST(ThinWalls, SurfacesThatCoincideHaveTheAreaOfOne) {
+    for (const float rise : {0.0f, 0.37f}) {
+        const double one = visibleArea(1, false, rise);
+        EXPECT_NEAR(
+            one / (2 * 2 * glm::length(glm::cross(glm::vec3(0, rise, 2), glm::vec3(1, 0.25f * rise, 0)))),
+            1.0, 0.01)
+            << rise;
+        EXPECT_NEAR(visibleArea(2, false, rise) / one, 1.0, 0.01) << rise;
+        EXPECT_NEAR(visibleArea(3, false, rise) / one, 1.0, 0.01) << rise;
+        EXPECT_NEAR(visibleArea(1, true, rise) / one, 1.0, 0.01) << rise;
+    }
 }
 
 }  // namespace

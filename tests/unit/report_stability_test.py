@@ -104,6 +104,16 @@ class Stability(unittest.TestCase):
         self.profile("bias", {("room", "rays"): (1.0, {})})
         self.assertTrue(self.cells()["room", "bias", "rays"].fails)
 
+    def test_a_cell_whose_interval_holds_the_limit_fails_undecided(self):
+        self.profile("bias", {("room", "rays"): (1.0, {"indirect_bias_nrmse": 0.09, "indirect_bias_nrmse_low": 0.07,
+                                                       "indirect_bias_nrmse_high": 0.11}),
+                              ("room", "cones"): (1.0, {"indirect_bias_nrmse": 0.09, "indirect_bias_nrmse_low": 0.085,
+                                                        "indirect_bias_nrmse_high": 0.11})})
+        cells = self.cells()
+        self.assertTrue(cells["room", "bias", "rays"].fails)
+        self.assertEqual(cells["room", "bias", "rays"].reason, "undecided: the interval of 95 %, 7 to 11 %, holds the limit")
+        self.assertEqual(cells["room", "bias", "cones"].reason, stability.UNKNOWN)
+
     def test_the_tables_show_every_cell(self):
         self.profile("leak", {("wall", "rays"): (0.001, {}), ("wall", "cones"): ("out of memory", {})})
         self.profile("bias", {("room", "rays"): (1.0, {"indirect_bias_nrmse": 0.05})})

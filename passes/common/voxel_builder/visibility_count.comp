@@ -2,34 +2,56 @@
 #extension GL_GOOGLE_include_directive : require
 // Adds probe points to the counts of their voxels, nine each: visible points by face +x -x +y -y +z -z, then all points by axis. A
 // point on a surface with unit normal n counts n_a² along axis a, in fixed point; 16 bits leave room for 65536 points.
+#include "passes/common/voxel_builder/visibility_point.glsl"
 #include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/scene.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/voxels/face.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
+layout(scalar) readonly buffer KeptPoints { ProbePoint data[]; } keptPoints;
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
-readonly buffer Occluded { uint data[]; } occluded;
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 buffer Counts { uint data[]; } counts;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint points;
 } push;
 
+// Of a triangle's barycentric coordinates: nearer to an edge than this, a hit may as well be the next triangle's.
+const float EDGE = 1e-4;
+
+// Whether a ray to the point's side met the point's own surface.
+bool meets(uint ray, uint triangle, vec3 normal, float offset) {
+    const Hit hit = hits.data[ray];
+    if (hit.triangle == NO_HIT || hit.triangle == triangle) return true;
+    // Something in front of it
+    if (hit.t < push.grid.voxelSize - offset) return false;
+    // Another triangle in the same place: of two that face the same way the ray meets one, so that their area counts once. At the edge
+    // between triangles it is no other surface. One that faces the other way is the back of the same sheet, whose area is its own.
+    if (min(min(hit.u, hit.v), 1.0 - hit.u - hit.v) < EDGE) return true;
+    return dot(surfacePoint(hit.triangle, vec2(hit.u, hit.v)).geometricNormal, normal) < 0.0;
+}
+
 void main() {
     const uint i = linearIndex();
     if (i >= push.points) return;
-    const Ray front = rays.data[2u * i];
-    const bool frontVisible = occluded.data[2u * i] == 0u, backVisible = occluded.data[2u * i + 1u] == 0u;
-    const uint voxel = voxelNumber(push.grid, voxelAt(push.grid, front.origin));
+    const ProbePoint point = keptPoints.data[i];
+    const vec3 normal = -rays.data[2u * i].direction;
+    const float offset = surfaceOffset(point.position);
+    const bool frontVisible = meets(2u * i, point.triangle, normal, offset);
+    const bool backVisible = meets(2u * i + 1u, point.triangle, normal, offset);
+    const uint voxel = voxelNumber(push.grid, voxelAt(push.grid, point.position));
     if (voxel == NO_VOXEL) return;
     const uint first = 9u * voxel;
     for (uint axis = 0u; axis < 3u; ++axis) {
-        const uint weight = uint(round(front.direction[axis] * front.direction[axis] * 65536.0));
+        const uint weight = uint(round(normal[axis] * normal[axis] * 65536.0));
         if (weight == 0u) continue;
         atomicAdd(counts.data[first + 6u + axis], weight);
         // The front side turns to the face that the normal points to, the back side to the opposite one.
-        const uint face = faceOf(front.direction, axis);
+        const uint face = faceOf(normal, axis);
         if (frontVisible) atomicAdd(counts.data[first + face], weight);
         if (backVisible) atomicAdd(counts.data[first + (face ^ 1u)], weight);
     }

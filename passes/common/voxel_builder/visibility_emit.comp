@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Two rays from each probe point that lies in one of the voxels, as long as a voxel: along the surface's normal, and against it.
+// Two rays to each probe point that lies in one of the voxels, one to each of its sides, from a voxel's length away.
+#include "passes/common/voxel_builder/visibility_point.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
@@ -10,6 +11,7 @@
 layout(local_size_x = 64) in;
 
 readonly buffer Points { uvec2 data[]; } points;  // Triangle, and number of the point on it.
+layout(scalar) writeonly buffer KeptPoints { ProbePoint data[]; } keptPoints;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 buffer Kept { uint count; } kept;
 layout(push_constant, scalar) uniform Push {
@@ -25,16 +27,18 @@ void main() {
     const SurfacePoint s = surfacePoint(point.x, trianglePoint(sobol2(point.y, hashCombine(push.seed, point.x))));
     if (s.geometricNormal == vec3(0.0)) return;
     const float offset = surfaceOffset(s.position);
-    if (!isOccupied(push.grid, voxelAt(push.grid, s.position + s.geometricNormal * offset))) return;
+    const vec3 inVoxel = s.position + s.geometricNormal * offset;
+    if (!isOccupied(push.grid, voxelAt(push.grid, inVoxel))) return;
 
-    const uint at = 2u * atomicAdd(kept.count, 1u);
+    const uint at = atomicAdd(kept.count, 1u);
+    keptPoints.data[at] = ProbePoint(inVoxel, point.x);
     for (uint side = 0u; side < 2u; ++side) {
         const vec3 normal = side == 0u ? s.geometricNormal : -s.geometricNormal;
         Ray ray;
-        ray.origin = s.position + normal * offset;
-        ray.direction = normal;
+        ray.origin = s.position + normal * push.grid.voxelSize;
+        ray.direction = -normal;
         ray.tMin = 0.0;
-        ray.tMax = push.grid.voxelSize;
-        rays.data[at + side] = ray;
+        ray.tMax = push.grid.voxelSize + offset;
+        rays.data[2u * at + side] = ray;
     }
 }

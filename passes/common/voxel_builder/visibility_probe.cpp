@@ -23,6 +23,11 @@ struct CountPush {
     uint32_t points;
 };
 
+struct ProbePoint {  // As in visibility_point.glsl.
+    glm::vec3 position;
+    uint32_t triangle;
+};
+
 /// Number of probes on a triangle: its area in voxel faces times `pointsPerFace`, rounded so that the mean
 /// over triangles is right: up where the fraction and the triangle's number in the van der Corput sequence
 /// add up to
@@ -52,29 +57,33 @@ Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels,
     stream.fill(counts, 0);
     if (pointsPerFace == 0 || voxels.voxelCount == 0) return counts;
 
-    // In batches: two rays from each point that lies in one of the voxels; whether they are occluded, into
+    // In batches: two rays to each point that lies in one of the voxels; whether they meet its surface, into
     // the counts of the point's voxel. The host makes points of all triangles, the device drops those
     // elsewhere.
     const Buffer batch(context.device, "visibility probes", kBatchPoints * sizeof(glm::uvec2));
     const Buffer kept(context.device, "number of visibility probes", sizeof(uint32_t));
     const Buffer rays(context.device, "visibility rays", 2ull * kBatchPoints * sizeof(Ray));
-    const Buffer occluded(context.device, "visibility results", 2ull * kBatchPoints * sizeof(uint32_t));
+    const Buffer hits(context.device, "visibility results", 2ull * kBatchPoints * sizeof(Hit));
+    const Buffer keptPoints(context.device, "visibility probes in voxels", kBatchPoints * sizeof(ProbePoint));
     std::vector<glm::uvec2> points;  // Triangle, and number of the point on it.
     const auto probe = [&] {
         if (points.empty()) return;
         stream.upload(batch, points);
         stream.fill(kept, 0);
-        stream.dispatch(
-            emit_,
-            voxels.bindings(context.scene.bindings({{"points", batch}, {"rays", rays}, {"kept", kept}})),
-            EmitPush{voxels.grid, uint32_t(points.size()), randomSeed(context.frame)},
-            linearGroups(points.size()));
+        stream.dispatch(emit_,
+                        voxels.bindings(context.scene.bindings(
+                            {{"points", batch}, {"keptPoints", keptPoints}, {"rays", rays}, {"kept", kept}})),
+                        EmitPush{voxels.grid, uint32_t(points.size()), randomSeed(context.frame)},
+                        linearGroups(points.size()));
         points.clear();
         const uint32_t count = stream.readAs<uint32_t>(kept, 1)[0];
         if (count == 0) return;
-        context.tracer.occluded(stream, rays, occluded, 2 * count);
-        stream.dispatch(count_, voxels.bindings({{"rays", rays}, {"occluded", occluded}, {"counts", counts}}),
-                        CountPush{voxels.grid, count}, linearGroups(count));
+        context.tracer.closestHit(stream, rays, hits, 2 * count);
+        stream.dispatch(
+            count_,
+            voxels.bindings(context.scene.bindings(
+                {{"keptPoints", keptPoints}, {"rays", rays}, {"hits", hits}, {"counts", counts}})),
+            CountPush{voxels.grid, count}, linearGroups(count));
     };
     for (const uint32_t triangle : triangles) {
         const uint64_t count = pointsOn(context.frame.scene->geometry, voxels.grid, triangle, pointsPerFace);
@@ -92,8 +101,8 @@ uint64_t VisibilityProbe::bytes(uint32_t voxelCount, uint32_t pointsPerFace) {
     const uint64_t counts = uint64_t(voxelCount) * kCounts * sizeof(uint32_t);
     if (pointsPerFace == 0) return counts;
     return counts + sizeof(uint32_t) +
-           kBatchPoints *
-               (2 * sizeof(glm::uvec2) /* with their staging */ + 2 * (sizeof(Ray) + sizeof(uint32_t)));
+           kBatchPoints * (2 * sizeof(glm::uvec2) /* with their staging */ + sizeof(ProbePoint) +
+                           2 * (sizeof(Ray) + sizeof(Hit)));
 }
 
 }  // namespace voxray

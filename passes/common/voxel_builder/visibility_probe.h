@@ -14,20 +14,22 @@ namespace voxray {
 /// would be half as bright as it is:
 ///
 ///        +-----------------+
-///        |        ^        |    A probe is a point on a surface with two rays of one voxel's length: along
-///        |        | free   |    the normal, and against it. The upper side of this slab is visible. Its
-///     ===|========o========|===   lower side is not: its ray meets the slab's other face.
-///        |        v meets  |
-///     ===|=================|===  slab
-///        +-----------------+  voxel
+///        |        |        |    A probe is a point on a surface with two rays to it, from a voxel's length
+///        in |        v free   |    front of it and behind it. The upper side of this slab is visible. Its
+///        lower
+///     ===|========o========|===   side is not: the ray to it meets the slab's other face before.
+///        |                 |
+///     ===|========o========|===  slab
+///        +--------^--------+  voxel
 ///
 /// Probes are spread evenly over all surfaces. By face, the visible fraction of the area is
 ///
 ///     Σ of n_a² over the points whose side towards the face is visible / Σ of n_a² over all points
 ///
 /// with a the axis of the face and n a point's unit normal, as a surface of area A counts A n_a² at the face.
-/// Gaps narrower than a voxel count as closed. A triangle's probes depend on that triangle alone: they stay
-/// where they are when other surfaces move.
+/// Where surfaces that face the same way coincide, a ray meets one of them, so that their area counts once:
+/// a triangle that is there twice has the area of one. Gaps narrower than a voxel count as closed. A
+/// triangle's probes depend on that triangle alone: they stay where they are when other surfaces move.
 class VisibilityProbe {
  public:
     VisibilityProbe() = default;

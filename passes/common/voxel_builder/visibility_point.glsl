@@ -1,0 +1,12 @@
+// A point on a surface whose two sides are probed.
+#ifndef VOXRAY_VISIBILITY_POINT_GLSL
+#define VOXRAY_VISIBILITY_POINT_GLSL
+
+#extension GL_EXT_scalar_block_layout : require
+
+struct ProbePoint {
+    vec3 position;  // A surface's offset along the triangle's normal: in the voxel that the point counts for.
+    uint triangle;
+};
+
+#endif
