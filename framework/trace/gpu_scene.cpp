@@ -13,6 +13,10 @@ namespace {
 
 static_assert(sizeof(gpu::GpuVertexAttributes) == sizeof(VertexAttributes));
 
+struct GpuSceneGeometry {  // Device addresses, as in SceneGeometry of shaders/scene/scene.glsl.
+    uint64_t positions, attributes, triangles, triangleMaterials;
+};
+
 gpu::GpuTextureRef toGpu(const TextureRef& ref) {
     return {ref.texture < 0 ? NO_TEXTURE : uint32_t(ref.texture), ref.texCoord, ref.transform[0],
             ref.transform[1]};
@@ -168,13 +172,10 @@ uint64_t gpuEnvironmentBytes(const Environment& environment) {
 }
 
 std::vector<Binding> GpuScene::bindings(std::vector<Binding> more) const {
-    more.insert(
-        more.begin(),
-        {ifUsed({"scenePositions", positions}), ifUsed({"sceneAttributes", attributes}),
-         ifUsed({"sceneTriangles", triangles}), ifUsed({"sceneTriangleMaterials", triangleMaterials}),
-         ifUsed({"sceneMaterials", materials}), ifUsed({"sceneLights", lights}),
-         ifUsed({"sceneEmitters", emitters}), ifUsed({"sceneSize", size}),
-         ifUsed({"sceneTextures", textures}), ifUsed({"sceneEnvironment", environment, environmentSampler})});
+    more.insert(more.begin(), {ifUsed({"sceneGeometry", geometry}), ifUsed({"sceneMaterials", materials}),
+                               ifUsed({"sceneLights", lights}), ifUsed({"sceneEmitters", emitters}),
+                               ifUsed({"sceneSize", size}), ifUsed({"sceneTextures", textures}),
+                               ifUsed({"sceneEnvironment", environment, environmentSampler})});
     return more;
 }
 
@@ -187,6 +188,10 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
     scene.attributes = uploaded(device, stream, "scene attributes", g.attributes);
     scene.triangles = uploaded(device, stream, "scene triangles", g.triangles);
     scene.triangleMaterials = uploaded(device, stream, "scene triangle materials", g.triangleMaterials);
+    scene.geometry = uploaded(
+        device, stream, "scene geometry",
+        std::vector<GpuSceneGeometry>{{scene.positions.address(), scene.attributes.address(),
+                                       scene.triangles.address(), scene.triangleMaterials.address()}});
     scene.triangleCount = uint32_t(g.triangles.size());
     scene.size =
         uploaded(device, stream, "scene size", std::vector<float>{glm::length(g.boundsMax - g.boundsMin)});

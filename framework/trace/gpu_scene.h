@@ -15,6 +15,7 @@ struct GpuScene {
     Buffer attributes;         ///< VertexAttributes a vertex.
     Buffer triangles;          ///< 3 uints a triangle.
     Buffer triangleMaterials;  ///< 1 uint a triangle.
+    Buffer geometry;           ///< The addresses of these four, which is what shaders are given.
     Buffer materials;          ///< GpuMaterial each.
     Buffer lights;             ///< GpuLight each; at least one element is allocated.
     Buffer emitters;           ///< GpuEmitter each: emissive triangles; at least one element is allocated.

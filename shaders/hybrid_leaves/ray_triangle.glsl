@@ -29,7 +29,7 @@ void meetTriangle(vec3 origin, vec3 direction, float tMin, uint triangle, bool i
     if (!(t >= tMin && isCloser)) return;
 
     const vec2 barycentrics = vec2(u, v_) / sum;
-    if (isMasked && alphaCut(sceneMaterials.data[sceneTriangleMaterials.data[triangle]], surfacePoint(triangle, barycentrics))) return;
+    if (isMasked && alphaCut(sceneMaterials.data[triangleMaterial(triangle)], surfacePoint(triangle, barycentrics))) return;
     best = Hit(t, triangle, barycentrics.x, barycentrics.y);
 }
 

@@ -4,22 +4,35 @@
 
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_buffer_reference : require
 
 #include "shaders/scene/scene_types.h"
 
-layout(scalar) readonly buffer ScenePositions { vec3 data[]; } scenePositions;
-layout(scalar) readonly buffer SceneAttributes { GpuVertexAttributes data[]; } sceneAttributes;
-layout(scalar) readonly buffer SceneTriangles { uvec3 data[]; } sceneTriangles;
-layout(scalar) readonly buffer SceneTriangleMaterials { uint data[]; } sceneTriangleMaterials;
+// By address, for millions of triangles outgrow what devices bind at once (128 MiB on software Vulkan).
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer VertexPositions { vec3 data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer VertexAttributes { GpuVertexAttributes data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleVertices { uvec3 data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleMaterials { uint data[]; };
+layout(scalar) readonly buffer SceneGeometry {  // GpuSceneGeometry in trace/gpu_scene.cpp.
+    VertexPositions positions;
+    VertexAttributes attributes;
+    TriangleVertices triangles;
+    TriangleMaterials materials;
+} sceneGeometry;
 layout(scalar) readonly buffer SceneMaterials { GpuMaterial data[]; } sceneMaterials;
 layout(scalar) readonly buffer SceneLights { GpuLight data[]; } sceneLights;
 layout(scalar) readonly buffer SceneEmitters { GpuEmitter data[]; } sceneEmitters;
 uniform sampler2D sceneEnvironment;
 layout(set = 1) uniform sampler2D sceneTextures[];
 
-uvec3 triangleVertices(uint triangle) { return sceneTriangles.data[triangle]; }
+uvec3 triangleVertices(uint triangle) { return sceneGeometry.triangles.data[triangle]; }
 
-vec3 vertexPosition(uint vertex) { return scenePositions.data[vertex]; }
+// Into sceneMaterials.
+uint triangleMaterial(uint triangle) { return sceneGeometry.materials.data[triangle]; }
+
+vec3 vertexPosition(uint vertex) { return sceneGeometry.positions.data[vertex]; }
+
+GpuVertexAttributes vertexAttributes(uint vertex) { return sceneGeometry.attributes.data[vertex]; }
 
 // A point on a triangle with everything that its material is looked up by.
 struct SurfacePoint {
@@ -37,9 +50,9 @@ SurfacePoint surfacePoint(uint triangle, vec2 barycentrics) {
     const uvec3 v = triangleVertices(triangle);
     const vec3 w = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
     const vec3 p0 = vertexPosition(v.x), p1 = vertexPosition(v.y), p2 = vertexPosition(v.z);
-    const GpuVertexAttributes a0 = sceneAttributes.data[v.x];
-    const GpuVertexAttributes a1 = sceneAttributes.data[v.y];
-    const GpuVertexAttributes a2 = sceneAttributes.data[v.z];
+    const GpuVertexAttributes a0 = vertexAttributes(v.x);
+    const GpuVertexAttributes a1 = vertexAttributes(v.y);
+    const GpuVertexAttributes a2 = vertexAttributes(v.z);
     SurfacePoint s;
     s.position = w.x * p0 + w.y * p1 + w.z * p2;
     const vec3 cross_ = cross(p1 - p0, p2 - p0);
@@ -52,7 +65,7 @@ SurfacePoint surfacePoint(uint triangle, vec2 barycentrics) {
     s.color = w.x * a0.color + w.y * a1.color + w.z * a2.color;
     const vec4 e1 = a1.texCoords - a0.texCoords, e2 = a2.texCoords - a0.texCoords;
     s.uvDensity = length_ > 0.0 ? abs(e1.xz * e2.yw - e1.yw * e2.xz) / length_ : vec2(0.0);
-    s.material = sceneTriangleMaterials.data[triangle];
+    s.material = triangleMaterial(triangle);
     return s;
 }
 

@@ -8,7 +8,7 @@ layout(location = 1) flat in uint triangle;
 layout(location = 0) out uvec4 seen;
 
 void main() {
-    const GpuMaterial m = sceneMaterials.data[sceneTriangleMaterials.data[triangle]];
+    const GpuMaterial m = sceneMaterials.data[triangleMaterial(triangle)];
     if (m.alphaMode == ALPHA_MASK && alphaCut(m, surfacePoint(triangle, barycentrics))) discard;
     seen = uvec4(triangle, floatBitsToUint(barycentrics), 0u);
 }

@@ -8,7 +8,7 @@ layout(location = 1) flat in uint triangle;
 layout(location = 2) in float depth;
 
 void main() {
-    const GpuMaterial m = sceneMaterials.data[sceneTriangleMaterials.data[triangle]];
+    const GpuMaterial m = sceneMaterials.data[triangleMaterial(triangle)];
     if (m.alphaMode == ALPHA_MASK && alphaCut(m, surfacePoint(triangle, barycentrics))) discard;
     gl_FragDepth = depth;
 }

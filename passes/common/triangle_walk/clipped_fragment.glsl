@@ -44,13 +44,13 @@ TriangleFragment triangleFragment(GridTriangle t, ivec3 permutedVoxel) {
 }
 
 bool isAlphaMasked(TriangleFragment f) {
-    return sceneMaterials.data[sceneTriangleMaterials.data[f.triangle]].alphaMode == ALPHA_MASK;
+    return sceneMaterials.data[triangleMaterial(f.triangle)].alphaMode == ALPHA_MASK;
 }
 
 // Those of the sub-samples that the alpha mask leaves. A fragment without a sub-sample is tested at the point of the triangle that
 // is nearest to the center of the column: the result is CENTER or 0.
 uint opaqueSubSamples(TriangleFragment f, uint subSamples) {
-    const GpuMaterial m = sceneMaterials.data[sceneTriangleMaterials.data[f.triangle]];
+    const GpuMaterial m = sceneMaterials.data[triangleMaterial(f.triangle)];
     return opaqueSubSamples(f.permutedTriangle, m, f.permutedVoxel, subSamples == 0u ? CENTER : subSamples);
 }
 

@@ -37,9 +37,9 @@ uint dominantAxis(vec3 normal) {
 
 // log2 of a voxel's width in a triangle's texture coordinates. @param area of the triangle, in voxel faces
 vec2 texCoordWidth(uvec3 vertices, float area) {
-    const vec4 origin = sceneAttributes.data[vertices.x].texCoords;
-    const vec4 a = sceneAttributes.data[vertices.y].texCoords - origin;
-    const vec4 b = sceneAttributes.data[vertices.z].texCoords - origin;
+    const vec4 origin = vertexAttributes(vertices.x).texCoords;
+    const vec4 a = vertexAttributes(vertices.y).texCoords - origin;
+    const vec4 b = vertexAttributes(vertices.z).texCoords - origin;
     const vec2 twiceArea = abs(vec2(a.x * b.y - a.y * b.x, a.z * b.w - a.w * b.z));
     return 0.5 * log2(max(0.5 * twiceArea / max(area, 1.0e-30), 1.0e-30));
 }
