@@ -11,6 +11,7 @@ import base64
 import csv
 import json
 import math
+import shutil
 import struct
 import subprocess
 import sys
@@ -98,7 +99,8 @@ def config(axis, size, out):
         scene["add"] = [{"file": str(mesh), "transform": {"translate": [x, y, z], "scale": 0.25}}
                         for x in (-0.5, 0.5) for y in (0.5, 1.4) for z in (-0.5, 0.5)]
     elif axis == "voxels":
-        scene, voxels = {"file": "sponza.glb", "lights": [{"directional": [-0.12, -1, -0.08], "irradiance": [10, 10, 10]}]}, size
+        scene, voxels = {"file": "sponza.glb", "lights": [{"directional": [-0.12, -1, -0.08], "irradiance": [10, 10, 10]}],
+                         "camera": {"position": [-8, 2, 0], "target": [0, 2, 0], "fov_deg": 60}}, size
     elif axis == "pixels":
         image, size = size, size[0] * size[1]
     elif axis == "lights":
@@ -112,32 +114,49 @@ def config(axis, size, out):
     graph = [{"pass": "gbuffer"}, {"pass": "voxelize", "resolution": voxels},
              {"pass": "inject_light_rays", "id": "inject", "rays_per_light": rays, "bounces": 3},
              {"pass": "direct_shadow_rays", "id": "direct"}]
-    if axis == "triangles":
-        graph += [{"pass": "trace_gather_rays", "rays_per_block": 16, "block": 8}, {"pass": "gather_rays"}, {"pass": "filter_voxels"},
-                  {"pass": "gather_cones", "cones": 6, "stride": 4, "specular": 0}]
-    graph += [{"pass": "gather_irradiance"}, {"pass": "composite"}]
+    if axis == "voxels":  # counts surface voxels
+        graph += [{"pass": "compare_voxels", "inputs": {"truth": "voxelize.voxels", "voxels": "voxelize.voxels"}}]
+    if axis == "triangles":  # A pass whose output nobody reads does not run: so each gather is a variant.
+        graph += [{"pass": "composite", "id": "chain"}]
+        extra["sweep"] = {"chain": {
+            "lookup": ["gather_irradiance", "composite"],
+            "cones": ["filter_voxels", {"pass": "gather_cones", "cones": 6, "stride": 4, "specular": 0}, "composite"],
+            "rays": [{"pass": "trace_gather_rays", "rays_per_block": 16, "block": 8}, "gather_rays", "filter_irradiance", "composite"]}}
+    else:
+        graph += [{"pass": "gather_irradiance"}, {"pass": "composite"}]
     return {"name": f"{axis}_{size}", "scene": scene, "image": {"width": image[0], "height": image[1]}, "seed": 7, "graph": graph,
             "measure": {"frames": 3, "warmup": 1}, **extra}, size
 
 
+def read(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
 def measures(axis, size, folder):
-    """Rows of a run's results.csv and passes.csv."""
-    with open(folder / "results.csv", encoding="utf-8") as file:
-        result = next(csv.DictReader(file))
-    if result["status"] != "ok":
-        raise RuntimeError(result["error"])
-    with open(folder / "passes.csv", encoding="utf-8") as file:
-        passes = list(csv.DictReader(file))
+    """Rows of a run's files: of the whole those of the first variant, of each pass those of the first variant that has it."""
+    results, passes = read(folder / "results.csv"), read(folder / "passes.csv")
+    for failed in (row for row in results if row["status"] != "ok"):
+        raise RuntimeError(failed["error"])
+    result = results[0]
+    if axis == "voxels":
+        size = next(int(float(row["value"])) for row in read(folder / "values.csv") if row["name"] == "voxels")
+    timed = {}
+    for row in passes:
+        if row["pass"] != "compare_voxels":
+            timed.setdefault(row["pass"], row)
+    passes = [row for row in passes if row["variant"] == result["variant"] and row["pass"] != "compare_voxels"]
     rows = [(axis, size, "build ms", float(result["build_ms"])), (axis, size, "frame ms", float(result["frame_ms_median"])),
             (axis, size, "memory bytes", sum(float(row["memory_bytes"]) for row in passes)),
             (axis, size, "scratch bytes", max(float(row["scratch_bytes"]) for row in passes))]
-    return rows + [(axis, size, f"{row['pass']} ms", float(row["ms_median"])) for row in passes]
+    return rows + [(axis, size, f"{row['pass']} ms", float(row["ms_median"])) for row in timed.values()]
 
 
 def measure(axis, size, options):
     data, size = config(axis, size, options.out)
     path = options.out / f"{data['name']}.yaml"
     path.write_text(json.dumps(data, indent=1))
+    shutil.rmtree(options.out / data["name"], ignore_errors=True)
     scenes = ["--scenes", str(options.scenes)] if options.scenes else []
     commands = {"validate": ["validate", str(path)], "jobs": ["jobs", str(path)]} if axis == "variants" else {
         "run": ["run", str(path), "--out", str(options.out / data["name"])]}
