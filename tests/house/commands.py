@@ -17,7 +17,7 @@ CODE = re.compile(r"`([^`\n]+)`")
 BLOCK = re.compile(r"```\w*\n(.*?)```", re.S)
 TOP = r"(?:configs|docs|framework|notebooks|passes|scripts|shaders|tests)/"
 PATH = re.compile(rf"{TOP}[\w./-]+")
-GPU_BENCH = "scripts/bench_gpu.py"
+SCRIPT_BENCHES = {"gpu": "scripts/bench_gpu.py", "growth": "scripts/growth.py"}  # `./voxray bench NAME` runs the script.
 LAUNCHER = {"test", "bench"}  # Commands of the launcher; all others go to the program.
 
 
@@ -99,9 +99,9 @@ def problem_of(root, words, program):
     command, arguments = words[0], words[1:]
     if is_placeholder(command):
         return None
-    if arguments[:1] == ["gpu"] and command == "bench":
-        known = re.findall(r"--[\w-]+", docs.read(root, GPU_BENCH))
-        return next((f"bench gpu has no option {word}" for word in arguments
+    if command == "bench" and arguments and arguments[0] in SCRIPT_BENCHES:
+        known = re.findall(r"--[\w-]+", docs.read(root, SCRIPT_BENCHES[arguments[0]]))
+        return next((f"bench {arguments[0]} has no option {word}" for word in arguments
                      if word.startswith("--") and word.split("=")[0] not in known), None)
     if command in LAUNCHER:
         known = benchmarks(root) if command == "bench" else test_names(root)
