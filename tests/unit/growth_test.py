@@ -17,7 +17,7 @@ class Fit(unittest.TestCase):
         for power in (0, 1, 1.5, -2):
             self.assertAlmostEqual(growth.exponent([(x, 7 * x**power) for x in (1, 10, 50, 1000)]), power)
 
-    def test_is_the_least_squares_line(self):
+    def test_is_the_slope_of_the_fitted_line(self):
         self.assertAlmostEqual(growth.exponent([(1, 1), (10, 10), (100, 10)]), 0.5)
 
     def test_needs_two_sizes_with_positive_values(self):
