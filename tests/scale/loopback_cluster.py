@@ -75,8 +75,8 @@ class LoopbackCluster:
                                                   stdout=out, stderr=out)
 
     def restart_controller(self, pause):
-        """Kills it and starts it again after some seconds."""
-        self.daemons["slurmctld"].kill()
+        """Ends it, so that it saves its state, and starts it again after some seconds."""
+        self.daemons["slurmctld"].terminate()
         self.daemons["slurmctld"].wait()
         time.sleep(pause)
         self.start("slurmctld", "-D", "-f", self.config)

@@ -3,7 +3,7 @@
 # runs tests/scale/slurm_test.py there and stops it again. Not part of ./voxray test.
 set -euo pipefail
 
-root=$(dirname "$(readlink -f "$0")")/../..
+root=$(realpath "$(dirname "$(readlink -f "$0")")/../..")
 [ "${VOXRAY_SKIP_SETUP:-0}" = 1 ] || "$root/scripts/setup-debian.sh" slurm
 "$root/voxray" --version
 cd "$root/tests/scale"

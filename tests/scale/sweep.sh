@@ -3,7 +3,7 @@
 # (VOXRAY_SWEEP_KILLS, 3). Installs Snakemake from Debian. Not part of ./voxray test, for Snakemake brings 70 packages.
 set -euo pipefail
 
-root=$(dirname "$(readlink -f "$0")")/../..
+root=$(realpath "$(dirname "$(readlink -f "$0")")/../..")
 [ "${VOXRAY_SKIP_SETUP:-0}" = 1 ] || "$root/scripts/setup-debian.sh" sweep
 "$root/voxray" --version
 cd "$root/tests/scale"
