@@ -178,13 +178,19 @@ def chart(rows, path):
     from matplotlib import pyplot
     found = {key: points for key, points in series(rows).items() if key[1].endswith("ms") or key in TARGETS}
     axes = list(dict.fromkeys(axis for axis, _ in found))
-    figure, panels = pyplot.subplots(1, len(axes), figsize=(6 * len(axes), 5), squeeze=False)
-    for panel, axis in zip(panels[0], axes):
+    columns = min(3, len(axes))
+    figure, panels = pyplot.subplots(-(-len(axes) // columns), columns, figsize=(7 * columns, 5 * -(-len(axes) // columns)), squeeze=False)
+    for panel in panels.flat[len(axes):]:
+        panel.axis("off")
+    for panel, axis in zip(panels.flat, axes):
+        panel.set_prop_cycle(color=pyplot.get_cmap("tab20").colors)
         for (_, measure), points in ((key, points) for key, points in found.items() if key[0] == axis):
             slope = exponent(points)
-            panel.loglog(*zip(*sorted(points)), "o-", label=measure if slope is None else f"{measure}: {slope:.2f}")
-        panel.set(xlabel=axis, ylabel="ms, bytes")
-        panel.legend(fontsize=7)
+            panel.loglog(*zip(*sorted(points)), "o--" if measure.endswith("bytes") else "o-",
+                         label=measure if slope is None else f"{measure}: {slope:.2f}")
+        panel.set(xlabel=axis, ylabel="ms; dashed: bytes")
+        panel.legend(fontsize=7, loc="upper left", bbox_to_anchor=(1, 1))
+    figure.tight_layout()
     figure.savefig(path, bbox_inches="tight")
 
 
