@@ -15,6 +15,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/suggest.h"
+#include "config/overrides.h"
+#include "config/yaml.h"
 #include "experiment/report_process.h"
 #include "experiment/runner.h"
 #include "passes/register_passes.h"
@@ -26,6 +28,8 @@ namespace {
 struct StabilityArguments : ConfigArguments {
     std::filesystem::path file;
     std::vector<std::string> methods, scenarios;
+    bool remedies = false;
+    Value changes = Value::map();  ///< Of a remedy: METHODS -> PATH -> value, made after profile and --set.
     RunOptions options;
 };
 
@@ -61,6 +65,48 @@ void checkAsked(const std::vector<std::string>& asked, const std::vector<std::st
             throw UsageError("no {} '{}'{}", what, name, didYouMean(name, names));
 }
 
+/// Sets a parameter in a method's chain of passes. @return whether a pass of the chain has the path's id.
+bool changeChain(Value& chain, const std::string& path, const Value& value) {
+    const size_t dot = path.find('.');
+    const std::string id = path.substr(0, dot);
+    const auto change = [&](Value& entry) {
+        if ((entry.isScalar() ? entry.scalar : passId(entry)) != id || dot == std::string::npos) return false;
+        if (entry.isScalar()) {
+            Value map = Value::map();
+            map.where = entry.where;
+            map.set("pass", entry);
+            entry = std::move(map);
+        }
+        entry.set(path.substr(dot + 1), value);
+        return true;
+    };
+    if (!chain.isList()) return change(chain);
+    return std::ranges::count_if(chain.items, change) > 0;
+}
+
+constexpr const char* kEveryMethod = "every method";
+
+/// Whether an entry of a remedy, the beginning of methods' names, means this method.
+bool isMeant(const std::string& beginning, const std::string& method) {
+    return beginning == kEveryMethod || method.starts_with(beginning);
+}
+
+/// Makes what a remedy changes for the methods that are asked for: in their chains, where a pass there has
+/// the path's id, else in the config.
+void applyRemedy(Value& config, const Value& changes, const std::vector<std::string>& methods,
+                 const std::string& profile) {
+    for (const auto& [beginning, own] : changes.members) {
+        const auto isAskedFor = [&](const std::string& method) { return isMeant(beginning, method); };
+        if (std::ranges::none_of(methods, isAskedFor)) continue;
+        for (const auto& [path, value] : own.members) {
+            bool isInChain = false;
+            for (auto& [method, chain] : namedAxis(config, "method", profile).members)
+                if (isMeant(beginning, method) && changeChain(chain, path, value)) isInChain = true;
+            if (!isInChain) applyOverride(config, path, value);
+        }
+    }
+}
+
 /// The profiles that have any scene that is asked for, with these scenes and methods. A profile's first scene
 /// is what others are compared with: it stays where one of them does.
 /// @throws UsageError for a scene or method that no profile has, and where a profile can't be run.
@@ -76,6 +122,7 @@ std::vector<ProfileRun> profileRuns(const StabilityArguments& arguments, const R
     for (const std::string& profile : profiles) {
         const Experiment whole = loadExperiment(arguments.file, {profile, arguments.config.assignments});
         Value config = whole.config;
+        applyRemedy(config, arguments.changes, arguments.methods, profile);
         Value& sceneAxis = namedAxis(config, "scene", profile);
         Value& methodAxis = namedAxis(config, "method", profile);
         addNames(scenes, sceneAxis);
@@ -106,15 +153,19 @@ std::vector<ProfileRun> profileRuns(const StabilityArguments& arguments, const R
     return runs;
 }
 
-/// Runs the profiles one after the other, then makes the tables. @return the exit status.
-int stability(const StabilityArguments& given) {
-    StabilityArguments arguments = given;
-    if (arguments.file.empty()) arguments.file = sourceRoot() / "configs/stability/matrix.yaml";
-    if (arguments.options.out.empty()) arguments.options.out = std::filesystem::path("results") / "stability";
-    Registry registry;
-    registerPasses(registry);
+/// A file next to the matrix: "matrix.yaml", ".csv" -> "matrix.csv".
+std::filesystem::path fileOfMatrix(const std::filesystem::path& matrix, const char* ending) {
+    return matrix.parent_path() / (matrix.stem().string() + ending);
+}
 
+struct Outcome {
     int status = 0;
+    bool interrupted = false;
+};
+
+/// Runs the profiles one after the other, each into a folder of its own.
+Outcome runProfiles(const StabilityArguments& arguments, const Registry& registry) {
+    Outcome outcome;
     for (ProfileRun& run : profileRuns(arguments, registry)) {
         RunOptions options = arguments.options;
         options.scenes = arguments.scenes;
@@ -124,22 +175,80 @@ int stability(const StabilityArguments& given) {
         if (!options.quiet) fmt::print("Profile {}\n", run.profile);
         const RunSummary summary = runExperiment(std::move(run.wired), options, registry);
         printSummary(summary, options);
-        status = std::max(status, summary.exitStatus());
-        if (summary.interrupted) return status;
+        outcome.status = std::max(outcome.status, summary.exitStatus());
+        outcome.interrupted = summary.interrupted;
+        if (outcome.interrupted) break;
     }
-    if (arguments.options.dryRun) return status;
+    return outcome;
+}
 
-    const std::filesystem::path& out = arguments.options.out;
-    std::filesystem::path limits = arguments.file;
-    limits.replace_extension(".csv");
-    const ScriptEnd end =
-        runReportScript(sourceRoot(), "make_stability.py", {out.string(), limits.string()}, OnInterrupt::End);
+/// Makes the tables. @return their last line.
+std::string makeTables(const StabilityArguments& arguments, bool withRemedies) {
+    std::vector<std::string> words{arguments.options.out.string(),
+                                   fileOfMatrix(arguments.file, ".csv").string()};
+    if (withRemedies) words.push_back("--remedies");
+    const ScriptEnd end = runReportScript(sourceRoot(), "make_stability.py", words, OnInterrupt::End);
     if (end.status == 2) throw UsageError("{}", end.lastLine);
     if (end.status != 0) throw Error("{}", end.lastLine);
+    return end.lastLine;
+}
+
+std::vector<std::string> texts(const Value& list) {
+    std::vector<std::string> found;
+    for (const Value& item : list.items) found.push_back(item.scalar);
+    return found;
+}
+
+bool hasEntryFor(const Value& remedy, const std::string& method) {
+    return std::ranges::any_of(remedy.members, [&](const auto& entry) { return isMeant(entry.key, method); });
+}
+
+/// Runs what failed again, with the changes of each remedy, into remedies/REMEDY/PROFILE.
+Outcome runRemedies(const StabilityArguments& arguments, const Registry& registry) {
+    const Value failing = readYaml(arguments.options.out / "failing.json");
+    Outcome outcome;
+    for (const auto& [name, remedy] : readYaml(fileOfMatrix(arguments.file, "_remedies.yaml")).members) {
+        std::string folder = name;
+        std::ranges::replace(folder, ' ', '_');
+        for (const auto& [profile, cells] : failing.members) {
+            StabilityArguments again = arguments;
+            again.config.profile = profile;
+            again.methods = texts(*cells.find("methods"));
+            std::erase_if(again.methods, [&](const auto& method) { return !hasEntryFor(remedy, method); });
+            if (again.methods.empty()) continue;
+            again.scenarios = texts(*cells.find("scenes"));
+            again.changes = remedy;
+            again.options.out = arguments.options.out / "remedies" / folder;
+            if (!again.options.quiet) fmt::print("Remedy: {}\n", name);
+            const Outcome part = runProfiles(again, registry);
+            outcome.status = std::max(outcome.status, part.status);
+            outcome.interrupted = part.interrupted;
+            if (outcome.interrupted) return outcome;
+        }
+    }
+    return outcome;
+}
+
+/// Runs the profiles, and the remedies of what fails, and makes the tables. @return the exit status.
+int stability(const StabilityArguments& given) {
+    StabilityArguments arguments = given;
+    if (arguments.file.empty()) arguments.file = sourceRoot() / "configs/stability/matrix.yaml";
+    if (arguments.options.out.empty()) arguments.options.out = std::filesystem::path("results") / "stability";
+    Registry registry;
+    registerPasses(registry);
+
+    Outcome outcome = runProfiles(arguments, registry);
+    if (outcome.interrupted || arguments.options.dryRun) return outcome.status;
+    std::string said = makeTables(arguments, false);
+    if (arguments.remedies) {
+        const Outcome again = runRemedies(arguments, registry);
+        outcome.status = std::max(outcome.status, again.status);
+        said = makeTables(arguments, true);
+    }
     if (!arguments.options.quiet)
-        fmt::print("{}{}\nPage: {}\n", readTextFile(out / "stability.md"), end.lastLine,
-                   (out / "stability.html").string());
-    return status;
+        fmt::print("{}{}\nPage: {}\n", readTextFile(arguments.options.out / "stability.md"), said,
+                   (arguments.options.out / "stability.html").string());
+    return outcome.status;
 }
 
 }  // namespace
@@ -162,6 +271,10 @@ void addStabilityCommand(CLI::App& app, int& status) {
                      "The matrix, its limits next to it in a .csv of the same name; default "
                      "configs/stability/matrix.yaml.")
         ->type_name("CONFIG");
+    command->add_flag("--remedies", arguments->remedies,
+                      "Run what fails again with finer settings, one kind at a time, and say which of them "
+                      "lowers each error; they stand next to the matrix, in a file that ends in "
+                      "_remedies.yaml.");
     addConfigOptions(*command, *arguments);
     addRunOptions(
         *command, arguments->options,

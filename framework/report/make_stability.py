@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import csv
 import io
+import json
 import sys
 from pathlib import Path
 
@@ -22,10 +23,14 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("results", type=Path, metavar="RESULTS_DIR", help="holds a results folder for each profile")
     parser.add_argument("limits", type=Path, metavar="LIMITS.csv",
                         help="what is measured in each scene and its limit; known reasons stand next to it, in LIMITS_reasons.csv")
+    parser.add_argument("--remedies", action="store_true", help="say what the runs in RESULTS_DIR/remedies change")
     options = parser.parse_args(arguments)
     try:
         reasons = stability.read_reasons(options.limits.with_name(options.limits.stem + "_reasons.csv"))
-        cells = stability.cells_of(options.results, stability.read_limits(options.limits), reasons)
+        rows = stability.read_limits(options.limits)
+        cells = stability.cells_of(options.results, rows, reasons)
+        if options.remedies:
+            cells = stability.with_remedies(cells, options.results, rows)
         page = stability_page.render(cells, options.results)
     except ReportError as error:
         print(f"stability: {error}", file=sys.stderr)
@@ -36,6 +41,7 @@ def main(arguments: list[str]) -> int:
         write_whole(options.results / "stability.html", page)
         write_whole(options.results / "stability.csv", lines.getvalue())
         write_whole(options.results / "stability.md", "\n".join(stability_page.markdown(cells)) + "\n")
+        write_whole(options.results / "failing.json", json.dumps(stability.failing_of(cells), indent=1) + "\n")
     except OSError as error:
         print(f"stability: {options.results}: cannot write: {error.strerror or error}", file=sys.stderr)
         return 1

@@ -40,7 +40,7 @@ class Row:
 @dataclass(frozen=True)
 class Cell:
     """A method in a row. value: relative, NaN where the method did not run. picture, truth: PNGs, of what it shows and
-    of what it should show, None where there is none."""
+    of what it should show, None where there is none. remedies: the value with finer settings, by their name."""
 
     row: Row
     method: str
@@ -48,6 +48,7 @@ class Cell:
     reason: str
     picture: Path | None
     truth: Path | None
+    remedies: tuple[tuple[str, float], ...] = ()
 
     @property
     def limit(self) -> float:
@@ -56,6 +57,11 @@ class Cell:
     @property
     def fails(self) -> bool:
         return not self.value <= self.limit
+
+    @property
+    def helping(self) -> list[tuple[str, float]]:
+        """Remedies that lower the value by a tenth or more, the best first."""
+        return sorted((entry for entry in self.remedies if entry[1] <= 0.9 * self.value), key=lambda entry: entry[1])
 
 
 @dataclass(frozen=True)
@@ -189,6 +195,28 @@ def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, st
                 cell = replace(cell, reason=_undecided(cell, entry) or reason_of(reasons, row, method))
             cells.append(cell)
     return cells
+
+
+def with_remedies(cells: list[Cell], directory: Path, rows: list[Row]) -> list[Cell]:
+    """The same, with what those that fail are with each remedy, runs in directory/remedies/REMEDY/PROFILE."""
+    found: dict[tuple[Row, str], list[tuple[str, float]]] = {}
+    for folder in sorted((directory / "remedies").glob("*")):
+        for cell in cells_of(folder, rows, []):
+            if not math.isnan(cell.value):
+                found.setdefault((cell.row, cell.method), []).append((folder.name.replace("_", " "), cell.value))
+    return [replace(cell, remedies=tuple(found.get((cell.row, cell.method), ()))) if cell.fails else cell for cell in cells]
+
+
+def failing_of(cells: list[Cell]) -> dict[str, dict[str, list[str]]]:
+    """By profile, the scenes and the methods of cells that fail but run."""
+    failing: dict[str, dict[str, list[str]]] = {}
+    for cell in cells:
+        if cell.fails and not math.isnan(cell.value):
+            own = failing.setdefault(cell.row.profile, {"scenes": [], "methods": []})
+            for key, name in (("scenes", cell.row.scene), ("methods", cell.method)):
+                if name not in own[key]:
+                    own[key].append(name)
+    return failing
 
 
 def cells_of(directory: Path, rows: list[Row], reasons: list[dict[str, str]]) -> list[Cell]:

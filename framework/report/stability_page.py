@@ -9,7 +9,7 @@ from pathlib import Path
 import jinja2
 
 from report import images, text
-from report.stability import MEASURES, Cell, Row
+from report.stability import MEASURES, UNKNOWN, Cell, Row
 
 _HERE = Path(__file__).resolve().parent
 
@@ -17,6 +17,16 @@ _HERE = Path(__file__).resolve().parent
 def percent(value: float) -> str:
     """To two digits, without its sign; "does not run" for NaN."""
     return "does not run" if math.isnan(value) else text.figures(100 * value, 2)
+
+
+def reason(cell: Cell) -> str:
+    """Why a cell fails, as far as it is known: the reason of the table, and what finer settings change."""
+    if not cell.remedies:
+        return cell.reason
+    told = [f"{percent(value)} % with {name}" for name, value in cell.helping]
+    if not told:
+        return f"{cell.reason}; no remedy lowers it: " + ", ".join(f"{percent(value)} % with {name}" for name, value in cell.remedies)
+    return ", ".join(told) if cell.reason == UNKNOWN else f"{cell.reason}; " + ", ".join(told)
 
 
 def limits(row: Row) -> str:
@@ -39,7 +49,12 @@ def summary(cells: list[Cell]) -> str:
     """How many cells there are, and how many fail or are empty."""
     failing = sum(cell.fails for cell in cells)
     empty = sum(cell is None for _, row in rows_of(cells) for cell in row)
-    return f"{failing} of {len(cells)} cells fail" + (f"; {empty} are empty" if empty else "")
+    said = f"{failing} of {len(cells)} cells fail" + (f"; {empty} are empty" if empty else "")
+    if not any(cell.remedies for cell in cells):
+        return said
+    helped = [cell for cell in cells if cell.helping]
+    met = sum(cell.helping[0][1] <= cell.limit for cell in helped)
+    return f"{said}; a remedy lowers {len(helped)} of these, {met} of them below their limit"
 
 
 def markdown(cells: list[Cell]) -> Iterator[str]:
@@ -56,7 +71,7 @@ def csv_lines(cells: list[Cell]) -> Iterator[list]:
     for cell in cells:
         row = cell.row
         value = "" if math.isnan(cell.value) else f"{cell.value:.6g}"
-        yield [row.profile, row.scene, row.measure, cell.method, value, f"{cell.limit:g}", int(cell.fails), cell.reason]
+        yield [row.profile, row.scene, row.measure, cell.method, value, f"{cell.limit:g}", int(cell.fails), reason(cell)]
 
 
 def _table(cells: list[Cell]) -> list[tuple[Row, str, list[tuple[str, str, str]]]]:
@@ -64,7 +79,7 @@ def _table(cells: list[Cell]) -> list[tuple[Row, str, list[tuple[str, str, str]]
     shown = []
     for row, found in rows_of(cells):
         entries = [("", "", "not asked") if cell is None else
-                   (percent(cell.value), "worse" if cell.fails else "", cell.reason or row.why) for cell in found]
+                   (percent(cell.value), "worse" if cell.fails else "", reason(cell) or row.why) for cell in found]
         shown.append((row, limits(row), entries))
     return shown
 
@@ -81,5 +96,5 @@ def render(cells: list[Cell], directory: Path) -> str:
         style_css=(_HERE / "style.css").read_text(encoding="utf-8"), summary=summary(cells), tally=tally,
         methods=methods_of(cells), table=_table(cells), directory=str(directory),
         measures=[(name, meaning) for name, (_, meaning) in MEASURES.items() if any(cell.row.measure == name for cell in cells)],
-        failing=[(cell, percent(cell.value), percent(cell.limit), embedded.get(cell.picture), embedded.get(cell.truth))
+        failing=[(cell, reason(cell), percent(cell.value), percent(cell.limit), embedded.get(cell.picture), embedded.get(cell.truth))
                  for cell in failing])

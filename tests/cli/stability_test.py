@@ -23,6 +23,26 @@ LIMITS = os.path.join(SOURCE, "configs", "stability", "matrix.csv")
 COLUMNS = ["scene", "measure", "method", "value", "noise"]
 ROUNDING = 1e-6  # of processors that round otherwise
 
+OWN_MATRIX = """\
+name: own
+scene: {builtin: cornell}
+image: {width: 16, height: 9}
+graph:
+  - {pass: gbuffer}
+  - {pass: voxelize, resolution: 16}
+  - {pass: inject_light_rays, id: inject, rays_per_light: 4096, bounces: 2}
+  - {pass: direct_shadow_rays, id: direct}
+  - {pass: gather_irradiance, id: method}
+  - {pass: composite}
+reference: {pass: path_trace, spp: 16, bounces: 3}
+sweep:
+  scene: {cornell: {builtin: cornell}}
+  method: {lookup: gather_irradiance, gather rays: [trace_gather_rays, gather_rays, filter_irradiance]}
+measure: {frames: 1, warmup: 0, build_repeats: 0}
+profiles:
+  plain: {seed: 3}
+"""
+
 
 def arguments(out, *more):
     scenarios = [word for name in SCENARIOS for word in ("--scenario", name)]
@@ -61,6 +81,27 @@ class Stability(CommandTest):
             self.assertIn(part, self.expect(2, "stability", "--dry-run", *words).stderr)
         plain = self.write("plain.yaml", "name: plain\nscene: {builtin: cornell}\ngraph: [{pass: gbuffer}]\nprofiles: {a: {seed: 1}}\n")
         self.assertIn("needs an axis 'scene'", self.expect(2, "stability", "--config", plain).stderr)
+
+
+    def test_remedies_run_what_fails_again(self):
+        """Both methods fail a limit of 0; the remedy has an entry for one of them, whose chain it changes."""
+        self.write("own.yaml", OWN_MATRIX)
+        self.write("own.csv", "profile,scene,measure,methods,limit,scale,why\nplain,cornell,energy,,0,,no error at all\n")
+        self.write("own_remedies.yaml", "more rays:\n  ga: {trace_gather_rays.rays_per_block: 256, inject.rays_per_light: 65536}\n")
+        words = ["stability", "--config", "own.yaml", "--tracer", "embree", "--quiet", "--out", "out"]
+        self.expect(0, *words, "--remedies")
+        found = read(self.path("out", "stability.csv"))
+        self.assertIn("more rays", found["cornell", "energy", "gather rays"]["reason"])
+        self.assertEqual(found["cornell", "energy", "lookup"]["reason"], "not known")
+        again = ("out", "remedies", "more_rays", "plain")
+        self.assertEqual([row["method"] for row in self.rows(*again, "results.csv")], ["gather rays"])
+        chain, = self.json(*again, "manifest.json")["config"]["sweep"]["method"].values()
+        self.assertEqual(chain[0], {"pass": "trace_gather_rays", "rays_per_block": 256})
+        # Asked without remedies, nothing of earlier ones is told.
+        self.expect(0, *words, "--resume")
+        self.assertEqual(read(self.path("out", "stability.csv"))["cornell", "energy", "gather rays"]["reason"], "not known")
+        self.write("own_remedies.yaml", "more rays:\n  ga: {trace_gather_ray.rays_per_block: 256}\n")
+        self.assertIn("trace_gather_ray", self.expect(2, *words, "--remedies", "--resume").stderr)
 
 
 def record():

@@ -3,6 +3,7 @@
 import contextlib
 import csv
 import io
+import json
 import sys
 import tempfile
 import unittest
@@ -113,6 +114,24 @@ class Stability(unittest.TestCase):
         self.assertTrue(cells["room", "bias", "rays"].fails)
         self.assertEqual(cells["room", "bias", "rays"].reason, "undecided: the interval of 95 %, 7 to 11 %, holds the limit")
         self.assertEqual(cells["room", "bias", "cones"].reason, stability.UNKNOWN)
+
+    def test_remedies_say_what_lowers_a_cell_that_fails(self):
+        bias = {"indirect_bias_nrmse": 0.2}
+        self.profile("bias", {("room", "rays"): (1.0, bias), ("room", "cones"): (1.0, bias), ("room", "lookup"): (1.0, {"indirect_bias_nrmse": 0.01})})
+        self.profile("moving", {("path", "rays"): (1.0, {"indirect_temporal_flicker": 0.01})})
+        for name, rays, cones in (("finer_voxels", 0.1, 0.19), ("more_rays", 0.05, 0.21)):
+            self.profile(f"remedies/{name}/bias", {("room", "rays"): (1.0, {"indirect_bias_nrmse": rays}),
+                                                   ("room", "cones"): (1.0, {"indirect_bias_nrmse": cones})})
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            self.assertEqual(make_stability.main([str(self.root), str(self.limits), "--remedies"]), 0)
+        self.assertEqual(said.getvalue(), "2 of 4 cells fail; 2 are empty; a remedy lowers 1 of these, 1 of them below their limit\n")
+        with open(self.root / "stability.csv", newline="", encoding="utf-8") as file:
+            reasons = {(row["scene"], row["method"]): row["reason"] for row in csv.DictReader(file)}
+        self.assertEqual(reasons, {("room", "rays"): "5.0 % with more rays, 10 % with finer voxels",
+                                   ("room", "cones"): "not known; no remedy lowers it: 19 % with finer voxels, 21 % with more rays",
+                                   ("room", "lookup"): "", ("path", "rays"): ""})
+        self.assertEqual(json.loads((self.root / "failing.json").read_text(encoding="utf-8")),
+                         {"bias": {"scenes": ["room"], "methods": ["rays", "cones"]}})
 
     def test_the_tables_show_every_cell(self):
         self.profile("leak", {("wall", "rays"): (0.001, {}), ("wall", "cones"): ("out of memory", {})})
