@@ -1,0 +1,120 @@
+#include "passes/common/octree/brick_octree_count.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+#include "base/parallel.h"
+#include "passes/common/voxels/triangle_voxels.h"
+
+namespace voxray {
+namespace {
+
+/// Samples of a pixel, in sixteenths of its width from its center.
+constexpr std::array<glm::ivec2, 1> kCenter{{{0, 0}}};
+constexpr std::array<glm::ivec2, 8> kEight{
+    {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}}};
+
+/// Visits the voxels of a triangle's fragments, inside of the grid or not.
+template <typename Visit>
+void visitFragments(const std::array<glm::dvec3, 3>& corners, glm::ivec3 resolution,
+                    std::span<const glm::ivec2> samples, const Visit& visit) {
+    const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const glm::dvec3 size = glm::abs(normal);
+    const int w = size.z >= size.x && size.z >= size.y ? 2 : size.y >= size.x ? 1 : 0;
+    const int u = (w + 1) % 3, v = (w + 2) % 3;
+    if (size[w] <= 0) return;
+    const double sign = normal[w] > 0 ? 1.0 : -1.0;
+    const auto isCovered = [&](double x, double y) {
+        for (size_t i = 0; i < 3; ++i) {
+            const glm::dvec3 from = corners[i], along = corners[(i + 1) % 3] - from;
+            if (sign * (along[u] * (y - from[v]) - along[v] * (x - from[u])) < 0) return false;
+        }
+        return true;
+    };
+
+    const glm::dvec3 low = glm::min(corners[0], glm::min(corners[1], corners[2]));
+    const glm::dvec3 high = glm::max(corners[0], glm::max(corners[1], corners[2]));
+    const glm::ivec3 first = glm::max(glm::ivec3(glm::floor(low)), 0);
+    const glm::ivec3 last = glm::min(glm::ivec3(glm::floor(high)), resolution - 1);
+    for (int y = first[v]; y <= last[v]; ++y)
+        for (int x = first[u]; x <= last[u]; ++x) {
+            const glm::dvec2 center(x + 0.5, y + 0.5);
+            if (std::ranges::none_of(samples, [&](glm::ivec2 s) {
+                    return isCovered(center.x + s.x / 16.0, center.y + s.y / 16.0);
+                }))
+                continue;
+            const double depth =
+                corners[0][w] -
+                (normal[u] * (center.x - corners[0][u]) + normal[v] * (center.y - corners[0][v])) / normal[w];
+            glm::ivec3 voxel;
+            voxel[u] = x;
+            voxel[v] = y;
+            voxel[w] = int(std::floor(depth));
+            visit(voxel);
+        }
+}
+
+/// The voxels that `visitOf(corners, mark)` finds of each triangle.
+template <typename VisitOf>
+VoxelBits voxelsOf(const Geometry& geometry, const gpu::VoxelGrid& grid, const VisitOf& visitOf) {
+    VoxelBits bits(grid.resolution);
+    parallelRanges(geometry.triangles.size(), 1024, [&](size_t begin, size_t end) {
+        for (size_t t = begin; t < end; ++t)
+            visitOf(cornersInVoxels(geometry, grid, uint32_t(t)), [&](glm::ivec3 voxel) {
+                if (bits.isInside(voxel)) bits.mark(voxel);
+            });
+    });
+    return bits;
+}
+
+}  // namespace
+
+uint64_t BrickOctreeCount::nodes() const {
+    uint64_t sum = 0;
+    for (const Level& level : levels) sum += level.nodes;
+    return sum;
+}
+
+uint64_t BrickOctreeCount::bricks() const {
+    uint64_t sum = 0;
+    for (const Level& level : levels) sum += level.bricks;
+    return sum;
+}
+
+std::vector<VoxelBits> brickLevels(VoxelBits voxels, bool neighbors) {
+    std::vector<VoxelBits> levels;
+    while (true) {
+        levels.push_back(neighbors ? voxels.withNeighbors() : voxels);
+        if (voxels.size() == glm::uvec3(1)) return levels;
+        voxels = voxels.coarser();
+    }
+}
+
+BrickOctreeCount countBrickOctree(VoxelBits voxels, bool neighbors) {
+    BrickOctreeCount count;
+    for (const VoxelBits& bricks : brickLevels(voxels, neighbors)) {
+        count.levels.push_back({voxels.count(), bricks.count(), 0});
+        voxels = voxels.coarser();
+    }
+    for (size_t level = 0; level + 1 < count.levels.size(); ++level)
+        count.levels[level].nodes = 8 * count.levels[level + 1].bricks;
+    count.levels.back().nodes = 1;
+    return count;
+}
+
+VoxelBits rasterizedVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid, uint32_t samples) {
+    return voxelsOf(geometry, grid, [&](const std::array<glm::dvec3, 3>& corners, const auto& mark) {
+        visitFragments(corners, glm::ivec3(grid.resolution),
+                       samples == 1 ? std::span<const glm::ivec2>(kCenter) : kEight, mark);
+    });
+}
+
+VoxelBits metVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
+    return voxelsOf(geometry, grid, [&](const std::array<glm::dvec3, 3>& corners, const auto& mark) {
+        visitVoxels(grid.resolution, corners, 0, mark);
+    });
+}
+
+}  // namespace voxray
