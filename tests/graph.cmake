@@ -11,7 +11,7 @@ voxray_tests(chain SHARDS 12
            physics/moving_clusters_test.cpp physics/moving_scene_test.cpp physics/moving_voxels_test.cpp physics/octree_test.cpp
            physics/radiance_cache_test.cpp physics/radiance_voxels_test.cpp physics/radiosity_test.cpp
            physics/seen_points_test.cpp physics/shadow_map_test.cpp physics/specular_cones_test.cpp
-           physics/show_voxels_test.cpp physics/stable_light_test.cpp physics/svo_layout_test.cpp physics/textures_layout_test.cpp physics/thin_walls_test.cpp
+           physics/show_voxels_test.cpp physics/stable_light_test.cpp physics/svo_bricks_layout_test.cpp physics/svo_layout_test.cpp physics/textures_layout_test.cpp physics/thin_walls_test.cpp
            physics/voxel_accumulator_test.cpp
            physics/voxel_ends_test.cpp physics/voxel_march_test.cpp physics/voxel_visibility_test.cpp physics/voxel_packing_test.cpp
            physics/voxelize_exact_test.cpp physics/voxelize_material_test.cpp

@@ -17,7 +17,9 @@ float radianceUnit(const SceneState& state) {
 }  // namespace
 
 FilterVoxels::FilterVoxels(const Params& params)
-    : params_(params), storage_(makeRadianceStorage(params.layout, params)), bounces_(params.bounceCones) {}
+    : params_(params),
+      storage_(makeRadianceStorage(params.layout, params, params)),
+      bounces_(params.bounceCones) {}
 
 void FilterVoxels::declare(PassBuilder& builder) {
     voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");

@@ -7,8 +7,10 @@ std::unique_ptr<RadianceStorage> makeDenseStorage();
 std::unique_ptr<RadianceStorage> makeSvoStorage();
 std::unique_ptr<RadianceStorage> makeClipmapStorage(uint32_t side);
 std::unique_ptr<RadianceStorage> makeTexturesStorage();
+std::unique_ptr<RadianceStorage> makeSvoBricksStorage(const BrickParams& params);
 
-std::unique_ptr<RadianceStorage> makeRadianceStorage(RadianceLayout layout, const ClipmapParams& clipmap) {
+std::unique_ptr<RadianceStorage> makeRadianceStorage(RadianceLayout layout, const ClipmapParams& clipmap,
+                                                     const BrickParams& bricks) {
     switch (layout) {
         case RadianceLayout::Dense:
             return makeDenseStorage();
@@ -18,6 +20,8 @@ std::unique_ptr<RadianceStorage> makeRadianceStorage(RadianceLayout layout, cons
             return makeClipmapStorage(clipmap.clipmapResolution);
         case RadianceLayout::Textures:
             return makeTexturesStorage();
+        case RadianceLayout::SvoBricks:
+            return makeSvoBricksStorage(bricks);
     }
     return nullptr;
 }

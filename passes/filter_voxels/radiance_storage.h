@@ -33,8 +33,20 @@ class RadianceStorage {
     virtual void close(CommandStream&, RadianceVoxels&) {}
 };
 
+/// Parameters of the layout svo_bricks; a pass adds schema() to its own with std::tuple_cat.
+struct BrickParams {
+    bool brickNeighbors = true;
+    static constexpr auto schema() {
+        return std::tuple{field("brick_neighbors", &BrickParams::brickNeighbors,
+                                "Whether the 26 neighbours of each node that surfaces pass through are made "
+                                "to exist. Off, values that bricks share differ where one is missing, as in "
+                                "Arnebäck 2017, figure 28.")};
+    }
+};
+
 /// The storage of a layout.
-std::unique_ptr<RadianceStorage> makeRadianceStorage(RadianceLayout layout, const ClipmapParams& clipmap);
+std::unique_ptr<RadianceStorage> makeRadianceStorage(RadianceLayout layout, const ClipmapParams& clipmap,
+                                                     const BrickParams& bricks);
 
 /// What shaders/radiance/surface_radiance.glsl reads.
 std::vector<Binding> surfaceRadianceBindings(const SurfaceVoxels& voxels, const SurfaceLight& light);

@@ -29,6 +29,8 @@ uvec3 levelResolution(RadianceGrid g, uint level) { return (g.resolution + ((1u 
 #include "shaders/radiance/radiance_textures.glsl"
 #elif defined(RADIANCE_SVO)
 #include "shaders/radiance/radiance_svo.glsl"
+#elif defined(RADIANCE_SVO_BRICKS)
+#include "shaders/radiance/radiance_svo_bricks.glsl"
 #elif defined(RADIANCE_CLIPMAP)
 #include "shaders/radiance/radiance_clipmap.glsl"
 #endif

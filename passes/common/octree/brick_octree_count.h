@@ -11,7 +11,7 @@ namespace voxray {
 
 /// The octree of Arnebäck 2017, chapter 3, as published: nodes of 11 words in blocks of eight siblings, and
 /// for each node that is subdivided or a leaf a brick of 3x3x3 values of 8 bits a channel at its corners, the
-/// middles of its edges and faces, and its center.
+/// centers of its edges and faces, and its own.
 constexpr uint64_t kBrickNodeBytes = 11 * sizeof(uint32_t), kBrickBytes = 27 * sizeof(uint32_t);
 
 /// What such an octree holds: all that its memory depends on.

@@ -11,18 +11,21 @@ namespace voxray {
 
 /// How radiance voxels are stored. Shaders of layout `x` are compiled with RADIANCE_X
 /// (shaders/radiance/radiance_voxels.glsl).
-enum class RadianceLayout { Dense, Svo, Clipmap, Textures };
+enum class RadianceLayout { Dense, Svo, Clipmap, Textures, SvoBricks };
 template <>
 struct EnumNames<RadianceLayout> {
     static constexpr std::array names{
         std::pair{RadianceLayout::Dense, "dense"}, std::pair{RadianceLayout::Svo, "svo"},
-        std::pair{RadianceLayout::Clipmap, "clipmap"}, std::pair{RadianceLayout::Textures, "textures"}};
+        std::pair{RadianceLayout::Clipmap, "clipmap"}, std::pair{RadianceLayout::Textures, "textures"},
+        std::pair{RadianceLayout::SvoBricks, "svo_bricks"}};
 };
 constexpr const char* kRadianceLayoutHelp =
     "How voxels are stored: dense, a full grid for each level; svo, a sparse octree: only what surfaces pass "
     "through; clipmap, of each level a window round the camera, which follows it in each frame; "
     "textures, dense in a 3D texture that the device's sampler filters, to compare hardware filtering with "
-    "ours.";
+    "ours; svo_bricks, an octree as published in Arnebäck 2017, for comparison with svo: 8 bits a channel, "
+    "one "
+    "direction, surfaces that stay.";
 
 /// Radiance that leaves surfaces and their opacity, prefiltered at all scales. A shader that samples it is
 /// compiled with defines(), includes shaders/radiance/radiance_voxels.glsl and is given bindings(): it is

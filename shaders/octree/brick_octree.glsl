@@ -1,0 +1,35 @@
+// The octree of bricks as published (Arnebäck 2017, section 3.1.1): bricks of 3x3x3 values of 8 bits a channel stand at a node's
+// corners, the centers of its edges and faces, and its own, so that a brick alone can be interpolated in.
+//
+//        a --- b --- c --- d --- e       Two nodes. c, h and m stand in both bricks, and must be equal there.
+//        |     |     |     |     |
+//        f --- g --- h --- i --- j
+//        |     |     |     |     |
+//        k --- l --- m --- n --- o
+#ifndef VOXRAY_BRICK_OCTREE_GLSL
+#define VOXRAY_BRICK_OCTREE_GLSL
+
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
+
+#include "shaders/octree/brick_octree_types.h"
+#include "shaders/octree/octree_cells.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BrickNodes { BrickNode data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Bricks { uint data[]; };
+
+// Where a value of a brick stands; `at`: 0 to 2 along each axis.
+uint brickIndex(uint brick, ivec3 at) { return brick * BRICK_VALUES + uint((at.z * 3 + at.y) * 3 + at.x); }
+
+// The brick of a node `levels` below the root, by descent; NO_BRICK where there is none. `cell`: its place on its level.
+uint findBrick(BrickNodes nodes, ivec3 cell, uint levels) {
+    uint node = 0u;
+    for (uint below = levels; below > 0u; --below) {
+        const uint first = nodes.data[node].firstChild;
+        if (first == NO_CHILDREN) return NO_BRICK;
+        node = first + octantOf(cell >> (below - 1u));
+    }
+    return nodes.data[node].brick;
+}
+
+#endif
