@@ -249,7 +249,7 @@ uint32_t GatherMirror::end(PassContext& context, const gpu::MirrorBatch& batch, 
     CommandStream& stream = context.stream;
     stream.fill(counts_, 0);
     std::vector<Binding> bindings = context.scene.bindings({{"grazing", grazing_},
-                                                            {"faceIrradiance", faces_.buffer()},
+                                                            faces_.binding(),
                                                             {"grid", grid_},
                                                             {"paths", paths_[depth % 2]},
                                                             {"rays", rays_[depth % 2]},

@@ -34,7 +34,7 @@ void GatherRays::record(PassContext& context) {
         context.stream.upload(grid_, std::vector{voxels.grid});
         facesVersion_ = version;
     }
-    gather_.record(context, voxels.bindings({{"faceIrradiance", faces_.buffer()}, {"grid", grid_}}));
+    gather_.record(context, voxels.bindings({faces_.binding(), {"grid", grid_}}));
 }
 
 }  // namespace voxray

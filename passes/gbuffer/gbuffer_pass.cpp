@@ -29,16 +29,6 @@ constexpr Target kTargets[] = {{"gbuffer position", &GBuffer::position, kWide, t
                                {"gbuffer specular", &GBuffer::specular, kHalf, true},
                                {"gbuffer fresnel", &GBuffer::fresnel, kByte, true}};
 
-/// As in view.glsl.
-struct View {
-    glm::vec3 origin;
-    uint32_t width;
-    glm::vec3 forward;
-    uint32_t height;
-    glm::vec3 right;
-    glm::vec3 up;
-};
-
 struct RaysPush {
     View view;
     uint32_t firstTexel;
@@ -48,6 +38,10 @@ struct RaysPush {
 struct SurfacePush {
     glm::mat4 viewProjection;
     View view;
+};
+
+struct MotionPush {
+    View view, previousView;
 };
 
 View viewOf(const Frame& frame, glm::uvec2 extent) {
@@ -91,7 +85,6 @@ void GBufferPass::plan(PassPlan& plan) {
         plan.image(motion.motion, "motion", targetDesc(extent, kWide));
         plan.image(motion.previous, "previous position", targetDesc(extent, kWide));
         plan.buffer(previousPositions_, "previous vertices", geometry.positions.size() * sizeof(glm::vec3));
-        plan.buffer(previousView_, "previous view", sizeof(View));
         plan.buffer(instanceStarts_, "instances", geometry.instances.size() * sizeof(uint32_t));
     }
     if (params_.method == GBufferMethod::Raster) {
@@ -116,7 +109,7 @@ void GBufferPass::prepare(PassSetup& setup) {
         for (const InstanceRange& range : setup.frame.scene->geometry.instances)
             starts.push_back(range.firstTriangle);
         setup.stream.upload(instanceStarts_, starts);
-        sceneVersion_.reset();
+        before_.reset();
     }
     if (params_.method == GBufferMethod::Rays) {
         aim_ = makeComputeProgram(setup.device, compile("aim.comp"));
@@ -142,10 +135,10 @@ void GBufferPass::record(PassContext& context) {
 }
 
 void GBufferPass::beginMotion(PassContext& context) {
-    if (sceneVersion_) return;
+    if (before_) return;
     const glm::uvec2 extent = gbufferExtent(context.frame, params_.samplesPerPixelEdge);
     context.stream.copy(context.scene.positions, previousPositions_, previousPositions_.bytes());
-    context.stream.upload(previousView_, std::vector{viewOf(context.frame, extent)});
+    before_ = {viewOf(context.frame, extent), context.frame.sceneVersion};
 }
 
 void GBufferPass::endMotion(PassContext& context) {
@@ -155,15 +148,13 @@ void GBufferPass::endMotion(PassContext& context) {
     context.stream.dispatch(findMotion_,
                             {{"position", context.get(gbuffer_).position, sampler_},
                              {"previous", motion.previous, sampler_},
-                             {"motion", motion.motion},
-                             {"previousView", previousView_}},
-                            view, pixelGroups(extent.x, extent.y));
+                             {"motion", motion.motion}},
+                            MotionPush{view, before_->view}, pixelGroups(extent.x, extent.y));
 
     // For the next frame
-    if (sceneVersion_ != context.frame.sceneVersion)
+    if (before_->sceneVersion != context.frame.sceneVersion)
         context.stream.copy(context.scene.positions, previousPositions_, previousPositions_.bytes());
-    context.stream.upload(previousView_, std::vector{view});
-    sceneVersion_ = context.frame.sceneVersion;
+    before_ = {view, context.frame.sceneVersion};
 }
 
 void GBufferPass::trace(PassContext& context) {
@@ -186,7 +177,7 @@ void GBufferPass::trace(PassContext& context) {
                                                                 {"fresnel", g.fresnel}});
         if (hasMotion(context)) {
             bindings.emplace_back("previous", context.get(motion_).previous);
-            bindings.emplace_back("previousPositions", previousPositions_);
+            bindings.emplace_back("PreviousPositionsAt", previousPositions_.at());
             bindings.emplace_back("instanceStarts", instanceStarts_);
         }
         context.stream.dispatch(shade_, bindings, push, linearGroups(batch));
@@ -213,7 +204,7 @@ void GBufferPass::rasterize(PassContext& context) {
     std::vector<Binding> bindings = context.scene.bindings({});
     if (hasMotion(context)) {
         targets.colors.push_back({&context.get(motion_).previous, VkClearColorValue{}});
-        bindings.emplace_back("previousPositions", previousPositions_);
+        bindings.emplace_back("PreviousPositionsAt", previousPositions_.at());
         bindings.emplace_back("instanceStarts", instanceStarts_);
     }
     targets.depth = &depth_;

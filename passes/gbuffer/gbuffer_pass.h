@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "passes/common/compute/large_buffer.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/view/surface_motion.h"
 
@@ -22,6 +23,16 @@ template <>
 struct EnumNames<NormalMaps> {
     static constexpr std::array names{std::pair{NormalMaps::Filtered, "filtered"},
                                       std::pair{NormalMaps::Sharp, "sharp"}};
+};
+
+/// How the camera looks at the image plane, as in view.glsl.
+struct View {
+    glm::vec3 origin;
+    uint32_t width;
+    glm::vec3 forward;
+    uint32_t height;
+    glm::vec3 right;
+    glm::vec3 up;
 };
 
 /// What the camera sees, by camera rays through the stream interface or by raster.
@@ -78,10 +89,13 @@ class GBufferPass final : public Pass {
     // Of motion, where it is read
     Program findMotion_;
     Sampler sampler_;
-    Buffer previousPositions_;              ///< Of vertices, m.
-    Buffer previousView_;                   ///< View.
-    Buffer instanceStarts_;                 ///< First triangle of each mesh instance.
-    std::optional<uint64_t> sceneVersion_;  ///< Of previousPositions_; none before the first frame.
+    LargeBuffer previousPositions_;  ///< Of vertices, m.
+    Buffer instanceStarts_;          ///< First triangle of each mesh instance.
+    struct Before {
+        View view;
+        uint64_t sceneVersion;  ///< Of previousPositions_.
+    };
+    std::optional<Before> before_;  ///< Of the last frame; none before the first one.
 };
 
 }  // namespace voxray

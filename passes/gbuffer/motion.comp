@@ -7,8 +7,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D position;
 uniform sampler2D previous;
 layout(rgba32f) writeonly uniform image2D motion;
-layout(scalar) readonly buffer PreviousView { View data; } previousView;
-layout(push_constant, scalar) uniform Push { View view; } push;
+layout(push_constant, scalar) uniform Push {
+    View view;
+    View previousView;
+} push;
 
 // Place in the image, in texels; out of it for a point that is not before the camera.
 vec2 placeInImage(View view, vec3 position) {
@@ -28,6 +30,6 @@ void main() {
     // Both places are rounded alike, so that what stands still has not moved.
     vec2 moved = vec2(0.0);
     if (before.w > 0.0)
-        moved = placeInImage(previousView.data, before.xyz) - placeInImage(push.view, texelFetch(position, texel, 0).xyz);
+        moved = placeInImage(push.previousView, before.xyz) - placeInImage(push.view, texelFetch(position, texel, 0).xyz);
     imageStore(motion, texel, vec4(moved, 0.0, 0.0));
 }

@@ -107,7 +107,7 @@ Binding ShowVoxels::faces(PassContext& context) {
         const VoxelIrradiance& light = context.get(irradiance_);
         if (isNew(voxels.version, light.version))
             faces_.update(context.stream, voxels, light.area, light.indirect, &light.direct);
-        return {"faceIrradiance", faces_.buffer()};
+        return faces_.binding();
     }
     if (showsLitFaces()) {
         const ClusterVisibility& visibility = context.get(visibility_);

@@ -4,9 +4,11 @@
 #define VOXRAY_FACE_IRRADIANCE_GLSL
 
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
 
 // By voxel and face: as faceLight() of face_lookup.glsl.
-layout(scalar) readonly buffer FaceIrradiance { vec4 data[]; } faceIrradiance;
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer FaceIrradiance { vec4 data[]; };
+layout(scalar) readonly buffer FaceIrradianceAt { FaceIrradiance faceIrradiance; };
 
 vec4 faceLight(uint number, ivec3 voxel, uint face) { return faceIrradiance.data[number * 6u + face]; }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/common/voxels/voxels.h"
+#include "shaders/light_paths/light_path_types.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {
@@ -95,7 +96,8 @@ TEST(Memory, RaysOfBouncesAreForThoseWhoHaveThem) {
 }
 
 TEST(Memory, OfVoxelizationIsFreeForInjection) {
-    // Sums of voxels are gone once they are resolved, those of light as well: what is in use is what is kept.
+    // Sums of voxels are gone once they are resolved, those of light and its rays as well: what is in use is
+    // what is kept.
     const uint64_t before = device().memoryUsedBytes();
     const Chain chain("cornell", "{}",
                       graphYaml({"voxelize, resolution: 64", "inject_light_rays, rays_per_light: 1024"}));
@@ -103,14 +105,16 @@ TEST(Memory, OfVoxelizationIsFreeForInjection) {
     const VoxelIrradiance& light = *chain.graph().resource<VoxelIrradiance>("irradiance");
     const std::map<std::string, uint64_t> held = device().memoryByResource();
     for (const char* scratch :
-         {"surface accumulator", "visibility counts", "visibility rays", "flux accumulator"})
-        EXPECT_EQ(held.count(scratch), scratch == std::string("visibility rays") ? 1u : 0u) << scratch;
+         {"surface accumulator", "visibility counts", "visibility rays", "flux accumulator", "light rays",
+          "light ray hits", "light paths", "visibility results"})
+        EXPECT_EQ(held.count(scratch), 0u) << scratch;
     EXPECT_GT(device().memoryUsedBytes() - before,
               voxels.materials.bytes() + VoxelIrradiance::bytes(voxels.voxelCount));
     EXPECT_EQ(light.direct.bytes() + light.indirect.bytes() + light.area.bytes(),
               VoxelIrradiance::bytes(voxels.voxelCount));
-    // Two sums of 64 bits a colour and direction.
-    EXPECT_NEAR(double(chain.graph().memory()[1].scratchBytes), 2.0 * 144 * voxels.voxelCount, 4096);
+    // Two sums of 64 bits a colour and direction; of a ray itself, its hit, path, visibility ray and result.
+    const double rays = 1024.0 * (2 * sizeof(Ray) + sizeof(Hit) + sizeof(gpu::LightPath) + sizeof(uint32_t));
+    EXPECT_NEAR(double(chain.graph().memory()[1].scratchBytes), 2.0 * 144 * voxels.voxelCount + rays, 4096);
 }
 
 }  // namespace

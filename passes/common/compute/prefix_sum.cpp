@@ -1,5 +1,7 @@
 #include "passes/common/compute/prefix_sum.h"
 
+#include <cstring>
+
 namespace voxray {
 namespace {
 
@@ -48,7 +50,10 @@ uint32_t PrefixSum::run(CommandStream& stream, const Buffer& source, const Buffe
                         uint32_t count) const {
     const Buffer sums(stream.device(), "prefix sum blocks", scratchBytes(count));
     record(stream, source, before, sums, count);
-    return stream.readAs<uint32_t>(sums, scratchBytes(count) / sizeof(uint32_t)).back();
+    uint32_t sum = 0;
+    const std::vector<std::byte> last = stream.read(sums, sizeof sum, scratchBytes(count) - sizeof sum);
+    std::memcpy(&sum, last.data(), sizeof sum);
+    return sum;
 }
 
 }  // namespace voxray

@@ -67,11 +67,11 @@ void LightPaths::plan(PassPlan& plan, const std::string& pass, const LightPathPa
         plan.reserveScratch("voxel samples (estimated)",
                             (indirect ? 2 : 1) * VoxelAccumulator::plan(plan, pass, params, voxels));
     }
-    plan.buffer(rays_, "light rays", batch * sizeof(Ray));
-    plan.buffer(hits_, "light ray hits", batch * sizeof(Hit));
-    plan.buffer(paths_, "light paths", batch * sizeof(gpu::LightPath));
-    plan.buffer(visibilityRays_, "visibility rays", batch * sizeof(Ray));
-    plan.buffer(hidden_, "visibility results", batch * sizeof(uint32_t));
+    plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
+    plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
+    plan.scratchBuffer(paths_, "light paths", batch * sizeof(gpu::LightPath));
+    plan.scratchBuffer(visibilityRays_, "visibility rays", batch * sizeof(Ray));
+    plan.scratchBuffer(hidden_, "visibility results", batch * sizeof(uint32_t));
     plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
 }
 

@@ -9,7 +9,8 @@ layout(local_size_x = 64) in;
 layout(scalar) buffer FluxAt { LargeUints flux; };
 layout(scalar) buffer AddedAt { LargeUints added; };
 layout(scalar) readonly buffer Area { uint data[]; } area;
-layout(scalar) writeonly buffer Faces { vec4 data[]; } faces;
+layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Faces { vec4 data[]; };
+layout(scalar) readonly buffer FacesAt { Faces faces; };
 layout(push_constant) uniform Push {
     uint count;           // Faces.
     float voxelFaceArea;  // m²

@@ -18,15 +18,15 @@ FaceIrradiance::FaceIrradiance(Device& device, const ShaderCompiler& compiler)
 
 void FaceIrradiance::update(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& area,
                             const LargeBuffer& flux, const LargeBuffer* added) {
-    if (!faces_ || faces_.bytes() != bytes(voxels.voxelCount)) {
-        faces_ = {};
-        faces_ = Buffer(stream.device(), "face irradiance", bytes(voxels.voxelCount));
-    }
+    makeOrKeep(faces_, stream.device(), "face irradiance", bytes(voxels.voxelCount));
     const uint32_t faces = voxels.voxelCount * kFaces;
-    stream.dispatch(
-        program_,
-        {{"FluxAt", flux.at()}, {"AddedAt", (added ? *added : flux).at()}, {"area", area}, {"faces", faces_}},
-        Push{faces, voxels.grid.voxelSize * voxels.grid.voxelSize, added ? 1.0f : 0.0f}, linearGroups(faces));
+    stream.dispatch(program_,
+                    {{"FluxAt", flux.at()},
+                     {"AddedAt", (added ? *added : flux).at()},
+                     {"area", area},
+                     {"FacesAt", faces_.at()}},
+                    Push{faces, voxels.grid.voxelSize * voxels.grid.voxelSize, added ? 1.0f : 0.0f},
+                    linearGroups(faces));
 }
 
 }  // namespace voxray

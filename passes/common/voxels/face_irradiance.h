@@ -19,11 +19,11 @@ class FaceIrradiance {
                 const LargeBuffer& flux, const LargeBuffer* added = nullptr);
     /// Frees the irradiance, once the stream has finished.
     void end() { faces_ = {}; }
-    const Buffer& buffer() const { return faces_; }
+    Binding binding() const { return {"FaceIrradianceAt", faces_.at()}; }
 
  private:
     Program program_;
-    Buffer faces_;
+    LargeBuffer faces_;
 };
 
 }  // namespace voxray
