@@ -40,6 +40,7 @@ void FilterVoxels::plan(PassPlan& plan) {
         radiance.lightBounces = *injected + params_.bounces + 1;
     radiance.layout = params_.layout;
     radiance.emission = params_.emission;
+    radiance.euclidean = params_.levelDistance == LevelDistance::Euclidean;
     radiance.grid = {grid.origin,     grid.voxelSize,
                      grid.resolution, gridLevels(grid.resolution),
                      grid.directions, radianceUnit(*plan.frame.scene)};

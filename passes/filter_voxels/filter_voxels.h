@@ -1,5 +1,6 @@
 #pragma once
 
+#include "passes/common/clipmap/radiance_clipmap.h"
 #include "passes/common/radiance/cone_bounces.h"
 #include "passes/common/radiance/radiance_voxels.h"
 #include "passes/common/voxels/voxels.h"
@@ -18,7 +19,7 @@ class FilterVoxels final : public Pass {
         "distance from the camera. Bounces by cones are for dense and svo; over a clipmap's windows "
         "light_clipmap has its own. "
         "Source: Crassin et al. 2011, section 4 (anisotropic voxels); Arnebäck 2017, section 3.1.4.";
-    struct Params : ClipmapParams, BrickParams, ConeBounceParams {
+    struct Params : ClipmapParams, ClipmapLevelParams, BrickParams, ConeBounceParams {
         RadianceLayout layout = RadianceLayout::Dense;
         bool emission = false;
         static constexpr auto schema() {
@@ -28,6 +29,8 @@ class FilterVoxels final : public Pass {
                                  "Whether what surfaces emit is in. Off, cones bring indirect light alone: a "
                                  "direct_* pass adds the rest.")},
                 std::tuple{std::get<0>(ClipmapParams::schema())
+                               .onlyWith(oneOf(&Params::layout, {RadianceLayout::Clipmap})),
+                           std::get<0>(ClipmapLevelParams::schema())
                                .onlyWith(oneOf(&Params::layout, {RadianceLayout::Clipmap})),
                            std::get<0>(BrickParams::schema())
                                .onlyWith(oneOf(&Params::layout, {RadianceLayout::SvoBricks}))},

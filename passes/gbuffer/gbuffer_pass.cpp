@@ -97,7 +97,8 @@ void GBufferPass::plan(PassPlan& plan) {
 
 void GBufferPass::prepare(PassSetup& setup) {
     Defines defines;
-    if (params_.normalMaps == NormalMaps::Sharp) defines.emplace("SHARP_NORMALS", "1");
+    if (params_.normalMaps == TextureLookup::Sharp) defines.emplace("SHARP_NORMALS", "1");
+    if (params_.colors == TextureLookup::Sharp) defines.emplace("SHARP_COLORS", "1");
     if (hasMotion(setup)) defines.emplace("MOTION", "1");
     const auto compile = [&](const char* file) {
         return setup.compiler.compile(std::string("passes/gbuffer/") + file, defines);

@@ -17,12 +17,12 @@ struct EnumNames<GBufferMethod> {
                                       std::pair{GBufferMethod::Raster, "raster"}};
 };
 
-enum class NormalMaps { Filtered, Sharp };
+enum class TextureLookup { Filtered, Sharp };
 
 template <>
-struct EnumNames<NormalMaps> {
-    static constexpr std::array names{std::pair{NormalMaps::Filtered, "filtered"},
-                                      std::pair{NormalMaps::Sharp, "sharp"}};
+struct EnumNames<TextureLookup> {
+    static constexpr std::array names{std::pair{TextureLookup::Filtered, "filtered"},
+                                      std::pair{TextureLookup::Sharp, "sharp"}};
 };
 
 /// How the camera looks at the image plane, as in view.glsl.
@@ -40,15 +40,13 @@ class GBufferPass final : public Pass {
  public:
     static constexpr const char* kName = "gbuffer";
     static constexpr const char* kHelp =
-        "Position, normals, albedo and emission of what the camera sees, samples x samples a pixel; colours "
-        "at "
-        "the mip level of a sample's footprint. Biased at edges, where the reference averages over the "
-        "pixel; "
-        "less so the more samples.";
+        "Position, normals, albedo and emission of what the camera sees, samples x samples a pixel. Biased "
+        "at edges, where the reference averages over the pixel; less so the more samples.";
     struct Params {
         GBufferMethod method = GBufferMethod::Rays;
         uint32_t samplesPerPixelEdge = 1;
-        NormalMaps normalMaps = NormalMaps::Filtered;
+        TextureLookup normalMaps = TextureLookup::Filtered;
+        TextureLookup colors = TextureLookup::Filtered;
         static constexpr auto schema() {
             return std::tuple{
                 field("method", &Params::method,
@@ -61,7 +59,11 @@ class GBufferPass final : public Pass {
                 field("normal_maps", &Params::normalMaps,
                       "filtered: the mean normal of a sample's footprint, which is flatter than each of "
                       "them: a bias. sharp: the normal at the very point: noise instead, which "
-                      "samples_per_pixel_edge lowers.")};
+                      "samples_per_pixel_edge lowers."),
+                field("colors", &Params::colors,
+                      "filtered: the mean color of a sample's footprint, by mip levels. sharp: the color at "
+                      "the very point: patterns where texels are smaller than samples are apart, as "
+                      "published in Magalhães 2020 (section 5.1.4), for comparison.")};
         }
     };
 

@@ -33,6 +33,7 @@ void LightClipmap::plan(PassPlan& plan) {
     RadianceVoxels& radiance = plan.get(radiance_);
     radiance.lightBounces = params_.bounces + 1;
     radiance.layout = RadianceLayout::Clipmap;
+    radiance.euclidean = params_.levelDistance == LevelDistance::Euclidean;
     radiance.grid = clipmap.grid;
     storage_ = RadianceClipmap(clipmap.grid, clipmap.windows.side());
     storage_.plan(plan, kName, radiance);

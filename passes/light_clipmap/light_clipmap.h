@@ -24,14 +24,14 @@ class LightClipmap final : public Pass {
         "emissive surfaces as lights and no environment: "
         "they have no single viewpoint. Biased by: voxel size, so distance from the camera; "
         "shadow_resolution. Source: Arnebäck 2017, section 4.1.2, after Panteleev 2014.";
-    struct Params : ConeBounceParams {
+    struct Params : ClipmapLevelParams, ConeBounceParams {
         uint32_t shadowResolution = 512;
         static constexpr auto schema() {
             return std::tuple_cat(
                 std::tuple{field("shadow_resolution", &Params::shadowResolution,
                                  "Texels along an edge of each shadow map; a point light has six.", 2u,
                                  4096u)},
-                ConeBounceParams::schema());
+                ClipmapLevelParams::schema(), ConeBounceParams::schema());
         }
     };
 

@@ -39,13 +39,19 @@ void storeRadiance(uint slot, uint face, vec4 value) {
 }
 
 // The weight of a level at a position, against that of the next coarser one: 1 or more, the level alone counts; 0 or less, it does
-// not. It falls linearly over a transition zone before the window's border, by the distance along the nearest axis.
+// not. It falls linearly over a transition zone before the window's border, by the distance along the nearest axis; with
+// RADIANCE_CLIPMAP_EUCLIDEAN, before the border of a ball, as in Arnebäck 2017, section 4.2.1.
 float windowWeight(uint level, vec3 position) {
     const RadianceGrid g = radianceVoxels.grid;
     // Outside of the grid there is nothing: its border decides.
     const vec3 inGrid = clamp(position, g.origin, g.origin + g.voxelSize * vec3(g.resolution));
+#ifdef RADIANCE_CLIPMAP_EUCLIDEAN
+    return (radianceVoxels.window[level].reach.x - distance(inGrid, radianceVoxels.window[level].center)) *
+           radianceVoxels.window[level].fall;
+#else
     const vec3 left = radianceVoxels.window[level].reach - abs(inGrid - radianceVoxels.window[level].center);
     return min(left.x, min(left.y, left.z)) * radianceVoxels.window[level].fall;
+#endif
 }
 
 // The finest level that counts at a position. Between two levels the fractional part is the coarser one's weight. It follows the

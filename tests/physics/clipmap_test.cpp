@@ -213,6 +213,45 @@ TEST(Clipmap, NothingJumpsWhenWindowsScroll) {
     }
 }
 
+TEST(Clipmap, EuclideanDistanceLeavesCornersOut) {
+    // Windows of 32 voxels, whose weight falls from 11 to 15 voxels from the camera, that of the next level
+    // from 22 on. In the ball both ways read the same. Beyond it, in the window's corner, the next level
+    // stands in.
+    const auto chainOf = [](const std::string& distance) {
+        return std::make_unique<Chain>(cornellFrom({0, 0, 0}),
+                                       litVoxels(80, "layout: clipmap, clipmap_resolution: 32" + distance), 8,
+                                       8, 1);
+    };
+    const auto axis = chainOf(""), euclidean = chainOf(", level_distance: euclidean");
+    const gpu::RadianceGrid grid = radiance(*axis).grid;
+    const glm::vec3 camera = center(grid) - grid.voxelSize * glm::vec3(0, 18, 0);  // Between the boxes.
+    axis->runFrameFrom(camera);
+    euclidean->runFrameFrom(camera);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> uniform(-11, 11);
+    std::vector<RadianceQuery> inside, corner, coarser;
+    while (corner.size() < 20000) {
+        const glm::vec3 way(uniform(random), uniform(random), uniform(random));
+        RadianceQuery query{camera + grid.voxelSize * way, grid.voxelSize,
+                            glm::normalize(glm::vec3(uniform(random), uniform(random), uniform(random)))};
+        if (glm::length(way) < 10.9f) inside.push_back(query);
+        if (glm::length(way) < 15.1f) continue;
+        corner.push_back(query);
+        query.footprint *= 2;
+        coarser.push_back(query);
+    }
+    EXPECT_EQ(sampleRadiance(radiance(*euclidean), inside), sampleRadiance(radiance(*axis), inside));
+    const std::vector<glm::vec4> found = sampleRadiance(radiance(*euclidean), corner);
+    const std::vector<glm::vec4> expected = sampleRadiance(radiance(*axis), coarser);
+    size_t lit = 0;
+    for (size_t i = 0; i < found.size(); ++i) {
+        lit += found[i].r > 0;
+        EXPECT_LT(glm::length(found[i] - 0.5f * expected[i]), 1e-5f * (1 + glm::length(expected[i]))) << i;
+    }
+    EXPECT_GT(lit, 100u);
+    EXPECT_NE(sampleRadiance(radiance(*axis), corner), found);
+}
+
 TEST(Clipmap, ConesKeepTheEnergyOfAFurnace) {
     // Every surface emits 1 and reflects 0.5: after two bounces in the voxels cones see 1 + 0.5 + 0.25 +
     // 0.125. Windows of 0.5 m and 1 m: what the camera sees 1 m away and more is described by levels 1 to 3.

@@ -154,6 +154,19 @@ TEST(GBuffer, TexturesAreSeenAtTheFootprintOfAPixel) {
     }
 }
 
+TEST(GBuffer, SharpColorsAreThoseAtThePoint) {
+    // 1024 columns on a metre are 17 a pixel; so each pixel sees some column, and not their mean.
+    for (const std::string method : {"rays", "raster"}) {
+        Chain chain(stripes(1024, {0, 0, 1}), graphYaml({"gbuffer, colors: sharp, method: " + method}), 32,
+                    32, 1);
+        const auto albedos = texels(chain, gbuffer(chain).albedo);
+        const auto [low, high] = std::minmax_element(
+            albedos.begin(), albedos.end(), [](const glm::vec3& a, const glm::vec3& b) { return a.x < b.x; });
+        EXPECT_LT(low->x, 0.1f) << method;
+        EXPECT_GT(high->x, 0.9f) << method;
+    }
+}
+
 TEST(GBuffer, AovsAgreeWithWhatTheHostSees) {
     // Depth and numbers in the files of --aovs are the host's, positions and albedo the pass's own.
     Chain chain("cornell", "{lights: point}", "[{pass: gbuffer, samples_per_pixel_edge: 2}]", 48, 32);

@@ -135,6 +135,27 @@ TEST(VoxelizePacked, HoldsNormalsAndAlbedosOfWalls) {
     EXPECT_EQ(bytesOf(v.normals[v.at({0.999f, 0, 0})]).w, 1);
 }
 
+TEST(VoxelizePacked, MissesWhatLiesBetweenPixelCenters) {
+    // A square of 0.3 voxels near a voxel's corner: no center of a voxel's face lies over it, some of 4 x 4
+    // points do
+    const auto scene = [](glm::vec3 corner, float side) {
+        SceneBuilder b("square");
+        const uint32_t grey = b.lambert("grey", glm::vec3(0.5f));
+        b.quad("floor", {-1, -1, -1}, {0, 0, 2}, {2, 0, 0}, grey);
+        b.quad("ceiling", {-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, grey);
+        b.quad("square", corner, {side, 0, 0}, {0, 0, side}, grey);
+        b.camera({2, 0, 0}, {0, 0, 0}, 60);
+        return b.finish();
+    };
+    const gpu::VoxelGrid grid = volumesOf(scene({0, 0, 0}, 0.1f), {"voxelize_packed, resolution: 16"}).grid;
+    const glm::vec3 corner = grid.origin + grid.voxelSize * glm::vec3(8.1f, 8.2f, 8.1f);
+    const auto normalOf = [&](const std::string& pass) {
+        return glm::length(volumesOf(scene(corner, 0.3f * grid.voxelSize), {pass}).normal(corner));
+    };
+    EXPECT_NEAR(normalOf("voxelize_packed, resolution: 16"), std::sqrt(3.0f), 1e-3f) << "an empty word";
+    EXPECT_NEAR(normalOf("voxelize_packed, resolution: 16, samples_per_voxel_edge: 4"), 1, 0.01f);
+}
+
 TEST(VoxelizePacked, NormalsOfAThinWallCancelOut) {
     // Two sides that share voxels: the mean normal is next to nothing, and so is the light
     const auto lit = [](bool isClosed) {

@@ -34,9 +34,15 @@ void RadianceClipmap::plan(PassPlan& plan, const std::string& pass, RadianceVoxe
 
 std::vector<gpu::ClipmapWindow> RadianceClipmap::follow(PassContext& context,
                                                         RadianceVoxels& radiance) const {
+    const glm::vec3 camera = context.frame.camera.position;
     std::vector<gpu::ClipmapWindow> windows;
     for (uint32_t level = 0; level < radiance.grid.levels; ++level)
-        windows.push_back(windows_.window(level, context.frame.camera.position));
+        windows.push_back(windows_.window(level, camera));
+    if (radiance.euclidean)
+        for (gpu::ClipmapWindow& w : windows) {
+            w.center = camera;
+            w.reach = glm::vec3(std::min({w.reach.x, w.reach.y, w.reach.z}));
+        }
     Header header{radiance.grid, radiance.storage[0].address(), windows_.side(), windows_.firstWhole(), {}};
     std::ranges::copy(windows, header.windows.begin());
     context.stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,26 @@
 #include "passes/common/radiance/radiance_voxels.h"
 
 namespace voxray {
+
+enum class LevelDistance { Axis, Euclidean };
+template <>
+struct EnumNames<LevelDistance> {
+    static constexpr std::array names{std::pair{LevelDistance::Axis, "axis"},
+                                      std::pair{LevelDistance::Euclidean, "euclidean"}};
+};
+
+/// The parameter of a pass that fills a clipmap with radiance; it adds schema() to its own with
+/// std::tuple_cat.
+struct ClipmapLevelParams {
+    LevelDistance levelDistance = LevelDistance::Axis;
+    static constexpr auto schema() {
+        return std::tuple{field(
+            "level_distance", &ClipmapLevelParams::levelDistance,
+            "By which distance from the camera coarser levels of a clipmap take over. axis: that along the "
+            "axis where it is largest, so that all of a window counts. euclidean: as published in Arnebäck "
+            "2017 (section 4.2.1), for comparison: a ball in each window counts, half of its voxels.")};
+    }
+};
 
 /// Radiance voxels in a clipmap: their memory, and windows that follow the camera. Docs: docs/clipmap.md.
 class RadianceClipmap {

@@ -7,7 +7,9 @@ namespace voxray {
 Defines RadianceVoxels::defines() const {
     std::string name = "RADIANCE_";
     for (const char letter : schema_detail::textOf(layout)) name += char(std::toupper(letter));
-    return {{name, "1"}};
+    Defines all{{name, "1"}};
+    if (euclidean) all.emplace("RADIANCE_CLIPMAP_EUCLIDEAN", "1");
+    return all;
 }
 
 std::vector<Binding> RadianceVoxels::bindings() const {

@@ -33,6 +33,7 @@ constexpr const char* kRadianceLayoutHelp =
 struct RadianceVoxels : Resource {
     RadianceLayout layout = RadianceLayout::Dense;  ///< Known from plan() on, as is the grid but its unit.
     gpu::RadianceGrid grid{};
+    bool euclidean = false;       ///< Levels of a clipmap are chosen by Euclidean distance. Likewise.
     bool emission = false;        ///< With what surfaces emit. Known from plan() on.
     Buffer header;                ///< RadianceGrid, then what the layout needs to find its values.
     std::vector<Buffer> storage;  ///< What the header's addresses lead to.
