@@ -203,29 +203,32 @@ bool hasEntryFor(const Value& remedy, const std::string& method) {
     return std::ranges::any_of(remedy.members, [&](const auto& entry) { return isMeant(entry.key, method); });
 }
 
-/// Runs what failed again, with the changes of each remedy, into remedies/REMEDY/PROFILE.
+std::string folderName(std::string name) {
+    std::ranges::replace(name, ' ', '_');
+    return name;
+}
+
+/// Runs what failed again, with the changes of each remedy, into remedies/REMEDY/METHOD/PROFILE.
 Outcome runRemedies(const StabilityArguments& arguments, const Registry& registry) {
     const Value failing = readYaml(arguments.options.out / "failing.json");
     Outcome outcome;
-    for (const auto& [name, remedy] : readYaml(fileOfMatrix(arguments.file, "_remedies.yaml")).members) {
-        std::string folder = name;
-        std::ranges::replace(folder, ' ', '_');
-        for (const auto& [profile, cells] : failing.members) {
-            StabilityArguments again = arguments;
-            again.config.profile = profile;
-            again.methods = texts(*cells.find("methods"));
-            std::erase_if(again.methods, [&](const auto& method) { return !hasEntryFor(remedy, method); });
-            if (again.methods.empty()) continue;
-            again.scenarios = texts(*cells.find("scenes"));
-            again.changes = remedy;
-            again.options.out = arguments.options.out / "remedies" / folder;
-            if (!again.options.quiet) fmt::print("Remedy: {}\n", name);
-            const Outcome part = runProfiles(again, registry);
-            outcome.status = std::max(outcome.status, part.status);
-            outcome.interrupted = part.interrupted;
-            if (outcome.interrupted) return outcome;
-        }
-    }
+    for (const auto& [name, remedy] : readYaml(fileOfMatrix(arguments.file, "_remedies.yaml")).members)
+        for (const auto& [profile, methods] : failing.members)
+            for (const auto& [method, scenes] : methods.members) {
+                if (!hasEntryFor(remedy, method)) continue;
+                StabilityArguments again = arguments;
+                again.config.profile = profile;
+                again.methods = {method};
+                again.scenarios = texts(scenes);
+                again.changes = remedy;
+                again.options.out /=
+                    std::filesystem::path("remedies") / folderName(name) / folderName(method);
+                if (!again.options.quiet) fmt::print("Remedy for {}: {}\n", method, name);
+                const Outcome part = runProfiles(again, registry);
+                outcome.status = std::max(outcome.status, part.status);
+                outcome.interrupted = part.interrupted;
+                if (outcome.interrupted) return outcome;
+            }
     return outcome;
 }
 

@@ -198,24 +198,23 @@ def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, st
 
 
 def with_remedies(cells: list[Cell], directory: Path, rows: list[Row]) -> list[Cell]:
-    """The same, with what those that fail are with each remedy, runs in directory/remedies/REMEDY/PROFILE."""
+    """The same, with what those that fail are with each remedy, runs in directory/remedies/REMEDY/METHOD/PROFILE."""
     found: dict[tuple[Row, str], list[tuple[str, float]]] = {}
-    for folder in sorted((directory / "remedies").glob("*")):
+    for folder in sorted((directory / "remedies").glob("*/*")):
         for cell in cells_of(folder, rows, []):
             if not math.isnan(cell.value):
-                found.setdefault((cell.row, cell.method), []).append((folder.name.replace("_", " "), cell.value))
+                found.setdefault((cell.row, cell.method), []).append((folder.parent.name.replace("_", " "), cell.value))
     return [replace(cell, remedies=tuple(found.get((cell.row, cell.method), ()))) if cell.fails else cell for cell in cells]
 
 
 def failing_of(cells: list[Cell]) -> dict[str, dict[str, list[str]]]:
-    """By profile, the scenes and the methods of cells that fail but run."""
+    """By profile and method, the scenes of cells that fail but run."""
     failing: dict[str, dict[str, list[str]]] = {}
     for cell in cells:
         if cell.fails and not math.isnan(cell.value):
-            own = failing.setdefault(cell.row.profile, {"scenes": [], "methods": []})
-            for key, name in (("scenes", cell.row.scene), ("methods", cell.method)):
-                if name not in own[key]:
-                    own[key].append(name)
+            scenes = failing.setdefault(cell.row.profile, {}).setdefault(cell.method, [])
+            if cell.row.scene not in scenes:
+                scenes.append(cell.row.scene)
     return failing
 
 

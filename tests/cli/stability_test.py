@@ -93,7 +93,7 @@ class Stability(CommandTest):
         found = read(self.path("out", "stability.csv"))
         self.assertIn("more rays", found["cornell", "energy", "gather rays"]["reason"])
         self.assertEqual(found["cornell", "energy", "lookup"]["reason"], "not known")
-        again = ("out", "remedies", "more_rays", "plain")
+        again = ("out", "remedies", "more_rays", "gather_rays", "plain")
         self.assertEqual([row["method"] for row in self.rows(*again, "results.csv")], ["gather rays"])
         chain, = self.json(*again, "manifest.json")["config"]["sweep"]["method"].values()
         self.assertEqual(chain[0], {"pass": "trace_gather_rays", "rays_per_block": 256})
