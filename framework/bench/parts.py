@@ -14,7 +14,7 @@ from bench.runs import Program, Run
 # Configs whose tables stand in docs/papers: first one of each paper, then more.
 PAPERS = ("magalhaes2020/base", "arneback2017/dynamic_light", "sun2015/table1", "cosin2022/table1", "seok2021/table1",
           "magalhaes2020/published_write_strategies", "arneback2017/dynamic_geometry", "cosin2022/table2", "sun2015/table1_sponza",
-          "arneback2017/dynamic_light_clipmap", "magalhaes2020/published_sampling", "arneback2017/cone_cost", "sun2015/resolution",
+          "arneback2017/fly_through", "magalhaes2020/published_sampling", "arneback2017/cone_cost", "sun2015/resolution",
           "seok2021/table1_bunnies")
 _PASSES = "bench/gpu_passes.yaml"
 _LISTING = 30  # seconds for `voxray devices`
