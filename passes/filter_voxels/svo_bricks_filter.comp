@@ -21,24 +21,26 @@ layout(push_constant) uniform Push {
     uint lastSides;   // ... up to so many.
 } push;
 
-bool isInBrick(ivec3 at) { return all(greaterThanEqual(at, ivec3(0))) && all(lessThanEqual(at, ivec3(2))); }
+// The octants, as a mask of eight, whose bricks reach to a place along one axis; `low`: the mask of the lower four.
+uint octantsAt(int at, uint low) { return at < 2 ? low : at > 2 ? 0xffu & ~low : 0xffu; }
 
-// A value of the children, `at` 0 to 4 along each axis: of any of the bricks that share it.
-vec4 childValue(uint brick[8], ivec3 at) {
-    const uint likely = uint(at.x > 2) + 2u * uint(at.y > 2) + 4u * uint(at.z > 2);
-    if (brick[likely] != NO_BRICK) return brickValue(brick[likely], at - 2 * octantOffset(likely));
-    for (uint octant = 0u; octant < 8u; ++octant)
-        if (brick[octant] != NO_BRICK && isInBrick(at - 2 * octantOffset(octant)))
-            return brickValue(brick[octant], at - 2 * octantOffset(octant));
-    return vec4(0.0);
+// A value of the children, `at` 0 to 4 along each axis: of the first of the bricks that share it. `bricked`: children that have one.
+vec4 childValue(uint brick[8], uint bricked, ivec3 at) {
+    const uint sharing = octantsAt(at.x, 0x55u) & octantsAt(at.y, 0x33u) & octantsAt(at.z, 0x0fu) & bricked;
+    if (sharing == 0u) return vec4(0.0);
+    const uint octant = uint(findLSB(sharing));
+    return brickValue(brick[octant], at - 2 * octantOffset(octant));
 }
 
 void main() {
     if (linearIndex() >= push.count) return;
     const BrickNode node = radianceVoxels.nodes.data[push.firstNode + linearIndex()];
     if (node.brick == NO_BRICK) return;
-    uint child[8];
-    for (uint octant = 0u; octant < 8u; ++octant) child[octant] = radianceVoxels.nodes.data[node.firstChild + octant].brick;
+    uint child[8], bricked = 0u;
+    for (uint octant = 0u; octant < 8u; ++octant) {
+        child[octant] = radianceVoxels.nodes.data[node.firstChild + octant].brick;
+        if (child[octant] != NO_BRICK) bricked |= 1u << octant;
+    }
     for (int i = 0; i < int(BRICK_VALUES); ++i) {
         const ivec3 at = ivec3(i % 3, i / 3 % 3, i / 9);
         const bvec3 isSide = notEqual(at, ivec3(1));
@@ -50,7 +52,7 @@ void main() {
             for (int y = low.y; y <= high.y; ++y)
                 for (int x = low.x; x <= high.x; ++x) {
                     const vec3 weight = mix(vec3(0.25), vec3(0.5), equal(ivec3(x, y, z), ivec3(2)));
-                    sum += weight.x * weight.y * weight.z * childValue(child, ivec3(x, y, z));
+                    sum += weight.x * weight.y * weight.z * childValue(child, bricked, ivec3(x, y, z));
                 }
         storeBrickValue(node.brick, at, sum);
     }

@@ -17,9 +17,9 @@ layout(push_constant) uniform Push {
 
 void main() {
     if (linearIndex() >= push.count) return;
-    const BrickNode node = radianceVoxels.nodes.data[push.firstNode + linearIndex()];
-    const uint neighbor = node.neighbor[push.axis + 3u * push.isBack];
-    if (node.brick == NO_BRICK || neighbor == NO_NEIGHBOR) return;
+    const uint node = push.firstNode + linearIndex(), brick = radianceVoxels.nodes.data[node].brick;
+    const uint neighbor = radianceVoxels.nodes.data[node].neighbor[push.axis + 3u * push.isBack];
+    if (brick == NO_BRICK || neighbor == NO_NEIGHBOR) return;
     const uint other = radianceVoxels.nodes.data[neighbor].brick;
     if (other == NO_BRICK) return;
     for (int i = 0; i < 9; ++i) {
@@ -28,7 +28,7 @@ void main() {
         own[(push.axis + 2u) % 3u] = theirs[(push.axis + 2u) % 3u] = i / 3;
         own[push.axis] = push.isBack == 1u ? 0 : 2;
         theirs[push.axis] = 2 - own[push.axis];
-        const vec4 value = brickValue(node.brick, own);
+        const vec4 value = brickValue(brick, own);
         storeBrickValue(other, theirs,
                         push.isBack == 1u ? value : push.part * (value + brickValue(other, theirs)));
     }
