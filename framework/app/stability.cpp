@@ -212,7 +212,7 @@ std::string folderName(std::string name) {
 Outcome runRemedies(const StabilityArguments& arguments, const Registry& registry) {
     const Value failing = readYaml(arguments.options.out / "failing.json");
     Outcome outcome;
-    for (const auto& [name, remedy] : readYaml(fileOfMatrix(arguments.file, "_remedies.yaml")).members)
+    for (const auto& [name, remedy] : readYaml(fileOfMatrix(arguments.file, "_remedies.json")).members)
         for (const auto& [profile, methods] : failing.members)
             for (const auto& [method, scenes] : methods.members) {
                 if (!hasEntryFor(remedy, method)) continue;
@@ -277,7 +277,7 @@ void addStabilityCommand(CLI::App& app, int& status) {
     command->add_flag("--remedies", arguments->remedies,
                       "Run what fails again with finer settings, one kind at a time, and say which of them "
                       "lowers each error; they stand next to the matrix, in a file that ends in "
-                      "_remedies.yaml.");
+                      "_remedies.json.");
     addConfigOptions(*command, *arguments);
     addRunOptions(
         *command, arguments->options,

@@ -87,7 +87,8 @@ class Stability(CommandTest):
         """Both methods fail a limit of 0; the remedy has an entry for one of them, whose chain it changes."""
         self.write("own.yaml", OWN_MATRIX)
         self.write("own.csv", "profile,scene,measure,methods,limit,scale,why\nplain,cornell,energy,,0,,no error at all\n")
-        self.write("own_remedies.yaml", "more rays:\n  ga: {trace_gather_rays.rays_per_block: 256, inject.rays_per_light: 65536}\n")
+        remedy = '{"more rays": {"ga": {"%s": 256, "inject.rays_per_light": 65536}}}'
+        self.write("own_remedies.json", remedy % "trace_gather_rays.rays_per_block")
         words = ["stability", "--config", "own.yaml", "--tracer", "embree", "--quiet", "--out", "out"]
         self.expect(0, *words, "--remedies")
         found = read(self.path("out", "stability.csv"))
@@ -100,7 +101,7 @@ class Stability(CommandTest):
         # Asked without remedies, nothing of earlier ones is told.
         self.expect(0, *words, "--resume")
         self.assertEqual(read(self.path("out", "stability.csv"))["cornell", "energy", "gather rays"]["reason"], "not known")
-        self.write("own_remedies.yaml", "more rays:\n  ga: {trace_gather_ray.rays_per_block: 256}\n")
+        self.write("own_remedies.json", remedy % "trace_gather_ray.rays_per_block")
         self.assertIn("trace_gather_ray", self.expect(2, *words, "--remedies", "--resume").stderr)
 
 
