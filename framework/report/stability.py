@@ -175,7 +175,9 @@ def _undecided(cell: Cell, scores: dict) -> str:
 
 def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, str]]) -> list[Cell]:
     variants = results.variants.to_dict("records")
-    if not variants or not {"scene", "method"} <= set(variants[0]):
+    if not variants:
+        return []
+    if not {"scene", "method"} <= set(variants[0]):
         raise ReportError(f"{results.directory}: its sweep has no axes 'scene' and 'method'")
     exr, png = IMAGES["indirect"][0].replace(".png", ".exr"), IMAGES["indirect"][0]
     first = {entry["method"]: entry["variant"] for entry in variants if entry["scene"] == variants[0]["scene"]}
@@ -201,7 +203,7 @@ def with_remedies(cells: list[Cell], directory: Path, rows: list[Row]) -> list[C
     """The same, with what those that fail are with each remedy, runs in directory/remedies/REMEDY/METHOD/PROFILE."""
     found: dict[tuple[Row, str], list[tuple[str, float]]] = {}
     for folder in sorted((directory / "remedies").glob("*/*")):
-        for cell in cells_of(folder, rows, []):
+        for cell in _finished_cells(folder, rows, []):
             if not math.isnan(cell.value):
                 found.setdefault((cell.row, cell.method), []).append((folder.parent.name.replace("_", " "), cell.value))
     return [replace(cell, remedies=tuple(found.get((cell.row, cell.method), ()))) if cell.fails else cell for cell in cells]
@@ -218,16 +220,21 @@ def failing_of(cells: list[Cell]) -> dict[str, dict[str, list[str]]]:
     return failing
 
 
-def cells_of(directory: Path, rows: list[Row], reasons: list[dict[str, str]]) -> list[Cell]:
-    """All cells of the runs in a folder, one folder a profile, in the order of the rows.
-
-    @throws ReportError where there is no run, or one of them has no scenes and methods.
-    """
+def _finished_cells(directory: Path, rows: list[Row], reasons: list[dict[str, str]]) -> list[Cell]:
     cells: list[Cell] = []
     for profile in dict.fromkeys(row.profile for row in rows):
         if (directory / profile / "results.csv").is_file():
             own = [row for row in rows if row.profile == profile]
             cells += _profile_cells(load(directory / profile), own, reasons)
+    return cells
+
+
+def cells_of(directory: Path, rows: list[Row], reasons: list[dict[str, str]]) -> list[Cell]:
+    """All cells of the runs in a folder, one folder a profile, in the order of the rows.
+
+    @throws ReportError where there is no run, or one of them has no scenes and methods.
+    """
+    cells = _finished_cells(directory, rows, reasons)
     if not cells:
         raise ReportError(f"{directory}: no profile of the limits has results there")
     return cells

@@ -122,6 +122,7 @@ class Stability(unittest.TestCase):
         for name, rays, cones in (("finer_voxels", 0.1, 0.19), ("more_rays", 0.05, 0.21)):
             self.profile(f"remedies/{name}/rays/bias", {("room", "rays"): (1.0, {"indirect_bias_nrmse": rays})})
             self.profile(f"remedies/{name}/cones/bias", {("room", "cones"): (1.0, {"indirect_bias_nrmse": cones})})
+        self.profile("remedies/finer_voxels/rays/moving", {})  # begun, nothing finished
         with contextlib.redirect_stdout(io.StringIO()) as said:
             self.assertEqual(make_stability.main([str(self.root), str(self.limits), "--remedies"]), 0)
         self.assertEqual(said.getvalue(), "2 of 4 cells fail; 2 are empty; a remedy lowers 1 of these, 1 of them below their limit\n")
