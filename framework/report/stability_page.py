@@ -25,7 +25,7 @@ def reason(cell: Cell) -> str:
         return cell.reason
     told = [f"{percent(value)} % with {name}" for name, value in cell.helping]
     if not told:
-        return f"{cell.reason}; no remedy lowers it: " + ", ".join(f"{percent(value)} % with {name}" for name, value in cell.remedies)
+        return f"{cell.reason}; no remedy lowers it by a tenth: " + ", ".join(f"{percent(value)} % with {name}" for name, value in cell.remedies)
     return ", ".join(told) if cell.reason == UNKNOWN else f"{cell.reason}; " + ", ".join(told)
 
 
