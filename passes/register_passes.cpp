@@ -34,6 +34,7 @@
 #include "passes/inject_shadow_map/inject_shadow_map.h"
 #include "passes/inject_voxel_rays/inject_voxel_rays.h"
 #include "passes/light_clipmap/light_clipmap.h"
+#include "passes/light_octree/light_octree.h"
 #include "passes/link_surfels/link_surfels.h"
 #include "passes/merge_voxels/merge_voxels.h"
 #include "passes/path_trace/path_trace_pass.h"
@@ -49,6 +50,7 @@
 #include "passes/update_radiance_cache/update_radiance_cache.h"
 #include "passes/voxelize/voxelize_pass.h"
 #include "passes/voxelize_clipmap/voxelize_clipmap.h"
+#include "passes/voxelize_octree/voxelize_octree.h"
 #include "passes/voxelize_packed/voxelize_packed.h"
 
 namespace voxray {
@@ -62,6 +64,7 @@ void registerPasses(Registry& registry) {
     registry.add<InjectLightRays>();
     registry.add<PlaceSurfels>();
     registry.add<InjectVoxelRays>();
+    registry.add<LightOctree>();
     registry.add<LinkSurfels>();
     registry.add<InjectRadiosity>();
     registry.add<SmoothSurfels>();
@@ -100,6 +103,7 @@ void registerPasses(Registry& registry) {
     registry.add<Composite>();
     registry.add<PathTracePass>();
     // As published, for comparison: last, for messages name passes in this order.
+    registry.add<VoxelizeOctree>();
     registry.add<VoxelizePacked>();
     registry.add<InjectPackedLightRays>();
     registry.add<DirectPackedVoxels>();

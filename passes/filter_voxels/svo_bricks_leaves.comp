@@ -11,14 +11,13 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     float emission;
-    uint firstNode;
-    uint count;
+    LevelNodes nodes;
     uint isMeasured;  // 0: the brightest is looked for; 1: it is known.
 } push;
 
 void main() {
-    if (linearIndex() >= push.count) return;
-    const BrickNode node = radianceVoxels.nodes.data[push.firstNode + linearIndex()];
+    if (linearIndex() >= nodesOf(push.nodes)) return;
+    const BrickNode node = radianceVoxels.nodes.data[levelNode(push.nodes, linearIndex())];
     if (node.brick == NO_BRICK) return;
     const uint voxel = voxelNumber(push.grid, unpackCell(node.cell));
     vec4 value = voxel == NO_VOXEL ? vec4(0.0) : meanRadiance(push.grid, voxel, push.emission);

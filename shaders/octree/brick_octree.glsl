@@ -21,15 +21,32 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Bricks { uin
 // Where a value of a brick stands; `at`: 0 to 2 along each axis.
 uint brickIndex(uint brick, ivec3 at) { return brick * BRICK_VALUES + uint((at.z * 3 + at.y) * 3 + at.x); }
 
-// The brick of a node `levels` below the root, by descent; NO_BRICK where there is none. `cell`: its place on its level.
-uint findBrick(BrickNodes nodes, ivec3 cell, uint levels) {
+// A node by its number among those of its level, and back.
+uint levelNode(LevelNodes level, uint i) {
+    return i < level.staticCount ? level.staticFirst + i : level.dynamicFirst + i - level.staticCount;
+}
+uint indexInLevel(LevelNodes level, uint node) {
+    const uint i = node - level.staticFirst;
+    return i < level.staticCount ? i : level.staticCount + node - level.dynamicFirst;
+}
+uint nodesOf(LevelNodes level) { return level.staticCount + level.dynamicCount; }
+
+// The node `levels` below the root, by descent; NO_BRICK_NODE where there is none. `cell`: its place on its level.
+#define NO_BRICK_NODE 0xffffffffu
+uint findNode(BrickNodes nodes, ivec3 cell, uint levels) {
     uint node = 0u;
     for (uint below = levels; below > 0u; --below) {
         const uint first = nodes.data[node].firstChild;
-        if (first == NO_CHILDREN) return NO_BRICK;
+        if (first == NO_CHILDREN) return NO_BRICK_NODE;
         node = first + octantOf(cell >> (below - 1u));
     }
-    return nodes.data[node].brick;
+    return node;
+}
+
+// The brick of that node; NO_BRICK where there is none.
+uint findBrick(BrickNodes nodes, ivec3 cell, uint levels) {
+    const uint node = findNode(nodes, cell, levels);
+    return node == NO_BRICK_NODE ? NO_BRICK : nodes.data[node].brick;
 }
 
 #endif

@@ -9,6 +9,7 @@
 #define NO_NEIGHBOR 0u
 #define NO_BRICK 0xffffffffu
 #define BRICK_VALUES 27u
+#define STATIC_LEAF 0x40000000u  // A bit of `cell`: a leaf that surfaces pass through which stay.
 
 VOXRAY_SHARED_BEGIN
 
@@ -17,9 +18,17 @@ struct BrickNode {
     uint firstChild;  // Of eight, octants x + 2 y + 4 z.
     uint brick;
     uint neighbor[6];  // Of the same level: +x +y +z -x -y -z.
-    uint color;        // 0: materials are kept by surface voxel.
-    uint normal;       // 0, likewise.
+    uint color;        // Of a leaf: mean of its fragments as RGBA8, their number in alpha; 0 without any, ...
+    uint normal;       // ... likewise. Both are 0 where materials are kept by surface voxel.
     uint cell;         // Its place on its level, 10 bits an axis; the thesis has its center.
+};
+
+// The nodes of a level: in the static section of the node pool, and in the dynamic one, which stands behind all of it.
+struct LevelNodes {
+    uint staticFirst;
+    uint staticCount;
+    uint dynamicFirst;
+    uint dynamicCount;
 };
 
 VOXRAY_SHARED_END

@@ -48,6 +48,12 @@ const Case kCases[] = {
      graphYaml({"gbuffer", "voxelize_clipmap, resolution: 96, clipmap_resolution: 32",
                 "light_clipmap, shadow_resolution: 128, bounces: 1", "gather_cones"}),
      "{lights: point}", 1.3},  // Planned for the fullest places of the scene, wherever the camera goes.
+    {"published octree",
+     graphYaml({"gbuffer", "voxelize_octree, resolution: 48", "render_rsm, rsm_resolution: 128",
+                "light_octree", "gather_stepped_cones"}),
+     "{lights: point}"},
+    {"bricks", graphYaml({"voxelize, resolution: 48, directions: 1", "inject_light_rays, bounces: 0",
+                          "filter_voxels, layout: svo_bricks"})},
     {"lists", graphYaml({"voxelize, resolution: 48", "build_hybrid_leaves"})},
     {"grids", graphYaml({"voxelize, resolution: 48", "build_hybrid_leaves, primitives: 1, grid: 6"})},
     {"levels of grids", graphYaml({"voxelize, resolution: 48",

@@ -2,21 +2,26 @@
 
 #include <vector>
 
+#include "graph/pass.h"
+#include "passes/common/compute/large_buffer.h"
 #include "passes/common/octree/brick_octree_count.h"
 #include "shaders/octree/brick_octree_types.h"
+#include "shaders/voxels/voxel_types.h"
 
 namespace voxray {
 
-/// The nodes of Arnebäck 2017's octree, linked: shaders/octree/brick_octree.glsl reads them.
-struct BrickOctree {
-    std::vector<gpu::BrickNode> nodes;  ///< The root, then level by level, siblings in blocks of eight.
-    std::vector<uint32_t> first;        ///< Number of the first node of each level, leaves first.
-    std::vector<uint32_t> count;        ///< Nodes of each level, likewise.
-    uint32_t bricks = 0;                ///< Numbered in the order of their nodes.
+/// The nodes of Arnebäck 2017's octree, chapter 3: a root, then level by level, siblings in blocks of eight.
+/// Nodes of what stays form the static section of the pool, those of what moves the dynamic one behind it.
+/// Bricks are numbered likewise; their values are somebody else's. GLSL: shaders/octree/brick_octree.glsl.
+struct BrickOctree : Resource {
+    gpu::VoxelGrid grid{};                ///< Its voxels are the leaves; known from plan() on.
+    BrickOctreeCount expected;            ///< About what it will hold; likewise.
+    bool moves = false;                   ///< Whether it has a dynamic section; likewise.
+    LargeBuffer nodes;                    ///< gpu::BrickNode each; may have room for more.
+    std::vector<gpu::LevelNodes> levels;  ///< Leaves first.
+    uint32_t nodeCount = 0, brickCount = 0;
+    uint32_t staticNodes = 0, staticBricks = 0;  ///< Of these, in the static section.
+    uint64_t version = 0;                        ///< Another one whenever the content is.
 };
-
-/// Builds it over the voxels that surfaces pass through; brickLevels() says which nodes get a brick.
-/// @throws Error for more than 1024 voxels along an axis.
-BrickOctree buildBrickOctree(VoxelBits voxels, bool neighbors);
 
 }  // namespace voxray

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <span>
 #include <utility>
 
@@ -56,17 +57,28 @@ void visitFragments(const std::array<glm::dvec3, 3>& corners, glm::ivec3 resolut
         }
 }
 
+/// Calls `visit` with the corners of each triangle, in voxels; from several threads.
+template <typename Visit>
+void visitTriangles(const Geometry& geometry, const gpu::VoxelGrid& grid, const Visit& visit) {
+    parallelRanges(geometry.triangles.size(), 1024, [&](size_t begin, size_t end) {
+        for (size_t t = begin; t < end; ++t) visit(cornersInVoxels(geometry, grid, uint32_t(t)));
+    });
+}
+
 /// The voxels that `visitOf(corners, mark)` finds of each triangle.
 template <typename VisitOf>
 VoxelBits voxelsOf(const Geometry& geometry, const gpu::VoxelGrid& grid, const VisitOf& visitOf) {
     VoxelBits bits(grid.resolution);
-    parallelRanges(geometry.triangles.size(), 1024, [&](size_t begin, size_t end) {
-        for (size_t t = begin; t < end; ++t)
-            visitOf(cornersInVoxels(geometry, grid, uint32_t(t)), [&](glm::ivec3 voxel) {
-                if (bits.isInside(voxel)) bits.mark(voxel);
-            });
+    visitTriangles(geometry, grid, [&](const std::array<glm::dvec3, 3>& corners) {
+        visitOf(corners, [&](glm::ivec3 voxel) {
+            if (bits.isInside(voxel)) bits.mark(voxel);
+        });
     });
     return bits;
+}
+
+std::span<const glm::ivec2> samplePoints(uint32_t samples) {
+    return samples == 1 ? std::span<const glm::ivec2>(kCenter) : kEight;
 }
 
 }  // namespace
@@ -106,9 +118,19 @@ BrickOctreeCount countBrickOctree(VoxelBits voxels, bool neighbors) {
 
 VoxelBits rasterizedVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid, uint32_t samples) {
     return voxelsOf(geometry, grid, [&](const std::array<glm::dvec3, 3>& corners, const auto& mark) {
-        visitFragments(corners, glm::ivec3(grid.resolution),
-                       samples == 1 ? std::span<const glm::ivec2>(kCenter) : kEight, mark);
+        visitFragments(corners, glm::ivec3(grid.resolution), samplePoints(samples), mark);
     });
+}
+
+uint64_t countFragments(const Geometry& geometry, const gpu::VoxelGrid& grid, uint32_t samples) {
+    std::atomic<uint64_t> sum = 0;
+    visitTriangles(geometry, grid, [&](const std::array<glm::dvec3, 3>& corners) {
+        uint64_t fragments = 0;
+        visitFragments(corners, glm::ivec3(grid.resolution), samplePoints(samples),
+                       [&](glm::ivec3) { ++fragments; });
+        sum += fragments;
+    });
+    return sum;
 }
 
 VoxelBits metVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {

@@ -41,6 +41,9 @@ BrickOctreeCount countBrickOctree(VoxelBits voxels, bool neighbors = true);
 /// @param samples a pixel: 1, in its center, or 8, the standard pattern of D3D and Vulkan.
 VoxelBits rasterizedVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid, uint32_t samples);
 
+/// The number of these fragments, of all triangles.
+uint64_t countFragments(const Geometry& geometry, const gpu::VoxelGrid& grid, uint32_t samples);
+
 /// All voxels that triangles pass through (visitVoxels()).
 VoxelBits metVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid);
 

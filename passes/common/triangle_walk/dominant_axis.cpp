@@ -11,14 +11,18 @@ namespace {
 /// along it. A pixel is drawn for each column that the triangle touches (not only for those whose center it
 /// contains) and reaches each voxel that the triangle's plane passes through there. Sources: Magalhães 2020,
 /// section 3.2.4.3; Crassin and Green 2012; Hasselgren et al. 2005 for growing triangles by half a pixel.
+///
+/// With `samples`, as published in Arnebäck 2017, section 3.2.1: a pixel reaches one voxel alone, at the
+/// depth of the plane in its center, where one of its sample points is in the triangle.
 class DominantAxisWalk final : public RasterWalk {
  public:
+    explicit DominantAxisWalk(uint32_t samples) : samples_(samples) {}
+
     void plan(PassPlan& plan, const gpu::VoxelGrid& grid) override {
         if (!plan.device.geometryShader)
-            throw Error(
-                "voxelize: method dominant_axis needs geometry shaders (geometryShader), which device '{}' "
-                "lacks; use method exact",
-                plan.device.name);
+            throw Error("{} needs geometry shaders (geometryShader), which device '{}' lacks; use {}",
+                        samples_ > 0 ? "voxelize_octree" : "voxelize: method dominant_axis", plan.device.name,
+                        samples_ > 0 ? "voxelize and filter_voxels" : "method exact");
         RasterWalk::plan(plan, grid);
     }
 
@@ -30,7 +34,7 @@ class DominantAxisWalk final : public RasterWalk {
     Program compileVisitor(PassSetup& setup, const std::string& shader,
                            const Defines& defines) const override {
         Defines all = defines;
-        all.emplace("DOMINANT_AXIS", "1");
+        all.emplace(samples_ > 0 ? "SAMPLED_AXIS" : "DOMINANT_AXIS", "1");
         const ShaderModule modules[] = {vertex_, geometry_, setup.compiler.compile(shader + ".frag", all)};
         return makeRasterProgram(setup.device, modules, {});
     }
@@ -41,6 +45,7 @@ class DominantAxisWalk final : public RasterWalk {
         gpu::TriangleWalkPush push{};
         push.grid = grid;
         push.visitorScale = visitorScale;
+        push.samples = samples_;
         push.imageSide = std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z});
         RasterTargets targets;
         targets.extent = {push.imageSide, push.imageSide, 1};
@@ -48,13 +53,18 @@ class DominantAxisWalk final : public RasterWalk {
     }
 
  private:
+    uint32_t samples_;  ///< A pixel; 0: conservatively.
     ShaderModule vertex_, geometry_;
 };
 
 }  // namespace
 
 std::unique_ptr<TriangleWalk> makeDominantAxisWalk() {
-    return std::make_unique<DominantAxisWalk>();
+    return std::make_unique<DominantAxisWalk>(0);
+}
+
+std::unique_ptr<TriangleWalk> makeSampledAxisWalk(uint32_t samples) {
+    return std::make_unique<DominantAxisWalk>(samples);
 }
 
 }  // namespace voxray

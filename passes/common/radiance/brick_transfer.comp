@@ -7,17 +7,16 @@
 #include "shaders/radiance/radiance_voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(push_constant) uniform Push {
-    uint firstNode;
-    uint count;
+layout(push_constant, scalar) uniform Push {
+    LevelNodes nodes;
     uint axis;
     float part;  // Of the sum of both.
     uint isBack;
 } push;
 
 void main() {
-    if (linearIndex() >= push.count) return;
-    const uint node = push.firstNode + linearIndex(), brick = radianceVoxels.nodes.data[node].brick;
+    if (linearIndex() >= nodesOf(push.nodes)) return;
+    const uint node = levelNode(push.nodes, linearIndex()), brick = radianceVoxels.nodes.data[node].brick;
     const uint neighbor = radianceVoxels.nodes.data[node].neighbor[push.axis + 3u * push.isBack];
     if (brick == NO_BRICK || neighbor == NO_NEIGHBOR) return;
     const uint other = radianceVoxels.nodes.data[neighbor].brick;

@@ -14,9 +14,8 @@
 #include "shaders/radiance/radiance_voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(push_constant) uniform Push {
-    uint firstNode;
-    uint count;
+layout(push_constant, scalar) uniform Push {
+    LevelNodes nodes;
     uint firstSides;  // Values on so many sides of the brick, ...
     uint lastSides;   // ... up to so many.
 } push;
@@ -33,8 +32,8 @@ vec4 childValue(uint brick[8], uint bricked, ivec3 at) {
 }
 
 void main() {
-    if (linearIndex() >= push.count) return;
-    const BrickNode node = radianceVoxels.nodes.data[push.firstNode + linearIndex()];
+    if (linearIndex() >= nodesOf(push.nodes)) return;
+    const BrickNode node = radianceVoxels.nodes.data[levelNode(push.nodes, linearIndex())];
     if (node.brick == NO_BRICK) return;
     uint child[8], bricked = 0u;
     for (uint octant = 0u; octant < 8u; ++octant) {

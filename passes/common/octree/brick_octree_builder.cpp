@@ -1,0 +1,142 @@
+#include "passes/common/octree/brick_octree_builder.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "passes/common/compute/dispatch.h"
+#include "passes/common/voxels/grid_levels.h"
+
+namespace voxray {
+namespace {
+
+using gpu::BrickNode;
+using gpu::LevelNodes;
+static_assert(sizeof(BrickNode) == kBrickNodeBytes);
+constexpr uint32_t kLongestAxis = 1024;     // A node's place takes 10 bits an axis.
+constexpr uint32_t kScratchWordsANode = 3;  // Visited, flag, flags before.
+
+struct FlagPush {
+    LevelNodes nodes;
+    glm::uvec3 resolution;
+    uint32_t level;
+    uint32_t belowRoot;
+    uint32_t fragments;
+    uint32_t neighbors;
+};
+struct LinkPush {
+    LevelNodes nodes;
+    uint32_t belowRoot;
+};
+struct SubdividePush {
+    LevelNodes nodes;
+    uint32_t firstBrick;
+    uint32_t firstChild;
+};
+struct ClearPush {
+    uint32_t staticNodes;
+    uint32_t staticBricks;
+};
+
+uint32_t nodesOf(const LevelNodes& level) {
+    return level.staticCount + level.dynamicCount;
+}
+
+/// Room for so many nodes; those that are there stay.
+void grow(CommandStream& stream, BrickOctree& octree, uint64_t nodes) {
+    const uint64_t bytes = nodes * kBrickNodeBytes;
+    if (octree.nodes && octree.nodes.bytes() >= bytes) return;
+    if (nodes > UINT32_MAX) throw Error("an octree of {} nodes can't be numbered in 32 bits", nodes);
+    LargeBuffer larger(stream.device(), "octree nodes", bytes);
+    if (octree.nodeCount > 0) stream.copy(octree.nodes, larger, uint64_t(octree.nodeCount) * kBrickNodeBytes);
+    stream.finish();
+    octree.nodes = std::move(larger);
+}
+
+}  // namespace
+
+BrickOctreeBuilder::BrickOctreeBuilder(Device& device, const ShaderCompiler& compiler, bool neighbors)
+    : neighbors_(neighbors ? 1 : 0), prefixSum_(std::in_place, device, compiler, PrefixSum::Of::Values) {
+    const auto program = [&](const char* file) { return makeComputeProgram(device, compiler.compile(file)); };
+    flag_ = program("passes/common/octree/brick_octree_flag.comp");
+    link_ = program("passes/common/octree/brick_octree_link.comp");
+    subdivide_ = program("passes/common/octree/brick_octree_subdivide.comp");
+    clear_ = program("passes/common/octree/brick_octree_clear.comp");
+}
+
+void BrickOctreeBuilder::build(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells,
+                               uint32_t fragments) const {
+    const glm::uvec3 size = octree.grid.resolution;
+    if (std::max({size.x, size.y, size.z}) > kLongestAxis)
+        throw Error("an octree of bricks takes at most {} voxels along an axis; the grid has {}x{}x{}",
+                    kLongestAxis, size.x, size.y, size.z);
+    octree.levels.assign(gridLevels(size), LevelNodes{});
+    octree.levels.back().staticCount = 1;
+    octree.nodeCount = octree.brickCount = 0;
+    grow(stream, octree, std::max<uint64_t>(octree.expected.nodes(), 1));
+    BrickNode root{};
+    root.brick = NO_BRICK;
+    stream.upload(octree.nodes, std::as_bytes(std::span(&root, 1)));
+    octree.nodeCount = 1;
+    addNodes(stream, octree, Section::Static, cells, fragments);
+    octree.staticNodes = octree.nodeCount;
+    octree.staticBricks = octree.brickCount;
+}
+
+void BrickOctreeBuilder::rebuildDynamic(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells,
+                                        uint32_t fragments) const {
+    stream.dispatch(clear_, {{"OctreeNodesAt", octree.nodes.at()}},
+                    ClearPush{octree.staticNodes, octree.staticBricks}, linearGroups(octree.staticNodes));
+    octree.nodeCount = octree.staticNodes;
+    octree.brickCount = octree.staticBricks;
+    for (LevelNodes& level : octree.levels) level.dynamicFirst = level.dynamicCount = 0;
+    addNodes(stream, octree, Section::Dynamic, cells, fragments);
+}
+
+void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Section section,
+                                  const LargeBuffer& cells, uint32_t fragments) const {
+    const uint32_t top = uint32_t(octree.levels.size()) - 1;
+    for (uint32_t level = top + 1; level-- > 0;) {
+        const LevelNodes nodes = octree.levels[level];
+        const uint32_t count = nodesOf(nodes), belowRoot = top - level;
+        const auto scratch = [&](const char* name) {
+            return Buffer(stream.device(), name, count * sizeof(uint32_t));
+        };
+        const Buffer visited = scratch("visited nodes"), flags = scratch("flagged nodes"),
+                     before = scratch("flags before");
+        stream.fill(visited, 0);
+        stream.fill(flags, 0);
+        stream.dispatch(flag_,
+                        {{"FragmentCellsAt", cells.at()},
+                         {"OctreeNodesAt", octree.nodes.at()},
+                         {"visited", visited},
+                         {"flags", flags}},
+                        FlagPush{nodes, levelResolution(octree.grid.resolution, level), level, belowRoot,
+                                 fragments, neighbors_},
+                        linearGroups(fragments));
+        stream.dispatch(link_, {{"OctreeNodesAt", octree.nodes.at()}}, LinkPush{nodes, belowRoot},
+                        linearGroups(count));
+        const uint32_t flagged = prefixSum_->run(stream, flags, before, count);
+        const uint32_t firstChild = level == 0 ? NO_CHILDREN : octree.nodeCount;
+        if (level > 0) {
+            grow(stream, octree, octree.nodeCount + 8ull * flagged);
+            LevelNodes& finer = octree.levels[level - 1];
+            (section == Section::Static ? finer.staticFirst : finer.dynamicFirst) = octree.nodeCount;
+            (section == Section::Static ? finer.staticCount : finer.dynamicCount) = 8 * flagged;
+            octree.nodeCount += 8 * flagged;
+        }
+        stream.dispatch(subdivide_,
+                        {{"OctreeNodesAt", octree.nodes.at()}, {"flags", flags}, {"before", before}},
+                        SubdividePush{nodes, octree.brickCount, firstChild}, linearGroups(count));
+        octree.brickCount += flagged;
+        stream.finish();
+    }
+}
+
+uint64_t BrickOctreeBuilder::scratchBytes(const BrickOctreeCount& count) {
+    uint64_t nodes = 0;
+    for (const BrickOctreeCount::Level& level : count.levels) nodes = std::max(nodes, level.nodes);
+    return nodes * kScratchWordsANode * sizeof(uint32_t) + PrefixSum::scratchBytes(uint32_t(nodes));
+}
+
+}  // namespace voxray

@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Forgets the dynamic section (Arnebäck 2017, section 3.2.2, "Dynamic Geometry"): no node of the static one points there any more, and
+// leaves without surfaces that stay are empty. A thread takes a node of the static section.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/octree/brick_octree.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) buffer OctreeNodesAt { BrickNodes nodes; };
+layout(push_constant) uniform Push {
+    uint staticNodes;
+    uint staticBricks;
+} push;
+
+void main() {
+    const uint node = linearIndex();
+    if (node >= push.staticNodes) return;
+    BrickNode n = nodes.data[node];
+    if (n.firstChild >= push.staticNodes) n.firstChild = NO_CHILDREN;
+    if (n.brick >= push.staticBricks) n.brick = NO_BRICK;
+    for (uint side = 0u; side < 6u; ++side)
+        if (n.neighbor[side] >= push.staticNodes) n.neighbor[side] = NO_NEIGHBOR;
+    if ((n.cell & STATIC_LEAF) == 0u) n.color = n.normal = 0u;
+    nodes.data[node] = n;
+}

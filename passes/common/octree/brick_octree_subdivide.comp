@@ -1,0 +1,30 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Pass "Subdivision" (Arnebäck 2017, section 3.2.2): a brick for each flagged node and, above the leaves, eight children. A thread takes
+// a node. Numbers are counts of flags before it, where the thesis has atomic counters: the same voxels give the same pool.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/octree/brick_octree.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) buffer OctreeNodesAt { BrickNodes nodes; };
+readonly buffer Flags { uint data[]; } flags;
+readonly buffer Before { uint data[]; } before;
+layout(push_constant, scalar) uniform Push {
+    LevelNodes nodes;
+    uint firstBrick;
+    uint firstChild;  // NO_CHILDREN for leaves.
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= nodesOf(push.nodes) || flags.data[i] == 0u) return;
+    const uint node = levelNode(push.nodes, i);
+    nodes.data[node].brick = push.firstBrick + before.data[i];
+    if (push.firstChild == NO_CHILDREN) return;
+    const uint first = push.firstChild + 8u * before.data[i];
+    nodes.data[node].firstChild = first;
+    const ivec3 cell = unpackCell(nodes.data[node].cell);
+    for (uint octant = 0u; octant < 8u; ++octant)
+        nodes.data[first + octant] = BrickNode(NO_CHILDREN, NO_BRICK, uint[6](0u, 0u, 0u, 0u, 0u, 0u), 0u, 0u,
+                                               packCell(2 * cell + octantOffset(octant)));
+}

@@ -1,0 +1,81 @@
+#include "passes/common/radiance/brick_radiance.h"
+
+#include <utility>
+
+#include "passes/common/compute/dispatch.h"
+
+namespace voxray {
+namespace {
+
+/// The buffer `radianceVoxels` of shaders/radiance/radiance_svo_bricks.glsl.
+struct Header {
+    gpu::RadianceGrid grid;
+    VkDeviceAddress nodes, bricks, scale;
+};
+static_assert(sizeof(gpu::RadianceGrid) % sizeof(VkDeviceAddress) == 0);
+
+struct TransferPush {
+    gpu::LevelNodes nodes;
+    uint32_t axis;
+    float part;
+    uint32_t isBack;
+};
+struct FilterPush {
+    gpu::LevelNodes nodes;
+    uint32_t firstSides, lastSides;
+};
+
+glm::uvec3 groupsOf(const gpu::LevelNodes& nodes) {
+    return linearGroups(uint64_t(nodes.staticCount) + nodes.dynamicCount);
+}
+
+}  // namespace
+
+void BrickRadiance::plan(PassPlan& plan, RadianceVoxels& radiance, const BrickOctreeCount& expected) {
+    radiance.grid.unit = 1;  // BrickScale has it.
+    radiance.storage = std::vector<Buffer>(2);
+    plan.buffer(radiance.storage[0], "bricks' scale", sizeof(uint32_t));
+    plan.reserveCounted("octree bricks (estimated)", expected.bricks() * kBrickBytes);
+    plan.buffer(radiance.header, "octree of bricks' header", sizeof(Header));
+}
+
+void BrickRadiance::prepare(PassSetup& setup, const RadianceVoxels& radiance) {
+    const auto program = [&](const char* file) {
+        return makeComputeProgram(setup.device, setup.compiler.compile(file, radiance.defines()));
+    };
+    transfer_ = program("passes/common/radiance/brick_transfer.comp");
+    filter_ = program("passes/common/radiance/brick_filter.comp");
+}
+
+void BrickRadiance::follow(CommandStream& stream, const BrickOctree& octree, RadianceVoxels& radiance) const {
+    Buffer& bricks = radiance.storage[1];
+    const uint64_t bytes = octree.brickCount * kBrickBytes;
+    if (!bricks || bricks.bytes() < bytes) {
+        bricks = {};
+        bricks = Buffer(stream.device(), "octree bricks", bytes);
+    }
+    const Header header{radiance.grid, octree.nodes.address(), bricks.address(),
+                        radiance.storage[0].address()};
+    stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
+}
+
+void BrickRadiance::filter(CommandStream& stream, const BrickOctree& octree,
+                           const RadianceVoxels& radiance) const {
+    transfer(stream, radiance, octree.levels[0], 0.5f);
+    for (size_t level = 1; level < octree.levels.size(); ++level) {
+        const gpu::LevelNodes& nodes = octree.levels[level];
+        for (const auto& [from, to] : {std::pair{0u, 0u}, std::pair{1u, 2u}, std::pair{3u, 3u}})
+            stream.dispatch(filter_, radiance.bindings(), FilterPush{nodes, from, to}, groupsOf(nodes));
+        transfer(stream, radiance, nodes, 1);
+    }
+}
+
+void BrickRadiance::transfer(CommandStream& stream, const RadianceVoxels& radiance,
+                             const gpu::LevelNodes& nodes, float part) const {
+    for (uint32_t axis = 0; axis < 3; ++axis)
+        for (const uint32_t isBack : {0u, 1u})
+            stream.dispatch(transfer_, radiance.bindings(), TransferPush{nodes, axis, part, isBack},
+                            groupsOf(nodes));
+}
+
+}  // namespace voxray

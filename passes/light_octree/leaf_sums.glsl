@@ -1,0 +1,17 @@
+// Sums over the texels that a leaf is seen by. Fixed point: order does not matter.
+#ifndef VOXRAY_LEAF_SUMS_GLSL
+#define VOXRAY_LEAF_SUMS_GLSL
+
+#include "shaders/octree/brick_octree.glsl"
+
+struct LeafSum {
+    uint texels;
+    uint radiance[3];  // Parts by texel, of the light's brightest; they add up to at most 1, which is kWhole.
+};
+const float kWhole = 1073741824.0;  // 2^30: each of 2^30 texels may round up.
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LeafSums { LeafSum data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LeafRadiance { vec3 data[]; };
+layout(scalar) buffer LeafSumsAt { LeafSums sums; };
+
+#endif

@@ -1,0 +1,10 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// A walk's visitor: counts the fragments.
+#include "passes/common/triangle_walk/raster.glsl"
+
+buffer FragmentCount { uint fragments; } fragmentCount;
+
+void visitFragment(TriangleFragment f) {
+    if (passesAlphaMask(f)) atomicAdd(fragmentCount.fragments, 1u);
+}

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "passes/common/compute/large_buffer.h"
+
+namespace voxray {
+
+/// Fragments of triangles, a word of each array for one (Arnebäck 2017, listing 1).
+struct FragmentList {
+    uint32_t count = 0;
+    LargeBuffer cells;    ///< Voxel, 10 bits an axis.
+    LargeBuffer colors;   ///< Diffuse albedo, RGBA8.
+    LargeBuffer normals;  ///< 0.5 n + 0.5 of the front-side normal n, RGBA8.
+
+    static uint64_t bytes(uint64_t fragments) { return 3 * fragments * sizeof(uint32_t); }
+};
+
+}  // namespace voxray

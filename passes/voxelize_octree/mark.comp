@@ -1,0 +1,18 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Marks the leaves that have fragments of what stays. A thread takes a leaf of the static section.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/octree/brick_octree.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) buffer OctreeNodesAt { BrickNodes nodes; };
+layout(push_constant) uniform Push {
+    uint firstNode;
+    uint count;
+} push;
+
+void main() {
+    if (linearIndex() >= push.count) return;
+    const uint leaf = push.firstNode + linearIndex();
+    if (nodes.data[leaf].color != 0u) nodes.data[leaf].cell |= STATIC_LEAF;
+}
