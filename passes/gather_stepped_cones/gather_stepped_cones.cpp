@@ -8,6 +8,7 @@ namespace {
 struct TracePush {
     uint32_t samples;
     float step;
+    float start;
 };
 
 }  // namespace
@@ -36,7 +37,7 @@ void GatherSteppedCones::record(PassContext& context) {
                                      {"normal", gbuffer.normal, sampler_},
                                      {"albedo", gbuffer.albedo, sampler_},
                                      {"result", context.get(indirect_).image}});
-    context.stream.dispatch(trace_, bindings, TracePush{gbuffer.samples, params_.step},
+    context.stream.dispatch(trace_, bindings, TracePush{gbuffer.samples, params_.step, params_.start},
                             pixelGroups(context.frame.width, context.frame.height));
 }
 

@@ -19,11 +19,16 @@ class GatherSteppedCones final : public Pass {
         "meets twice. No noise. Source: Arnebäck 2017, sections 3.1.5 and 3.2.5.";
     struct Params {
         float step = 0.5f;
+        float start = 1.0f;
         static constexpr auto schema() {
             return std::tuple{field("step", &Params::step,
                                     "From a sample to the next, in widths of the cone there; each counts for "
                                     "so much of its width.",
-                                    0.125f, 1.0f)};
+                                    0.125f, 1.0f),
+                              field("start", &Params::start,
+                                    "From the surface to a cone's first sample, in voxels. Near ones see the "
+                                    "surface itself, far ones pass what is near. As published it is unknown.",
+                                    0.5f, 16.0f)};
         }
     };
 

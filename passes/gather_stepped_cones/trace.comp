@@ -1,9 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Radiance that each pixel reflects of what six cones find, averaged over its texels (Arnebäck 2017, sections 3.1.5 and 3.2.5). What
-// the thesis leaves open: a cone's first sample is a voxel's width off the surface, so that it does not read the surface itself in a
-// plane along the axes; a cone ends a sample's width
-// outside of the grid, where none reads it any more.
+// the thesis leaves open: where a cone's first sample is (`start`); a cone ends a sample's width outside of the grid, where none reads
+// it any more.
 #include "shaders/radiance/sample_radiance.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -15,6 +14,7 @@ layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant) uniform Push {
     int samples;
     float step_;
+    float start;
 } push;
 
 const float CONE_WIDTH = 1.1547005;  // At a distance of 1: 2 tan 30°, so that cones 60° apart touch.
@@ -26,7 +26,7 @@ vec3 coneRadiance(vec3 origin, vec3 direction) {
     const vec3 high = g.origin + g.voxelSize * vec3(g.resolution);
     vec3 radiance = vec3(0.0);
     float opacity = 0.0;
-    float t = g.voxelSize;
+    float t = push.start * g.voxelSize;
     for (int i = 0; i < MAX_STEPS && opacity < 0.999; ++i) {
         const vec3 at = origin + t * direction;
         const float width = max(g.voxelSize, CONE_WIDTH * t);
