@@ -109,10 +109,10 @@ BENCHMARK(octreeUpdate)
     ->Iterations(5)
     ->Unit(benchmark::kMillisecond);
 
-constexpr std::array kThinConeLayouts{"dense", "svo", "clipmap, clipmap_resolution: 128"};
+constexpr std::array kThinConeLayouts{"dense", "svo", "clipmap, clipmap_resolution: 128", "svo_bricks"};
 
 /// Cones of 5 m from the center of Sponza through each layout: as far as the clipmap's finest window reaches
-/// at 256 voxels, so that all take the same samples.
+/// at 256 voxels, so that all take the same samples; bricks with one value a voxel alone.
 void thinCone(benchmark::State& state) {
     const RadianceVoxels& radiance =
         *sponza(uint32_t(state.range(0)), uint32_t(state.range(1)),
@@ -146,6 +146,7 @@ void thinCone(benchmark::State& state) {
 BENCHMARK(thinCone)
     ->ArgNames({"resolution", "directions", "layout", "width_percent"})
     ->ArgsProduct({{256}, {1, 6}, {0, 1, 2}, {0, 20}})
+    ->ArgsProduct({{64, 128, 256, 512}, {1}, {2, 3}, {0}})
     ->MeasureProcessCPUTime()
     ->Iterations(4)
     ->Unit(benchmark::kMillisecond);
