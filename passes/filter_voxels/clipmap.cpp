@@ -16,7 +16,8 @@ struct FillPush {
     uint32_t source;
 };
 
-/// Windows follow the camera: what scrolls in is filled, the rest stays. Docs: docs/clipmap.md.
+/// Windows follow the camera: what scrolls in is filled, the rest stays, in a buffer or in a 3D texture.
+/// Docs: docs/clipmap.md.
 class ClipmapStorage final : public RadianceStorage {
  public:
     explicit ClipmapStorage(uint32_t side) : side_(side) {}
@@ -31,6 +32,7 @@ class ClipmapStorage final : public RadianceStorage {
         fill_ = makeComputeProgram(
             setup.device,
             setup.compiler.compile("passes/filter_voxels/clipmap_fill.comp", radiance.defines()));
+        clipmap_.prepare(setup, radiance);
         windows_.clear();
     }
 
@@ -44,7 +46,7 @@ class ClipmapStorage final : public RadianceStorage {
         // Fill what is new in them; where surfaces or their light are, everything.
         uint64_t updated = 0;
         std::vector<Binding> bindings = surfaceRadianceBindings(voxels, light);
-        for (const Binding& binding : radiance.bindings()) bindings.push_back(binding);
+        for (const Binding& binding : radiance.fillBindings()) bindings.push_back(binding);
         for (uint32_t level = 0; level < radiance.grid.levels; ++level) {
             const gpu::ClipmapWindow& window = windows[level];
             const std::vector<VoxelBox> boxes =

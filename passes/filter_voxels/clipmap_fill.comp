@@ -34,7 +34,7 @@ bool isEmpty(ivec3 voxel, uint level) {
 vec4 sourceValue(ivec3 voxel, uint face) {
     if (push.source > 0u) {
         const ClipmapWindow w = radianceVoxels.window[push.source];
-        return inWindow(w, voxel) ? radianceValue(clipmapSlot(w, voxel), face) : vec4(0.0);
+        return inWindow(w, voxel) ? radianceValue(clipmapSlot(push.source, voxel), face) : vec4(0.0);
     }
     const uint number = voxelNumber(push.grid, voxel);
     if (number == NO_VOXEL) return vec4(0.0);
@@ -71,7 +71,7 @@ vec4 filtered(ivec3 voxel, uint depth, uint face) {
         if (push.source > 0u) d = 0u;
         while (d > 0u && !isEmpty(descendant(voxel, depth - d, index >> (3u * d), face), d)) --d;
         value = d > 0u ? vec4(0.0) : sourceValue(descendant(voxel, depth, index, face), face);
-        value = unpackRadiance(packRadiance(value));
+        value = storedRadiance(value);
         const uint taken = 1u << (3u * d);
 
         // Up, for as long as it is the last of its parent's children.
@@ -83,7 +83,7 @@ vec4 filtered(ivec3 voxel, uint depth, uint face) {
             }
             sum[d] += byFace ? inARow(front[d], value) : 0.5 * (front[d] + value);
             if (octant != 7u) break;
-            value = unpackRadiance(packRadiance(0.25 * sum[d]));
+            value = storedRadiance(0.25 * sum[d]);
             sum[d] = vec4(0.0);
         }
         index += taken;
@@ -96,7 +96,7 @@ void main() {
     const uvec3 size = push.boxSize;
     if (i >= size.x * size.y * size.z) return;
     const ivec3 voxel = push.boxFirst + ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
-    const uint slot = clipmapSlot(radianceVoxels.window[push.level], voxel);
+    const CLIPMAP_SLOT slot = clipmapSlot(push.level, voxel);
     const bool empty = push.source == 0u && isEmpty(voxel, push.level);
     for (uint face = 0u; face < radianceVoxels.grid.directions; ++face)
         storeRadiance(slot, face, empty ? vec4(0.0) : filtered(voxel, push.level - push.source, face));

@@ -1,20 +1,9 @@
 #include "passes/filter_voxels/filter_voxels.h"
 
-#include <cmath>
-
 #include "base/error.h"
 #include "passes/common/lights/light_sources.h"
 
 namespace voxray {
-namespace {
-
-/// The power of two below the scene's typical irradiance, in the center of the range of half floats.
-float radianceUnit(const SceneState& state) {
-    const float typical = meanIrradiance(lightSources(state), state.geometry);
-    return typical > 0 ? std::exp2(std::floor(std::log2(typical))) : 1.0f;
-}
-
-}  // namespace
 
 FilterVoxels::FilterVoxels(const Params& params)
     : params_(params),

@@ -22,16 +22,17 @@ class FilterVoxels final : public Pass {
     struct Params : ClipmapParams, ClipmapLevelParams, BrickParams, ConeBounceParams {
         RadianceLayout layout = RadianceLayout::Dense;
         bool emission = false;
+        static constexpr auto ofClipmaps() {
+            return oneOf(&Params::layout, {RadianceLayout::Clipmap, RadianceLayout::ClipmapTextures});
+        }
         static constexpr auto schema() {
             return std::tuple_cat(
                 std::tuple{field("layout", &Params::layout, kRadianceLayoutHelp),
                            field("emission", &Params::emission,
                                  "Whether what surfaces emit is in. Off, cones bring indirect light alone: a "
                                  "direct_* pass adds the rest.")},
-                std::tuple{std::get<0>(ClipmapParams::schema())
-                               .onlyWith(oneOf(&Params::layout, {RadianceLayout::Clipmap})),
-                           std::get<0>(ClipmapLevelParams::schema())
-                               .onlyWith(oneOf(&Params::layout, {RadianceLayout::Clipmap})),
+                std::tuple{std::get<0>(ClipmapParams::schema()).onlyWith(ofClipmaps()),
+                           std::get<0>(ClipmapLevelParams::schema()).onlyWith(ofClipmaps()),
                            std::get<0>(BrickParams::schema())
                                .onlyWith(oneOf(&Params::layout, {RadianceLayout::SvoBricks}))},
                 ConeBounceParams::schema());

@@ -17,6 +17,7 @@ std::unique_ptr<RadianceStorage> makeRadianceStorage(RadianceLayout layout, cons
         case RadianceLayout::Svo:
             return makeSvoStorage();
         case RadianceLayout::Clipmap:
+        case RadianceLayout::ClipmapTextures:
             return makeClipmapStorage(clipmap.clipmapResolution);
         case RadianceLayout::Textures:
             return makeTexturesStorage();

@@ -17,9 +17,9 @@ void main() {
         vec4 child[8];
         for (uint cell = 0u; cell < 8u; ++cell) {
             const ivec3 at = blockVoxel(2 * voxel, cell);
-            child[cell] = inWindow(below, at) ? radianceValue(clipmapSlot(below, at), face) : vec4(0.0);
+            child[cell] = inWindow(below, at) ? radianceValue(clipmapSlot(push.level - 1u, at), face) : vec4(0.0);
         }
-        storeRadiance(clipmapSlot(own, voxel), face,
+        storeRadiance(clipmapSlot(push.level, voxel), face,
                       radianceVoxels.grid.directions == 6u ? combineFaces(child, face) : combineAll(child));
     }
 }

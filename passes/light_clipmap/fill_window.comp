@@ -18,7 +18,8 @@ void main() {
     const uvec3 size = push.boxSize;
     if (i >= size.x * size.y * size.z) return;
     const ivec3 voxel = push.boxFirst + ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
-    const uint slot = clipmapSlot(radianceVoxels.window[push.level], voxel), number = voxelNumber(push.grid, voxel);
+    const CLIPMAP_SLOT slot = clipmapSlot(push.level, voxel);
+    const uint number = voxelNumber(push.grid, voxel);
     const uint directions = radianceVoxels.grid.directions;
     for (uint face = 0u; face < directions; ++face) {
         vec4 value = vec4(0.0);

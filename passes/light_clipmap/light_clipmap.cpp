@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
+#include "passes/common/lights/light_sources.h"
 
 namespace voxray {
 namespace {
@@ -32,9 +33,10 @@ void LightClipmap::plan(PassPlan& plan) {
     const ClipmapVoxels& clipmap = plan.get(clipmap_);
     RadianceVoxels& radiance = plan.get(radiance_);
     radiance.lightBounces = params_.bounces + 1;
-    radiance.layout = RadianceLayout::Clipmap;
+    radiance.layout = RadianceLayout(params_.layout);
     radiance.euclidean = params_.levelDistance == LevelDistance::Euclidean;
     radiance.grid = clipmap.grid;
+    radiance.grid.unit = radianceUnit(*plan.frame.scene);
     storage_ = RadianceClipmap(clipmap.grid, clipmap.windows.side());
     storage_.plan(plan, kName, radiance);
     shadowMaps_.plan(plan, sources_, params_.shadowResolution);
@@ -54,7 +56,8 @@ void LightClipmap::plan(PassPlan& plan) {
 }
 
 void LightClipmap::prepare(PassSetup& setup) {
-    const RadianceVoxels& radiance = setup.get(radiance_);
+    RadianceVoxels& radiance = setup.get(radiance_);
+    storage_.prepare(setup, radiance);
     shadowMaps_.prepare(setup);
     const auto program = [&](const char* file, const Defines& defines) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
@@ -159,7 +162,7 @@ void LightClipmap::reflect(PassContext& context, uint32_t level, const SurfaceVo
                            const LargeBuffer& indirect) {
     std::vector<Binding> surfaces = voxels.bindings(
         {{"DirectFluxAt", light.direct.at()}, {"IndirectFluxAt", indirect.at()}, {"voxelArea", light.area}});
-    for (const Binding& binding : context.get(radiance_).bindings()) surfaces.push_back(binding);
+    for (const Binding& binding : context.get(radiance_).fillBindings()) surfaces.push_back(binding);
     for (const VoxelBox& box : boxes) {
         context.stream.dispatch(window_, surfaces, WindowPush{voxels.grid, box.first, box.size, level},
                                 linearGroups(box.count()));
@@ -173,7 +176,7 @@ void LightClipmap::filter(PassContext& context) {
     for (uint32_t l = storage_.windows().firstWhole() + 1; l < radiance.grid.levels; ++l) {
         const glm::uvec3 size = levelResolution(radiance.grid.resolution, l);
         const uint64_t voxels = uint64_t(size.x) * size.y * size.z;
-        context.stream.dispatch(level_, radiance.bindings(), l, linearGroups(voxels));
+        context.stream.dispatch(level_, radiance.fillBindings(), l, linearGroups(voxels));
         updatedVoxels_ += voxels;
     }
 }

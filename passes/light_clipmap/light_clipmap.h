@@ -9,6 +9,17 @@
 
 namespace voxray {
 
+/// The layouts of radiance voxels that it can fill.
+enum class ClipmapLayout {
+    Clipmap = int(RadianceLayout::Clipmap),
+    ClipmapTextures = int(RadianceLayout::ClipmapTextures)
+};
+template <>
+struct EnumNames<ClipmapLayout> {
+    static constexpr std::array names{std::pair{ClipmapLayout::Clipmap, "clipmap"},
+                                      std::pair{ClipmapLayout::ClipmapTextures, "clipmap_textures"}};
+};
+
 /// Lights the surface voxels of a clipmap by shadow maps, while it visits the triangles in them, and fills
 /// radiance voxels with what they reflect. Docs: docs/clipmap.md.
 class LightClipmap final : public Pass {
@@ -26,11 +37,15 @@ class LightClipmap final : public Pass {
         "shadow_resolution. Source: Arnebäck 2017, section 4.1.2, after Panteleev 2014.";
     struct Params : ClipmapLevelParams, ConeBounceParams {
         uint32_t shadowResolution = 512;
+        ClipmapLayout layout = ClipmapLayout::Clipmap;
         static constexpr auto schema() {
             return std::tuple_cat(
-                std::tuple{field("shadow_resolution", &Params::shadowResolution,
-                                 "Texels along an edge of each shadow map; a point light has six.", 2u,
-                                 4096u)},
+                std::tuple{
+                    field("shadow_resolution", &Params::shadowResolution,
+                          "Texels along an edge of each shadow map; a point light has six.", 2u, 4096u),
+                    field("layout", &Params::layout,
+                          "How voxels are stored: clipmap, in a buffer; clipmap_textures, as published "
+                          "in Arnebäck 2017: in a 3D texture that the device's sampler filters.")},
                 ClipmapLevelParams::schema(), ConeBounceParams::schema());
         }
     };

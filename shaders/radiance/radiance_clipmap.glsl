@@ -1,42 +1,27 @@
-// Radiance voxels in a clipmap (layout: clipmap): docs/clipmap.md.
+// Radiance voxels in a clipmap (layouts clipmap and clipmap_textures): docs/clipmap.md.
 #ifndef VOXRAY_RADIANCE_CLIPMAP_GLSL
 #define VOXRAY_RADIANCE_CLIPMAP_GLSL
 
-#extension GL_EXT_buffer_reference : require
-
-#include "shaders/radiance/radiance_texel.glsl"
 #include "shaders/radiance/radiance_clipmap_types.h"
-
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ClipmapValues { uvec2 data[]; };
-layout(scalar) readonly buffer RadianceVoxels {
-    RadianceGrid grid;
-    ClipmapValues values;  // By window, slot and direction: shaders/radiance/radiance_texel.glsl.
-    uint side;             // Voxels along an axis that a window holds at most; a power of two.
-    uint firstWhole;       // The first level that is held whole, as are all after it.
-    ClipmapWindow window[RADIANCE_CLIPMAP_LEVELS];
-} radianceVoxels;
 
 bool inWindow(ClipmapWindow w, ivec3 voxel) {
     return all(greaterThanEqual(voxel, w.first)) && all(lessThan(voxel, w.first + ivec3(w.size)));
 }
 
-#define NO_PLACE 0xffffffffu
-
-// Where a voxel in the window stands: its coordinates modulo the window's side, so that what stays in the window stays in place
-// when the window moves.
-uint clipmapSlot(ClipmapWindow w, ivec3 voxel) {
-    const uvec3 slot = uvec3(voxel) & (radianceVoxels.side - 1u);
-    return w.begin + (slot.z * w.size.y + slot.y) * w.size.x + slot.x;
-}
-
-// `face`: 0 to 5 for +x -x +y -y +z -z, 0 with one value for all.
-vec4 radianceValue(uint slot, uint face) {
-    return unpackRadiance(radianceVoxels.values.data[slot * radianceVoxels.grid.directions + face]);
-}
-
-void storeRadiance(uint slot, uint face, vec4 value) {
-    radianceVoxels.values.data[slot * radianceVoxels.grid.directions + face] = packRadiance(value);
-}
+// How windows are stored. The file that is included declares
+//  - radianceVoxels, a buffer with a RadianceGrid `grid`; `side`, the voxels along an axis that a window holds at most, a power of
+//    two; `firstWhole`, the first level that is held whole, as are all after it; and the windows by level, `window`;
+//  - CLIPMAP_SLOT clipmapSlot(uint level, ivec3 voxel): where a voxel in the window of a level stands: its coordinates modulo the
+//    window's side, so that what stays in the window stays in place when the window moves;
+//  - vec4 radianceValue(CLIPMAP_SLOT slot, uint face), and storeRadiance(slot, face, value) for shaders that fill windows. `face`: 0 to
+//    5 for +x -x +y -y +z -z, 0 with one value for all;
+//  - vec4 storedRadiance(vec4 value): a value as it is after it was stored;
+//  - vec4 sampleWindow(uint level, vec3 position, vec3 direction): what a window holds, interpolated; nothing outside of it.
+#ifdef RADIANCE_CLIPMAP_TEXTURES
+#include "shaders/radiance/radiance_clipmap_textures.glsl"
+#else
+#include "shaders/radiance/radiance_clipmap_buffer.glsl"
+#endif
 
 // The weight of a level at a position, against that of the next coarser one: 1 or more, the level alone counts; 0 or less, it does
 // not. It falls linearly over a transition zone before the window's border, by the distance along the nearest axis; with
@@ -62,21 +47,6 @@ float minimumLevel(vec3 position) {
         if (weight > 0.0) return float(level) + max(1.0 - weight, 0.0);
     }
     return float(radianceVoxels.firstWhole);
-}
-
-#include "shaders/radiance/radiance_interpolation.glsl"
-
-// What a window holds, interpolated; nothing outside of it.
-vec4 sampleWindow(uint level, vec3 position, vec3 direction) {
-    const ClipmapWindow w = radianceVoxels.window[level];
-    vec3 at;
-    const ivec3 corner = cornerVoxel(level, position, at);
-    uint place[8];
-    for (uint octant = 0u; octant < 8u; ++octant) {
-        const ivec3 voxel = blockVoxel(corner, octant);
-        place[octant] = inWindow(w, voxel) && octantWeight(octant, at) > 0.0 ? clipmapSlot(w, voxel) : NO_PLACE;
-    }
-    return interpolateBlock(place, at, direction);
 }
 
 // Where the window of a level ends, coarser levels stand in for it. A layer of a coarser level is thicker: its values are scaled by

@@ -1,4 +1,4 @@
-// Levels of a radiance clipmap, shared by C++ (passes/common/radiance/radiance_clipmap.h) and GLSL (shaders/radiance/radiance_clipmap.glsl).
+// Levels of a radiance clipmap, shared by C++ (passes/common/clipmap/radiance_clipmap.h) and GLSL (shaders/radiance/radiance_clipmap.glsl).
 #ifndef VOXRAY_SHARED_RADIANCE_CLIPMAP_TYPES_H
 #define VOXRAY_SHARED_RADIANCE_CLIPMAP_TYPES_H
 

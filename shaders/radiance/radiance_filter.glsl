@@ -10,6 +10,9 @@ vec3 placeInLevel(RadianceGrid g, uint level, vec3 position) {
     return round(((position - g.origin) / (g.voxelSize * float(1u << level)) - 0.5) * 1024.0) / 1024.0;
 }
 
+// One of the eight voxels from `corner` on.
+ivec3 blockVoxel(ivec3 corner, uint octant) { return corner + ivec3(octant & 1u, (octant >> 1) & 1u, octant >> 2); }
+
 // What a ray meets in two voxels in a row. Their surfaces are parts of one surface that runs through both, more often than not, so
 // their opacities add up; only what goes beyond 1 is hidden.
 vec4 inARow(vec4 front, vec4 rear) {

@@ -15,9 +15,6 @@ ivec3 cornerVoxel(uint level, vec3 position, out vec3 at) {
     return ivec3(corner);
 }
 
-// One of the eight voxels from `corner` on.
-ivec3 blockVoxel(ivec3 corner, uint octant) { return corner + ivec3(octant & 1u, (octant >> 1) & 1u, octant >> 2); }
-
 // What a ray along `direction` meets between the eight voxels of a block, which stand at `place`.
 vec4 interpolateBlock(uint place[8], vec3 at, vec3 direction) {
     vec4 value[8];

@@ -5,7 +5,6 @@
 #ifndef VOXRAY_RADIANCE_TEXTURES_GLSL
 #define VOXRAY_RADIANCE_TEXTURES_GLSL
 
-#include "shaders/radiance/radiance_filter.glsl"
 #include "shaders/radiance/radiance_textures_types.h"
 
 layout(scalar) readonly buffer RadianceVoxels {
@@ -47,19 +46,9 @@ vec4 filteredFace(uint level, vec3 place, uint face) {
     return part.x * part.y * part.z * textureLod(radianceTexture, texel / size, float(level));
 }
 
-vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
-    const RadianceGrid g = radianceVoxels.grid;
-    const vec3 place = placeInLevel(g, level, position);
-    vec4 met = vec4(0.0);
-    if (g.directions == 1u) {
-        met = filteredFace(level, place, 0u);
-    } else {
-        for (uint axis = 0u; axis < 3u; ++axis)
-            if (direction[axis] != 0.0)
-                met += abs(direction[axis]) * filteredFace(level, place, 2u * axis + (direction[axis] > 0.0 ? 1u : 0u));
-    }
-    return vec4(g.unit * met.rgb, met.a);
-}
+#include "shaders/radiance/radiance_filtered_faces.glsl"
+
+vec4 sampleLevel(uint level, vec3 position, vec3 direction) { return filteredFaces(level, position, direction); }
 
 uint startLevel(vec3 position, float dither) { return 0u; }
 

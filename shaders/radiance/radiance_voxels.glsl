@@ -31,7 +31,7 @@ uvec3 levelResolution(RadianceGrid g, uint level) { return (g.resolution + ((1u 
 #include "shaders/radiance/radiance_svo.glsl"
 #elif defined(RADIANCE_SVO_BRICKS)
 #include "shaders/radiance/radiance_svo_bricks.glsl"
-#elif defined(RADIANCE_CLIPMAP)
+#elif defined(RADIANCE_CLIPMAP) || defined(RADIANCE_CLIPMAP_TEXTURES)
 #include "shaders/radiance/radiance_clipmap.glsl"
 #endif
 

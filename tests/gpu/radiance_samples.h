@@ -54,4 +54,15 @@ inline std::vector<glm::vec4> sampleRadiance(const RadianceVoxels& radiance,
     return stream.readAs<glm::vec4>(output, queries.size());
 }
 
+/// All that a layout stores, in one buffer or a texture, as words.
+inline std::vector<uint32_t> radianceContent(const RadianceVoxels& radiance) {
+    CommandStream stream(device());
+    if (!radiance.texture)
+        return stream.readAs<uint32_t>(radiance.storage.at(0), radiance.storage[0].bytes() / 4);
+    const uint64_t bytes = imageBytes(radiance.texture.desc());
+    const Buffer texels(device(), "texels", bytes, MemoryKind::Readback);
+    stream.copy(radiance.texture, texels);
+    return stream.readAs<uint32_t>(texels, bytes / 4);
+}
+
 }  // namespace voxray::test

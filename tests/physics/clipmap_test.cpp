@@ -5,8 +5,7 @@
 #include <random>
 #include <set>
 
-#include "passes/common/clipmap/clipmap_windows.h"
-#include "tests/gpu/radiance_samples.h"
+#include "tests/gpu/radiance_places.h"
 
 namespace voxray::test {
 namespace {
@@ -32,19 +31,6 @@ glm::vec3 center(const gpu::RadianceGrid& grid) {
     return grid.origin + 0.5f * grid.voxelSize * glm::vec3(grid.resolution);
 }
 
-/// What minimumLevel() of shaders/radiance/radiance_clipmap.glsl answers.
-float minimumLevel(const ClipmapWindows& windows, const gpu::RadianceGrid& grid, const glm::vec3& camera,
-                   glm::vec3 position) {
-    position = glm::clamp(position, grid.origin, grid.origin + grid.voxelSize * glm::vec3(grid.resolution));
-    for (uint32_t level = 0; level < windows.firstWhole(); ++level) {
-        const gpu::ClipmapWindow w = windows.window(level, camera);
-        const glm::vec3 left = w.reach - glm::abs(position - w.center);
-        const float weight = std::min({left.x, left.y, left.z}) * w.fall;
-        if (weight > 0) return float(level) + std::max(1 - weight, 0.0f);
-    }
-    return float(windows.firstWhole());
-}
-
 /// Random places, directions and footprints, none finer than what a clipmap round `camera` holds there.
 std::vector<RadianceQuery> heldQueries(const gpu::RadianceGrid& grid, uint32_t side, const glm::vec3& camera,
                                        size_t count) {
@@ -64,9 +50,12 @@ std::vector<RadianceQuery> heldQueries(const gpu::RadianceGrid& grid, uint32_t s
     return queries;
 }
 
-std::vector<glm::uvec2> content(Chain& chain) {
-    return chain.read<glm::uvec2>(radiance(chain).storage[0]);
+std::vector<uint32_t> content(const Chain& chain) {
+    return radianceContent(radiance(chain));
 }
+
+/// Both ways of storing windows: a filter's parameters after 'layout: '.
+const std::string kStorages[] = {"clipmap", "clipmap_textures"};
 
 uint64_t filled(const Chain& chain) {
     uint64_t sum = 0;
@@ -101,27 +90,30 @@ TEST(Clipmap, SamplesAgreeWithFullGrids) {
 }
 
 TEST(Clipmap, ScrolledIsAsMadeFromScratch) {
-    const std::string graph = litVoxels(80, "layout: clipmap, clipmap_resolution: 16, emission: true");
-    const glm::vec3 start(-0.31f, 0.1f, 0.2f);
-    Chain scrolled(cornellFrom(start), graph, 8, 8, 1);
-    const std::vector<glm::uvec2> first = content(scrolled);
+    for (const std::string& storage : kStorages) {
+        const std::string graph =
+            litVoxels(80, "layout: " + storage + ", clipmap_resolution: 16, emission: true");
+        const glm::vec3 start(-0.31f, 0.1f, 0.2f);
+        Chain scrolled(cornellFrom(start), graph, 8, 8, 1);
+        const std::vector<uint32_t> first = content(scrolled);
 
-    // A walk along all axes: shorter than a voxel, of many, farther than windows are wide, and out of the
-    // scene.
-    const std::vector<glm::vec3> walk{{-0.3f, 0.1f, 0.2f},  {-0.1f, 0.32f, 0.2f}, {0.22f, -0.31f, 0.55f},
-                                      {0.8f, 0.8f, -0.77f}, {0.8f, 0.5f, 5},      {-0.63f, 0.55f, -0.2f}};
-    for (const glm::vec3& camera : walk) {
-        scrolled.runFrameFrom(camera);
-        Chain fresh(cornellFrom(camera), graph, 8, 8, 1);
-        EXPECT_EQ(content(scrolled), content(fresh)) << camera.x;
-        EXPECT_LE(filled(scrolled), filled(fresh));
+        // A walk along all axes: shorter than a voxel, of many, farther than windows are wide, and out of the
+        // scene.
+        const std::vector<glm::vec3> walk{{-0.3f, 0.1f, 0.2f},  {-0.1f, 0.32f, 0.2f}, {0.22f, -0.31f, 0.55f},
+                                          {0.8f, 0.8f, -0.77f}, {0.8f, 0.5f, 5},      {-0.63f, 0.55f, -0.2f}};
+        for (const glm::vec3& camera : walk) {
+            scrolled.runFrameFrom(camera);
+            Chain fresh(cornellFrom(camera), graph, 8, 8, 1);
+            EXPECT_EQ(content(scrolled), content(fresh)) << storage << ", " << camera.x;
+            EXPECT_LE(filled(scrolled), filled(fresh));
+        }
+        EXPECT_NE(content(scrolled), first);
+
+        // And back.
+        for (size_t i = walk.size(); i-- > 0;) scrolled.runFrameFrom(walk[i]);
+        scrolled.runFrameFrom(start);
+        EXPECT_EQ(content(scrolled), first);
     }
-    EXPECT_NE(content(scrolled), first);
-
-    // And back.
-    for (size_t i = walk.size(); i-- > 0;) scrolled.runFrameFrom(walk[i]);
-    scrolled.runFrameFrom(start);
-    EXPECT_EQ(content(scrolled), first);
 }
 
 TEST(Clipmap, FillsWhatScrollsInAlone) {
@@ -188,80 +180,91 @@ TEST(Clipmap, MemoryIsPredictedAndBoundByTheWindows) {
 }
 
 TEST(Clipmap, NothingJumpsWhenWindowsScroll) {
-    // Samples at fixed places, before and after the camera passes where a level's window moves by a voxel.
-    constexpr float kStep = 1.0f / 400;  // Voxels.
-    Chain chain(cornellFrom({0, 0, 0}), litVoxels(80, "layout: clipmap, clipmap_resolution: 16"), 8, 8, 1);
-    const gpu::RadianceGrid grid = radiance(chain).grid;
-    std::vector<RadianceQuery> queries = heldQueries(grid, 16, {0, 0, 0}, 20000);
-    for (RadianceQuery& q : queries) q.footprint = grid.voxelSize;
-    for (const float scrolls : {0.5f, 1.0f, 2.0f}) {  // Levels 0, 1 and 2.
-        const auto samplesAt = [&](float x) {
-            chain.runFrameFrom(center(grid) + grid.voxelSize * glm::vec3(x, 0, 0));
-            return sampleRadiance(radiance(chain), queries);
-        };
-        const std::vector<glm::vec4> before = samplesAt(scrolls - 0.5f * kStep);
-        const std::vector<glm::vec4> after = samplesAt(scrolls + 0.5f * kStep);
-        EXPECT_GE(filled(chain), 16u * 16);
-        float largest = 0, brightest = 0;
-        for (size_t i = 0; i < queries.size(); ++i) {
-            largest = std::max(largest, std::abs(after[i].r - before[i].r));
-            brightest = std::max(brightest, before[i].r);
+    for (const std::string& storage : kStorages) {
+        // Samples at fixed places, before and after the camera passes where a level's window moves by a
+        // voxel.
+        constexpr float kStep = 1.0f / 400;  // Voxels.
+        Chain chain(cornellFrom({0, 0, 0}), litVoxels(80, "layout: " + storage + ", clipmap_resolution: 16"),
+                    8, 8, 1);
+        const gpu::RadianceGrid grid = radiance(chain).grid;
+        std::vector<RadianceQuery> queries = heldQueries(grid, 16, {0, 0, 0}, 20000);
+        for (RadianceQuery& q : queries) q.footprint = grid.voxelSize;
+        for (const float scrolls : {0.5f, 1.0f, 2.0f}) {  // Levels 0, 1 and 2.
+            const auto samplesAt = [&](float x) {
+                chain.runFrameFrom(center(grid) + grid.voxelSize * glm::vec3(x, 0, 0));
+                return sampleRadiance(radiance(chain), queries);
+            };
+            const std::vector<glm::vec4> before = samplesAt(scrolls - 0.5f * kStep);
+            const std::vector<glm::vec4> after = samplesAt(scrolls + 0.5f * kStep);
+            EXPECT_GE(filled(chain), 16u * 16);
+            float largest = 0, brightest = 0;
+            for (size_t i = 0; i < queries.size(); ++i) {
+                largest = std::max(largest, std::abs(after[i].r - before[i].r));
+                brightest = std::max(brightest, before[i].r);
+            }
+            std::printf("largest change of a sample: %.2g of the brightest\n", largest / brightest);
+            // The transition is an eighth of 16 voxels: so much changes weights by half the step.
+            EXPECT_LE(largest, 0.5f * kStep * brightest);
         }
-        std::printf("largest change of a sample: %.2g of the brightest\n", largest / brightest);
-        // The transition is an eighth of 16 voxels: so much changes weights by half the step.
-        EXPECT_LE(largest, 0.5f * kStep * brightest);
     }
 }
 
 TEST(Clipmap, EuclideanDistanceLeavesCornersOut) {
-    // Windows of 32 voxels, whose weight falls from 11 to 15 voxels from the camera, that of the next level
-    // from 22 on. In the ball both ways read the same. Beyond it, in the window's corner, the next level
-    // stands in.
-    const auto chainOf = [](const std::string& distance) {
-        return std::make_unique<Chain>(cornellFrom({0, 0, 0}),
-                                       litVoxels(80, "layout: clipmap, clipmap_resolution: 32" + distance), 8,
-                                       8, 1);
-    };
-    const auto axis = chainOf(""), euclidean = chainOf(", level_distance: euclidean");
-    const gpu::RadianceGrid grid = radiance(*axis).grid;
-    const glm::vec3 camera = center(grid) - grid.voxelSize * glm::vec3(0, 18, 0);  // Between the boxes.
-    axis->runFrameFrom(camera);
-    euclidean->runFrameFrom(camera);
-    std::mt19937 random(11);
-    std::uniform_real_distribution<float> uniform(-11, 11);
-    std::vector<RadianceQuery> inside, corner, coarser;
-    while (corner.size() < 20000) {
-        const glm::vec3 way(uniform(random), uniform(random), uniform(random));
-        RadianceQuery query{camera + grid.voxelSize * way, grid.voxelSize,
-                            glm::normalize(glm::vec3(uniform(random), uniform(random), uniform(random)))};
-        if (glm::length(way) < 10.9f) inside.push_back(query);
-        if (glm::length(way) < 15.1f) continue;
-        corner.push_back(query);
-        query.footprint *= 2;
-        coarser.push_back(query);
+    for (const std::string& storage : kStorages) {
+        // Windows of 32 voxels, whose weight falls from 11 to 15 voxels from the camera, that of the next
+        // level from 22 on. In the ball both ways read the same. Beyond it, in the window's corner, the next
+        // level stands in.
+        const auto chainOf = [&](const std::string& distance) {
+            return std::make_unique<Chain>(
+                cornellFrom({0, 0, 0}),
+                litVoxels(80, "layout: " + storage + ", clipmap_resolution: 32" + distance), 8, 8, 1);
+        };
+        const auto axis = chainOf(""), euclidean = chainOf(", level_distance: euclidean");
+        const gpu::RadianceGrid grid = radiance(*axis).grid;
+        const glm::vec3 camera = center(grid) - grid.voxelSize * glm::vec3(0, 18, 0);  // Between the boxes.
+        axis->runFrameFrom(camera);
+        euclidean->runFrameFrom(camera);
+        std::mt19937 random(11);
+        std::uniform_real_distribution<float> uniform(-11, 11);
+        std::vector<RadianceQuery> inside, corner, coarser;
+        while (corner.size() < 20000) {
+            const glm::vec3 way(uniform(random), uniform(random), uniform(random));
+            RadianceQuery query{camera + grid.voxelSize * way, grid.voxelSize,
+                                glm::normalize(glm::vec3(uniform(random), uniform(random), uniform(random)))};
+            if (glm::length(way) < 10.9f) inside.push_back(query);
+            if (glm::length(way) < 15.1f) continue;
+            corner.push_back(query);
+            query.footprint *= 2;
+            coarser.push_back(query);
+        }
+        EXPECT_EQ(sampleRadiance(radiance(*euclidean), inside), sampleRadiance(radiance(*axis), inside));
+        const std::vector<glm::vec4> found = sampleRadiance(radiance(*euclidean), corner);
+        const std::vector<glm::vec4> expected = sampleRadiance(radiance(*axis), coarser);
+        size_t lit = 0;
+        for (size_t i = 0; i < found.size(); ++i) {
+            lit += found[i].r > 0;
+            EXPECT_LT(glm::length(found[i] - 0.5f * expected[i]), 1e-5f * (1 + glm::length(expected[i])))
+                << i;
+        }
+        EXPECT_GT(lit, 100u);
+        EXPECT_NE(sampleRadiance(radiance(*axis), corner), found);
     }
-    EXPECT_EQ(sampleRadiance(radiance(*euclidean), inside), sampleRadiance(radiance(*axis), inside));
-    const std::vector<glm::vec4> found = sampleRadiance(radiance(*euclidean), corner);
-    const std::vector<glm::vec4> expected = sampleRadiance(radiance(*axis), coarser);
-    size_t lit = 0;
-    for (size_t i = 0; i < found.size(); ++i) {
-        lit += found[i].r > 0;
-        EXPECT_LT(glm::length(found[i] - 0.5f * expected[i]), 1e-5f * (1 + glm::length(expected[i]))) << i;
-    }
-    EXPECT_GT(lit, 100u);
-    EXPECT_NE(sampleRadiance(radiance(*axis), corner), found);
 }
 
 TEST(Clipmap, ConesKeepTheEnergyOfAFurnace) {
-    // Every surface emits 1 and reflects 0.5: after two bounces in the voxels cones see 1 + 0.5 + 0.25 +
-    // 0.125. Windows of 0.5 m and 1 m: what the camera sees 1 m away and more is described by levels 1 to 3.
-    Chain chain("furnace", "{shape: box, albedo: 0.5, emission: 1}",
-                graphYaml({"gbuffer", "voxelize, resolution: 64",
-                           "inject_light_rays, rays_per_light: 131072, bounces: 2",
-                           "filter_voxels, emission: true, layout: clipmap, clipmap_resolution: 16",
-                           "gather_cones, cones: 6"}),
-                16, 16);
-    EXPECT_NEAR(mean(chain.image("indirect")) / (0.5 * 1.875), 1.0, 0.03);
+    for (const std::string& storage : kStorages) {
+        // Every surface emits 1 and reflects 0.5: after two bounces in the voxels cones see 1 + 0.5 + 0.25 +
+        // 0.125. Windows of 0.5 m and 1 m: what the camera sees 1 m away and more is described by levels 1
+        // to 3.
+        Chain chain(
+            "furnace", "{shape: box, albedo: 0.5, emission: 1}",
+            graphYaml({"gbuffer", "voxelize, resolution: 64",
+                       "inject_light_rays, rays_per_light: 131072, bounces: 2",
+                       "filter_voxels, emission: true, layout: " + storage + ", clipmap_resolution: 16",
+                       "gather_cones, cones: 6"}),
+            16, 16);
+        EXPECT_NEAR(mean(chain.image("indirect")) / (0.5 * 1.875), 1.0, 0.03);
+    }
 }
 
 }  // namespace

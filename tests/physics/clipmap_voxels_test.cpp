@@ -10,14 +10,18 @@
 #include "passes/common/radiance/radiance_voxels.h"
 #include "passes/common/voxels/voxel_count.h"
 #include "scene/shapes.h"
-#include "tests/gpu/chain.h"
+#include "tests/gpu/radiance_samples.h"
 #include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
 
-const std::string kGraph = graphYaml(
-    {"voxelize_clipmap, resolution: 80, clipmap_resolution: 16", "light_clipmap, shadow_resolution: 128"});
+std::string graphOf(const std::string& layout) {
+    return graphYaml({"voxelize_clipmap, resolution: 80, clipmap_resolution: 16",
+                      "light_clipmap, shadow_resolution: 128, layout: " + layout});
+}
+const std::string kGraph = graphOf("clipmap");
+const std::string kLayouts[] = {"clipmap", "clipmap_textures"};
 
 std::shared_ptr<SceneState> stateOf(const std::string& scene, const std::string& parameters) {
     return std::make_shared<SceneState>(evaluate(makeBuiltinScene(scene, parseYaml(parameters, "scene")), 0));
@@ -40,7 +44,7 @@ const RadianceVoxels& radiance(const Chain& chain) {
 
 /// All that a clipmap holds: radiance; of each level occupancy, ranks and materials.
 std::vector<std::vector<uint32_t>> content(Chain& chain) {
-    std::vector<std::vector<uint32_t>> all{chain.read<uint32_t>(radiance(chain).storage[0])};
+    std::vector<std::vector<uint32_t>> all{radianceContent(radiance(chain))};
     for (const ClipmapVoxels::Level& level : clipmap(chain).levels)
         for (const Buffer* buffer : {&level.voxels.occupancy, &level.voxels.rank,
                                      static_cast<const Buffer*>(&level.voxels.materials)})
@@ -55,27 +59,29 @@ std::pair<uint64_t, uint64_t> updated(const Chain& chain) {
 }
 
 TEST(ClipmapVoxels, ScrolledAreAsMadeFromScratch) {
-    const glm::vec3 start(-0.31f, 0.9f, 0.2f);
-    Chain scrolled(cornellFrom(start), kGraph, 8, 8, 1);
-    const auto first = content(scrolled);
-    // Shorter than a voxel, of many along all axes, farther than windows are wide, and out of the scene.
-    const std::vector<glm::vec3> walk{{-0.3f, 0.91f, 0.2f},
-                                      {-0.1f, 1.12f, 0.25f},
-                                      {0.8f, 1.8f, -0.77f},
-                                      {0.8f, 1.5f, 5},
-                                      {-0.63f, 0.3f, -0.2f}};
-    for (const glm::vec3& camera : walk) {
-        scrolled.runFrameFrom(camera);
-        Chain fresh(cornellFrom(camera), kGraph, 8, 8, 1);
-        EXPECT_TRUE(content(scrolled) == content(fresh)) << camera.x;
-        EXPECT_LE(updated(scrolled).first, updated(fresh).first);
-    }
-    EXPECT_FALSE(content(scrolled) == first);
+    for (const std::string& layout : kLayouts) {
+        const glm::vec3 start(-0.31f, 0.9f, 0.2f);
+        Chain scrolled(cornellFrom(start), graphOf(layout), 8, 8, 1);
+        const auto first = content(scrolled);
+        // Shorter than a voxel, of many along all axes, farther than windows are wide, and out of the scene.
+        const std::vector<glm::vec3> walk{{-0.3f, 0.91f, 0.2f},
+                                          {-0.1f, 1.12f, 0.25f},
+                                          {0.8f, 1.8f, -0.77f},
+                                          {0.8f, 1.5f, 5},
+                                          {-0.63f, 0.3f, -0.2f}};
+        for (const glm::vec3& camera : walk) {
+            scrolled.runFrameFrom(camera);
+            Chain fresh(cornellFrom(camera), graphOf(layout), 8, 8, 1);
+            EXPECT_TRUE(content(scrolled) == content(fresh)) << layout << ", " << camera.x;
+            EXPECT_LE(updated(scrolled).first, updated(fresh).first);
+        }
+        EXPECT_FALSE(content(scrolled) == first);
 
-    // And back.
-    for (size_t i = walk.size(); i-- > 0;) scrolled.runFrameFrom(walk[i]);
-    scrolled.runFrameFrom(start);
-    EXPECT_TRUE(content(scrolled) == first);
+        // And back.
+        for (size_t i = walk.size(); i-- > 0;) scrolled.runFrameFrom(walk[i]);
+        scrolled.runFrameFrom(start);
+        EXPECT_TRUE(content(scrolled) == first);
+    }
 }
 
 TEST(ClipmapVoxels, VoxelizeWhatScrollsInAlone) {
@@ -113,40 +119,42 @@ std::shared_ptr<const Scene> roomWithSphere() {
 }
 
 TEST(ClipmapVoxels, FollowWhatMoves) {
-    // A sphere, the light, and the camera at the same time.
-    const auto scene = roomWithSphere();
-    const auto stateAt = [&](double second) {
-        auto state = std::make_shared<SceneState>(evaluate(scene, second, Playback::Looping));
-        state->cameras.at(0).position = glm::vec3(0.1f, 1, 0.2f);
-        if (second >= 2) state->lights.at(0).position += glm::vec3(0.2f, -0.1f, 0.1f);
-        return state;
-    };
-    Chain moved(stateAt(0), kGraph, 8, 8, 1);
-    auto last = content(moved);
-    const uint64_t whole = updated(moved).first;
-    for (int second = 1; second <= 3; ++second) {
-        moved.update([&](SceneState& state) {
-            std::vector<Box> changed = advance(state, second);
-            state.lights = stateAt(second)->lights;
-            return changed;
-        });
-        EXPECT_LT(updated(moved).first, whole / 2);
-        Chain made(stateAt(second), kGraph, 8, 8, 1);
-        EXPECT_TRUE(content(moved) == content(made)) << second;
-        EXPECT_FALSE(content(moved) == last) << second;
-        last = content(moved);
-    }
+    for (const std::string& layout : kLayouts) {
+        // A sphere, the light, and the camera at the same time.
+        const auto scene = roomWithSphere();
+        const auto stateAt = [&](double second) {
+            auto state = std::make_shared<SceneState>(evaluate(scene, second, Playback::Looping));
+            state->cameras.at(0).position = glm::vec3(0.1f, 1, 0.2f);
+            if (second >= 2) state->lights.at(0).position += glm::vec3(0.2f, -0.1f, 0.1f);
+            return state;
+        };
+        Chain moved(stateAt(0), graphOf(layout), 8, 8, 1);
+        auto last = content(moved);
+        const uint64_t whole = updated(moved).first;
+        for (int second = 1; second <= 3; ++second) {
+            moved.update([&](SceneState& state) {
+                std::vector<Box> changed = advance(state, second);
+                state.lights = stateAt(second)->lights;
+                return changed;
+            });
+            EXPECT_LT(updated(moved).first, whole / 2);
+            Chain made(stateAt(second), graphOf(layout), 8, 8, 1);
+            EXPECT_TRUE(content(moved) == content(made)) << layout << ", " << second;
+            EXPECT_FALSE(content(moved) == last) << layout << ", " << second;
+            last = content(moved);
+        }
 
-    // A light alone: nothing is voxelized, all is lit.
-    moved.update([&](SceneState& state) {
-        state.lights.at(0).position.x -= 0.3f;
-        return std::vector<Box>();
-    });
-    EXPECT_EQ(updated(moved).first, 0u);
-    EXPECT_FALSE(content(moved) == last);
-    auto lit = stateAt(3);
-    lit->lights.at(0).position.x -= 0.3f;
-    EXPECT_TRUE(content(moved) == content(*std::make_unique<Chain>(lit, kGraph, 8, 8, 1)));
+        // A light alone: nothing is voxelized, all is lit.
+        moved.update([&](SceneState& state) {
+            state.lights.at(0).position.x -= 0.3f;
+            return std::vector<Box>();
+        });
+        EXPECT_EQ(updated(moved).first, 0u);
+        EXPECT_FALSE(content(moved) == last);
+        auto lit = stateAt(3);
+        lit->lights.at(0).position.x -= 0.3f;
+        EXPECT_TRUE(content(moved) == content(*std::make_unique<Chain>(lit, graphOf(layout), 8, 8, 1)));
+    }
 }
 
 /// A texel of shaders/radiance/radiance_texel.glsl: three mantissas of 14 bits, an exponent of 8 and opacity
@@ -218,15 +226,17 @@ TEST(ClipmapVoxels, ConesBringTheFirstBounce) {
     const double expected =
         mean(Chain("cornell", "{lights: point}", graphYaml({"path_trace, spp: 128, bounces: 1"}))
                  .image("indirect"));
-    for (const uint32_t side : {64u, 16u}) {
-        Chain chain("cornell", "{lights: point}",
-                    graphYaml({"gbuffer",
-                               fmt::format("voxelize_clipmap, resolution: 64, clipmap_resolution: {}", side),
-                               "light_clipmap", "gather_cones"}));
-        const double ratio = mean(chain.image("indirect")) / expected;
-        std::printf("windows of %u: %.3f of the path tracer's\n", side, ratio);
-        EXPECT_NEAR(ratio, 1.0, 0.04);  // 1.025 and 1.016 measured.
-    }
+    for (const uint32_t side : {64u, 16u})
+        for (const std::string& layout : kLayouts) {
+            Chain chain(
+                "cornell", "{lights: point}",
+                graphYaml({"gbuffer",
+                           fmt::format("voxelize_clipmap, resolution: 64, clipmap_resolution: {}", side),
+                           "light_clipmap, layout: " + layout, "gather_cones"}));
+            const double ratio = mean(chain.image("indirect")) / expected;
+            std::printf("%s, windows of %u: %.3f of the path tracer's\n", layout.c_str(), side, ratio);
+            EXPECT_NEAR(ratio, 1.0, 0.04);  // 1.025 and 1.016 measured.
+        }
 }
 
 TEST(ClipmapVoxels, BouncesAreThoseOfTheSceneAndFollowTheCamera) {

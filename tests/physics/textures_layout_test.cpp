@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
 
-#include "tests/gpu/radiance_samples.h"
+#include "tests/gpu/radiance_places.h"
 #include "tests/support/errors.h"
 
 namespace voxray::test {
@@ -21,59 +21,6 @@ const RadianceVoxels& radiance(const Chain& chain) {
     return *chain.graph().resource<RadianceVoxels>("radiance");
 }
 
-/// What a weight of the sampler may be off by along an axis, where it is cut off; half of that where rounded.
-double weightError() {
-    return std::exp2(-double(device().properties().limits.subTexelPrecisionBits));
-}
-
-/// A place in the center of a layer across `axis`, as cones read it, in voxels of a level.
-struct LayerPlace {
-    glm::vec3 voxels;
-    uint32_t level;
-    int axis;
-    float sign;  ///< Of the ray's direction along the axis.
-};
-
-/// Anywhere in the grid and up to two voxels outside.
-std::vector<LayerPlace> randomPlaces(const gpu::RadianceGrid& grid, size_t count) {
-    std::mt19937 random(11);
-    std::uniform_real_distribution<float> uniform(0, 1);
-    std::vector<LayerPlace> places(count);
-    for (LayerPlace& p : places) {
-        p.level = random() % grid.levels;
-        p.axis = int(random() % 3);
-        p.sign = random() % 2 ? 1.0f : -1.0f;
-        const glm::vec3 size(levelResolution(grid.resolution, p.level));
-        for (int k = 0; k < 3; ++k) p.voxels[k] = (size[k] + 4) * uniform(random) - 2.5f;
-        p.voxels[p.axis] = std::floor(p.voxels[p.axis]);
-    }
-    return places;
-}
-
-RadianceQuery queryAt(const gpu::RadianceGrid& grid, const LayerPlace& p, glm::vec3 voxels) {
-    const float voxel = grid.voxelSize * float(1u << p.level);
-    glm::vec3 direction(0.0f);
-    direction[p.axis] = p.sign;
-    return {grid.origin + voxel * (voxels + 0.5f), voxel, direction};
-}
-
-/// Of each place the twelve voxels that a filter may read: two along each of the axes across, and the layers
-/// before and after, since a weight of 0 may be off as well.
-std::vector<RadianceQuery> voxelsRound(const gpu::RadianceGrid& grid, const std::vector<LayerPlace>& places) {
-    std::vector<RadianceQuery> queries;
-    for (const LayerPlace& p : places) {
-        const int u = (p.axis + 1) % 3, v = (p.axis + 2) % 3;
-        for (int i = 0; i < 12; ++i) {
-            glm::vec3 at = glm::floor(p.voxels);
-            at[u] += float(i % 2);
-            at[v] += float(i / 2 % 2);
-            at[p.axis] += float(i / 4 - 1);
-            queries.push_back(queryAt(grid, p, at));
-        }
-    }
-    return queries;
-}
-
 TEST(TexturesLayout, SamplesInLayersAgreeWithFullGrids) {
     // Three weights, each off by what the sampler's precision allows, of what the voxels round the place
     // hold; and a rounding to half floats for each level on the way up and for the answer. Of 24 voxels'
@@ -85,7 +32,9 @@ TEST(TexturesLayout, SamplesInLayersAgreeWithFullGrids) {
             const Chain textures("cornell", "{lights: point}",
                                  filterGraph("textures", resolution, directions), 8, 8);
             const gpu::RadianceGrid& grid = radiance(dense).grid;
-            const std::vector<LayerPlace> places = randomPlaces(grid, 50000);
+            const std::vector<LayerPlace> places = randomPlaces(grid, 50000, [&](uint32_t level) {
+                return VoxelBox{glm::ivec3(0), levelResolution(grid.resolution, level)};
+            });
             std::vector<RadianceQuery> queries;
             for (const LayerPlace& p : places) queries.push_back(queryAt(grid, p, p.voxels));
             const std::vector<glm::vec4> expected = sampleRadiance(radiance(dense), queries);
@@ -95,7 +44,7 @@ TEST(TexturesLayout, SamplesInLayersAgreeWithFullGrids) {
             size_t lit = 0;
             for (size_t i = 0; i < places.size(); ++i) {
                 glm::vec4 most(0.0f);
-                for (size_t j = 12 * i; j < 12 * i + 12; ++j) most = glm::max(most, round[j]);
+                for (size_t j = 0; j < kVoxelsRound; ++j) most = glm::max(most, round[kVoxelsRound * i + j]);
                 const double part = 3 * weightError() + (places[i].level + 2) * std::exp2(-10);
                 for (int c = 0; c < 4; ++c) {
                     const double difference = std::abs(double(found[i][c]) - expected[i][c]);

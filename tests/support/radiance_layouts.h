@@ -12,8 +12,11 @@ struct TestedLayout {
     bool followsCamera = false;  ///< Holds what is near the camera alone: takes no bounces by cones.
 };
 
-inline const TestedLayout kRadianceLayouts[] = {
-    {"dense"}, {"svo"}, {"clipmap, clipmap_resolution: 16", true}, {"textures"}};
+inline const TestedLayout kRadianceLayouts[] = {{"dense"},
+                                                {"svo"},
+                                                {"clipmap, clipmap_resolution: 16", true},
+                                                {"textures"},
+                                                {"clipmap_textures, clipmap_resolution: 16", true}};
 /// As published: one direction and surfaces that stay; with tests of their own.
 inline constexpr std::array kPublishedLayouts{RadianceLayout::SvoBricks};
 static_assert(std::size(kRadianceLayouts) + std::size(kPublishedLayouts) ==

@@ -29,16 +29,19 @@ struct ClipmapLevelParams {
     }
 };
 
-/// Radiance voxels in a clipmap: their memory, and windows that follow the camera. Docs: docs/clipmap.md.
+/// Radiance voxels in a clipmap, layouts clipmap and clipmap_textures: their memory, and windows that follow
+/// the camera. Docs: docs/clipmap.md.
 class RadianceClipmap {
  public:
     RadianceClipmap() = default;
     /// @param side of a window, a power of two.
     RadianceClipmap(const gpu::RadianceGrid& grid, uint32_t side) : windows_(grid, side) {}
 
-    /// Describes the memory and sets the unit: values have an exponent of their own. @throws Error naming
-    /// `pass` for more values than can be numbered.
+    /// Describes the memory of `radiance`, which has its layout and grid. In a buffer values have an exponent
+    /// of their own: the unit is set to 1. @throws Error naming `pass` for more values than can be numbered,
+    /// or a texture that the device can't make.
     void plan(PassPlan& plan, const std::string& pass, RadianceVoxels& radiance) const;
+    void prepare(PassSetup& setup, RadianceVoxels& radiance) const;
     /// Moves the windows to the frame's camera. What is in their slots stays as it is.
     /// @return the windows, by level.
     std::vector<gpu::ClipmapWindow> follow(PassContext& context, RadianceVoxels& radiance) const;

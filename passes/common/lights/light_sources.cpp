@@ -79,6 +79,11 @@ float meanIrradiance(const std::vector<LightSource>& sources, const Geometry& ge
     return area > 0 ? float(totalPower(sources) / area) : 0.0f;
 }
 
+float radianceUnit(const SceneState& state) {
+    const float typical = meanIrradiance(lightSources(state), state.geometry);
+    return typical > 0 ? std::exp2(std::floor(std::log2(typical))) : 1.0f;
+}
+
 BoundingSphere boundingSphere(const Geometry& geometry) {
     return {0.5f * (geometry.boundsMin + geometry.boundsMax),
             0.5f * glm::length(geometry.boundsMax - geometry.boundsMin) * 1.001f + 1e-6f};

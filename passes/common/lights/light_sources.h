@@ -34,6 +34,10 @@ double totalPower(const std::vector<LightSource>& sources);
 /// Irradiance of the scene's surfaces, W/m², if each caught its part by area of all power: a scale for sums.
 float meanIrradiance(const std::vector<LightSource>& sources, const Geometry& geometry);
 
+/// The power of two below the scene's mean irradiance, 1 without light: a unit of radiance, W/(m² sr), that
+/// is in the center of the range of half floats.
+float radianceUnit(const SceneState& state);
+
 /// The scene's bounding sphere, a little larger, from which parallel light and the environment shine.
 struct BoundingSphere {
     glm::vec3 center;

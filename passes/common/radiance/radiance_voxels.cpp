@@ -20,9 +20,9 @@ std::vector<Binding> RadianceVoxels::bindings() const {
     return all;
 }
 
-std::vector<Binding> RadianceVoxels::fillBindings(uint32_t level) const {
+std::vector<Binding> RadianceVoxels::fillBindings(uint32_t mipLevel) const {
     std::vector<Binding> all = bindings();
-    if (texture) all.emplace_back("radianceTarget", texture, level);
+    if (texture) all.emplace_back("radianceTarget", texture, mipLevel);
     return all;
 }
 
