@@ -214,8 +214,8 @@ SceneSettings readSceneSettings(const Value& map) {
     return settings;
 }
 
-bool changesInTime(const SceneSettings& settings) {
-    return settings.options.timeStep > 0 ||
+bool changesInTime(const SceneSettings& settings, bool isAnimated) {
+    return (settings.options.timeStep > 0 && isAnimated) ||
            std::any_of(settings.lights.begin(), settings.lights.end(), [](const ConfigLight& entry) {
                return entry.move != glm::vec3(0.0f) || entry.offAt > 0;
            });

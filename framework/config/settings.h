@@ -305,7 +305,8 @@ MeasureSettings readMeasureSettings(const Value& map);
 SceneSettings readSceneSettings(const Value& map);
 
 /// Whether surfaces or lights are elsewhere in the next frame, or a light is switched off.
-bool changesInTime(const SceneSettings& settings);
+/// @param isAnimated whether the scene holds anything that a time step moves.
+bool changesInTime(const SceneSettings& settings, bool isAnimated = true);
 
 /// The first frame from which on a light does not shine; nullopt where none is switched off.
 std::optional<uint32_t> firstLightOff(const SceneSettings& settings);

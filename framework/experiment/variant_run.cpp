@@ -51,7 +51,7 @@ Measurement runGraph(Graph graph, const Setup& setup, uint64_t seed, const Measu
     session.plan(graph, frame, measure.memoryLimitMb);
     graph.prepare(frame, session.device(), session.compiler(), session.stream());
     GraphTarget target{frame, session.device(), session.stream(), *scene.tracer, scene.gpu, {}};
-    if (changesInTime(setup.scene))
+    if (changesInTime(setup.scene, !scene.prepared.state.scene->animation.empty()))
         target.goToFrame = [&](Frame& moved, int fromCompared) {
             session.goToFrame(setup, moved, fromCompared);
         };

@@ -130,6 +130,7 @@ TEST(Config, Motion) {
             with("  time_step: 0.1\n  moving_spheres: {count: 27, swing: [0, 2, 0], albedo: 0.25}\n"), "x")
             .setup.scene;
     EXPECT_TRUE(changesInTime(moving));
+    EXPECT_FALSE(changesInTime(moving, false)) << "a time step without anything animated";
     EXPECT_EQ(moving.options.timeStep, 0.1);
     ASSERT_TRUE(moving.movingSpheres);
     EXPECT_EQ(moving.movingSpheres->count, 27u);
@@ -138,6 +139,7 @@ TEST(Config, Motion) {
     const SceneSettings lamp =
         parseExperiment(with("  lights: [{point: [0, 0, 0], move: [1, 0, 0]}]\n"), "x").setup.scene;
     EXPECT_TRUE(changesInTime(lamp));
+    EXPECT_TRUE(changesInTime(lamp, false));
     EXPECT_EQ(lamp.lights[0].move, glm::vec3(1, 0, 0));
 
     expectError(with("  time_step: -1\n"), {"demo.yaml:4: ", "scene.time_step", "out of range"});
