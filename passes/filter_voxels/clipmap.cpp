@@ -20,11 +20,12 @@ struct FillPush {
 /// Docs: docs/clipmap.md.
 class ClipmapStorage final : public RadianceStorage {
  public:
-    explicit ClipmapStorage(uint32_t side) : side_(side) {}
+    explicit ClipmapStorage(const ClipmapParams& params) : params_(params) {}
     bool followsCamera() const override { return true; }
 
     void plan(PassPlan& plan, const SurfaceVoxels&, RadianceVoxels& radiance) override {
-        clipmap_ = RadianceClipmap(radiance.grid, side_);
+        radiance.grid.levels = clipmapLevels(radiance.grid.resolution, params_, "filter_voxels");
+        clipmap_ = RadianceClipmap(radiance.grid, params_.clipmapResolution);
         clipmap_.plan(plan, "filter_voxels", radiance);
     }
 
@@ -66,7 +67,7 @@ class ClipmapStorage final : public RadianceStorage {
     }
 
  private:
-    uint32_t side_;
+    ClipmapParams params_;
     RadianceClipmap clipmap_;
     Program fill_;
     std::vector<gpu::ClipmapWindow> windows_;  ///< As they were in the last run.
@@ -75,8 +76,8 @@ class ClipmapStorage final : public RadianceStorage {
 
 }  // namespace
 
-std::unique_ptr<RadianceStorage> makeClipmapStorage(uint32_t side) {
-    return std::make_unique<ClipmapStorage>(side);
+std::unique_ptr<RadianceStorage> makeClipmapStorage(const ClipmapParams& params) {
+    return std::make_unique<ClipmapStorage>(params);
 }
 
 }  // namespace voxray

@@ -32,6 +32,7 @@ class FilterVoxels final : public Pass {
                                  "Whether what surfaces emit is in. Off, cones bring indirect light alone: a "
                                  "direct_* pass adds the rest.")},
                 std::tuple{std::get<0>(ClipmapParams::schema()).onlyWith(ofClipmaps()),
+                           std::get<1>(ClipmapParams::schema()).onlyWith(ofClipmaps()),
                            std::get<0>(ClipmapLevelParams::schema()).onlyWith(ofClipmaps()),
                            std::get<0>(BrickParams::schema())
                                .onlyWith(oneOf(&Params::layout, {RadianceLayout::SvoBricks}))},

@@ -5,7 +5,7 @@ namespace voxray {
 // Each in the source of its layout.
 std::unique_ptr<RadianceStorage> makeDenseStorage();
 std::unique_ptr<RadianceStorage> makeSvoStorage();
-std::unique_ptr<RadianceStorage> makeClipmapStorage(uint32_t side);
+std::unique_ptr<RadianceStorage> makeClipmapStorage(const ClipmapParams& params);
 std::unique_ptr<RadianceStorage> makeTexturesStorage();
 std::unique_ptr<RadianceStorage> makeSvoBricksStorage(const BrickParams& params);
 
@@ -18,7 +18,7 @@ std::unique_ptr<RadianceStorage> makeRadianceStorage(RadianceLayout layout, cons
             return makeSvoStorage();
         case RadianceLayout::Clipmap:
         case RadianceLayout::ClipmapTextures:
-            return makeClipmapStorage(clipmap.clipmapResolution);
+            return makeClipmapStorage(clipmap);
         case RadianceLayout::Textures:
             return makeTexturesStorage();
         case RadianceLayout::SvoBricks:

@@ -22,7 +22,8 @@ class RadianceStorage {
     virtual ~RadianceStorage() = default;
     /// Whether it holds what is near the camera alone, so that it is filled in each frame.
     virtual bool followsCamera() const { return false; }
-    /// Describes memory. `radiance` has its grid; the unit may be set to another. @throws Error for what this
+    /// Describes memory. `radiance` has its grid; the unit and the number of levels may be set to
+    /// others. @throws Error for what this
     /// device can't do.
     virtual void plan(PassPlan& plan, const SurfaceVoxels& voxels, RadianceVoxels& radiance) = 0;
     virtual void prepare(PassSetup& setup, RadianceVoxels& radiance) = 0;

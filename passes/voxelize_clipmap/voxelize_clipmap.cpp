@@ -35,7 +35,7 @@ void VoxelizeClipmap::plan(PassPlan& plan) {
     finest.directions = params_.directions;
     ClipmapVoxels& clipmap = plan.get(clipmap_);
     clipmap.grid = {finest.origin,     finest.voxelSize,
-                    finest.resolution, gridLevels(finest.resolution),
+                    finest.resolution, clipmapLevels(finest.resolution, params_, kName),
                     finest.directions, 1};
     clipmap.windows = ClipmapWindows(clipmap.grid, params_.clipmapResolution);
 

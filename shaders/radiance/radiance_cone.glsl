@@ -188,8 +188,10 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
     const float speed = (abs(direction.x) + abs(direction.y) + abs(direction.z)) / g.voxelSize;
     ConeShape shape = ConeShape(width, dither, speed, 1.0e30, base.level);
 
-    // Coordinates are mirrored where needed, so that the cone travels upwards along each axis. Then what it meets in its own voxel.
-    const int mirrored = 1 << (g.levels - 1u);
+    // Coordinates are mirrored where needed, so that the cone travels upwards along each axis: about a multiple of the coarsest voxels'
+    // width, of which the grid may be several wide. Then what it meets in its own voxel.
+    const int coarsest = 1 << (g.levels - 1u);
+    const int mirrored = (int(max(g.resolution.x, max(g.resolution.y, g.resolution.z))) + coarsest - 1) & -coarsest;
     ConeAxis axis[3];
     ConeLight light = ConeLight(vec3(0.0), 1.0, 0.0, 0.0, 0.0, 0.0, vec3(0.0));
     for (uint k = 0u; k < 3u; ++k) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tests/gpu/radiance_places.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -251,6 +252,26 @@ TEST(Clipmap, EuclideanDistanceLeavesCornersOut) {
     }
 }
 
+TEST(Clipmap, MayEndBeforeASingleVoxel) {
+    // Levels that remain are the same; the last stands in for those that are left out.
+    const std::string filter = "layout: clipmap, clipmap_resolution: 16, clipmap_levels: ";
+    const Chain all(cornellFrom({0, 0, 0}), litVoxels(80, filter + "12"), 8, 8, 1);
+    const Chain some(cornellFrom({0, 0, 0}), litVoxels(80, filter + "5"), 8, 8, 1);
+    const std::vector<uint32_t> whole = content(all), part = content(some);
+    ASSERT_EQ(part.size(), (3 * 4096 + 1000 + 125) * 6 * 2u);
+    EXPECT_TRUE(std::equal(part.begin(), part.end(), whole.begin()));
+    RadianceQuery query{center(radiance(all).grid), 16 * radiance(all).grid.voxelSize, {0.6f, 0, 0.8f}};
+    const glm::vec4 coarsest = sampleRadiance(radiance(all), {query})[0];
+    query.footprint *= 4;
+    const glm::vec4 wider = sampleRadiance(radiance(some), {query})[0];
+    EXPECT_GT(coarsest.g, 0);
+    for (int c = 0; c < 4; ++c) EXPECT_FLOAT_EQ(wider[c], 4 * coarsest[c]);
+    EXPECT_CONTAINS(errorOf([&] {
+                        Chain(cornellFrom({0, 0, 0}), litVoxels(80, filter + "3"), 8, 8, 1);
+                    }),
+                    "set 'clipmap_levels' to 4 or more");
+}
+
 TEST(Clipmap, ConesKeepTheEnergyOfAFurnace) {
     for (const std::string& storage : kStorages) {
         // Every surface emits 1 and reflects 0.5: after two bounces in the voxels cones see 1 + 0.5 + 0.25 +
@@ -265,6 +286,20 @@ TEST(Clipmap, ConesKeepTheEnergyOfAFurnace) {
             16, 16);
         EXPECT_NEAR(mean(chain.image("indirect")) / (0.5 * 1.875), 1.0, 0.03);
     }
+}
+
+TEST(Clipmap, ConesKeepTheEnergyOfAFurnaceWithFewLevels) {
+    // The coarsest voxels are an eighteenth of the box wide, and the grid is no multiple of a large power of
+    // two.
+    Chain chain("furnace", "{shape: box, albedo: 0.5, emission: 1}",
+                graphYaml({"gbuffer", "voxelize, resolution: 72",
+                           "inject_light_rays, rays_per_light: 131072, bounces: 2",
+                           "filter_voxels, emission: true, layout: clipmap, clipmap_resolution: 32, "
+                           "clipmap_levels: 3",
+                           "gather_cones, cones: 6"}),
+                16, 16);
+    EXPECT_EQ(radiance(chain).grid.levels, 3u);
+    EXPECT_NEAR(mean(chain.image("indirect")) / (0.5 * 1.875), 1.0, 0.03);
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/gtx/component_wise.hpp>
 
-#include "passes/common/radiance/radiance_voxels.h"
+#include "base/error.h"
+#include "passes/common/voxels/grid_levels.h"
 
 namespace voxray {
 namespace {
@@ -20,6 +22,18 @@ constexpr float kTransition = 1.0f / 8;
 constexpr float kEndless = 1e30f;
 
 }  // namespace
+
+uint32_t clipmapLevels(glm::uvec3 resolution, const ClipmapParams& params, const std::string& pass) {
+    uint32_t least = 1;
+    while (glm::compMax(levelResolution(resolution, least - 1)) > params.clipmapResolution) ++least;
+    if (params.clipmapLevels < least)
+        throw Error(
+            "{}: with {} levels no window of {} voxels holds the whole scene of {}x{}x{}; set "
+            "'clipmap_levels' to {} or more, or raise 'clipmap_resolution'",
+            pass, params.clipmapLevels, params.clipmapResolution, resolution.x, resolution.y, resolution.z,
+            least);
+    return std::min(params.clipmapLevels, gridLevels(resolution));
+}
 
 ClipmapWindows::ClipmapWindows(const gpu::RadianceGrid& grid, uint32_t side) : grid_(grid), side_(side) {
     for (uint32_t level = 0; level < grid.levels; ++level) {

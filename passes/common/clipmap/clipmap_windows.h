@@ -11,14 +11,24 @@
 
 namespace voxray {
 
-/// The parameter of a pass that makes a clipmap; it adds schema() to its own with std::tuple_cat.
+/// Parameters of a pass that makes a clipmap; it adds schema() to its own with std::tuple_cat.
 struct ClipmapParams {
     uint32_t clipmapResolution = 64;
+    uint32_t clipmapLevels = RADIANCE_CLIPMAP_LEVELS;
     static constexpr auto schema() {
-        return std::tuple{field("clipmap_resolution", &ClipmapParams::clipmapResolution,
-                                "Voxels along an edge of a clipmap's window.", powersOfTwo(16, 1024))};
+        return std::tuple{
+            field("clipmap_resolution", &ClipmapParams::clipmapResolution,
+                  "Voxels along an edge of a clipmap's window.", powersOfTwo(16, 1024)),
+            field("clipmap_levels", &ClipmapParams::clipmapLevels,
+                  "Levels of a clipmap at most. The coarsest must hold the whole scene; cones that are wider "
+                  "than its voxels read these. By default down to a single voxel; Arnebäck 2017 has 5.",
+                  1u, uint32_t(RADIANCE_CLIPMAP_LEVELS))};
     }
 };
+
+/// Levels of a clipmap over a grid of `resolution` voxels. @throws Error naming `pass` where none of them
+/// holds the whole grid.
+uint32_t clipmapLevels(glm::uvec3 resolution, const ClipmapParams& params, const std::string& pass);
 
 /// What a clipmap over `grid` holds: of each level at most `side` voxels along an axis, round the camera.
 /// Levels that are no larger than that are held whole. `side`: a power of two, 16 or more.
