@@ -51,6 +51,18 @@ float minimumLevel(vec3 position) {
 
 // Where the window of a level ends, coarser levels stand in for it. A layer of a coarser level is thicker: its values are scaled by
 // the ratio of the thicknesses, so that a surface has the same opacity on all levels.
+#ifdef RADIANCE_CLIPMAP_TEXTURES
+// In a loop: lavapipe copies its filter's code to each place that calls it, and takes long to compile.
+vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
+    const float finest = max(minimumLevel(position), float(level));
+    const uint finer = uint(finest);
+    const float part = finest - float(finer);
+    vec4 met = vec4(0.0);
+    for (uint l = finer; l <= (part > 0.0 ? finer + 1u : finer); ++l)
+        met += (l == finer ? 1.0 - part : part) * exp2(float(level) - float(l)) * sampleWindow(l, position, direction);
+    return met;
+}
+#else
 vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     const float finest = max(minimumLevel(position), float(level));
     const uint finer = uint(finest);
@@ -61,6 +73,7 @@ vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
         met += (l == finer ? 1.0 - part : part) * exp2(float(level) - float(l)) * sampleWindow(l, position, direction);
     return met;
 }
+#endif
 
 // The next level counts from where a window's weight falls below 1. A cone has to keep clear of its voxels there. In a zone as wide
 // before that a growing part of the cones does so already, chosen by dithering, so that light doesn't jump where the level changes.
