@@ -64,13 +64,12 @@ vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
 }
 #else
 vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
-    const float finest = max(minimumLevel(position), float(level));
+    const float finest = minimumLevel(position);
+    if (float(level) >= finest) return sampleWindow(level, position, direction);
     const uint finer = uint(finest);
     const float part = finest - float(finer);
-    vec4 met = vec4(0.0);
-    // A loop, since compilers copy what sampleWindow() does to each place that calls it.
-    for (uint l = finer; l <= (part > 0.0 ? finer + 1u : finer); ++l)
-        met += (l == finer ? 1.0 - part : part) * exp2(float(level) - float(l)) * sampleWindow(l, position, direction);
+    vec4 met = (1.0 - part) * exp2(float(level) - float(finer)) * sampleWindow(finer, position, direction);
+    if (part > 0.0) met += part * exp2(float(level) - float(finer) - 1.0) * sampleWindow(finer + 1u, position, direction);
     return met;
 }
 #endif
