@@ -17,7 +17,7 @@ inline const TestedLayout kRadianceLayouts[] = {{"dense"},
                                                 {"clipmap, clipmap_resolution: 16", true},
                                                 {"textures"},
                                                 {"clipmap_textures, clipmap_resolution: 16", true}};
-/// As published: one direction and surfaces that stay; with tests of their own.
+/// As published: one direction; with tests of their own.
 inline constexpr std::array kPublishedLayouts{RadianceLayout::SvoBricks};
 static_assert(std::size(kRadianceLayouts) + std::size(kPublishedLayouts) ==
                   EnumNames<RadianceLayout>::names.size(),

@@ -12,7 +12,8 @@ namespace voxray {
 
 /// The nodes of Arnebäck 2017's octree, chapter 3: a root, then level by level, siblings in blocks of eight.
 /// Nodes of what stays form the static section of the pool, those of what moves the dynamic one behind it.
-/// Bricks are numbered likewise; their values are somebody else's. GLSL: shaders/octree/brick_octree.glsl.
+/// Bricks are numbered likewise; whoever uses them holds their values. GLSL:
+/// shaders/octree/brick_octree.glsl.
 struct BrickOctree : Resource {
     gpu::VoxelGrid grid{};                ///< Its voxels are the leaves; known from plan() on.
     BrickOctreeCount expected;            ///< About what it will hold; likewise.

@@ -26,8 +26,7 @@ constexpr const char* kRadianceLayoutHelp =
     "through; clipmap, of each level a window round the camera, which follows it in each frame; "
     "textures and clipmap_textures, dense and clipmap in a 3D texture that the device's sampler filters, as "
     "in Arnebäck 2017, to compare hardware filtering with ours; svo_bricks, an octree as published there, "
-    "for "
-    "comparison with svo: 8 bits a channel, one direction, surfaces that stay.";
+    "for comparison with svo: 8 bits a channel, one direction.";
 
 /// Radiance that leaves surfaces and their opacity, prefiltered at all scales. A shader that samples it is
 /// compiled with defines(), includes shaders/radiance/radiance_voxels.glsl and is given bindings(): it is
