@@ -4,8 +4,8 @@
 count_instructions.py CONFIG [--program PROGRAM] [--set PATH=VALUE ...]
 
 Runs PROGRAM (build/release/bin/voxray by default) on one thread under valgrind's callgrind, some fifty times slower than without: take a
-small config, such as configs/bench/instructions.yaml. Shaders are what the driver compiled, by its own code. Counts of its compiler depend
-on what its cache holds, so they are not printed.
+small config, such as configs/bench/instructions.yaml. Shaders are what the driver compiled, by its own code. Counts of the driver's compiler
+depend on what its cache holds and are not printed. Run it twice: the first run compiles shaders, which counts as Voxray's.
 """
 import argparse
 import os
