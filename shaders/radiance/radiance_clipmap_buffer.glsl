@@ -18,11 +18,11 @@ layout(scalar) readonly buffer RadianceVoxels {
 #define NO_PLACE 0xffffffffu
 
 #define CLIPMAP_SLOT uint
-uint clipmapSlot(uint level, ivec3 voxel) {
-    const ClipmapWindow w = radianceVoxels.window[level];
+uint slotIn(ClipmapWindow w, ivec3 voxel) {
     const uvec3 slot = uvec3(voxel) & (radianceVoxels.side - 1u);
     return w.begin + (slot.z * w.size.y + slot.y) * w.size.x + slot.x;
 }
+uint clipmapSlot(uint level, ivec3 voxel) { return slotIn(radianceVoxels.window[level], voxel); }
 
 vec4 radianceValue(uint slot, uint face) {
     return unpackRadiance(radianceVoxels.values.data[slot * radianceVoxels.grid.directions + face]);
@@ -43,7 +43,7 @@ vec4 sampleWindow(uint level, vec3 position, vec3 direction) {
     uint place[8];
     for (uint octant = 0u; octant < 8u; ++octant) {
         const ivec3 voxel = blockVoxel(corner, octant);
-        place[octant] = inWindow(w, voxel) && octantWeight(octant, at) > 0.0 ? clipmapSlot(level, voxel) : NO_PLACE;
+        place[octant] = inWindow(w, voxel) && octantWeight(octant, at) > 0.0 ? slotIn(w, voxel) : NO_PLACE;
     }
     return interpolateBlock(place, at, direction);
 }
