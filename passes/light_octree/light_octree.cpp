@@ -22,10 +22,6 @@ struct WritePush {
     uint32_t isMeasured;
 };
 
-uint32_t leavesOf(const BrickOctree& octree) {
-    return octree.levels[0].staticCount + octree.levels[0].dynamicCount;
-}
-
 }  // namespace
 
 void LightOctree::declare(PassBuilder& builder) {
@@ -68,8 +64,9 @@ void LightOctree::record(PassContext& context) {
     version_ = octree.version;
 
     // Light of each leaf
-    sums_ = LargeBuffer(context.device, "sums over texels", leavesOf(octree) * kLeafSumBytes);
-    leafRadiance_ = LargeBuffer(context.device, "leaves' radiance", leavesOf(octree) * kLeafRadianceBytes);
+    const uint32_t leaves = nodesOf(octree.levels[0]);
+    sums_ = LargeBuffer(context.device, "sums over texels", leaves * kLeafSumBytes);
+    leafRadiance_ = LargeBuffer(context.device, "leaves' radiance", leaves * kLeafRadianceBytes);
     stream.fill(leafRadiance_, 0);
     for (uint32_t source = 0; source < context.get(rsm_).sources.size(); ++source) scatter(context, source);
 
@@ -78,8 +75,7 @@ void LightOctree::record(PassContext& context) {
     bindings.push_back({"LeafRadianceAt", leafRadiance_.at()});
     stream.fill(radiance.storage[0], 0);
     for (const uint32_t isMeasured : {0u, 1u})
-        stream.dispatch(write_, bindings, WritePush{octree.levels[0], isMeasured},
-                        linearGroups(leavesOf(octree)));
+        stream.dispatch(write_, bindings, WritePush{octree.levels[0], isMeasured}, linearGroups(leaves));
     bricks_.filter(stream, octree, radiance);
     stream.finish();
     sums_ = {};
@@ -90,6 +86,7 @@ void LightOctree::scatter(PassContext& context, uint32_t source) {
     const BrickOctree& octree = context.get(octree_);
     const Rsm& rsm = context.get(rsm_);
     CommandStream& stream = context.stream;
+    const uint32_t leaves = nodesOf(octree.levels[0]);
     stream.fill(sums_, 0);
     stream.fill(brightest_, 0);
     ScatterPush push{octree.grid,
@@ -108,7 +105,7 @@ void LightOctree::scatter(PassContext& context, uint32_t source) {
     stream.dispatch(
         resolve_,
         {{"LeafSumsAt", sums_.at()}, {"LeafRadianceAt", leafRadiance_.at()}, {"brightest", brightest_}},
-        leavesOf(octree), linearGroups(leavesOf(octree)));
+        leaves, linearGroups(leaves));
 }
 
 }  // namespace voxray

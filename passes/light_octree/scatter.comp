@@ -25,8 +25,9 @@ layout(push_constant, scalar) uniform Push {
 
 // What the leaf sends because of a texel, W/(m² sr). The thesis's color is a reflectance over pi.
 vec3 reflected(BrickNode leaf, vec3 position) {
+    // 8 bits hold a component to 1/255: normals that cancel leave no more than that, which is no direction.
     const vec3 normal = normalOfColor(packedColor(leaf.normal));
-    if (dot(normal, normal) < 1.0e-6) return vec3(0.0);
+    if (all(lessThan(abs(normal), vec3(1.5 / 255.0)))) return vec3(0.0);
     const LightSample s = samplePunctual(sceneLights.data[push.light], position);
     return packedColor(leaf.color) / PI * s.irradiance * max(dot(normalize(normal), s.direction), 0.0);
 }

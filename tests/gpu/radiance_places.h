@@ -1,8 +1,11 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <functional>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "passes/common/clipmap/clipmap_windows.h"
@@ -13,6 +16,20 @@ namespace voxray::test {
 /// What a weight of the sampler may be off by along an axis, where it is cut off; half of that where rounded.
 inline double weightError() {
     return std::exp2(-double(device().properties().limits.subTexelPrecisionBits));
+}
+
+/// What cones gather of texels that the sampler filters, next to what they gather by our filter: a sample is
+/// off by two weights' error of what lies round it, the light of a cone is a mean of samples.
+inline void expectSameLight(const ImageF& ours, const ImageF& sampled, const std::string& directions) {
+    double squares = 0;
+    for (size_t i = 0; i < ours.data.size(); ++i)
+        squares += std::pow(double(sampled.data[i]) - ours.data[i], 2);
+    const double difference = std::sqrt(squares / double(ours.data.size())) / mean(ours);
+    const double ratio = mean(sampled) / mean(ours);
+    std::printf("%s directions: mean ratio %.6f, root mean square difference %.2g of the mean\n",
+                directions.c_str(), ratio, difference);
+    EXPECT_NEAR(ratio, 1.0, 2 * weightError());
+    EXPECT_LT(difference, 2 * weightError());
 }
 
 /// A place in the center of a layer across `axis`, as cones read it, in voxels of a level.

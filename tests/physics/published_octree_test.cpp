@@ -230,6 +230,28 @@ TEST(PublishedOctree, LightsAddUp) {
     }
 }
 
+TEST(PublishedOctree, NormalsThatCancelReflectNothing) {
+    // A sheet with a front on either side: each leaf has as many fragments that look up as look down.
+    SceneBuilder b("sheet");
+    const uint32_t white = b.lambert("white", glm::vec3(1.0f));
+    b.quad("up", {0, 0.1f, 0}, {0, 0, 8}, {8, 0, 0}, white);
+    b.quad("down", {0, 0.1f, 0}, {8, 0, 0}, {0, 0, 8}, white);
+    b.quad("floor", {0, -2.1f, 0}, {0, 0, 8}, {8, 0, 0}, white);
+    b.quad("lit", {0, 3.1f, 0}, {0, 0, 1}, {1, 0, 0}, white);
+    b.directionalLight({0, -1, 0}, glm::vec3(1.0f));
+    b.camera({4, 7, 4}, {4, 0, 4.1f}, 60);
+    const Chain chain(std::make_shared<SceneState>(evaluate(b.finish(), 0.0)), lightGraph("16"), 8, 8, 1);
+    const gpu::RadianceGrid& g = radiance(chain).grid;
+    const auto at = [&](glm::vec3 place) {
+        const glm::vec3 voxel = glm::floor((place - g.origin) / g.voxelSize) + 0.5f;
+        return RadianceQuery{g.origin + g.voxelSize * voxel, g.voxelSize, {1, 0, 0}};
+    };
+    const std::vector<glm::vec4> met =
+        sampleRadiance(radiance(chain), {at({5, 0.1f, 5}), at({0.5f, 3.1f, 0.5f})});
+    EXPECT_EQ(met[0], glm::vec4(0, 0, 0, 1));
+    EXPECT_GT(met[1].g, 0.25f);
+}
+
 TEST(PublishedOctree, IsTheSameEachTime) {
     const auto samples = [] {
         return samplesOf(Chain("cornell", "{lights: point}", lightGraph("20"), 8, 8));

@@ -10,6 +10,11 @@
 
 namespace voxray {
 
+/// Nodes of a level, in both sections.
+inline uint32_t nodesOf(const gpu::LevelNodes& level) {
+    return level.staticCount + level.dynamicCount;
+}
+
 /// The nodes of Arnebäck 2017's octree, chapter 3: a root, then level by level, siblings in blocks of eight.
 /// Nodes of what stays form the static section of the pool, those of what moves the dynamic one behind it.
 /// Bricks are numbered likewise; whoever uses them holds their values. GLSL:

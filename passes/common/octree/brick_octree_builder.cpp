@@ -38,14 +38,12 @@ struct ClearPush {
     uint32_t staticBricks;
 };
 
-uint32_t nodesOf(const LevelNodes& level) {
-    return level.staticCount + level.dynamicCount;
-}
-
-/// Room for so many nodes; those that are there stay.
+/// Room for so many nodes; those that are there stay. A pool that is outgrown gets an eighth to spare, so
+/// that what moves does not outgrow it in each frame.
 void grow(CommandStream& stream, BrickOctree& octree, uint64_t nodes) {
+    if (octree.nodes && octree.nodes.bytes() >= nodes * kBrickNodeBytes) return;
+    if (octree.nodes) nodes += nodes / 8;
     const uint64_t bytes = nodes * kBrickNodeBytes;
-    if (octree.nodes && octree.nodes.bytes() >= bytes) return;
     if (nodes > UINT32_MAX) throw Error("an octree of {} nodes can't be numbered in 32 bits", nodes);
     LargeBuffer larger(stream.device(), "octree nodes", bytes);
     if (octree.nodeCount > 0) stream.copy(octree.nodes, larger, uint64_t(octree.nodeCount) * kBrickNodeBytes);

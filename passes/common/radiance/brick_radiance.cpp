@@ -25,10 +25,6 @@ struct FilterPush {
     uint32_t firstSides, lastSides;
 };
 
-glm::uvec3 groupsOf(const gpu::LevelNodes& nodes) {
-    return linearGroups(uint64_t(nodes.staticCount) + nodes.dynamicCount);
-}
-
 }  // namespace
 
 void BrickRadiance::plan(PassPlan& plan, RadianceVoxels& radiance, const BrickOctreeCount& expected) {
@@ -49,8 +45,9 @@ void BrickRadiance::prepare(PassSetup& setup, const RadianceVoxels& radiance) {
 
 void BrickRadiance::follow(CommandStream& stream, const BrickOctree& octree, RadianceVoxels& radiance) const {
     Buffer& bricks = radiance.storage[1];
-    const uint64_t bytes = octree.brickCount * kBrickBytes;
+    uint64_t bytes = octree.brickCount * kBrickBytes;
     if (!bricks || bricks.bytes() < bytes) {
+        if (bricks) bytes += bytes / 8;  // As the pool of nodes.
         bricks = {};
         bricks = Buffer(stream.device(), "octree bricks", bytes);
     }
@@ -65,7 +62,8 @@ void BrickRadiance::filter(CommandStream& stream, const BrickOctree& octree,
     for (size_t level = 1; level < octree.levels.size(); ++level) {
         const gpu::LevelNodes& nodes = octree.levels[level];
         for (const auto& [from, to] : {std::pair{0u, 0u}, std::pair{1u, 2u}, std::pair{3u, 3u}})
-            stream.dispatch(filter_, radiance.bindings(), FilterPush{nodes, from, to}, groupsOf(nodes));
+            stream.dispatch(filter_, radiance.bindings(), FilterPush{nodes, from, to},
+                            linearGroups(nodesOf(nodes)));
         transfer(stream, radiance, nodes, 1);
     }
 }
@@ -75,7 +73,7 @@ void BrickRadiance::transfer(CommandStream& stream, const RadianceVoxels& radian
     for (uint32_t axis = 0; axis < 3; ++axis)
         for (const uint32_t isBack : {0u, 1u})
             stream.dispatch(transfer_, radiance.bindings(), TransferPush{nodes, axis, part, isBack},
-                            groupsOf(nodes));
+                            linearGroups(nodesOf(nodes)));
 }
 
 }  // namespace voxray
