@@ -34,11 +34,12 @@ class SvoBricksStorage final : public RadianceStorage {
                 radiance.grid.directions);
         octree_.expected = countBrickOctree(metVoxels(plan.frame.scene->geometry, voxels.grid), neighbors_);
         octree_.grid = voxels.grid;
+        octree_.moves = !movingRuns(plan.frame.scene->geometry).empty();
         const BrickOctreeCount& count = octree_.expected;
-        plan.reserveCounted("octree nodes (estimated)", count.nodes() * kBrickNodeBytes);
-        plan.reserveScratch("nodes' flags (estimated)", BrickOctreeBuilder::scratchBytes(count) +
-                                                            (count.levels[0].opaque + 1) * sizeof(uint32_t) +
-                                                            sizeof(VkDeviceAddress));
+        plan.reserveCounted("octree nodes (estimated)", octree_.room() * kBrickNodeBytes);
+        plan.reserveScratch("nodes' flags (estimated)",
+                            BrickOctreeBuilder::scratchBytes(count) + octree_.copyBytes() +
+                                (count.levels[0].opaque + 1) * sizeof(uint32_t) + sizeof(VkDeviceAddress));
         BrickRadiance::plan(plan, radiance, count);
     }
 

@@ -38,9 +38,13 @@ void VoxelizeOctree::plan(PassPlan& plan) {
     const Geometry& geometry = plan.frame.scene->geometry;
     BrickOctree& octree = plan.get(octree_);
     octree.grid = cubeRound(geometry.boundsMin, geometry.boundsMax, params_.resolution);
-    octree.expected = plan.ofScene(
-        fmt::format("octree of bricks, {} voxels, neighbors {}", params_.resolution, params_.brickNeighbors),
-        [&] { return countBrickOctree(metVoxels(geometry, octree.grid), params_.brickNeighbors); });
+    octree.expected =
+        plan.ofScene(fmt::format("octree of bricks, {} voxels, {} samples, neighbors {}", params_.resolution,
+                                 params_.samples, params_.brickNeighbors),
+                     [&] {
+                         return countBrickOctree(rasterizedVoxels(geometry, octree.grid, params_.samples),
+                                                 params_.brickNeighbors);
+                     });
 
     // What stays and what moves
     still_.clear();
@@ -53,7 +57,7 @@ void VoxelizeOctree::plan(PassPlan& plan) {
     }
 
     const BrickOctreeCount& expected = octree.expected;
-    plan.reserveCounted("octree nodes (estimated)", expected.nodes() * kBrickNodeBytes);
+    plan.reserveCounted("octree nodes (estimated)", octree.room() * kBrickNodeBytes);
     octree.moves = !moving_.empty();
 
     // What moves may turn more of itself towards an axis, and leave what stays
@@ -61,8 +65,9 @@ void VoxelizeOctree::plan(PassPlan& plan) {
         plan.ofScene(fmt::format("fragments, {} voxels, {} samples", params_.resolution, params_.samples),
                      [&] { return countFragments(geometry, octree.grid, params_.samples); });
     plan.reserveScratch("fragments, and flags of nodes (estimated)",
-                        (octree.moves ? 2 : 1) *
-                            (FragmentList::bytes(fragments) + BrickOctreeBuilder::scratchBytes(expected)));
+                        (octree.moves ? 2 : 1) * (FragmentList::bytes(fragments) +
+                                                  BrickOctreeBuilder::scratchBytes(expected)) +
+                            octree.copyBytes());
     walk_->plan(plan, octree.grid);
 }
 

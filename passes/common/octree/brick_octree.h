@@ -28,6 +28,13 @@ struct BrickOctree : Resource {
     uint32_t nodeCount = 0, brickCount = 0;
     uint32_t staticNodes = 0, staticBricks = 0;  ///< Of these, in the static section.
     uint64_t version = 0;                        ///< Another one whenever the content is.
+
+    /// Nodes that the pool has room for at first: a few more than expected, since floats on the device may
+    /// take a sample on an edge that doubles don't, and an eighth more where surfaces move.
+    uint64_t room() const { return expected.nodes() + expected.nodes() / (moves ? 8 : 256) + 64; }
+    /// Bytes that building takes besides while it runs: where surfaces move the pool may outgrow that room,
+    /// and is there twice while it is copied.
+    uint64_t copyBytes() const { return moves ? room() * kBrickNodeBytes : 0; }
 };
 
 }  // namespace voxray

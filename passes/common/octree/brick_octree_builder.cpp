@@ -71,7 +71,7 @@ void BrickOctreeBuilder::build(CommandStream& stream, BrickOctree& octree, const
     octree.levels.assign(gridLevels(size), LevelNodes{});
     octree.levels.back().staticCount = 1;
     octree.nodeCount = octree.brickCount = 0;
-    grow(stream, octree, std::max<uint64_t>(octree.expected.nodes(), 1));
+    grow(stream, octree, octree.room());
     BrickNode root{};
     root.brick = NO_BRICK;
     stream.upload(octree.nodes, std::as_bytes(std::span(&root, 1)));

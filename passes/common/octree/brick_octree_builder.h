@@ -17,7 +17,7 @@ class BrickOctreeBuilder {
 
     /// Builds the static section in place of all that was there. Waits for the device once a level.
     /// @param cells a uint for each fragment: its voxel, 10 bits an axis. More than one may be in a voxel.
-    /// The pool has room for the nodes that are expected; it grows where they are more.
+    /// The pool begins with octree.room() and grows where nodes are more.
     void build(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells,
                uint32_t fragments) const;
     /// Builds the dynamic section in place of the one that was there. Likewise.
