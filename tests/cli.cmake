@@ -4,6 +4,6 @@ foreach(part bench_gpu commands explain generality mistakes parts run scene_file
   add_test(NAME cli.${part}
     COMMAND /usr/bin/python3 -m unittest -v ${part}_test
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/cli)
-  set_tests_properties(cli.${part} PROPERTIES TIMEOUT 600 COST 100 ENVIRONMENT
+  set_tests_properties(cli.${part} PROPERTIES COST 100 ENVIRONMENT
     "VOXRAY_PROGRAM=$<TARGET_FILE:voxray-cli>;VOXRAY_SOURCE=${CMAKE_SOURCE_DIR};VOXRAY_CACHE=${CMAKE_BINARY_DIR}/tests/cli-cache;PYTHONDONTWRITEBYTECODE=1")
 endforeach()

@@ -4,7 +4,6 @@ foreach(part browser explain large page pareto ranking reading selection stabili
   add_test(NAME report.${part}
     COMMAND /usr/bin/python3 -m unittest -v report_${part}_test
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}/tests/unit)
-  set_tests_properties(report.${part} PROPERTIES TIMEOUT 600)
 endforeach()
 foreach(script compare_builds growth image_sheet mirror_borders notebooks rivals_table trials tune)
   add_test(NAME scripts.${script}

@@ -28,8 +28,9 @@ exec "{program}" "$@"
 
 class BenchGpu(CommandTest):
     def bench(self, *arguments, program=PROGRAM):
-        return subprocess.run([sys.executable, SCRIPT, "--program", program, "--profile", "ci", "--out", self.path("out"), *arguments],
-                              cwd=self.folder, env=self.environment, capture_output=True, text=True, timeout=240)
+        return subprocess.run([sys.executable, SCRIPT, "--program", program, "--profile", "ci", "--limit", "86400",
+                               "--out", self.path("out"), *arguments],
+                              cwd=self.folder, env=self.environment, capture_output=True, text=True)
 
     def parts(self):
         return {part["name"]: part for part in self.json("out", "gpu.json")["parts"]}

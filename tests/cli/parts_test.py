@@ -43,7 +43,7 @@ class Parts(CommandTest):
                                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
                 running[process] = job
             process = next(iter(running))
-            errors = process.communicate(timeout=240)[1]
+            errors = process.communicate()[1]
             job = running.pop(process)
             self.assertEqual(process.returncode, 0, (job["id"], errors))
             self.assertTrue(os.path.exists(self.path(out, job["writes"])), job["writes"])
@@ -119,7 +119,7 @@ class RunParts(Parts):
         for arguments in (("run", "tiny.yaml", *slow, "--out", "out"), ("merge", "out", "--out", "out")):
             self.assertIn("is writing", self.expect(2, *arguments).stderr)
         first.send_signal(signal.SIGINT)
-        errors = first.communicate(timeout=60)[1]
+        errors = first.communicate()[1]
         self.assertEqual(first.returncode, 130, errors)
         self.assertEqual([name for name in self.files("out") if name.endswith(".sums")], [])
 
@@ -129,7 +129,7 @@ class RunParts(Parts):
         lock = self.path("out", "parts", f".{part}.lock")
         first = self.start_until(lambda: os.path.exists(lock), "run", "tiny.yaml", *slow, "--part", part, "--out", "out")
         first.kill()
-        first.communicate(timeout=60)
+        first.communicate()
 
         # A merge needs the folder for itself, and clears up what is left
         self.assertIn("there is no result of 'resolution-8'", self.expect(1, "merge", "out", "--out", "out").stderr)

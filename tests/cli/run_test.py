@@ -171,7 +171,7 @@ class Resume(Run):
         # While one writes the other is refused, with the number of the process
         first = self.start_until(lambda: os.path.exists(self.path("out", ".lock")), *arguments)
         self.assertIn(f"process {first.pid} is writing", self.expect(2, *arguments).stderr)
-        first.communicate(timeout=240)
+        first.communicate()
         self.assertEqual(first.returncode, 0)
 
         # Whichever takes the lock first, its results are whole (VOXRAY_DOUBLE_RUNS=20 tries more offsets)
@@ -181,7 +181,7 @@ class Resume(Run):
             time.sleep(offsets.uniform(0, 1.5))
             isOver = first.poll() is not None
             second = self.voxray(*arguments)
-            first.communicate(timeout=240)
+            first.communicate()
             self.assertEqual(sorted((first.returncode, second.returncode)), [0, 0 if isOver else 2], second.stderr)
             self.assertEqual([row["status"] for row in self.rows("out", "results.csv")], ["ok"] * 4)
             self.check_whole()
@@ -206,7 +206,7 @@ class Resume(Run):
         process = self.start_until(lambda: os.path.exists(self.marker("resolution-8")),
                                    "run", "slow.yaml", "--out", "out")
         process.send_signal(number)
-        said, errors = process.communicate(timeout=60)
+        said, errors = process.communicate()
         self.assertEqual(process.returncode, status, errors)
         finished = self.times()
         self.assertTrue(finished)
@@ -233,7 +233,7 @@ class Resume(Run):
                                    "run", "tiny.yaml", "--out", "out", "--set", "reference.spp=1048576")
         time.sleep(1)  # Its paths would take hours.
         process.send_signal(signal.SIGINT)
-        errors = process.communicate(timeout=60)[1]
+        errors = process.communicate()[1]
         self.assertEqual(process.returncode, 130, errors)
         self.assertIn("voxray: stopping; a second Ctrl-C ends the program at once\n", errors)
         self.check_whole()
@@ -247,7 +247,7 @@ class Resume(Run):
         for _ in range(signals):
             time.sleep(0.05)
             os.killpg(process.pid, signal.SIGINT)
-        said = process.communicate(timeout=60)[1]
+        said = process.communicate()[1]
         self.assertEqual([row["status"] for row in self.rows("out", "results.csv")], ["ok"] * 2)
         self.assertEqual("voxray: ended\n" in said, signals == 2, said)
         return process.returncode
@@ -326,7 +326,7 @@ class Disk(Run):
             script = f'mount -t tmpfs -o size={size} tmpfs out || exit 77; "$0" "$@"'
             done = subprocess.run(["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", script, PROGRAM, "run",
                                    "tiny.yaml", "--out", "out"], cwd=self.folder, env=self.environment,
-                                  capture_output=True, text=True, timeout=240)
+                                  capture_output=True, text=True)
             if done.returncode == 77 or done.stderr.startswith("unshare:"):
                 return
             with self.subTest(size):

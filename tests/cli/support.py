@@ -2,7 +2,6 @@
 import csv
 import json
 import os
-import signal
 import subprocess
 import tempfile
 import time
@@ -54,7 +53,7 @@ class CommandTest(unittest.TestCase):
 
     def voxray(self, *arguments, **options):
         return subprocess.run([PROGRAM, *arguments], cwd=self.folder, env=self.environment, capture_output=True,
-                              text=True, timeout=240, stdin=subprocess.DEVNULL, **options)
+                              text=True, stdin=subprocess.DEVNULL, **options)
 
     def expect(self, status, *arguments, **options):
         """Runs the program and checks its exit status; an error is one line, with the program's name before it."""
@@ -82,11 +81,9 @@ class CommandTest(unittest.TestCase):
         self.addCleanup(process.stdout.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
-        deadline = time.monotonic() + 120
         while not ready():
-            if process.poll() is not None or time.monotonic() > deadline:
-                process.send_signal(signal.SIGKILL)
-                self.fail(f"ended or hung before it was to be interrupted:\n{process.communicate()[1]}")
+            if process.poll() is not None:
+                self.fail(f"ended before it was to be interrupted:\n{process.communicate()[1]}")
             time.sleep(0.01)
         return process
 

@@ -135,7 +135,7 @@ class Sweep(parts_test.Parts):
                 time.sleep(0.02)
             self.assertIsNone(engine.poll(), f"the sweep ended before kill {number + 1} of {KILLS}")
             engine.kill()
-            engine.communicate(timeout=60)
+            engine.communicate()
             outlived += len(kept)
             for path, stamp in kept.items():
                 self.assertEqual(self.finished()[path], stamp, path)

@@ -19,6 +19,7 @@ except ImportError:
     webdriver = None
 
 DRIVER = shutil.which("chromedriver")
+WITHOUT_LIMIT = 1e6  # seconds
 MISSING = "" if webdriver and DRIVER else "needs chromedriver and Python's selenium"
 
 
@@ -35,7 +36,9 @@ class Browser:
             options.add_argument(flag)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         self.driver = webdriver.Chrome(service=Service(DRIVER), options=options)
-        self.driver.set_script_timeout(60)
+        # On a busy machine anything may take long; ctest stops what hangs
+        self.driver.set_script_timeout(WITHOUT_LIMIT)
+        self.driver.set_page_load_timeout(WITHOUT_LIMIT)
         self.resize(width, height)
 
     def close(self) -> None:

@@ -106,11 +106,11 @@ TEST_F(SharedFolder, SharedLocksExcludeThoseHeldAlone) {
 
 TEST_F(SharedFolder, WhoWaitsGetsTheLockWhenItsHolderEnds) {
     const pid_t holder = hold(Kind::Alone);
+    const auto began = std::chrono::steady_clock::now();
     std::thread killer([&] {
         std::this_thread::sleep_for(std::chrono::milliseconds(300));
         ::kill(holder, SIGKILL);
     });
-    const auto began = std::chrono::steady_clock::now();
     {
         const ProcessLock lock(file(), Kind::Alone, folder_, ProcessLock::IfHeld::Wait);
         EXPECT_GE(std::chrono::steady_clock::now() - began, std::chrono::milliseconds(300));
