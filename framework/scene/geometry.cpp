@@ -223,6 +223,7 @@ std::vector<Box> advance(SceneState& state, double timeSeconds) {
     }
     state.lights = placeLights(scene, world);
     state.cameras = placeCameras(scene, world);
+    if (state.panes) advance(*state.panes, timeSeconds);
     return changed;
 }
 

@@ -56,6 +56,7 @@ struct SceneState {
     Geometry geometry;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
+    std::shared_ptr<SceneState> panes;  ///< What light passes (panes.h), at the same time; nullptr: nothing.
 };
 
 /// Evaluates nodes and animation at `timeSeconds` and flattens every instance into world space.
@@ -68,7 +69,7 @@ SceneState evaluate(std::shared_ptr<const Scene> scene, double timeSeconds,
 std::vector<InstanceRange> movingRuns(const Geometry& geometry);
 
 /// Takes a state to another time, in place and equal to one that is evaluated there: what moves, lights and
-/// cameras. Triangle numbers and bounds stay. Triangles of a frozen state stay too.
+/// cameras, panes. Triangle numbers and bounds stay. Triangles of a frozen state stay too.
 /// @return bounds before and after of each instance that moved, in turn. @throws Error as `evaluate`.
 std::vector<Box> advance(SceneState& state, double timeSeconds);
 

@@ -20,8 +20,9 @@ namespace voxray {
 
 enum class Wrap : uint32_t { Repeat, ClampToEdge, MirroredRepeat };
 enum class AlphaMode : uint32_t { Opaque, Mask, Blend };
+enum class TexelFilter : uint32_t { Linear, Nearest };
 
-/// An image with its sampler. Lookups are bilinear; sRGB is decoded before filtering.
+/// An image with its sampler. sRGB is decoded before filtering.
 struct Texture {
     std::string name;
     uint32_t width = 0;
@@ -30,6 +31,7 @@ struct Texture {
     bool srgb = false;          ///< RGB is sRGB-encoded (base colour, emission).
     Wrap wrapU = Wrap::Repeat;
     Wrap wrapV = Wrap::Repeat;
+    TexelFilter filter = TexelFilter::Linear;  ///< Of a level's texels: bilinear, or the nearest one.
 };
 
 /// Which texture a material reads, with which coordinates: uv' = transform * (u, v, 1).
@@ -50,6 +52,7 @@ struct Material {
     float ior = 1.5f;          ///< KHR_materials_ior.
     glm::vec3 emission{0.0f};  ///< W/(m² sr): emissiveFactor * KHR_materials_emissive_strength.
     float normalScale = 1.0f;
+    float transmission = 0.0f;  ///< KHR_materials_transmission: makes a pane (panes.h) where it is above 0.
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;  ///< Emits on both sides. All materials reflect and block on both.
