@@ -62,6 +62,12 @@ struct Material {
     TextureRef emissiveTexture;
 };
 
+/// Four joints that carry each vertex, and how much of it.
+struct SkinWeights {
+    std::vector<glm::uvec4> joints;  ///< Indices into Skin::joints.
+    std::vector<glm::vec4> weights;  ///< Not negative; those of all sets sum to 1 at a vertex.
+};
+
 /// One glTF primitive in object space. Attribute arrays are empty or as long as `positions`.
 struct Mesh {
     std::string name;
@@ -72,6 +78,7 @@ struct Mesh {
     std::vector<glm::vec2> texCoords0;
     std::vector<glm::vec2> texCoords1;
     std::vector<glm::vec4> colors;  ///< Linear RGBA, multiplies the base colour.
+    std::vector<SkinWeights> skinWeights;
     std::vector<glm::uvec3> triangles;
     uint32_t material = 0;
 };
@@ -86,10 +93,17 @@ struct Node {
     std::optional<glm::mat4> matrix;
 };
 
-/// A mesh placed by a node.
+/// Nodes that carry vertices: a joint takes a vertex by its node's world matrix * its inverse bind matrix.
+struct Skin {
+    std::vector<uint32_t> joints;  ///< Nodes.
+    std::vector<glm::mat4> inverseBindMatrices;
+};
+
+/// A mesh placed by a node, or by the joints of a skin; then the node's own transform doesn't matter.
 struct Instance {
     uint32_t mesh = 0;
     int32_t node = -1;  ///< -1: identity.
+    int32_t skin = -1;  ///< Index into Scene::skins; -1: none.
 };
 
 enum class LightType : uint32_t { Point, Spot, Directional };
@@ -142,9 +156,11 @@ struct Scene {
     std::vector<Material> materials;  ///< At least one.
     std::vector<Mesh> meshes;
     std::vector<Node> nodes;  ///< Parents before children.
+    std::vector<Skin> skins;
     std::vector<Instance> instances;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
+    std::vector<std::string> orthographicCameras;  ///< Names of those that were left out.
     Environment environment;
     std::vector<AnimationChannel> animation;  ///< All of the file's animations, played together.
     std::vector<std::string> warnings;        ///< What the loader left out, a line each.
