@@ -30,14 +30,26 @@ struct ImageF {
 /// @throws Error for a missing, broken, truncated or oversized (above 2^28 pixels or 65536 on a side) file.
 ImageF readImage(const std::filesystem::path& path);
 
+/// A picture out of a file that may have several.
+struct LayeredImage {
+    ImageF image;
+    std::string layer;      ///< Name of the EXR layer that was taken, "View.Combined"; empty for plain channels.
+    size_t layerCount = 0;  ///< Layers of the file that are pictures; 0 for formats without layers.
+};
+/// readImage() of an EXR layer or part. @param layer its whole name, or the last word of it; empty: plain
+/// R, G, B, else the layer whose last word is Combined, Beauty, RGBA, RGB, Color or Final, else the only one.
+/// @throws Error as readImage(), and one that lists the layers where none or more than one is meant
+LayeredImage readLayer(const std::filesystem::path& path, const std::string& layer);
+
 /// A decoded 8-bit RGBA texture, still in the file's own encoding (no sRGB decode). Row 0 at the top.
 struct DecodedImage {
     uint32_t width = 0;
     uint32_t height = 0;
     std::vector<uint8_t> rgba;
 };
-/// Decodes a PNG or JPEG from memory: 16 bits are reduced to 8, grey and palette become RGB, a missing alpha
-/// 255; alpha is not multiplied in. @param name names the picture in errors. @throws Error as readImage().
+/// Decodes a PNG, JPEG or WebP from memory: 16 bits are reduced to 8, grey and palette become RGB, a missing
+/// alpha 255; alpha is not multiplied in. A JPEG may lack its end marker, not more.
+/// @param name names the picture in errors. @throws Error as readImage().
 DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name);
 
 /// A PNG file of 8-bit RGBA that decodeImage() gives back byte by byte.
