@@ -33,7 +33,7 @@ ImageF readImage(const std::filesystem::path& path);
 /// A picture out of a file that may have several.
 struct LayeredImage {
     ImageF image;
-    std::string layer;      ///< Name of the EXR layer that was taken, "View.Combined"; empty for plain channels.
+    std::string layer;  ///< Name of the EXR layer that was taken, "View.Combined"; empty for plain channels.
     size_t layerCount = 0;  ///< Layers of the file that are pictures; 0 for formats without layers.
 };
 /// readImage() of an EXR layer or part. @param layer its whole name, or the last word of it; empty: plain
