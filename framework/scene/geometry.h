@@ -12,7 +12,7 @@ namespace voxray {
 
 /// The largest coordinate of a vertex in world space, m: squared lengths of cross products of edges, at
 /// most 192 x^4 between vertices this far out, stay below 3.4e38, where float ends.
-constexpr float kMaxCoordinate = 1e9f;
+constexpr float kMaxPosition = 1e9f;
 
 /// An axis-aligned box, m.
 struct Box {
@@ -65,7 +65,7 @@ struct SceneState {
 
 /// Evaluates nodes and animation at `timeSeconds` and flattens every instance into world space.
 /// Instances are duplicated: one list of triangles keeps every consumer simple.
-/// @throws Error where a vertex is further out than kMaxCoordinate, or the vertex or triangle count exceeds
+/// @throws Error where a vertex is further out than kMaxPosition, or the vertex or triangle count exceeds
 /// 2^31.
 SceneState evaluate(std::shared_ptr<const Scene> scene, double timeSeconds,
                     Playback playback = Playback::Frozen);
