@@ -61,6 +61,24 @@ class Thumbnail:
     facts: str
 
 
+@dataclass(frozen=True)
+class Copy:
+    """A copy of the image with the id `image`, and where it leads."""
+
+    image: str
+    anchor: str
+    name: str
+    facts: str
+
+
+@dataclass(frozen=True)
+class Lead:
+    """What the page begins with under one light: the reference, the variant nearest to it, and that one's error map."""
+
+    light: str
+    copies: list[Copy]
+
+
 def picture(results: Results, folder: str, name: str, embed: Callable, warnings: list[str]) -> images.Picture | None:
     """An image of a folder as `embed` makes it of its path; None, with a warning, where it is none."""
     path = results.image(folder, name)
@@ -93,6 +111,31 @@ def thumbnails(results: Results, lights: list[str], shown: list[Variant]) -> lis
             small.append(Thumbnail(light, f"{variant.anchor}-{light}", variant.anchor, variant.number, variant.name,
                                    ms + score))
     return small
+
+
+def leads(results: Results, lights: list[str], shown: list[Variant], small: list[Thumbnail]) -> list[Lead]:
+    """One for each light that has all three images; none where variants have different references.
+
+    @param small What thumbnails() made of `shown`.
+    """
+    if not results.metrics or results.only_reference is None:
+        return []
+    metric = results.metrics[0]
+    found = []
+    for light in lights:
+        scores = results.ok.set_index("variant")[LIGHTS[light] + metric.key].dropna()
+        with_error = {variant.anchor: variant for variant in shown
+                      if variant.full_name in scores.index and any(view.light == light and view.error for view in variant.views)}
+        variants_of = [copy for copy in small if copy.light == light and copy.anchor in with_error]
+        reference = next((copy for copy in small if copy.light == light and copy.anchor == "reference"), None)
+        if not variants_of or reference is None:
+            continue
+        best = min(variants_of, key=lambda copy: metric.rank(scores[with_error[copy.anchor].full_name]))
+        found.append(Lead(light, [
+            Copy(reference.image, reference.anchor, "reference", f"{light} light"),
+            Copy(best.image, best.anchor, f"{best.number} {best.name}", f"nearest to it: {best.facts}"),
+            Copy(f"{best.image}-error", best.anchor, "its error", "HDR-FLIP: black is none")]))
+    return found
 
 
 def _or_warning(make: Callable, warnings: list[str]) -> images.Picture | None:

@@ -41,6 +41,7 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
     columns = table.columns_of(results, lights, names)
     chart_groups, not_drawn = _charts(results, lights, styles, names, anchors, curves)
     variants = details.variants(shown, lights, colors, names, anchors, warnings)
+    thumbnails = details.thumbnails(shown, lights, variants)
     manifest = _manifest_of(results, shown)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
@@ -55,7 +56,8 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
         charts=chart_groups, not_drawn=not_drawn, legends=legends, markers=style.MARKERS, pass_colors=colors,
         joined=bool(curves), unlabelled=any(chart.unlabelled for group in chart_groups for chart in group["charts"]),
         dots=max((chart.dots for group in chart_groups for chart in group["charts"]), default=0),
-        thumbnails=details.thumbnails(shown, lights, variants), pictured=_pictured(results, lights, variants),
+        thumbnails=thumbnails, leads=details.leads(shown, lights, variants, thumbnails),
+        overviews=_overviews(results, lights, styles, names, anchors, curves), pictured=_pictured(results, lights, variants),
         regions=parts.regions(results, lights, names, anchors,
                               lambda folder, name: details.picture(results, folder, name, images.embed, warnings)),
         sequence=parts.sequence(results, shown, lights, styles, names, anchors),
@@ -85,10 +87,22 @@ def _split(results: Results, columns: list[table.Column]) -> list[Metric]:
     return [metric for metric in results.seed_metrics if any(column.metric == metric for column in columns)]
 
 
+def _has_short_names(results: Results, names: Names) -> bool:
+    """Whether names can be read at points of a chart; else numbers stand there."""
+    drawn = [names.short[name] for name in results.ok["variant"]]
+    return len(drawn) <= _MAX_NAMED_POINTS and all(len(name) <= _LONGEST_POINT_LABEL for name in drawn)
+
+
+def _overviews(results: Results, lights, styles, names, anchors, curves) -> dict[str, charts.Chart]:
+    """By light, the chart that stands next to the first images: the first error against the time of one frame."""
+    labels = names.short if _has_short_names(results, names) else names.numbers
+    drawn = {light: charts.cost_error_chart(results, metric, light, False, styles, labels, anchors, f"overview-{light}", curves, names)
+             for light in lights for metric in results.metrics[:1]}
+    return {light: chart for light, chart in drawn.items() if chart}
+
+
 def _charts(results: Results, lights, styles, names, anchors, curves) -> tuple[list[dict], list[str]]:
-    # A number stands at a point where the names are too long or too many to read.
-    drawn_names = [names.short[name] for name in results.ok["variant"]]
-    short = len(drawn_names) <= _MAX_NAMED_POINTS and all(len(name) <= _LONGEST_POINT_LABEL for name in drawn_names)
+    short = _has_short_names(results, names)
     labels = names.short if short else names.numbers
     groups, not_drawn = [], set()
     for light in lights:

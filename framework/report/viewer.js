@@ -96,7 +96,7 @@
     });
 
     // Small copies of images that stand elsewhere on the page.
-    for (const link of document.querySelectorAll(".thumbnail")) {
+    for (const link of document.querySelectorAll(".copy")) {
         const copy = new Image();
         copy.alt = "";
         copy.src = document.getElementById(link.dataset.image).src;

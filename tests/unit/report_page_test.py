@@ -9,7 +9,7 @@ from pathlib import Path
 
 from report_support import NRMSE, Page, ReportTest, made_up
 
-from report import bars, charts, names, page, ranking, setting, style, table
+from report import bars, charts, details, names, page, ranking, setting, style, table
 from report.load import load
 from PIL import Image
 
@@ -28,7 +28,7 @@ class FullRun(unittest.TestCase):
 
     def test_shows_every_part(self):
         # 2 lights x 2 times x 3 errors; 6 finished variants x 2 lights x (image, error map) and 2 references.
-        self.assertEqual(self.page.count("svg", "chart"), 12)
+        self.assertEqual(self.page.count("svg", "chart"), 12 + 2)
         sources = [attrs["src"] for tag, attrs in self.page.tags if tag == "img"]
         self.assertEqual(len(sources), 26)
         self.assertTrue(all(source.startswith("data:image/png;base64,") for source in sources))
@@ -63,8 +63,22 @@ class FullRun(unittest.TestCase):
 
     def test_thumbnails_copy_images_of_the_page(self):
         copied = self.page.attributes("data-image")
-        self.assertEqual(len(copied), 2 * (1 + 6))
+        self.assertEqual(len(copied), 2 * (3 + 1 + 6))  # under each light those that the page begins with, too
         self.assertLessEqual(set(copied), set(self.page.attributes("id")))
+
+    def test_begins_with_the_reference_the_variant_nearest_to_it_and_its_error(self):
+        results = load(self.directory)
+        named = names.names_of(results)
+        lights = results.lights()
+        anchors = {name: f"variant-{number}" for name, number in named.numbers.items()}
+        shown = details.variants(results, lights, style.pass_colors(results), named, anchors, [])
+        leads = {lead.light: lead.copies for lead in details.leads(results, lights, shown, details.thumbnails(results, lights, shown))}
+        for light, error in (("total", "0.211"), ("indirect", "0.300")):
+            reference, best, its_error = leads[light]
+            self.assertEqual([reference.image, best.image, its_error.image],
+                             [f"reference-{light}", f"variant-3-{light}", f"variant-3-{light}-error"])
+            self.assertEqual(best.facts, f"nearest to it: 60.0 ms, nRMSE {error}")
+        self.assertLess(self.source.index('class="lead'), self.source.index('class="summary'))
 
     def test_embeds_each_image_once(self):
         sources = [attrs["src"] for tag, attrs in self.page.tags if tag == "img"]
@@ -78,7 +92,7 @@ class FullRun(unittest.TestCase):
     def test_links_lead_somewhere(self):
         targets = {f"#{name}" for name in self.page.attributes("id")}
         of_points = [link for link in self.page.attributes("xlink:href") if link.startswith("#variant-")]
-        self.assertEqual(len(of_points), 12 * 6)
+        self.assertEqual(len(of_points), (12 + 2) * 6)
         self.assertLessEqual({*self.page.attributes("href"), *self.page.attributes("xlink:href")}, targets)
 
     def test_same_results_make_the_same_page(self):
@@ -89,7 +103,7 @@ class PartOfARun(ReportTest):
     def test_without_indirect_light(self):
         rows = [made_up.variant("a", 10, 0.3), made_up.variant("b", 20, 0.2)]
         shown = self.make(rows, made_up.manifest([]), indirect=False)
-        self.assertEqual(shown.count("svg", "chart"), 6)
+        self.assertEqual(shown.count("svg", "chart"), 6 + 1)
         self.assertNotIn("Indirect", shown.text)
 
     def test_without_reference_and_manifest(self):
@@ -103,7 +117,7 @@ class PartOfARun(ReportTest):
     def test_single_variant(self):
         shown = self.make([made_up.variant("only", 10, 0.3)], made_up.manifest([]), indirect=False)
         self.assertEqual(shown.count("td", "best"), 0)  # nothing to be better than
-        self.assertEqual(shown.count("svg", "chart"), 6)
+        self.assertEqual(shown.count("svg", "chart"), 6 + 1)
 
     def test_all_failed(self):
         shown = self.make([made_up.failed("a", "lost device"), made_up.failed("b", "")], made_up.manifest([]))
@@ -275,7 +289,7 @@ class PartOfARun(ReportTest):
         shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
         for words in ("Over frames", "temporal bias", "0.080–0.12", "1 (calm): 0.220 on average"):
             self.assertIn(words, shown.text)
-        self.assertEqual(shown.count("svg", "chart"), 6 + 3)
+        self.assertEqual(shown.count("svg", "chart"), 6 + 1 + 3)
         (self.directory / "frames.csv").write_text("what,is\nthis,here\n")
         self.assertEqual(self.run_program()[0], 0)
         self.assertIn("frames.csv lacks a column", (self.directory / "report.html").read_text(encoding="utf-8"))
