@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What this machine has of the things that Voxray builds and runs on, and what the missing ones are called on
-# Debian, Ubuntu, Fedora and Arch. Needs bash alone. Exit status 1 where something is missing.
+# Debian and Ubuntu, Fedora and Arch. Needs bash alone. Exit status 1 where something is missing.
 set -euo pipefail
 
 list=$(dirname "$(readlink -f "$0")")/packages.txt
@@ -10,9 +10,9 @@ vulkan_folders=(/usr/share/vulkan /etc/vulkan /usr/local/share/vulkan)
 # Whether version $1 is at least $2.
 at_least() { [ "$(printf '%s\n%s\n' "$2" "$1" | sort -V | head -n 1)" = "$2" ]; }
 
-# Prints what was found. $1: kind of probe, $2: name, $3: smallest version of a command.
+# Prints what was found. $1: kind of probe, $2: name, $3: smallest version of a command; of headers any that follows.
 probe() {
-  local folder found version
+  local folder found version header
   case $1 in
     command)
       found=$(command -v "$2") || return 1
@@ -23,8 +23,10 @@ probe() {
       at_least "${BASH_REMATCH[0]}" "$3"
       ;;
     header)
-      for folder in "${include_folders[@]}"; do
-        [ -e "$folder/$2" ] && { echo "$folder/$2"; return 0; }
+      for header in "${@:2}"; do
+        for folder in "${include_folders[@]}"; do
+          [ -e "$folder/$header" ] && { echo "$folder/$header"; return 0; }
+        done
       done
       return 1
       ;;
@@ -50,7 +52,7 @@ echo
 echo "Packages:"
 missing=()
 declare -A wants=([sweep]="./voxray sweep" [test]="./voxray test" [slurm]="tests/scale/slurm.sh")
-while IFS='|' read -r purpose check debian ubuntu fedora arch; do
+while IFS='|' read -r purpose check debian fedora arch; do
   [[ $purpose = \#* || -z ${check:-} ]] && continue
   read -r debian <<<"$debian"; read -r purpose <<<"$purpose"
   read -ra words <<<"$check"
@@ -60,7 +62,7 @@ while IFS='|' read -r purpose check debian ubuntu fedora arch; do
     printf '  absent   %-28s only %s wants it\n' "$debian" "${wants[$purpose]}"
   else
     printf '  MISSING  %-28s %s%s\n' "$debian" "$check" "${found:+(found: $found)}"
-    missing+=("$debian|$ubuntu|$fedora|$arch")
+    missing+=("$debian|$fedora|$arch")
   fi
 done < "$list"
 
@@ -71,13 +73,13 @@ fi
 
 [ ${#missing[@]} -eq 0 ] && exit 0
 echo
-echo "Missing, and what it is called (names outside Debian 12 are from those systems' lists, untested):"
-printf '  %-28s | %-28s | %-24s | %s\n' "Debian 12" Ubuntu Fedora Arch
+echo "Missing, and what it is called (names outside Debian are from those systems' lists, untested):"
+printf '  %-28s | %-24s | %s\n' "Debian 12 and 13, Ubuntu" Fedora Arch
 for row in "${missing[@]}"; do
-  IFS='|' read -r debian ubuntu fedora arch <<<"$row"
-  for name in debian ubuntu fedora arch; do read -r "${name?}" <<<"${!name}"; done
-  printf '  %-28s | %-28s | %-24s | %s\n' "$debian" "$ubuntu" "$fedora" "$arch"
+  IFS='|' read -r debian fedora arch <<<"$row"
+  for name in debian fedora arch; do read -r "${name?}" <<<"${!name}"; done
+  printf '  %-28s | %-24s | %s\n' "$debian" "$fedora" "$arch"
 done
 echo
-echo "On Debian 12, './voxray run' or scripts/setup-debian.sh installs all of them."
+echo "On Debian 12 and 13, './voxray run' or scripts/setup-debian.sh installs all of them; on Ubuntu they try to."
 exit 1

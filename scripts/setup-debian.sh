@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Installs what Voxray needs on Debian 12, from Debian packages alone. Does nothing where nothing is missing.
+# Installs what Voxray needs on Debian 12 and 13 from Debian packages alone, and tries the same names on systems made
+# from Debian or Ubuntu. Does nothing where nothing is missing.
 # setup-debian.sh [run|sweep|test|slurm]: packages for every command, and those of `voxray sweep`, of the tests, or of
 # the test on Slurm as well.
 #
-# Mesa comes from bookworm-backports (lavapipe has ray tracing from Mesa 25 on). That suite is added
-# through the mirror that this machine's own apt configuration names for bookworm.
+# Lavapipe has ray tracing from Mesa 25 on. Debian 12 has that in bookworm-backports: that suite is added through the
+# mirror that this machine's own apt configuration names for bookworm.
 set -euo pipefail
 
 purpose=${1:-run}
@@ -17,10 +18,24 @@ mesa_wanted_major=25
 say() { printf 'voxray set-up: %s\n' "$*" >&2; }
 die() { printf 'voxray: error: %s\n' "$*" >&2; exit 1; }
 
-# Packages of the list that are not installed. Mesa is apart, because of its version.
+# What system this is, as packages.txt marks it: "debian 12", "ubuntu 24.04"; one that is made from another counts as
+# that, of no version.
+system=
+if [ -r /etc/os-release ]; then . /etc/os-release; fi
+for id in ${ID:-} ${ID_LIKE:-}; do
+  case $id in debian|ubuntu) system=$id; break ;; esac
+done
+if [ "${ID:-}" = "$system" ]; then system+=" ${VERSION_ID:-}"; fi
+
+# Packages of the list for this system that are not installed. Debian 12's Mesa is apart, because of its version.
 list=$(dirname "$(readlink -f "$0")")/packages.txt
-wanted=$(awk -F'|' -v groups=" $groups " '!/^#/ && NF { gsub(/ /, "", $1); gsub(/ /, "", $3)
-  if ($3 != "mesa-vulkan-drivers" && index(groups, " " $1 " ")) print $3 }' "$list")
+wanted=$(awk -F'|' -v groups=" $groups " -v system_name="$system " '!/^#/ && NF {
+  gsub(/ /, "", $1)
+  split($3, package, /[][]/)
+  gsub(/ /, "", package[1])
+  if (package[1] == "mesa-vulkan-drivers" && system_name == "debian 12 ") next
+  isHere = package[2] == "" || index(system_name, package[2] " ") == 1
+  if (isHere && index(groups, " " $1 " ")) print package[1] }' "$list")
 installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' $wanted 2>/dev/null | sed -n 's/ installed$//p') || true
 missing=$(comm -23 <(sort -u <<<"$wanted") <(sort -u <<<"$installed") | tr '\n' ' ')
 
@@ -30,18 +45,22 @@ mesa_is_new_enough() {
   [[ $version =~ ^installed\ ([0-9]+:)?([0-9]+)\. ]] && [ "${BASH_REMATCH[2]}" -ge "$mesa_wanted_major" ]
 }
 
-if [ -z "${missing// /}" ] && mesa_is_new_enough; then
+wants_backports() { [ "$system" = "debian 12" ] && ! mesa_is_new_enough; }
+
+if [ -z "${missing// /}" ] && ! wants_backports; then
   exit 0
 fi
 
-. /etc/os-release
-[ "${ID:-}" = debian ] && [ "${VERSION_ID:-}" = 12 ] ||
-  die "set-up knows Debian 12 and this is ${PRETTY_NAME:-unknown}: './voxray doctor' lists what is needed and how it is called here; VOXRAY_SKIP_SETUP=1 goes on without set-up"
+case $system in
+  "debian 12"|"debian 13") ;;
+  debian*|ubuntu*) say "not tried on ${PRETTY_NAME:-this system}: it goes on with Debian's names of packages" ;;
+  *) die "set-up knows Debian 12 and 13, and systems made from Debian or Ubuntu, and this is ${PRETTY_NAME:-unknown}: './voxray doctor' lists what is needed and how it is called here; VOXRAY_SKIP_SETUP=1 goes on without set-up" ;;
+esac
 
 # Become root only where something has to be installed.
 if [ "$(id -u)" -ne 0 ]; then
   command -v sudo >/dev/null ||
-    die "packages are missing and there is no sudo: run '$0' as root once (missing: ${missing}and Mesa $mesa_wanted_major)"
+    die "packages are missing and there is no sudo: run '$0' as root once (missing: ${missing:-Mesa $mesa_wanted_major})"
   say "needs root to install packages"
   exec sudo -- "$(readlink -f "$0")" "$purpose"
 fi
@@ -55,7 +74,7 @@ apt_get() {
 say "installing packages (a few minutes): ${missing}"
 apt_get update
 
-if ! mesa_is_new_enough; then
+if wants_backports; then
   # The suite that holds Mesa 25, through the mirror that already serves bookworm here.
   suites=$(apt-get indextargets --format '$(CODENAME) $(REPO_URI)' 'Created-By: Packages' 'Origin: Debian')
   suites+=$'\n'$(apt-get indextargets --format '$(CODENAME) $(REPO_URI)' 'Created-By: Packages' 'Origin: Debian Backports')
@@ -73,7 +92,9 @@ fi
 if [ -n "${missing// /}" ]; then
   apt_get install -y --no-install-recommends $missing
 fi
-if ! mesa_is_new_enough; then
+if wants_backports; then
   apt_get install -y --no-install-recommends -t bookworm-backports mesa-vulkan-drivers
   mesa_is_new_enough || die "mesa-vulkan-drivers from bookworm-backports is older than $mesa_wanted_major"
 fi
+mesa_is_new_enough ||
+  say "Mesa is older than $mesa_wanted_major here, so its lavapipe traces no rays: Embree does, as with --tracer embree"

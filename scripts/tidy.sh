@@ -5,7 +5,7 @@ set -euo pipefail
 
 cd "$(dirname "$(readlink -f "$0")")/.."
 build=${VOXRAY_BUILD:-build/release}
-program=$(command -v clang-tidy-14) || { echo "clang-tidy-14 is not installed"; exit 77; }
+program=$(command -v clang-tidy-14) || { echo "clang-tidy-14 is not installed; Debian 12 has it, and versions differ in what they find"; exit 77; }
 [ -f "$build/compile_commands.json" ] || { echo "voxray: error: no $build/compile_commands.json: build first" >&2; exit 1; }
 
 files=("$@")

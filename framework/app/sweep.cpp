@@ -141,7 +141,7 @@ void sweep(SweepArguments arguments) {
     pointers.push_back(nullptr);
     ::execvp(kEngine, pointers.data());
     if (errno == ENOENT)
-        throw Error("{} is not installed; on Debian 12, scripts/setup-debian.sh sweep installs it", kEngine);
+        throw Error("{} is not installed; on Debian, scripts/setup-debian.sh sweep installs it", kEngine);
     throw Error("can't run {}: {}", kEngine, std::strerror(errno));
 }
 

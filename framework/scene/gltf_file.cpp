@@ -40,6 +40,26 @@ bool writeNothing(std::string* error, const std::string&, const std::vector<unsi
     return false;
 }
 
+/// From 2.9 on tinygltf also asks for sizes.
+template <typename Callbacks>
+Callbacks callbacksFor(Folder& folder) {
+    Callbacks callbacks{};
+    callbacks.FileExists = fileExists;
+    callbacks.ExpandFilePath = expandPath;
+    callbacks.ReadWholeFile = readWholeFile;
+    callbacks.WriteWholeFile = writeNothing;
+    if constexpr (requires { callbacks.GetFileSizeInBytes; })
+        callbacks.GetFileSizeInBytes = [](size_t* bytes, std::string* error, const std::string& name,
+                                          void* user) {
+            std::error_code failure;
+            *bytes = std::filesystem::file_size(static_cast<const Folder*>(user)->path / name, failure);
+            if (failure) *error = name + ": " + failure.message();
+            return !failure;
+        };
+    callbacks.user_data = &folder;
+    return callbacks;
+}
+
 /// Keeps an image's bytes for later.
 bool keepImage(tinygltf::Image*, int index, std::string*, std::string*, int, int, const unsigned char* bytes,
                int size, void* user) {
@@ -67,7 +87,7 @@ GltfFile::GltfFile(const std::filesystem::path& path) : name_(path.string()) {
     Folder folder{path.parent_path()};
     std::map<int, std::vector<uint8_t>> images;
     tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks({fileExists, expandPath, readWholeFile, writeNothing, &folder});
+    parser.SetFsCallbacks(callbacksFor<tinygltf::FsCallbacks>(folder));
     parser.SetImageLoader(keepImage, &images);
     std::string error;
     std::string ignoredWarnings;

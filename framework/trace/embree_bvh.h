@@ -1,13 +1,12 @@
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "scene/geometry.h"
+#include "trace/embree_api.h"
 
 namespace voxray {
 

@@ -89,7 +89,7 @@ struct Packet {
 }  // namespace
 
 struct EmbreeScene::Impl : EmbreeBvh {
-    Hit intersect(const Ray& ray, RTCIntersectContext& context) const {
+    Hit intersect(const Ray& ray, EmbreeQuery& embree) const {
         Hit hit{ray.tMax, Hit::kMiss, 0.0f, 0.0f};
         if (!(ray.tMax >= ray.tMin)) return hit;
         RTCRayHit query;
@@ -97,25 +97,25 @@ struct EmbreeScene::Impl : EmbreeBvh {
         for (const Part* part : {&still, &moving}) {
             if (!part->scene) break;
             query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-            rtcIntersect1(part->scene, &context, &query);
+            embree.intersect(part->scene, query);
             if (query.hit.geomID != RTC_INVALID_GEOMETRY_ID)
                 hit = {query.ray.tfar, part->triangleOf(query.hit), query.hit.u, query.hit.v};
         }
         return hit;
     }
 
-    bool isOccluded(const Ray& ray, RTCIntersectContext& context) const {
+    bool isOccluded(const Ray& ray, EmbreeQuery& embree) const {
         if (!(ray.tMax >= ray.tMin)) return false;
         RTCRay query;
         toEmbree(ray, query);
-        rtcOccluded1(still.scene, &context, &query);
-        if (moving.scene && query.tfar >= 0.0f) rtcOccluded1(moving.scene, &context, &query);
+        embree.occluded(still.scene, query);
+        if (moving.scene && query.tfar >= 0.0f) embree.occluded(moving.scene, query);
         return query.tfar < 0.0f;
     }
 
     /// Up to kBlock rays that don't lie together. Each step for all of them before the next takes less time
     /// than all steps for one ray after another.
-    void intersectEach(std::span<const Ray> rays, std::span<Hit> hits, RTCIntersectContext& context) const {
+    void intersectEach(std::span<const Ray> rays, std::span<Hit> hits, EmbreeQuery& embree) const {
         std::array<RTCRayHit, kBlock> queries;
         for (size_t i = 0; i < rays.size(); ++i) {
             toEmbree(rays[i], queries[i].ray);
@@ -125,7 +125,7 @@ struct EmbreeScene::Impl : EmbreeBvh {
             if (!part->scene) break;
             for (size_t i = 0; i < rays.size(); ++i) queries[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
             for (size_t i = 0; i < rays.size(); ++i)
-                if (isActive(rays[i])) rtcIntersect1(part->scene, &context, &queries[i]);
+                if (isActive(rays[i])) embree.intersect(part->scene, queries[i]);
             for (size_t i = 0; i < rays.size(); ++i) {
                 const RTCRayHit& found = queries[i];
                 if (found.hit.geomID != RTC_INVALID_GEOMETRY_ID)
@@ -134,28 +134,26 @@ struct EmbreeScene::Impl : EmbreeBvh {
         }
     }
 
-    void isEachOccluded(std::span<const Ray> rays, std::span<uint32_t> results,
-                        RTCIntersectContext& context) const {
+    void isEachOccluded(std::span<const Ray> rays, std::span<uint32_t> results, EmbreeQuery& embree) const {
         std::array<RTCRay, kBlock> queries;
         for (size_t i = 0; i < rays.size(); ++i) toEmbree(rays[i], queries[i]);
         for (size_t i = 0; i < rays.size(); ++i)
-            if (isActive(rays[i])) rtcOccluded1(still.scene, &context, &queries[i]);
+            if (isActive(rays[i])) embree.occluded(still.scene, queries[i]);
         if (moving.scene)
             for (size_t i = 0; i < rays.size(); ++i)
-                if (isActive(rays[i]) && queries[i].tfar >= 0.0f)
-                    rtcOccluded1(moving.scene, &context, &queries[i]);
+                if (isActive(rays[i]) && queries[i].tfar >= 0.0f) embree.occluded(moving.scene, queries[i]);
         for (size_t i = 0; i < rays.size(); ++i)
             results[i] = isActive(rays[i]) && queries[i].tfar < 0.0f ? 1u : 0u;
     }
 
-    void intersect(std::span<const Ray> rays, std::span<Hit> hits, RTCIntersectContext& context) const {
+    void intersect(std::span<const Ray> rays, std::span<Hit> hits, EmbreeQuery& embree) const {
         Packet packet(rays);
         RTCRayHit8& query = packet.query;
         for (size_t k = 0; k < rays.size(); ++k) hits[k] = {rays[k].tMax, Hit::kMiss, 0.0f, 0.0f};
         for (const Part* part : {&still, &moving}) {
             if (!part->scene) break;
             std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
-            rtcIntersect8(packet.active, part->scene, &context, &query);
+            embree.intersect(packet.active, part->scene, query);
             for (size_t k = 0; k < rays.size(); ++k) {
                 if (query.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
                 RTCHit hit{};
@@ -166,30 +164,27 @@ struct EmbreeScene::Impl : EmbreeBvh {
         }
     }
 
-    void areOccluded(std::span<const Ray> rays, std::span<uint32_t> results,
-                     RTCIntersectContext& context) const {
+    void areOccluded(std::span<const Ray> rays, std::span<uint32_t> results, EmbreeQuery& embree) const {
         Packet packet(rays);
         RTCRay8& query = packet.query.ray;
-        rtcOccluded8(packet.active, still.scene, &context, &query);
+        embree.occluded(packet.active, still.scene, query);
         if (moving.scene) {
             for (uint32_t k = 0; k < kPacket; ++k)
                 if (query.tfar[k] < 0.0f) packet.active[k] = 0;
-            rtcOccluded8(packet.active, moving.scene, &context, &query);
+            embree.occluded(packet.active, moving.scene, query);
         }
         for (size_t k = 0; k < rays.size(); ++k)
             results[k] = rays[k].tMax >= rays[k].tMin && query.tfar[k] < 0.0f ? 1u : 0u;
     }
 
-    /// Calls trace(first, count, context) for every kSize rays of a stream, in parallel, after their check.
+    /// Calls trace(first, count, embree) for every kSize rays of a stream, in parallel, after their check.
     /// How the work is divided makes no difference to what lies together.
     template <size_t kSize, typename Trace>
     void forEachPacket(std::span<const Ray> rays, const Trace& trace) const {
         std::atomic<size_t> firstBad{rays.size()};
         const size_t packets = (rays.size() + kSize - 1) / kSize;
         parallelRanges(packets, kStreamGrain / kSize, [&](size_t begin, size_t end) {
-            RTCIntersectContext context;
-            rtcInitIntersectContext(&context);
-            if (kSize == kPacket) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+            EmbreeQuery embree(kSize == kPacket ? Coherence::Coherent : Coherence::Incoherent);
             const size_t last = std::min(end * kSize, rays.size());
             for (size_t first = begin * kSize; first < last; first += kSize) {
                 const size_t count = std::min(kSize, last - first);
@@ -201,7 +196,7 @@ struct EmbreeScene::Impl : EmbreeBvh {
                     }
                     return;
                 }
-                trace(first, count, context);
+                trace(first, count, embree);
             }
         });
         if (firstBad != rays.size())
@@ -229,40 +224,34 @@ EmbreeScene::EmbreeScene(EmbreeScene&&) noexcept = default;
 EmbreeScene& EmbreeScene::operator=(EmbreeScene&&) noexcept = default;
 
 Hit EmbreeScene::closestHit(const Ray& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    return impl_->intersect(ray, context);
+    EmbreeQuery embree(Coherence::Incoherent);
+    return impl_->intersect(ray, embree);
 }
 
 bool EmbreeScene::occluded(const Ray& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    return impl_->isOccluded(ray, context);
+    EmbreeQuery embree(Coherence::Incoherent);
+    return impl_->isOccluded(ray, embree);
 }
 
 void EmbreeScene::closestHitPacket(std::span<const Ray> rays, std::span<Hit> hits) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    impl_->intersect(rays, hits, context);
+    EmbreeQuery embree(Coherence::Coherent);
+    impl_->intersect(rays, hits, embree);
 }
 
 void EmbreeScene::occludedPacket(std::span<const Ray> rays, std::span<uint32_t> results) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    impl_->areOccluded(rays, results, context);
+    EmbreeQuery embree(Coherence::Coherent);
+    impl_->areOccluded(rays, results, embree);
 }
 
 void EmbreeScene::closestHit(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence) const {
     if (hits.size() < rays.size()) throw Error("{} rays but room for {} hits", rays.size(), hits.size());
     if (coherence == Coherence::Coherent)
-        impl_->forEachPacket<kPacket>(rays, [&](size_t first, size_t count, RTCIntersectContext& context) {
-            impl_->intersect(rays.subspan(first, count), hits.subspan(first, count), context);
+        impl_->forEachPacket<kPacket>(rays, [&](size_t first, size_t count, EmbreeQuery& embree) {
+            impl_->intersect(rays.subspan(first, count), hits.subspan(first, count), embree);
         });
     else
-        impl_->forEachPacket<kBlock>(rays, [&](size_t first, size_t count, RTCIntersectContext& context) {
-            impl_->intersectEach(rays.subspan(first, count), hits.subspan(first, count), context);
+        impl_->forEachPacket<kBlock>(rays, [&](size_t first, size_t count, EmbreeQuery& embree) {
+            impl_->intersectEach(rays.subspan(first, count), hits.subspan(first, count), embree);
         });
 }
 
@@ -271,12 +260,12 @@ void EmbreeScene::occluded(std::span<const Ray> rays, std::span<uint32_t> result
     if (results.size() < rays.size())
         throw Error("{} rays but room for {} results", rays.size(), results.size());
     if (coherence == Coherence::Coherent)
-        impl_->forEachPacket<kPacket>(rays, [&](size_t first, size_t count, RTCIntersectContext& context) {
-            impl_->areOccluded(rays.subspan(first, count), results.subspan(first, count), context);
+        impl_->forEachPacket<kPacket>(rays, [&](size_t first, size_t count, EmbreeQuery& embree) {
+            impl_->areOccluded(rays.subspan(first, count), results.subspan(first, count), embree);
         });
     else
-        impl_->forEachPacket<kBlock>(rays, [&](size_t first, size_t count, RTCIntersectContext& context) {
-            impl_->isEachOccluded(rays.subspan(first, count), results.subspan(first, count), context);
+        impl_->forEachPacket<kBlock>(rays, [&](size_t first, size_t count, EmbreeQuery& embree) {
+            impl_->isEachOccluded(rays.subspan(first, count), results.subspan(first, count), embree);
         });
 }
 

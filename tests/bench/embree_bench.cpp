@@ -1,5 +1,4 @@
 #include <benchmark/benchmark.h>
-#include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "base/parallel.h"
 #include "scene/load.h"
 #include "tests/support/places.h"
+#include "trace/embree_api.h"
 #include "trace/embree_scene.h"
 
 namespace voxray {
@@ -82,13 +82,12 @@ class BareScene {
     template <bool kOccluded>
     void trace(std::vector<RTCRayHit>& queries) const {
         parallelRanges(queries.size(), kGrain, [&](size_t begin, size_t end) {
-            RTCIntersectContext context;
-            rtcInitIntersectContext(&context);
+            EmbreeQuery embree(Coherence::Incoherent);
             for (size_t i = begin; i < end; ++i) {
                 if constexpr (kOccluded)
-                    rtcOccluded1(scene_, &context, &queries[i].ray);
+                    embree.occluded(scene_, queries[i].ray);
                 else
-                    rtcIntersect1(scene_, &context, &queries[i]);
+                    embree.intersect(scene_, queries[i]);
             }
         });
     }

@@ -1,7 +1,6 @@
 // A BVH over the boxes of occupied voxels against one over triangles (Magalhães 2020, section 3.3.3.2): what
 // building and tracing cost, and how far off rays end.
 #include <benchmark/benchmark.h>
-#include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "tests/bench/sponza.h"
 #include "tests/physics/voxels_read.h"
 #include "tests/support/places.h"
+#include "trace/embree_api.h"
 #include "trace/embree_scene.h"
 
 namespace voxray {
@@ -52,8 +52,7 @@ class BoxScene {
     /// As EmbreeScene does; `triangle` is the number of the voxel.
     void closestHit(const std::vector<Ray>& rays, std::vector<Hit>& hits) const {
         parallelRanges(rays.size(), kGrain, [&](size_t begin, size_t end) {
-            RTCIntersectContext context;
-            rtcInitIntersectContext(&context);
+            EmbreeQuery embree(Coherence::Incoherent);
             for (size_t i = begin; i < end; ++i) {
                 const Ray& r = rays[i];
                 RTCRayHit query;
@@ -70,7 +69,7 @@ class BoxScene {
                              0,
                              0};
                 query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-                rtcIntersect1(scene_, &context, &query);
+                embree.intersect(scene_, query);
                 const bool isHit = query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
                 hits[i] = {query.ray.tfar, isHit ? query.hit.primID : Hit::kMiss, 0, 0};
             }

@@ -66,7 +66,7 @@ def check(root):
     for line in read(root, "scripts/packages.txt").splitlines():
         if line.startswith("#") or not line.strip():
             continue
-        package = line.split("|")[2].strip()
+        package = line.split("|")[2].partition("[")[0].strip()
         if f"`{package}`" not in reasons:
             problems.append(f"docs/dependencies.md: no reason for the package {package}")
     return problems

@@ -10,7 +10,7 @@ import layers
 root = sys.argv[1] if len(sys.argv) > 1 else "."
 program = shutil.which("clang-format-14")
 if not program:
-    print("clang-format-14 is not installed: scripts/setup-debian.sh test installs it")
+    print("clang-format-14 is not installed; Debian 12 has it, and versions differ in what they format")
     sys.exit(77)
 files = [path for path in layers.sources(root) if path.endswith((".h", ".cpp")) and not path.startswith("shaders/")]
 done = subprocess.run([program, "--dry-run", "-Werror", "--ferror-limit=1", *files], cwd=root, capture_output=True, text=True)

@@ -53,7 +53,7 @@ PASSES_MAY_USE = LAYERS["graph"] | {"graph"}
 # Third-party headers and the only places that may include them.
 THIRD_PARTY = {
     r"tiny_gltf\.h": ["framework/scene/"],
-    r"embree\d*/": ["framework/trace/embree_bvh.h", "tests/bench/"],
+    r"embree\d*/": ["framework/trace/embree_api.h"],
     r"OpenImageIO/": ["framework/image/"],
     r"yaml-cpp/": ["framework/config/yaml.cpp"],
     r"vulkan/vulkan": ["framework/vulkan/", "framework/trace/", "tests/"],

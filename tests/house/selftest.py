@@ -132,8 +132,9 @@ class Layers(Tree):
         self.refused("framework/image/x.cpp", "<gtest/gtest.h>")
         self.refused("framework/trace/x.cpp", "<benchmark/benchmark.h>")
         self.allowed("framework/scene/x.cpp", "<tiny_gltf.h>")
-        self.allowed("framework/trace/embree_bvh.h", "<embree3/rtcore.h>")
-        self.allowed("tests/bench/x.cpp", "<embree3/rtcore.h>")
+        self.refused("tests/bench/x.cpp", "<embree4/rtcore.h>")
+        self.allowed("framework/trace/embree_api.h", "<embree3/rtcore.h>")
+        self.allowed("framework/trace/embree_api.h", "<embree4/rtcore.h>")
         self.allowed("framework/vulkan/x.cpp", "<vulkan/vulkan.h>")
 
 
@@ -170,7 +171,7 @@ class Hygiene(Tree):
 class Docs(Tree):
     def setUp(self):
         super().setUp()
-        self.write("scripts/packages.txt", "# when | probe | Debian\nrun | command g++ 11 | g++ | g++ | gcc-c++ | gcc\n")
+        self.write("scripts/packages.txt", "# when | probe | Debian\nrun | command g++ 11 | g++ [debian 12] | gcc-c++ | gcc\n")
         self.write("docs/dependencies.md", "# Top\n| `g++` | compiles |\n")
         self.write("README.md", "[why](docs/dependencies.md#top) ![x](docs/dependencies.md)\n")
 

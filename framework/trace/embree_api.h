@@ -1,0 +1,88 @@
+#pragma once
+
+// Embree 3 or Embree 4, whichever this machine has: the one place where they differ.
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include "trace/ray.h"
+
+namespace voxray {
+
+/// How Embree traces one thread's rays: closest hits and occlusion, of one ray or of those of eight that are
+/// active (-1).
+class EmbreeQuery {
+ public:
+    explicit EmbreeQuery(Coherence coherence);
+    EmbreeQuery(const EmbreeQuery&) = delete;
+    EmbreeQuery& operator=(const EmbreeQuery&) = delete;
+
+    void intersect(RTCScene scene, RTCRayHit& ray);
+    void intersect(const int* active, RTCScene scene, RTCRayHit8& rays);
+    void occluded(RTCScene scene, RTCRay& ray);
+    void occluded(const int* active, RTCScene scene, RTCRay8& rays);
+
+ private:
+#if RTC_VERSION_MAJOR >= 4
+    RTCRayQueryContext context_;
+    RTCIntersectArguments intersect_;
+    RTCOccludedArguments occluded_;
+#else
+    RTCIntersectContext context_;
+#endif
+};
+
+#if RTC_VERSION_MAJOR >= 4
+
+inline EmbreeQuery::EmbreeQuery(Coherence coherence) {
+    rtcInitRayQueryContext(&context_);
+    rtcInitIntersectArguments(&intersect_);
+    rtcInitOccludedArguments(&occluded_);
+    intersect_.context = occluded_.context = &context_;
+    if (coherence == Coherence::Coherent) intersect_.flags = occluded_.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+}
+
+inline void EmbreeQuery::intersect(RTCScene scene, RTCRayHit& ray) {
+    rtcIntersect1(scene, &ray, &intersect_);
+}
+
+inline void EmbreeQuery::intersect(const int* active, RTCScene scene, RTCRayHit8& rays) {
+    rtcIntersect8(active, scene, &rays, &intersect_);
+}
+
+inline void EmbreeQuery::occluded(RTCScene scene, RTCRay& ray) {
+    rtcOccluded1(scene, &ray, &occluded_);
+}
+
+inline void EmbreeQuery::occluded(const int* active, RTCScene scene, RTCRay8& rays) {
+    rtcOccluded8(active, scene, &rays, &occluded_);
+}
+
+#else
+
+inline EmbreeQuery::EmbreeQuery(Coherence coherence) {
+    rtcInitIntersectContext(&context_);
+    if (coherence == Coherence::Coherent) context_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+}
+
+inline void EmbreeQuery::intersect(RTCScene scene, RTCRayHit& ray) {
+    rtcIntersect1(scene, &context_, &ray);
+}
+
+inline void EmbreeQuery::intersect(const int* active, RTCScene scene, RTCRayHit8& rays) {
+    rtcIntersect8(active, scene, &context_, &rays);
+}
+
+inline void EmbreeQuery::occluded(RTCScene scene, RTCRay& ray) {
+    rtcOccluded1(scene, &context_, &ray);
+}
+
+inline void EmbreeQuery::occluded(const int* active, RTCScene scene, RTCRay8& rays) {
+    rtcOccluded8(active, scene, &context_, &rays);
+}
+
+#endif
+
+}  // namespace voxray
