@@ -25,6 +25,7 @@ struct CompareOptions {
     std::filesystem::path test;
     std::filesystem::path reference;
     std::filesystem::path flipMap;
+    std::string layer;
     float exposureStops = 0;
     bool json = false;
 };
@@ -81,10 +82,14 @@ void printJson(const std::vector<Row>& rows, const CompareOptions& options, cons
     fmt::print("{}\n", out.json());
 }
 
-/// @throws UsageError for a file that is no whole image.
-ImageF readGiven(const std::filesystem::path& path) {
+/// Tells which layer it takes where a file has several. @throws UsageError for a file that is no whole image.
+ImageF readGiven(const std::filesystem::path& path, const std::string& layer = "") {
     try {
-        return readImage(path);
+        LayeredImage read = readLayer(path, layer);
+        if (read.layerCount > 1 && !read.layer.empty())
+            fmt::print(stderr, "voxray: {}: layer '{}' of {} is compared\n", path.string(),
+                       oneLine(read.layer), read.layerCount);
+        return std::move(read.image);
     } catch (const Error& error) {
         throw UsageError("{}", error.what());
     }
@@ -121,12 +126,17 @@ bool isPreview(const std::filesystem::path& file) {
     return end == ".png" || end == ".jpg" || end == ".jpeg";
 }
 
+/// The layer that is asked for, of EXR files: others have none.
+std::string layerOf(const CompareOptions& options, const std::filesystem::path& file) {
+    return file.extension() == ".exr" ? options.layer : "";
+}
+
 void compare(const CompareOptions& options) {
     for (const std::filesystem::path& file : {options.test, options.reference})
         if (!std::filesystem::exists(file))
             throw UsageError("no file '{}'{}", file.string(), didYouMeanFile(file));
-    const ImageF test = readGiven(options.test);
-    const ImageF reference = readGiven(options.reference);
+    const ImageF test = readGiven(options.test, layerOf(options, options.test));
+    const ImageF reference = readGiven(options.reference, layerOf(options, options.reference));
     if (test.width != reference.width || test.height != reference.height)
         throw UsageError("{} is {}x{} and {} is {}x{}: images to compare are of one size",
                          options.test.string(), test.width, test.height, options.reference.string(),
@@ -178,6 +188,10 @@ void addCompareCommand(CLI::App& app, int&) {
             "taken off nRMSE and relMSE, which then have 95 % confidence intervals.")
         ->required();
     command->add_flag("--json", options->json, "Print JSON.");
+    command->add_option(
+        "--layer", options->layer,
+        "Layer of EXR files that have several, as in View.Combined, or its last word. Without: "
+        "plain R, G, B, else the one called Combined, Beauty, RGBA, RGB, Color or Final.");
     command->add_option("--flip-map", options->flipMap, "Write the HDR-FLIP error map to this PNG.")
         ->check(endsWith(".png"));
     command

@@ -264,10 +264,13 @@ struct SpotLightSettings {
 /// `scene.environment` as a map.
 struct EnvironmentSettings {
     std::string map;
+    std::string layer;
     glm::vec3 scale{1.0f};
     static constexpr auto schema() {
         return std::tuple{
             field("map", &EnvironmentSettings::map, "An equirectangular EXR or HDR file, row 0 at +Y."),
+            field("layer", &EnvironmentSettings::layer,
+                  "Layer of an EXR map that has several, or the last word of its name."),
             field("scale", &EnvironmentSettings::scale,
                   "Multiplies the map. A radiance alone, W/(m² sr), stands in place of both keys.",
                   glm::vec3(0.0f), glm::vec3(kMaxLight))};

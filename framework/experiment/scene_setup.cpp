@@ -115,11 +115,21 @@ Camera chooseCamera(const SceneSettings& settings, const SceneState& state, cons
         if (settings.cameraName.empty() || camera.name == settings.cameraName) return camera;
         names.push_back(camera.name);
     }
-    if (names.empty())
+    const std::vector<std::string>& others = state.scene->orthographicCameras;
+    if (std::ranges::count(others, settings.cameraName) > 0)
+        throw UsageError(
+            settings.cameraWhere,
+            "scene.camera: '{}' is orthographic, which Voxray does not render; name another or give "
+            "one by position and target",
+            settings.cameraName);
+    if (names.empty()) {
         throw UsageError(
             settings.where,
-            "scene: it has no camera; add one, as in camera: {{position: [0, 1, 4], target: [0, 1, 0], "
-            "fov_deg: 60}}");
+            "scene: it has no {}camera{}; add one, as in camera: {{position: [0, 1, 4], target: [0, 1, 0], "
+            "fov_deg: 60}}",
+            others.empty() ? "" : "perspective ",
+            others.empty() ? "" : " ('" + others[0] + "' is orthographic, which Voxray does not render)");
+    }
     throw UsageError(settings.cameraWhere, "scene.camera: no camera '{}'{}", settings.cameraName,
                      didYouMean(settings.cameraName, names));
 }
@@ -216,12 +226,16 @@ std::shared_ptr<const ImageF> SceneLoader::loadMap(const SceneSettings& settings
     if (!settings.environment || settings.environment->map.empty()) return nullptr;
     checkMapFormat(settings);
     const fs::path path = findSceneFile(settings.environment->map, folders_, settings.environmentWhere);
-    auto& map = maps_[path.string()];
+    const std::string& layer = settings.environment->layer;
+    auto& map = maps_[{path.string(), layer}];
     if (!map) {
         map = readAt(settings.environmentWhere, [&] {
-            ImageF image = readImage(path);
-            checkRadiance(image, path);
-            return std::make_shared<const ImageF>(std::move(image));
+            LayeredImage read = readLayer(path, layer);
+            checkRadiance(read.image, path);
+            if (layer.empty() && read.layerCount > 1 && !read.layer.empty())
+                mapWarnings_.push_back(fmt::format("{}: its layer '{}' of {} is the environment",
+                                                   path.filename().string(), read.layer, read.layerCount));
+            return std::make_shared<const ImageF>(std::move(read.image));
         });
     }
     return map;
@@ -359,7 +373,7 @@ std::vector<Box> SceneLoader::goToFrame(PreparedScene& prepared, const SceneSett
 }
 
 std::vector<std::string> SceneLoader::warnings() const {
-    std::vector<std::string> lines;
+    std::vector<std::string> lines = mapWarnings_;
     for (const auto& [name, scene] : scenes_)
         for (const std::string& warning : scene->warnings)
             lines.push_back(fs::path(name).filename().string() + ": " + warning);

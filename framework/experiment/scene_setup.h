@@ -81,7 +81,9 @@ class SceneLoader {
     std::vector<std::filesystem::path> folders_;
     std::map<std::string, std::shared_ptr<const Scene>>
         scenes_;  ///< By file or built-in scene and parameters.
-    std::map<std::string, std::shared_ptr<const ImageF>> maps_;            ///< By path.
+    std::map<std::pair<std::string, std::string>, std::shared_ptr<const ImageF>>
+        maps_;                              ///< By path and layer.
+    std::vector<std::string> mapWarnings_;  ///< Which layers were taken, where a map has several.
     std::deque<std::pair<std::string, std::shared_ptr<PlanMemo>>> memos_;  ///< Of the last few surfaces.
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <tuple>
 
 #include "base/error.h"
 
@@ -51,14 +52,33 @@ void checkPng(std::span<const uint8_t> bytes, const std::string& name) {
     throw Error("{}: is broken or truncated: its end is missing", name);
 }
 
-// A cut-off JPEG decodes to grey without complaint: look for its end marker.
+bool startsWith(std::span<const uint8_t> bytes, std::string_view magic, size_t at = 0) {
+    return bytes.size() >= at + magic.size() &&
+           std::equal(magic.begin(), magic.end(), bytes.begin() + int64_t(at),
+                      [](char a, uint8_t b) { return uint8_t(a) == b; });
+}
+
+}  // namespace
+
 bool jpegEnds(std::span<const uint8_t> bytes) {
     static constexpr uint8_t endOfImage[] = {0xff, 0xd9};
     return std::find_end(bytes.begin(), bytes.end(), std::begin(endOfImage), std::end(endOfImage)) !=
            bytes.end();
 }
 
-}  // namespace
+bool isWebp(std::span<const uint8_t> bytes) {
+    return startsWith(bytes, "RIFF") && startsWith(bytes, "WEBP", 8);
+}
+
+std::string adviceFor(std::span<const uint8_t> bytes) {
+    if (startsWith(bytes, "\xabKTX 20\xbb"))
+        return ", but KTX2: store it as PNG (KTX-Software: ktx extract --transcode rgba8 IN.ktx2 OUT.png)";
+    for (const auto& [magic, at, format] :
+         {std::tuple{"DDS ", 0, "DDS"}, {"ftypavif", 4, "AVIF"}, {"GIF8", 0, "GIF"}, {"BM", 0, "BMP"}})
+        if (startsWith(bytes, magic, size_t(at)))
+            return fmt::format(", but {}: store it as PNG or JPEG", format);
+    return "";
+}
 
 bool isJpeg(std::span<const uint8_t> bytes) {
     return bytes.size() > 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;

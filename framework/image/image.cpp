@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "base/srgb.h"
 #include "image/file_check.h"
+#include "image/layers.h"
 
 namespace voxray {
 namespace fs = std::filesystem;
@@ -37,18 +38,6 @@ void checkSpec(const OIIO::ImageSpec& spec, const std::string& name) {
                     spec.height, maxPixels, maxSide);
 }
 
-// The channels [begin, begin + count) that hold the colour: R, G, B by name, else the first ones.
-struct ColourChannels {
-    int begin = 0;
-    int count = 1;
-};
-ColourChannels colourChannels(const OIIO::ImageSpec& spec) {
-    const int red = spec.channelindex("R");
-    if (red >= 0 && spec.channelindex("G") == red + 1 && spec.channelindex("B") == red + 2) return {red, 3};
-    if (const int luma = spec.channelindex("Y"); luma >= 0) return {luma, 1};
-    return {0, spec.nchannels >= 3 ? 3 : 1};
-}
-
 // Reads in strips and grows as they arrive, so that a short file that claims to be huge costs no memory.
 template <typename T>
 std::vector<T> readPixels(OIIO::ImageInput& input, const std::string& name, int firstChannel, int channels,
@@ -57,6 +46,7 @@ std::vector<T> readPixels(OIIO::ImageInput& input, const std::string& name, int 
     const int strip = spec.tile_height > 0 ? spec.tile_height : 64;
     const size_t rowValues = size_t(spec.width) * size_t(channels);
     const int lastChannel = firstChannel + channels;
+    const int part = input.current_subimage();
     std::vector<T> values;
     for (int row = 0; row < spec.height; row += strip) {
         const int begin = spec.y + row;
@@ -64,9 +54,9 @@ std::vector<T> readPixels(OIIO::ImageInput& input, const std::string& name, int 
         const size_t offset = values.size();
         values.resize(offset + rowValues * size_t(end - begin));
         const bool read = spec.tile_width > 0
-                              ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z,
+                              ? input.read_tiles(part, 0, spec.x, spec.x + spec.width, begin, end, spec.z,
                                                  spec.z + 1, firstChannel, lastChannel, type, &values[offset])
-                              : input.read_scanlines(0, 0, begin, end, spec.z, firstChannel, lastChannel,
+                              : input.read_scanlines(part, 0, begin, end, spec.z, firstChannel, lastChannel,
                                                      type, &values[offset]);
         if (!read) throw Error("{}: is broken or truncated: {}", name, reasonOr(input.geterror()));
     }
@@ -112,9 +102,10 @@ void writeWhole(const fs::path& path, const char* format, const OIIO::ImageSpec&
 
 }  // namespace
 
-ImageF readImage(const fs::path& path) {
+LayeredImage readLayer(const fs::path& path, const std::string& wanted) {
     const std::string name = path.string();
-    checkWhole(readFile(path), name);
+    const std::vector<uint8_t> file = readFile(path);
+    checkWhole(file, name);
     try {
         // Open, and refuse what is no flat picture before any memory is taken.
         const OIIO::ImageSpec config = openOptions();
@@ -122,30 +113,36 @@ ImageF readImage(const fs::path& path) {
         if (!input)
             throw Error("{}: is no image that Voxray reads (EXR, HDR, PNG or JPEG); OpenImageIO says: {}",
                         name, reasonOr(OIIO::geterror()));
+        const bool exr = std::string_view(input->format_name()) == "openexr";
+        if (!exr && !wanted.empty()) throw Error("{}: it has no layers; only EXR files have", name);
+        const std::vector<Layer> layers = exr ? layersOf(*input) : std::vector<Layer>();
+        Layer layer;
+        if (exr) layer = chooseLayer(layers, wanted, name);
+        if (!input->seek_subimage(layer.part, 0))
+            throw Error("{}: is broken: {}", name, reasonOr(input->geterror()));
         const OIIO::ImageSpec spec = input->spec();
         checkSpec(spec, name);
-        const ColourChannels colour = colourChannels(spec);
-        std::vector<float> values =
-            readPixels<float>(*input, name, colour.begin, colour.count, OIIO::TypeDesc::FLOAT);
+        if (!exr) layer.channels = spec.nchannels >= 3 ? std::vector{0, 1, 2} : std::vector{0};
+        for (const int channel : layer.channels)
+            if (exr && !spec.channelformat(channel).is_floating_point())
+                throw Error("{}: its layer '{}' holds whole numbers, not radiance", name, layer.name);
 
         // Integer files hold display values.
-        if (!spec.format.is_floating_point())
+        const auto [first, last] = std::minmax_element(layer.channels.begin(), layer.channels.end());
+        const int count = *last - *first + 1;
+        std::vector<float> values = readPixels<float>(*input, name, *first, count, OIIO::TypeDesc::FLOAT);
+        if (!exr && !spec.format.is_floating_point())
             parallelRanges(values.size(), 1 << 14, [&](size_t begin, size_t end) {
                 for (size_t i = begin; i < end; ++i) values[i] = srgbDecode(values[i]);
             });
 
         // Grey becomes three equal channels.
-        ImageF image;
-        image.width = uint32_t(spec.width);
-        image.height = uint32_t(spec.height);
-        image.channels = 3;
-        if (colour.count == 3) {
-            image.data = std::move(values);
-        } else {
-            image.data.resize(values.size() * 3);
-            for (size_t i = 0; i < image.data.size(); ++i) image.data[i] = values[i / 3];
+        LayeredImage read{ImageF(uint32_t(spec.width), uint32_t(spec.height), 3), layer.name, layers.size()};
+        for (size_t i = 0; i < read.image.data.size(); ++i) {
+            const int channel = layer.channels[layer.channels.size() == 3 ? i % 3 : 0];
+            read.image.data[i] = values[i / 3 * size_t(count) + size_t(channel - *first)];
         }
-        return image;
+        return read;
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
@@ -153,9 +150,23 @@ ImageF readImage(const fs::path& path) {
     }
 }
 
+ImageF readImage(const fs::path& path) {
+    return readLayer(path, "").image;
+}
+
 DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name) {
-    const bool png = isPng(encoded);
-    if (!png && !isJpeg(encoded)) throw Error("{}: is neither PNG nor JPEG", name);
+    const char* format = isPng(encoded)    ? "png"
+                         : isJpeg(encoded) ? "jpeg"
+                         : isWebp(encoded) ? "webp"
+                                           : nullptr;
+    if (format == nullptr) throw Error("{}: is neither PNG, JPEG nor WebP{}", name, adviceFor(encoded));
+    std::vector<uint8_t> completed;
+    if (isJpeg(encoded) && !jpegEnds(encoded)) {
+        // Without its end marker a whole picture decodes; of a part the decoder then says so.
+        completed.assign(encoded.begin(), encoded.end());
+        completed.insert(completed.end(), {0xff, 0xd9});
+        encoded = completed;
+    }
     checkWhole(encoded, name);
     try {
         // Open from memory.
@@ -163,7 +174,7 @@ DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name) {
         OIIO::Filesystem::IOProxy* proxy = &reader;
         OIIO::ImageSpec config = openOptions();
         config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-        const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(png ? "png" : "jpeg");
+        const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
         if (!input) throw Error("{}: no reader: {}", name, reasonOr(OIIO::geterror()));
         OIIO::ImageSpec opened;
         if (!input->open(name, opened, config))
@@ -173,6 +184,8 @@ DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name) {
         const int channels = std::min(spec.nchannels, 4);
         const std::vector<uint8_t> values =
             readPixels<uint8_t>(*input, name, 0, channels, OIIO::TypeDesc::UINT8);
+        if (!completed.empty() && input->has_error())
+            throw Error("{}: is broken or truncated: {}", name, reasonOr(input->geterror()));
 
         // Spread grey (1), grey and alpha (2), RGB (3) and RGBA (4) to RGBA.
         DecodedImage image{uint32_t(spec.width), uint32_t(spec.height), {}};

@@ -63,8 +63,14 @@ void addScene(Scene& scene, const Scene& added, const Placement& placement, cons
         mesh.material = firstMaterial + (material ? 0 : mesh.material);
         scene.meshes.push_back(std::move(mesh));
     }
+    const int32_t firstSkin = int32_t(scene.skins.size());
+    for (Skin skin : added.skins) {
+        for (uint32_t& joint : skin.joints) joint = uint32_t(numberOf(int32_t(joint)));
+        scene.skins.push_back(std::move(skin));
+    }
     for (const Instance& instance : added.instances)
-        scene.instances.push_back({firstMesh + instance.mesh, numberOf(instance.node)});
+        scene.instances.push_back({firstMesh + instance.mesh, numberOf(instance.node),
+                                   instance.skin < 0 ? -1 : firstSkin + instance.skin});
 
     // Lights; those without a node stand in the added scene's world
     for (Light light : added.lights) {
@@ -83,6 +89,7 @@ Scene placedScene(const Scene& scene, const Placement& placement) {
     placed.name = scene.name;
     placed.environment = scene.environment;
     placed.warnings = scene.warnings;
+    placed.orthographicCameras = scene.orthographicCameras;
     addScene(placed, scene, placement, scene.name);
 
     // Cameras, as lights: those without a node stand in the scene's world

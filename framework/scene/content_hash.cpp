@@ -38,6 +38,10 @@ void add(Hasher& hash, const Mesh& mesh) {
     addArray(hash, mesh.texCoords0);
     addArray(hash, mesh.texCoords1);
     addArray(hash, mesh.colors);
+    for (const SkinWeights& set : mesh.skinWeights) {
+        addArray(hash, set.joints);
+        addArray(hash, set.weights);
+    }
     addArray(hash, mesh.triangles);
 }
 
@@ -51,8 +55,13 @@ void add(Hasher& hash, const Node& node) {
     if (node.matrix) hash.addPlain(*node.matrix);
 }
 
+void add(Hasher& hash, const Skin& skin) {
+    addArray(hash, skin.joints);
+    addArray(hash, skin.inverseBindMatrices);
+}
+
 void add(Hasher& hash, const Instance& instance) {
-    hash.addPlain(instance.mesh).addPlain(instance.node);
+    hash.addPlain(instance.mesh).addPlain(instance.node).addPlain(instance.skin);
 }
 
 void add(Hasher& hash, const Light& light) {
@@ -95,6 +104,7 @@ std::string hashScene(const Scene& scene) {
     addAll(hash, scene.materials);
     addAll(hash, scene.meshes);
     addAll(hash, scene.nodes);
+    addAll(hash, scene.skins);
     addAll(hash, scene.instances);
     addAll(hash, scene.lights);
     addAll(hash, scene.cameras);

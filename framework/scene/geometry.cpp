@@ -59,18 +59,50 @@ Geometry allocate(const Scene& scene) {
     return geometry;
 }
 
-void transformVertices(const Mesh& mesh, const glm::mat4& world, const InstanceRange& range, Geometry& out) {
-    const glm::mat3 linear(world);
-    const bool mirrored = glm::determinant(glm::dmat3(linear)) < 0;
-    const glm::mat3 toNormal = cofactorMatrix(linear) * (mirrored ? -1.0f : 1.0f);
+/// How a vertex comes into world space.
+struct Placing {
+    explicit Placing(const glm::mat4& matrix)
+        : world(matrix), linear(matrix), mirrored(glm::determinant(glm::dmat3(linear)) < 0) {
+        toNormal = cofactorMatrix(linear) * (mirrored ? -1.0f : 1.0f);
+    }
+    glm::mat4 world;
+    glm::mat3 linear, toNormal;
+    bool mirrored;
+};
+
+/// World matrices of a skin's joints, inverse bind matrices in them.
+std::vector<glm::mat4> jointMatrices(const Skin& skin, const std::vector<glm::mat4>& world) {
+    std::vector<glm::mat4> matrices;
+    for (size_t i = 0; i < skin.joints.size(); ++i)
+        matrices.push_back(world[skin.joints[i]] * skin.inverseBindMatrices[i]);
+    return matrices;
+}
+
+/// A vertex's joints, blended linearly (glTF 2.0, section 3.7.3.3).
+glm::mat4 blended(const Mesh& mesh, const std::vector<glm::mat4>& joints, size_t vertex) {
+    glm::mat4 sum(0.0f);
+    for (const SkinWeights& set : mesh.skinWeights)
+        for (int i = 0; i < 4; ++i)
+            if (const float weight = set.weights[vertex][i]; weight > 0)
+                sum += weight * joints[set.joints[vertex][i]];
+    return sum;
+}
+
+/// @param placingOf gives a vertex's Placing.
+template <typename PlacingOf>
+void transformVertices(const Mesh& mesh, const InstanceRange& range, const PlacingOf& placingOf,
+                       Geometry& out) {
     parallelRanges(mesh.positions.size(), grain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            out.positions[range.firstVertex + i] = glm::vec3(world * glm::vec4(mesh.positions[i], 1.0f));
+            const Placing& place = placingOf(i);
+            out.positions[range.firstVertex + i] =
+                glm::vec3(place.world * glm::vec4(mesh.positions[i], 1.0f));
             VertexAttributes& a = out.attributes[range.firstVertex + i];
-            if (!mesh.normals.empty()) a.normal = directionOr(toNormal * mesh.normals[i], {0, 1, 0});
+            if (!mesh.normals.empty()) a.normal = directionOr(place.toNormal * mesh.normals[i], {0, 1, 0});
             if (!mesh.tangents.empty()) {
                 const glm::vec4 t = mesh.tangents[i];
-                a.tangent = glm::vec4(directionOr(linear * glm::vec3(t), {1, 0, 0}), mirrored ? -t.w : t.w);
+                a.tangent = glm::vec4(directionOr(place.linear * glm::vec3(t), {1, 0, 0}),
+                                      place.mirrored ? -t.w : t.w);
             }
             if (!mesh.texCoords0.empty()) {
                 a.texCoords.x = mesh.texCoords0[i].x;
@@ -87,6 +119,7 @@ void transformVertices(const Mesh& mesh, const glm::mat4& world, const InstanceR
     // A mirroring transform turns triangles round: swap two corners, so that fronts stay fronts.
     parallelRanges(mesh.triangles.size(), grain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
+            const bool mirrored = placingOf(mesh.triangles[i].x).mirrored;
             const glm::uvec3 t = mesh.triangles[i] + range.firstVertex;
             out.triangles[range.firstTriangle + i] = mirrored ? glm::uvec3(t.x, t.z, t.y) : t;
             out.triangleMaterials[range.firstTriangle + i] = mesh.material;
@@ -94,17 +127,47 @@ void transformVertices(const Mesh& mesh, const glm::mat4& world, const InstanceR
     });
 }
 
-/// Bounds of an instance's vertices. @throws Error where one is not finite.
-Box boundsOf(const Geometry& geometry, const InstanceRange& range, const std::string& name) {
+/// Places an instance by its skin's joints or by its node.
+void placeInstance(const Scene& scene, const Instance& instance, const std::vector<glm::mat4>& world,
+                   const InstanceRange& range, Geometry& out) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    if (instance.skin >= 0) {
+        const auto joints = jointMatrices(scene.skins[size_t(instance.skin)], world);
+        const auto placingOf = [&](size_t vertex) { return Placing(blended(mesh, joints, vertex)); };
+        transformVertices(mesh, range, placingOf, out);
+    } else {
+        const Placing place(instance.node < 0 ? glm::mat4(1.0f) : world[size_t(instance.node)]);
+        transformVertices(
+            mesh, range, [&](size_t) -> const Placing& { return place; }, out);
+    }
+}
+
+std::string nameOf(const Scene& scene, const Instance& instance) {
+    const std::string node = instance.node < 0 ? "" : scene.nodes[size_t(instance.node)].name;
+    return fmt::format("{}: mesh '{}'{}", scene.name, scene.meshes[instance.mesh].name,
+                       node.empty() ? "" : " of node '" + node + "'");
+}
+
+/// @throws Error where a coordinate is beyond kMaxPosition, or none.
+void checkCoordinates(const glm::vec3& p, const Scene& scene, const Instance& instance) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(p[axis]) <= kMaxPosition))
+            throw Error(
+                "{}: it has a vertex at ({:g}, {:g}, {:g}) m; coordinates go to {:g} m, for areas beyond are "
+                "not finite: correct the vertex, or scale the scene down",
+                nameOf(scene, instance), p.x, p.y, p.z, kMaxPosition);
+}
+
+/// Bounds of an instance's vertices. @throws Error where one is too far away, or nowhere
+Box boundsOf(const Geometry& geometry, const InstanceRange& range, const Scene& scene,
+             const Instance& instance) {
     Box box{glm::vec3(std::numeric_limits<float>::infinity()), glm::vec3(0.0f)};
     box.max = -box.min;
-    bool finite = true;
     for (uint32_t i = range.firstVertex; i < range.firstVertex + range.vertexCount; ++i) {
         const glm::vec3& p = geometry.positions[i];
-        finite = finite && std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+        checkCoordinates(p, scene, instance);
         box = {glm::min(box.min, p), glm::max(box.max, p)};
     }
-    if (!finite) throw Error("{}: transformed positions are not finite; scale the scene down", name);
     return box;
 }
 
@@ -115,8 +178,12 @@ void findBounds(const Scene& scene, Geometry& geometry) {
     geometry.boundsMax = -geometry.boundsMin;
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceRange& range = geometry.instances[i];
-        Box box = boundsOf(geometry, range, scene.name);
-        if (range.moves) box = sweptBounds(scene, scene.instances[i]);
+        Box box = boundsOf(geometry, range, scene, scene.instances[i]);
+        if (range.moves) {
+            box = sweptBounds(scene, scene.instances[i]);
+            for (const glm::vec3& corner : {box.min, box.max})
+                checkCoordinates(corner, scene, scene.instances[i]);
+        }
         geometry.boundsMin = glm::min(geometry.boundsMin, box.min);
         geometry.boundsMax = glm::max(geometry.boundsMax, box.max);
     }
@@ -179,11 +246,9 @@ SceneState evaluate(std::shared_ptr<const Scene> scenePointer, double timeSecond
     state.geometry = allocate(scene);
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
-        const glm::mat4 toWorld = instance.node < 0 ? glm::mat4(1.0f) : world[size_t(instance.node)];
         InstanceRange& range = state.geometry.instances[i];
-        transformVertices(scene.meshes[instance.mesh], toWorld, range, state.geometry);
-        range.moves =
-            playback == Playback::Looping && range.vertexCount > 0 && movesInTime(scene, instance.node);
+        placeInstance(scene, instance, world, range, state.geometry);
+        range.moves = playback == Playback::Looping && range.vertexCount > 0 && movesInTime(scene, instance);
     }
     findBounds(scene, state.geometry);
 
@@ -216,9 +281,9 @@ std::vector<Box> advance(SceneState& state, double timeSeconds) {
         const InstanceRange& range = state.geometry.instances[i];
         if (!range.moves) continue;
         const Instance& instance = scene.instances[i];
-        const Box before = boundsOf(state.geometry, range, scene.name);
-        transformVertices(scene.meshes[instance.mesh], world[size_t(instance.node)], range, state.geometry);
-        const Box after = boundsOf(state.geometry, range, scene.name);
+        const Box before = boundsOf(state.geometry, range, scene, instance);
+        placeInstance(scene, instance, world, range, state.geometry);
+        const Box after = boundsOf(state.geometry, range, scene, instance);
         changed.insert(changed.end(), {before, after});
     }
     state.lights = placeLights(scene, world);

@@ -44,8 +44,10 @@ uint32_t componentCount(const GltfFile& file, int type, const char* what) {
             return 3;
         case TINYGLTF_TYPE_VEC4:
             return 4;
+        case TINYGLTF_TYPE_MAT4:
+            return 16;
         default:
-            file.fail("{} can't be matrices", what);
+            file.fail("{} can't be matrices of 2 or 3 columns", what);
     }
 }
 

@@ -20,7 +20,7 @@ struct AccessorValues {
 };
 
 /// Reads an accessor of any component type, with stride, sparse substitution and normalisation.
-/// @param minComponents,maxComponents shapes that make sense: 1 scalar ... 4 vec4
+/// @param minComponents,maxComponents shapes that make sense: 1 scalar ... 4 vec4, 16 mat4
 /// @param forceNormalized integers are fractions even where the file forgets to say so
 /// @throws Error where any byte that it names is not there.
 AccessorValues readAccessor(GltfFile& file, int accessor, uint32_t minComponents, uint32_t maxComponents,

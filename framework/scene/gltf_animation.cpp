@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <set>
@@ -13,8 +14,10 @@ std::vector<float> readTimes(GltfFile& file, int accessor, const std::string& wh
     const std::vector<float> times = readAccessor(file, accessor, 1, 1, "animation times").data;
     if (times.empty()) file.fail("{}: it has no keys", what);
     for (size_t i = 0; i < times.size(); ++i)
-        if (!std::isfinite(times[i]) || (i > 0 && times[i] <= times[i - 1]))
+        if (!std::isfinite(times[i]) || (i > 0 && times[i] < times[i - 1]))
             file.fail("{}: its times are not increasing at key {}", what, i);
+    if (std::adjacent_find(times.begin(), times.end()) != times.end())
+        file.warn("{}: its times repeat; it jumps to the last key of a time", what);
     return times;
 }
 
@@ -78,7 +81,8 @@ void readAnimations(GltfFile& file, const std::vector<int>& fileNodes, Scene& sc
             } else if (source.target_path == "scale") {
                 channel.property = AnimatedProperty::Scale;
             } else {
-                file.warn("{}: animated {} are not supported; left out", what, source.target_path);
+                file.warn("{}: animated {} are not supported; those of the file's rest pose stay", what,
+                          source.target_path);
                 continue;
             }
             if (scene.nodes[channel.node].matrix) {

@@ -1,21 +1,15 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace voxray {
 
-/// What a glTF file's outside says, checked before a parser sees it.
-struct GltfOutline {
-    bool binary = false;
-    std::vector<std::string> unknownExtensions;  ///< Used, not required.
-};
-
-/// Checks what tinygltf takes on trust: chunk lengths, nesting, versions, URIs, sizes of buffers, and where
-/// images lie in them. @throws Error without the file's name.
-GltfOutline checkGltf(std::span<const uint8_t> file);
+/// Checks what a parser takes on trust: versions, required extensions, the kinds of the top-level arrays, and
+/// that buffer views lie in their buffers.
+/// @return extensions that the file uses, does not require, and that are left out
+/// @throws Error without the file's name.
+std::vector<std::string> checkGltf(const nlohmann::json& root);
 
 }  // namespace voxray

@@ -52,7 +52,7 @@ tinygltf::Node lookingNode(const std::string& name, const glm::vec3& position, c
     tinygltf::Node node;
     node.name = name;
     node.translation = numbers(position);
-    node.rotation = {q.x, q.y, q.z, q.w};
+    for (const double part : {q.x, q.y, q.z, q.w}) node.rotation.push_back(std::clamp(part, -1.0, 1.0));
     return node;
 }
 
@@ -169,7 +169,7 @@ void GltfWriter::addMaterials(const Scene& scene) {
         out.normalTexture.scale = double(m.normalScale);
         out.emissiveTexture = textureInfo<tinygltf::TextureInfo>(m.emissiveTexture);
         out.doubleSided = m.doubleSided;
-        out.alphaCutoff = double(m.alphaCutoff);
+        if (m.alphaMode == AlphaMode::Mask) out.alphaCutoff = double(m.alphaCutoff);
         out.alphaMode = m.alphaMode == AlphaMode::Mask    ? "MASK"
                         : m.alphaMode == AlphaMode::Blend ? "BLEND"
                                                           : "OPAQUE";
@@ -269,8 +269,10 @@ void GltfWriter::addLight(const Light& light) {
             break;
         case LightType::Spot:
             out.type = "spot";
-            out.spot.innerConeAngle = double(light.innerConeAngle);
-            out.spot.outerConeAngle = double(light.outerConeAngle);
+            // The outer angle is at most pi/2, which floats round up; the inner one is below it.
+            out.spot.outerConeAngle = std::min(double(light.outerConeAngle), M_PI / 2);
+            out.spot.innerConeAngle =
+                std::min(double(light.innerConeAngle), std::nextafter(out.spot.outerConeAngle, 0.0));
             break;
         case LightType::Directional:
             out.type = "directional";

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/one_line.h"
+#include "scene/gltf_data.h"
 #include "scene/tiny_gltf.h"
 
 namespace voxray {
@@ -23,24 +24,24 @@ inline std::string shortLine(std::string_view text) {
 /// warnings, and a bound on the memory that a small file can ask for.
 class GltfFile {
  public:
-    /// Reads and parses; buffers are loaded, images are fetched but not decoded.
+    /// Reads and parses; buffers are loaded and decompressed, images are fetched but not decoded.
     /// URIs reach files in the file's own folder and below only.
     /// @throws Error
     explicit GltfFile(const std::filesystem::path& path);
 
     const tinygltf::Model& model() const { return model_; }
-    /// File bytes of an image (PNG, JPEG); empty where its file is missing.
-    const std::vector<uint8_t>& encodedImage(size_t index) const { return encodedImages_[index]; }
+    /// Files of the images, in the file's order.
+    const std::vector<EncodedImage>& images() const { return images_; }
 
     template <typename... Args>
     [[noreturn]] void fail(fmt::format_string<Args...> text, Args&&... args) const {
-        throw Error("{}: {}", name_, shortLine(fmt::format(text, std::forward<Args>(args)...)));
+        throw Error("{}: {}", name_, oneLine(fmt::format(text, std::forward<Args>(args)...), kMaxMessage));
     }
 
     /// Adds a line to the warnings, once.
     template <typename... Args>
     void warn(fmt::format_string<Args...> text, Args&&... args) {
-        addWarning(shortLine(fmt::format(text, std::forward<Args>(args)...)));
+        addWarning(oneLine(fmt::format(text, std::forward<Args>(args)...), kMaxMessage));
     }
     const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -57,11 +58,16 @@ class GltfFile {
     void reserve(uint64_t count, uint64_t bytesEach);
 
  private:
+    static constexpr size_t kMaxMessage = 500;  ///< Bytes; a file's own words can be longer.
+
     void addWarning(std::string line);
+    /// reserve(), with an error that does not name the file, as all that parse() throws.
+    void countMemory(uint64_t count, uint64_t bytesEach);
+    void parse(const std::vector<uint8_t>& bytes, const std::filesystem::path& folder);
 
     std::string name_;
     tinygltf::Model model_;
-    std::vector<std::vector<uint8_t>> encodedImages_;
+    std::vector<EncodedImage> images_;
     std::vector<std::string> warnings_;
     std::set<std::string> knownWarnings_;
     uint64_t reservedBytes_ = 0;

@@ -38,7 +38,7 @@ TextureRef MaterialReader::texture(int index, int texCoord, const tinygltf::Exte
         file_.warn("{}: texture {} has no image in a supported format; left out", what, index);
         return ref;
     }
-    file_.at(model.images, source.source, "image");
+    const EncodedImage& image = file_.at(file_.images(), source.source, "image");
     Wrap wrapU = Wrap::Repeat;
     Wrap wrapV = Wrap::Repeat;
     if (source.sampler >= 0) {
@@ -52,7 +52,7 @@ TextureRef MaterialReader::texture(int index, int texCoord, const tinygltf::Exte
         textures_.try_emplace({source.source, srgb, wrapU, wrapV}, int32_t(scene_.textures.size()));
     if (added) {
         Texture texture;
-        texture.name = shortLine(model.images[size_t(source.source)].name);
+        texture.name = shortLine(image.name);
         texture.srgb = srgb;
         texture.wrapU = wrapU;
         texture.wrapV = wrapV;
@@ -154,14 +154,12 @@ void MaterialReader::decodeTextures() {
     std::vector<std::string> errors(images.size());
     parallelRanges(images.size(), 1, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end && !interruptRequested(); ++i) {
-            const size_t image = size_t(images[i]);
-            const std::string name =
-                shortLine(fmt::format("image {} '{}'", image, file_.model().images[image].name));
-            const std::vector<uint8_t>& bytes = file_.encodedImage(image);
+            const EncodedImage& image = file_.images()[size_t(images[i])];
+            const std::string name = shortLine(
+                fmt::format("image {} '{}'", images[i], image.name.empty() ? image.uri : image.name));
             try {
-                if (bytes.empty())
-                    throw Error("{}: file '{}' is missing", name, file_.model().images[image].uri);
-                decoded[i] = decodeImage(bytes, name.c_str());
+                if (!image.fault.empty()) throw Error("{}: {}", name, image.fault);
+                decoded[i] = decodeImage(image.bytes, name.c_str());
             } catch (const Error& error) {
                 errors[i] = error.what();
             }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_deform.h"
 #include "scene/mesh_repair.h"
 
 namespace voxray {
@@ -86,10 +87,29 @@ void readTriangles(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& m
     mesh.triangles = trianglesOf(file, primitive.mode, indices, what);
 }
 
-void readTangents(GltfFile& file, const tinygltf::Primitive& primitive, const Material& material, Mesh& mesh,
-                  const std::string& what) {
-    readAttribute(file, primitive, "TANGENT", 4, 4, 1, mesh.tangents, mesh.positions.size(), what);
+/// Reads all attributes as the file has them, with its morph targets.
+void readAttributes(GltfFile& file, const tinygltf::Primitive& primitive,
+                    const std::vector<double>& morphWeights, Mesh& mesh, const std::string& what) {
+    const size_t count = mesh.positions.size();
+    readAttribute(file, primitive, "TEXCOORD_0", 2, 2, 0, mesh.texCoords0, count, what);
+    readAttribute(file, primitive, "TEXCOORD_1", 2, 2, 0, mesh.texCoords1, count, what);
+    readAttribute(file, primitive, "COLOR_0", 3, 4, 1, mesh.colors, count, what);
+    readAttribute(file, primitive, "NORMAL", 3, 3, 0, mesh.normals, count, what);
+    // Tangents are meaningless without normals (glTF 2.0, section 3.7.2.1).
+    if (!mesh.normals.empty()) readAttribute(file, primitive, "TANGENT", 4, 4, 1, mesh.tangents, count, what);
+    addMorphTargets(file, primitive, morphWeights, mesh, what);
+    readSkinWeights(file, primitive, mesh, what);
+}
+
+/// Makes normals and tangents where the file has none, or none that are of use.
+void completeNormals(GltfFile& file, const Material& material, Mesh& mesh, const std::string& what) {
     bool make = mesh.tangents.empty();
+    if (mesh.normals.empty()) {
+        file.reserve(3 * mesh.triangles.size(), bytesPerVertex);
+        makeFlatNormals(mesh);
+    } else if (const size_t bad = repairNormals(mesh); bad > 0) {
+        file.warn("{}: {} normals are not finite; taken from their triangles", what, bad);
+    }
     if (!mesh.tangents.empty() && !normalizeTangents(mesh)) {
         file.warn("{}: TANGENT has values that are zero or not finite; computed instead", what);
         mesh.tangents.clear();
@@ -103,7 +123,8 @@ void readTangents(GltfFile& file, const tinygltf::Primitive& primitive, const Ma
 
 }  // namespace
 
-Mesh readPrimitive(GltfFile& file, const tinygltf::Primitive& primitive, const Material& material,
+Mesh readPrimitive(GltfFile& file, const tinygltf::Primitive& primitive,
+                   const std::vector<double>& morphWeights, const Material& material,
                    const std::string& what) {
     Mesh mesh;
     if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
@@ -122,34 +143,21 @@ Mesh readPrimitive(GltfFile& file, const tinygltf::Primitive& primitive, const M
     const size_t count = file.at(file.model().accessors, positions, "accessor").count;
     if (count > maxVertices) file.fail("{}: more than 2^31 vertices", what);
     readAttribute(file, primitive, "POSITION", 3, 3, 0, mesh.positions, count, what);
-    if (replaceNonFinite(mesh.positions, 0) > 0) file.fail("{}: it has positions that are not finite", what);
     readTriangles(file, primitive, mesh, what);
     if (mesh.triangles.empty()) {
         file.warn("{}: it has no triangles; left out", what);
         return mesh;
     }
+    readAttributes(file, primitive, morphWeights, mesh, what);
+    dropUnusedVertices(mesh);
+    if (replaceNonFinite(mesh.positions, 0) > 0) file.fail("{}: it has positions that are not finite", what);
 
     // Coordinates and colours can be repaired.
-    readAttribute(file, primitive, "TEXCOORD_0", 2, 2, 0, mesh.texCoords0, count, what);
-    readAttribute(file, primitive, "TEXCOORD_1", 2, 2, 0, mesh.texCoords1, count, what);
-    readAttribute(file, primitive, "COLOR_0", 3, 4, 1, mesh.colors, count, what);
     if (replaceNonFinite(mesh.texCoords0, 0) + replaceNonFinite(mesh.texCoords1, 0) > 0)
         file.warn("{}: texture coordinates that are not finite are taken as 0", what);
     if (replaceNonFinite(mesh.colors, 1) > 0)
         file.warn("{}: colours that are not finite are taken as 1", what);
-
-    // Normals: flat where there are none; tangents of the file are then meaningless (glTF 2.0,
-    // section 3.7.2.1).
-    readAttribute(file, primitive, "NORMAL", 3, 3, 0, mesh.normals, count, what);
-    if (mesh.normals.empty()) {
-        file.reserve(3 * mesh.triangles.size(), bytesPerVertex);
-        makeFlatNormals(mesh);
-        if (material.normalTexture.texture >= 0) makeTangents(mesh, material.normalTexture.texCoord);
-        return mesh;
-    }
-    if (const size_t bad = repairNormals(mesh); bad > 0)
-        file.warn("{}: {} normals are not finite; taken from their triangles", what, bad);
-    readTangents(file, primitive, material, mesh, what);
+    completeNormals(file, material, mesh, what);
     return mesh;
 }
 

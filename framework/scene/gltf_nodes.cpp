@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
+#include "scene/gltf_accessor.h"
 #include "scene/gltf_values.h"
 
 namespace voxray {
@@ -56,13 +57,25 @@ std::string nameOf(const std::string& own, const std::string& nodes, const char*
     return nodes.empty() ? fmt::format("{} {}", kind, number) : shortLine(nodes);
 }
 
+/// Reads an attribute of the instances of EXT_mesh_gpu_instancing; none where it is missing.
+AccessorValues instanceAttribute(GltfFile& file, const tinygltf::Value& attributes, const char* name,
+                                 uint32_t components) {
+    if (!attributes.Has(name)) return {};
+    if (!attributes.Get(name).IsInt()) file.fail("EXT_mesh_gpu_instancing: {} is not an integer", name);
+    return readAccessor(file, attributes.Get(name).GetNumberAsInt(), components, components, name);
+}
+
+}  // namespace
+
 void readCamera(GltfFile& file, const tinygltf::Node& node, int32_t nodeIndex, Scene& scene) {
+    if (node.camera < 0) return;
     const tinygltf::Camera& source = file.at(file.model().cameras, node.camera, "camera");
     Camera camera;
     camera.name = nameOf(source.name, node.name, "camera", scene.cameras.size());
     camera.node = nodeIndex;
     if (source.type != "perspective") {
         file.warn("camera '{}': orthographic cameras are not supported; left out", camera.name);
+        scene.orthographicCameras.push_back(std::move(camera.name));
         return;
     }
     const double fov = source.perspective.yfov;
@@ -107,8 +120,6 @@ void readLight(GltfFile& file, const tinygltf::Node& node, int32_t nodeIndex, Sc
     scene.lights.push_back(std::move(light));
 }
 
-}  // namespace
-
 std::vector<int> readNodes(GltfFile& file, Scene& scene) {
     // Walk depth first, children in the file's order; without recursion, since files can be deep.
     struct Visit {
@@ -137,9 +148,42 @@ std::vector<int> readNodes(GltfFile& file, Scene& scene) {
     return fileNodes;
 }
 
-void readCameraAndLight(GltfFile& file, const tinygltf::Node& source, int32_t node, Scene& scene) {
-    if (source.camera >= 0) readCamera(file, source, node, scene);
-    readLight(file, source, node, scene);
+std::vector<int32_t> readPlaces(GltfFile& file, const tinygltf::Node& source, int32_t node, Scene& scene) {
+    const tinygltf::Value* attributes =
+        extensionMember(source.extensions, "EXT_mesh_gpu_instancing", "attributes");
+    if (attributes == nullptr) return {node};
+    const std::string what =
+        fmt::format("node '{}': EXT_mesh_gpu_instancing", scene.nodes[size_t(node)].name);
+    const AccessorValues translations = instanceAttribute(file, *attributes, "TRANSLATION", 3);
+    const AccessorValues rotations = instanceAttribute(file, *attributes, "ROTATION", 4);
+    const AccessorValues scales = instanceAttribute(file, *attributes, "SCALE", 3);
+    const size_t count = std::max({translations.count, rotations.count, scales.count});
+    for (const AccessorValues* values : {&translations, &rotations, &scales})
+        if (values->count != 0 && values->count != count)
+            file.fail("{}: its attributes have {} and {} elements", what, values->count, count);
+
+    // One node for each, below the node itself
+    file.reserve(count, sizeof(Node));
+    std::vector<int32_t> places;
+    for (size_t i = 0; i < count; ++i) {
+        Node place;
+        place.name = scene.nodes[size_t(node)].name;
+        place.parent = node;
+        glm::vec4 rotation(0, 0, 0, 1);
+        for (uint32_t c = 0; c < 4; ++c) {
+            if (rotations.count > 0) rotation[int(c)] = rotations.get(i, c);
+            if (c == 3) break;
+            if (translations.count > 0) place.translation[int(c)] = translations.get(i, c);
+            if (scales.count > 0) place.scale[int(c)] = scales.get(i, c);
+        }
+        const float length = glm::length(rotation);
+        if (!(length > 0 && length < float(maxNumber))) file.fail("{}: rotation {} is zero", what, i);
+        rotation /= length;
+        place.rotation = glm::quat(rotation.w, rotation.x, rotation.y, rotation.z);
+        places.push_back(int32_t(scene.nodes.size()));
+        scene.nodes.push_back(std::move(place));
+    }
+    return places;
 }
 
 }  // namespace voxray

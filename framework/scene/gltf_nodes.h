@@ -17,7 +17,13 @@ std::vector<int> readNodes(GltfFile& file, Scene& scene);
 /// @param fileNodes as readNodes returned them
 void readAnimations(GltfFile& file, const std::vector<int>& fileNodes, Scene& scene);
 
-/// Adds the camera and the light of a node.
-void readCameraAndLight(GltfFile& file, const tinygltf::Node& source, int32_t node, Scene& scene);
+/// Adds the camera of a node. An orthographic one is left out, with a warning.
+void readCamera(GltfFile& file, const tinygltf::Node& source, int32_t node, Scene& scene);
+
+/// Adds the light of a node.
+void readLight(GltfFile& file, const tinygltf::Node& source, int32_t node, Scene& scene);
+
+/// Where a node places its mesh: itself, or nodes that are added below it for EXT_mesh_gpu_instancing.
+std::vector<int32_t> readPlaces(GltfFile& file, const tinygltf::Node& source, int32_t node, Scene& scene);
 
 }  // namespace voxray

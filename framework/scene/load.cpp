@@ -1,13 +1,16 @@
 #include "scene/load.h"
 
+#include <algorithm>
 #include <map>
 
 #include "base/interrupt.h"
 #include "scene/content_hash.h"
+#include "scene/gltf_deform.h"
 #include "scene/gltf_file.h"
 #include "scene/gltf_material.h"
 #include "scene/gltf_mesh.h"
 #include "scene/gltf_nodes.h"
+#include "scene/gltf_values.h"
 
 namespace voxray {
 namespace {
@@ -18,23 +21,72 @@ struct MeshRange {
     uint32_t count = 0;
 };
 
-MeshRange readMesh(GltfFile& file, int index, MaterialReader& materials, Scene& scene) {
-    const tinygltf::Mesh& source = file.at(file.model().meshes, index, "mesh");
+/// A mesh of the file, and its morph targets' weights.
+using MeshKey = std::pair<int, std::vector<double>>;
+
+/// A node's own weights take the place of its mesh's (glTF 2.0, section 3.7.2.2).
+MeshKey meshOf(GltfFile& file, const tinygltf::Node& node) {
+    const tinygltf::Mesh& mesh = file.at(file.model().meshes, node.mesh, "mesh");
+    return {node.mesh, node.weights.empty() ? mesh.weights : node.weights};
+}
+
+MeshRange readMesh(GltfFile& file, const MeshKey& key, MaterialReader& materials, Scene& scene) {
+    const auto& [index, morphWeights] = key;
+    const tinygltf::Mesh& source = file.model().meshes[size_t(index)];
     MeshRange range{uint32_t(scene.meshes.size()), 0};
     for (size_t i = 0; i < source.primitives.size(); ++i) {
         const tinygltf::Primitive& primitive = source.primitives[i];
         const std::string what = fmt::format("mesh {} '{}', primitive {}", index, shortLine(source.name), i);
         const uint32_t material = materials.material(primitive.material);
-        Mesh mesh = readPrimitive(file, primitive, scene.materials[material], what);
+        Mesh mesh = readPrimitive(file, primitive, morphWeights, scene.materials[material], what);
         if (mesh.triangles.empty()) continue;
         mesh.name = shortLine(source.name);
         mesh.material = material;
         scene.meshes.push_back(std::move(mesh));
         ++range.count;
-        if (!primitive.targets.empty())
-            file.warn("mesh '{}': morph targets are not supported; its base shape is used", source.name);
     }
     return range;
+}
+
+/// The skin that carries the meshes of a node; -1: the node itself does.
+int32_t skinOf(GltfFile& file, const tinygltf::Node& node, const MeshRange& range, SkinReader& skins,
+               const Scene& scene) {
+    if (node.skin < 0 || range.count == 0) return -1;
+    const std::string what = fmt::format("node '{}'", shortLine(node.name));
+    const int32_t skin = skins.skin(node.skin);
+    for (uint32_t m = range.first; skin >= 0 && m < range.first + range.count; ++m) {
+        skins.check(scene.meshes[m], skin, what);
+        if (!scene.meshes[m].skinWeights.empty()) continue;
+        file.warn("{}: its mesh has no JOINTS_0 and WEIGHTS_0 for its skin; the node places it", what);
+        return -1;
+    }
+    return skin;
+}
+
+/// Whether KHR_node_visibility hides each node of the scene, by itself or from above.
+std::vector<bool> hiddenNodes(GltfFile& file, const std::vector<int>& fileNodes, const Scene& scene) {
+    std::vector<bool> hidden(fileNodes.size());
+    for (size_t i = 0; i < fileNodes.size(); ++i) {
+        const int32_t parent = scene.nodes[i].parent;
+        const tinygltf::Value* visible = extensionMember(file.model().nodes[size_t(fileNodes[i])].extensions,
+                                                         "KHR_node_visibility", "visible");
+        const bool own = visible != nullptr && visible->IsBool() && !visible->Get<bool>();
+        if (own) file.warn("node '{}': KHR_node_visibility hides it; left out", scene.nodes[i].name);
+        hidden[i] = own || (parent >= 0 && hidden[size_t(parent)]);
+    }
+    return hidden;
+}
+
+/// Why there is nothing to render. @param hasMeshes whether a node of the scene has one, which was left out
+std::string emptyCause(const GltfFile& file, bool hasMeshes) {
+    const tinygltf::Model& model = file.model();
+    if (model.meshes.empty()) return "it has no meshes";
+    if (hasMeshes && !file.warnings().empty()) return file.warnings().back();
+    const size_t number = size_t(std::max(model.defaultScene, 0));
+    if (number >= model.scenes.size()) return "none of its nodes has a mesh";
+    return fmt::format("none of the nodes of scene {} '{}' has a mesh{}", number,
+                       shortLine(model.scenes[number].name),
+                       model.scenes.size() > 1 ? "; set \"scene\" in the file to another one" : "");
 }
 
 std::shared_ptr<const Scene> load(const std::filesystem::path& path) {
@@ -42,21 +94,33 @@ std::shared_ptr<const Scene> load(const std::filesystem::path& path) {
     auto scene = std::make_shared<Scene>();
     scene->name = shortLine(path.filename().string());
     MaterialReader materials(file, *scene);
-    std::map<int, MeshRange> meshes;
+    std::map<MeshKey, MeshRange> meshes;
 
     // Read nodes, and what hangs on them; a mesh is read once, however many nodes share it.
     const std::vector<int> fileNodes = readNodes(file, *scene);
+    const std::vector<bool> hidden = hiddenNodes(file, fileNodes, *scene);
+    SkinReader skins(file, fileNodes, *scene);
     for (size_t i = 0; i < fileNodes.size(); ++i) {
         const tinygltf::Node& node = file.model().nodes[size_t(fileNodes[i])];
-        readCameraAndLight(file, node, int32_t(i), *scene);
         if (interruptRequested()) throw Interrupted();
+        readCamera(file, node, int32_t(i), *scene);
+        if (hidden[i]) continue;
+        readLight(file, node, int32_t(i), *scene);
         if (node.mesh < 0) continue;
-        if (!meshes.contains(node.mesh)) meshes[node.mesh] = readMesh(file, node.mesh, materials, *scene);
-        const MeshRange& range = meshes[node.mesh];
-        for (uint32_t m = 0; m < range.count; ++m) scene->instances.push_back({range.first + m, int32_t(i)});
-        if (node.skin >= 0) file.warn("node '{}': skins are not supported; its base pose is used", node.name);
+        const MeshKey key = meshOf(file, node);
+        if (!meshes.contains(key)) meshes[key] = readMesh(file, key, materials, *scene);
+        const MeshRange& range = meshes[key];
+        const int32_t skin = skinOf(file, node, range, skins, *scene);
+        for (const int32_t place : readPlaces(file, node, int32_t(i), *scene))
+            for (uint32_t m = 0; m < range.count; ++m)
+                scene->instances.push_back({range.first + m, place, skin});
     }
-    if (scene->instances.empty()) file.fail("it has no triangles to render");
+    if (scene->instances.empty()) {
+        const bool hasMeshes = std::any_of(fileNodes.begin(), fileNodes.end(), [&](int node) {
+            return file.model().nodes[size_t(node)].mesh >= 0;
+        });
+        file.fail("it has no triangles to render: {}", emptyCause(file, hasMeshes));
+    }
     readAnimations(file, fileNodes, *scene);
     materials.decodeTextures();
     scene->warnings = file.warnings();

@@ -44,6 +44,10 @@ void gatherVertices(Mesh& mesh, const std::vector<uint32_t>& source) {
     gather(mesh.texCoords0, source);
     gather(mesh.texCoords1, source);
     gather(mesh.colors, source);
+    for (SkinWeights& set : mesh.skinWeights) {
+        gather(set.joints, source);
+        gather(set.weights, source);
+    }
 }
 
 /// The direction on a triangle in which u grows, scaled by twice its area; zero where uv are degenerate.
@@ -67,6 +71,23 @@ Frame frameOf(const Mesh& mesh, const std::vector<glm::vec2>& uv, const glm::uve
 }
 
 }  // namespace
+
+void dropUnusedVertices(Mesh& mesh) {
+    constexpr uint32_t unused = ~0u;
+    std::vector<uint32_t> numbers(mesh.positions.size(), unused);
+    for (const glm::uvec3& t : mesh.triangles)
+        for (int corner = 0; corner < 3; ++corner) numbers[t[corner]] = 0;
+    std::vector<uint32_t> source;
+    for (uint32_t i = 0; i < uint32_t(numbers.size()); ++i) {
+        if (numbers[i] == unused) continue;
+        numbers[i] = uint32_t(source.size());
+        source.push_back(i);
+    }
+    if (source.size() == numbers.size()) return;
+    gatherVertices(mesh, source);
+    for (glm::uvec3& t : mesh.triangles)
+        for (int corner = 0; corner < 3; ++corner) t[corner] = numbers[t[corner]];
+}
 
 void makeFlatNormals(Mesh& mesh) {
     std::vector<uint32_t> source;

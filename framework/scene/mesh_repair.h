@@ -6,6 +6,9 @@
 
 namespace voxray {
 
+/// Leaves vertices out that no triangle has, as where primitives share one list of vertices.
+void dropUnusedVertices(Mesh& mesh);
+
 /// Gives each triangle its own three vertices and its flat normal. Degenerate triangles get +Y.
 void makeFlatNormals(Mesh& mesh);
 

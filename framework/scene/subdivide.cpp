@@ -65,8 +65,14 @@ void subdivide(Scene& scene, uint32_t times) {
     if (triangles > kMaxTriangles)
         throw Error("scene.subdivide: {} times makes more than {} triangles; subdivide less", times,
                     kMaxTriangles);
-    for (Mesh& mesh : scene.meshes)
+    for (Mesh& mesh : scene.meshes) {
+        if (times > 0 && !mesh.skinWeights.empty())
+            throw Error(
+                "scene.subdivide: joints carry the vertices of mesh '{}'; export it at one time first "
+                "(export-scene)",
+                mesh.name);
         for (uint32_t i = 0; i < times; ++i) subdivide(mesh);
+    }
 }
 
 }  // namespace voxray

@@ -90,19 +90,56 @@ Box swept(const Box& box, const Scene& scene, uint32_t index) {
     return {out.min + range.translation.min, out.max + range.translation.max};
 }
 
-}  // namespace
+Box sweptToWorld(Box box, const Scene& scene, int32_t node) {
+    for (; node >= 0; node = scene.nodes[size_t(node)].parent) box = swept(box, scene, uint32_t(node));
+    return box;
+}
 
-bool movesInTime(const Scene& scene, int32_t node) {
+bool nodeMoves(const Scene& scene, int32_t node) {
     for (; node >= 0; node = scene.nodes[size_t(node)].parent)
         for (const AnimationChannel& channel : scene.animation)
             if (channel.node == uint32_t(node) && changes(channel)) return true;
     return false;
 }
 
+/// For each joint, what it carries, in its node's own space.
+std::vector<Box> jointHulls(const Mesh& mesh, const Skin& skin) {
+    std::vector<Box> hulls(skin.joints.size(), {glm::vec3(kInfinity), glm::vec3(-kInfinity)});
+    for (const SkinWeights& set : mesh.skinWeights)
+        for (size_t v = 0; v < mesh.positions.size(); ++v)
+            for (int i = 0; i < 4; ++i) {
+                if (!(set.weights[v][i] > 0)) continue;
+                const uint32_t joint = set.joints[v][i];
+                const glm::vec4 p = skin.inverseBindMatrices[joint] * glm::vec4(mesh.positions[v], 1.0f);
+                hulls[joint] = including(hulls[joint], glm::vec3(p));
+            }
+    return hulls;
+}
+
+}  // namespace
+
+bool movesInTime(const Scene& scene, const Instance& instance) {
+    if (instance.skin < 0) return nodeMoves(scene, instance.node);
+    const std::vector<uint32_t>& joints = scene.skins[size_t(instance.skin)].joints;
+    return std::any_of(joints.begin(), joints.end(),
+                       [&](uint32_t joint) { return nodeMoves(scene, int32_t(joint)); });
+}
+
 Box sweptBounds(const Scene& scene, const Instance& instance) {
-    Box box = hullOf(scene.meshes[instance.mesh].positions);
-    for (int32_t node = instance.node; node >= 0; node = scene.nodes[size_t(node)].parent)
-        box = swept(box, scene, uint32_t(node));
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    Box box{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
+    if (instance.skin < 0) {
+        box = sweptToWorld(hullOf(mesh.positions), scene, instance.node);
+    } else {
+        // A blend with weights that sum to 1 lies in the hull of what the joints make alone.
+        const Skin& skin = scene.skins[size_t(instance.skin)];
+        const std::vector<Box> hulls = jointHulls(mesh, skin);
+        for (size_t i = 0; i < hulls.size(); ++i) {
+            if (hulls[i].min.x > hulls[i].max.x) continue;
+            const Box swept = sweptToWorld(hulls[i], scene, int32_t(skin.joints[i]));
+            box = including(including(box, swept.min), swept.max);
+        }
+    }
 
     // Vertices are placed by one matrix, with its own rounding.
     const glm::vec3 largest = glm::max(glm::abs(box.min), glm::abs(box.max));

@@ -4,8 +4,9 @@
 
 namespace voxray {
 
-/// Whether an animation changes the world matrix of a node: its own or that of a node above it.
-bool movesInTime(const Scene& scene, int32_t node);
+/// Whether an animation changes the world matrix of what places an instance, its node or its joints: their
+/// own or that of a node above.
+bool movesInTime(const Scene& scene, const Instance& instance);
 
 /// World-space bounds of an instance at all times of the scene's animation: never too small, and too large
 /// where rotations are animated (a sphere round the node's origin stands for every turn) or properties change

@@ -1,12 +1,17 @@
 """Scenes of files: export-scene, and the tutorial's config of one."""
 import json
 import os
+import pathlib
 import struct
+import sys
 import unittest
 
 import numpy as np
 
 from support import SOURCE, TINY, CommandTest
+
+sys.path.insert(0, os.path.join(SOURCE, "tests", "scale"))
+import gltf_cases
 
 
 class Tutorial(CommandTest):
@@ -21,6 +26,18 @@ class Tutorial(CommandTest):
         self.write("room.yaml", config.replace("point: [0, 2.2, 0]", "point: [0, 1.8, 0]"))
         done = self.expect(0, "validate", "room.yaml")
         self.assertEqual((done.stdout, done.stderr), ("room.yaml: valid, 5 variants\n", ""))
+
+
+class GeneratedFiles(CommandTest):
+    def test_each_is_read_or_refused_with_its_cause(self):
+        """A sixth of the files that gltf_chain.py renders all of."""
+        folder = pathlib.Path(self.path("cases"))
+        expected = gltf_cases.write_cases(folder)
+        for file, good in list(expected.items())[::6]:
+            with self.subTest(file):
+                done = self.voxray("scene", str(folder / file))
+                self.assertIn(done.returncode, (0,) if good else (1, 2), done.stderr)
+                self.assertEqual(done.stderr.count("voxray: error: "), 0 if good else 1, done.stderr)
 
 
 class ExportScene(CommandTest):

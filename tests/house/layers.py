@@ -54,7 +54,8 @@ PASSES_MAY_USE = LAYERS["graph"] | {"graph"}
 THIRD_PARTY = {
     r"tiny_gltf\.h": ["framework/scene/"],
     r"embree\d*/": ["framework/trace/embree_api.h"],
-    r"OpenImageIO/": ["framework/image/"],
+    r"(draco|meshoptimizer)": ["framework/scene/", "tests/unit/compressed_gltf.h"],
+    r"OpenImageIO/": ["framework/image/", "tests/unit/image_layers_test.cpp"],
     r"yaml-cpp/": ["framework/config/yaml.cpp"],
     r"vulkan/vulkan": ["framework/vulkan/", "framework/trace/", "tests/"],
     r"(glslang|SPIRV|spirv_cross)/": ["framework/vulkan/"],

@@ -183,6 +183,16 @@ TEST_F(ImageFiles, AHugeClaimIsRefused) {
 }
 
 // Small files, made by hand, of every kind that glTF textures come in.
+// 8 x 8 pixels of grey 77.
+constexpr const char* kGreyJpeg =
+    "ffd8ffe000104a46494600010100000100010000ffdb004300030202030202030303030403030405"
+    "0805050404050a070706080c"
+    "0a0c0c0b0a0b0b0d0e12100d0e110e0b0b1016101113141515150c0f171816141812141514ffc000"
+    "0b080008000801011100ffc4"
+    "0014000100000000000000000000000000000008ffc4001410010000000000000000000000000000"
+    "0000ffda0008010100003f00"
+    "3bbfffd9";
+
 struct Encoded {
     const char* kind;
     const char* hex;
@@ -233,16 +243,7 @@ INSTANTIATE_TEST_SUITE_P(
                             "000d49444154789c63389162c4050004bf0169326d012c0000000049454e44ae426082",
                             {200, 100, 50, 10},
                             0},
-                    Encoded{"jpeg_grey",
-                            "ffd8ffe000104a46494600010100000100010000ffdb004300030202030202030303030403030405"
-                            "0805050404050a070706080c"
-                            "0a0c0c0b0a0b0b0d0e12100d0e110e0b0b1016101113141515150c0f171816141812141514ffc000"
-                            "0b080008000801011100ffc4"
-                            "0014000100000000000000000000000000000008ffc4001410010000000000000000000000000000"
-                            "0000ffda0008010100003f00"
-                            "3bbfffd9",
-                            {77, 77, 77, 255},
-                            2},
+                    Encoded{"jpeg_grey", kGreyJpeg, {77, 77, 77, 255}, 2},
                     Encoded{"jpeg_colour",
                             "ffd8ffe000104a46494600010100000100010000ffdb004300030202030202030303030403030405"
                             "0805050404050a070706080c"
@@ -267,7 +268,17 @@ TEST(DecodeImage, RefusesCutAndForeignBytes) {
     for (size_t size = 0; size < png.size(); ++size)
         EXPECT_THROW(decodeImage(std::span(png).first(size), "cut.png"), Error) << size;
     EXPECT_THROW(decodeImage(fromHex("ffd8ffe000104a464946000101"), "cut.jpg"), Error);
-    EXPECT_THROW(decodeImage(fromHex("474946383961010001000000"), "a.gif"), Error);
+    EXPECT_CONTAINS(errorOf([] { decodeImage(fromHex("474946383961010001000000"), "a.gif"); }),
+                    "PNG or JPEG");
+    EXPECT_CONTAINS(errorOf([] { decodeImage(fromHex("ab4b5458203230bb0d0a1a0a"), "a"); }), "ktx extract");
+}
+
+TEST(DecodeImage, AJpegMayLackItsEndMarkerAlone) {
+    const std::vector<uint8_t> whole = fromHex(kGreyJpeg);
+    const auto without = std::span(whole).first(whole.size() - 2);
+    EXPECT_EQ(decodeImage(without, "a.jpg").rgba, decodeImage(whole, "b.jpg").rgba);
+    for (size_t size = 0; size + 4 < whole.size(); ++size)
+        EXPECT_THROW(decodeImage(std::span(whole).first(size), "cut.jpg"), Error) << size;
 }
 
 TEST_F(ImageFiles, WhatCannotBeWrittenIsAnErrorAndLeavesNothing) {

@@ -144,6 +144,82 @@ TEST(GlbExport, TexturesMirrorsAndEveryAttributeComeBack) {
     expectSame(state, roundTrip(state));
 }
 
+/// The JSON of a .glb file.
+json documentOf(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, sizeof length);
+    return json::parse(bytes.substr(20, length));
+}
+
+/// Numbers of an object's members, all in [low, high]. Members: of glTF 2.0's schema and its extensions'.
+void expectRange(const json& object, const char* member, double low, double high) {
+    if (!object.contains(member)) return;
+    for (const json& value : object[member].is_array() ? object[member] : json::array({object[member]})) {
+        EXPECT_GE(value.get<double>(), low) << member;
+        EXPECT_LE(value.get<double>(), high) << member;
+    }
+}
+
+void expectRangesOfGltf(const json& root) {
+    constexpr double none = 1e300;
+    for (const json& material : root.value("materials", json::array())) {
+        expectRange(material, "emissiveFactor", 0, 1);
+        expectRange(material, "alphaCutoff", 0, none);
+        EXPECT_TRUE(!material.contains("alphaCutoff") || material.value("alphaMode", "") == "MASK");
+        const json core = material.value("pbrMetallicRoughness", json::object());
+        for (const char* member : {"baseColorFactor", "metallicFactor", "roughnessFactor"})
+            expectRange(core, member, 0, 1);
+        const json extensions = material.value("extensions", json::object());
+        expectRange(extensions.value("KHR_materials_specular", json::object()), "specularFactor", 0, 1);
+        expectRange(extensions.value("KHR_materials_specular", json::object()), "specularColorFactor", 0,
+                    none);
+        expectRange(extensions.value("KHR_materials_ior", json::object()), "ior", 0, none);
+        expectRange(extensions.value("KHR_materials_emissive_strength", json::object()), "emissiveStrength",
+                    0, none);
+    }
+    for (const json& node : root.value("nodes", json::array())) expectRange(node, "rotation", -1, 1);
+    for (const json& camera : root.value("cameras", json::array())) {
+        const json& lens = camera["perspective"];
+        expectRange(lens, "yfov", 1e-9, M_PI);
+        expectRange(lens, "znear", 1e-9, lens["zfar"].get<double>());
+    }
+    const json lights = root.value("/extensions/KHR_lights_punctual/lights"_json_pointer, json::array());
+    for (const json& light : lights) {
+        expectRange(light, "color", 0, 1);
+        expectRange(light, "intensity", 0, none);
+        if (!light.contains("spot")) continue;
+        const double outer = light["spot"].value("outerConeAngle", M_PI / 4);
+        EXPECT_LE(outer, M_PI / 2);
+        EXPECT_LT(light["spot"].value("innerConeAngle", 0.0), outer);
+    }
+}
+
+TEST(GlbExport, EveryNumberIsInGltfsRange) {
+    const TemporaryFolder folder;
+    for (const char* lights : {"area", "point", "spot", "sun"}) {
+        Value params = Value::map();
+        params.set("lights", Value::fromScalar(lights));
+        auto scene = std::make_shared<Scene>(*makeBuiltinScene("cornell", params));
+        // As configs and files may have them: a spot of half a sphere, one with a hard edge, strong emission
+        for (const float inner : {0.0f, 1.57079637f}) {
+            Light spot;
+            spot.type = LightType::Spot;
+            spot.intensity = {3, 0.1f, 7};
+            spot.innerConeAngle = inner;
+            spot.outerConeAngle = 1.57079637f;
+            spot.direction = glm::normalize(glm::vec3(1e-4f, -1, 2e-4f));
+            scene->lights.push_back(spot);
+        }
+        scene->materials[0].emission = {0.3f, 7e5f, 1.1f};
+        scene->materials[0].alphaCutoff = 0.3f;
+        exportGlb(evaluate(scene, 0), folder / "out.glb");
+        expectRangesOfGltf(documentOf(folder / "out.glb"));
+        EXPECT_FLOAT_EQ(loadGltf(folder / "out.glb")->lights.back().outerConeAngle, 1.57079637f);
+    }
+}
+
 TEST(GlbExport, EnvironmentsAreRefused) {
     const TemporaryFolder folder;
     auto scene = std::make_shared<Scene>(*makeBuiltinScene("cornell", {}));

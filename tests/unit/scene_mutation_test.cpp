@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <random>
 
+#include "compressed_gltf.h"
 #include "scene_gltf_builder.h"
 
 /// Loads thousands of damaged files. Each must load, or be refused by an Error of one line; sanitizers see
@@ -40,6 +41,17 @@ GltfBuilder everything() {
         {{"type", "spot"}, {"color", {1, 0.5, 0.25}}, {"spot", {{"outerConeAngle", 0.4}}}}};
     b.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}}};
     b.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"rotation", {0, 0, 0, 1}}});
+    const int weights = b.floats(std::vector<glm::vec4>(3, {0.5f, 0.5f, 0, 0}), "VEC4");
+    const int joints = b.accessor(b.view(std::vector<uint8_t>(12, 0), 4), 3, "VEC4", ubyteType);
+    const int target = b.floats(std::vector<glm::vec3>(3, {0, 0, 1}), "VEC3");
+    b.root["meshes"][0]["primitives"][0]["attributes"].update({{"WEIGHTS_0", weights}, {"JOINTS_0", joints}});
+    b.root["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", target}}};
+    b.root["meshes"][0]["weights"] = {0.5};
+    b.root["nodes"][0]["skin"] = b.add(
+        "skins",
+        {{"joints", {2}}, {"inverseBindMatrices", b.floats(std::vector<glm::mat4>{glm::mat4(1)}, "MAT4")}});
+    b.root["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", b.floats(std::vector<glm::vec3>{{1, 0, 0}}, "VEC3")}};
     b.add("nodes", {{"camera", 0}, {"children", {0, 1, 2}}, {"extras", {{"note", {1, "two", nullptr}}}}});
     b.root["scenes"] = {{{"nodes", {3}}}};
     b.root["scene"] = 0;
@@ -57,7 +69,7 @@ class Mutations : public testing::Test {
     void check(const std::string& bytes, const std::string& what) {
         writeBytes(folder_ / "scene.glb", bytes);
         try {
-            const Geometry g = evaluate(loadGltf(folder_ / "scene.glb"), 0.5).geometry;
+            const Geometry g = evaluate(loadGltf(folder_ / "scene.glb"), 0.5, Playback::Looping).geometry;
             ++loaded_;
             for (const glm::uvec3& t : g.triangles)
                 ASSERT_LT(std::max({t.x, t.y, t.z}), g.positions.size()) << what;
@@ -100,6 +112,17 @@ TEST_F(Mutations, FlippedBits) {
         for (int f = 0; f < flips; ++f) bad[random() % bad.size()] ^= char(1 << random() % 8);
         check(bad, "flip " + std::to_string(i));
     }
+}
+
+TEST_F(Mutations, FlippedBitsOfCompressedMeshes) {
+    std::mt19937 random(5);
+    for (const GltfBuilder& good : {dracoGrid(4, 10), dracoGrid(4, 3), meshoptGrid(4)})
+        for (int i = 0; i < 500; ++i) {
+            GltfBuilder bad = good;
+            for (int f = 0; f < 1 + i % 3; ++f)
+                bad.bytes[random() % bad.bytes.size()] ^= char(1 << random() % 8);
+            check(bad.glb(), "compressed, flip " + std::to_string(i));
+        }
 }
 
 TEST_F(Mutations, FlippedBitsInText) {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/gltf_file.h"
+#include "scene/scene.h"
+
+/// What moves a mesh's vertices against each other: morph targets and skins.
+namespace voxray {
+
+/// Adds a primitive's morph targets to positions, normals and tangents, each times its weight.
+/// @throws Error where a target is not as long as the positions
+void addMorphTargets(GltfFile& file, const tinygltf::Primitive& primitive, const std::vector<double>& weights,
+                     Mesh& mesh, const std::string& what);
+
+/// Reads all pairs JOINTS_n and WEIGHTS_n; weights are made to sum to 1. @throws Error
+void readSkinWeights(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& mesh,
+                     const std::string& what);
+
+/// Reads the file's skins into the scene's, once each.
+class SkinReader {
+ public:
+    /// @param fileNodes as readNodes returned them
+    SkinReader(GltfFile& file, const std::vector<int>& fileNodes, Scene& scene);
+
+    /// Number in the scene of a skin of the file; -1 with a warning where a joint is not in the scene.
+    /// @throws Error for a skin without joints or with too few matrices
+    int32_t skin(int index);
+
+    /// @throws Error where a mesh has a joint that its skin has not
+    void check(const Mesh& mesh, int32_t skin, const std::string& what) const;
+
+ private:
+    GltfFile& file_;
+    Scene& scene_;
+    std::vector<int32_t> sceneNodes_;  ///< By the file's node; -1: not in the scene.
+    std::map<int, int32_t> skins_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,108 @@
+#include "scene/gltf_repair.h"
+
+#include "base/error.h"
+#include "scene/gltf_json.h"
+
+namespace voxray {
+namespace {
+
+using nlohmann::json;
+using Lines = std::vector<std::string>;
+
+/// The entries of a top-level array, to be changed.
+json& entries(json& root, const char* key) {
+    objects(root, key);
+    json& array = root[key];
+    if (array.is_null()) array = json::array();
+    return array;
+}
+
+std::string nameOf(const json& object) {
+    const auto name = object.find("name");
+    return name != object.end() && name->is_string() ? oneLine(name->get<std::string>(), 100) : "";
+}
+
+/// A path without a node is nobody's (glTF 2.0, section 5.5: such channels are ignored).
+void dropChannelsWithoutNode(json& root, Lines& warnings) {
+    json& animations = entries(root, "animations");
+    for (size_t a = 0; a < animations.size(); ++a) {
+        json kept = json::array();
+        const json& channels = objects(animations[a], "channels");
+        for (size_t c = 0; c < channels.size(); ++c) {
+            const auto target = channels[c].find("target");
+            if (target != channels[c].end() && target->is_object() && target->contains("node"))
+                kept.push_back(channels[c]);
+            else
+                warnings.push_back(fmt::format("animation {} '{}': channel {} has no target node; left out",
+                                               a, nameOf(animations[a]), c));
+        }
+        animations[a]["channels"] = std::move(kept);
+    }
+}
+
+/// Without inverse bind matrices they are identities (glTF 2.0, section 5.28).
+void allowSkinsWithoutMatrices(json& root) {
+    for (json& skin : entries(root, "skins"))
+        if (!skin.contains("inverseBindMatrices")) skin["inverseBindMatrices"] = -1;
+}
+
+/// A pinhole camera has no use for its near plane, nor for anything of an orthographic one.
+void completeCameras(json& root) {
+    for (json& camera : entries(root, "cameras")) {
+        const auto perspective = camera.find("perspective");
+        if (perspective != camera.end() && perspective->is_object() && !perspective->contains("znear"))
+            (*perspective)["znear"] = 0.01;
+        if (camera.value("type", json()) == "orthographic")
+            camera["orthographic"] = {{"xmag", 1}, {"ymag", 1}, {"zfar", 1}, {"znear", 0}};
+    }
+}
+
+/// The core's image is the fallback of the extension's, so it does where there is one.
+void nameImagesOfTextures(json& root) {
+    for (json& texture : entries(root, "textures"))
+        for (const char* extension : {"EXT_texture_webp", "KHR_texture_basisu"})
+            if (const json* other = extensionOf(texture, extension);
+                other && other->contains("source") && !texture.contains("source"))
+                texture["source"] = (*other)["source"];
+}
+
+/// Diffuse and specular colour as a dielectric's base colour and its reflectance at normal incidence, which
+/// is 0.04 * specularColorFactor (KHR_materials_specular).
+void rewriteSpecularGlossiness(json& root, Lines& warnings) {
+    json& materials = entries(root, "materials");
+    for (size_t i = 0; i < materials.size(); ++i) {
+        const json* source = extensionOf(materials[i], "KHR_materials_pbrSpecularGlossiness");
+        if (source == nullptr) continue;
+        json core = {{"metallicFactor", 0}};
+        if (source->contains("diffuseFactor")) core["baseColorFactor"] = (*source)["diffuseFactor"];
+        if (source->contains("diffuseTexture")) core["baseColorTexture"] = (*source)["diffuseTexture"];
+        json color = source->value("specularFactor", json{1, 1, 1});
+        const json gloss = source->value("glossinessFactor", json(1));
+        const std::string what = fmt::format("material {} '{}'", i, nameOf(materials[i]));
+        if (!gloss.is_number() || !color.is_array())
+            throw Error("{}: its KHR_materials_pbrSpecularGlossiness is broken", what);
+        if (source->contains("specularGlossinessTexture")) {
+            warnings.push_back(what + ": specularGlossinessTexture is left out; it is taken as rough");
+        } else {
+            core["roughnessFactor"] = 1 - gloss.get<double>();
+            for (json& value : color)
+                if (value.is_number()) value = value.get<double>() / 0.04;
+            materials[i]["extensions"]["KHR_materials_specular"] = {{"specularColorFactor", color}};
+        }
+        materials[i]["pbrMetallicRoughness"] = std::move(core);
+    }
+}
+
+}  // namespace
+
+Lines repairGltf(json& root) {
+    Lines warnings;
+    dropChannelsWithoutNode(root, warnings);
+    allowSkinsWithoutMatrices(root);
+    completeCameras(root);
+    nameImagesOfTextures(root);
+    rewriteSpecularGlossiness(root, warnings);
+    return warnings;
+}
+
+}  // namespace voxray
