@@ -5,9 +5,9 @@ voxray_tests(graph
 voxray_tests(chain SHARDS 12
   SOURCES gpu/compute_test.cpp gpu/shared_structs_test.cpp physics/accumulate_test.cpp physics/accumulate_vpls_test.cpp physics/awkward_views_test.cpp physics/brick_octree_count_test.cpp physics/camera_rays_test.cpp
            physics/clipmap_test.cpp physics/clipmap_textures_test.cpp physics/clipmap_voxels_test.cpp physics/cluster_normals_test.cpp physics/clusters_test.cpp physics/compare_voxels_test.cpp
-           physics/cone_bounces_test.cpp physics/cone_tracing_test.cpp physics/filter_irradiance_test.cpp physics/final_gather_test.cpp physics/gather_clusters_test.cpp physics/hybrid_leaves_test.cpp physics/hybrid_levels_test.cpp physics/hybrid_rays_test.cpp physics/many_lights_maps_test.cpp physics/many_lights_rsm_test.cpp physics/many_lights_test.cpp physics/select_vpls_test.cpp physics/surfel_distance_test.cpp physics/vpl_visibility_test.cpp
+           physics/cone_bounces_test.cpp physics/cone_tracing_test.cpp physics/filter_irradiance_test.cpp physics/final_gather_test.cpp physics/gather_clusters_test.cpp physics/hybrid_leaves_test.cpp physics/hybrid_levels_test.cpp physics/hybrid_rays_test.cpp physics/many_lights_maps_test.cpp physics/many_lights_rsm_test.cpp physics/many_lights_test.cpp physics/masked_lamp_test.cpp physics/select_vpls_test.cpp physics/surfel_distance_test.cpp physics/vpl_visibility_test.cpp
            physics/gather_mirror_leaves_test.cpp physics/gather_mirror_test.cpp physics/gbuffer_test.cpp physics/injection_test.cpp physics/light_paths_test.cpp physics/lit_points_test.cpp
-           physics/memory_test.cpp physics/merged_voxels_test.cpp physics/packed_voxels_test.cpp physics/published_octree_test.cpp
+           physics/memory_test.cpp physics/merged_voxels_test.cpp physics/packed_voxels_test.cpp physics/panes_test.cpp physics/published_octree_test.cpp
            physics/moving_clusters_test.cpp physics/moving_scene_test.cpp physics/moving_voxels_test.cpp physics/octree_test.cpp
            physics/radiance_cache_test.cpp physics/radiance_voxels_test.cpp physics/radiosity_test.cpp
            physics/seen_points_test.cpp physics/shadow_map_test.cpp physics/specular_cones_test.cpp

@@ -146,11 +146,22 @@ void readEnvironment(const Value& value, SceneSettings& settings) {
     settings.environment = environment;
 }
 
+std::vector<HiddenName> readHidden(const Value& value) {
+    const bool isList = value.isList() && std::ranges::all_of(value.items, &Value::isScalar);
+    if (!isList && !value.isScalar())
+        throw UsageError(value.where,
+                         "scene.hide: expected names of nodes, meshes or materials, as in [Window, Curtain]");
+    if (value.isScalar()) return {{value.scalar, value.where}};
+    std::vector<HiddenName> hidden;
+    for (const Value& name : value.items) hidden.push_back({name.scalar, name.where});
+    return hidden;
+}
+
 /// Keys that any scene may have next to its source.
 std::vector<std::string> sceneKeys() {
     std::vector<std::string> keys = fieldNames<SceneOptions>();
-    keys.insert(keys.end(),
-                {"camera", "lights", "environment", "moving_spheres", "transform", "add", "override"});
+    keys.insert(keys.end(), {"camera", "lights", "environment", "moving_spheres", "transform", "add",
+                             "override", "hide"});
     return keys;
 }
 
@@ -200,6 +211,8 @@ SceneSettings readSceneSettings(const Value& map) {
             settings.additions = readSceneAdditions(value);
         } else if (key == "override") {
             settings.overrides = readMaterialOverrides(value);
+        } else if (key == "hide") {
+            if (!value.isNull()) settings.hidden = readHidden(value);
         } else if (std::ranges::count(fieldNames<SceneOptions>(), key) > 0) {
             scalars.set(key, value);
         }

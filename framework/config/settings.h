@@ -143,8 +143,8 @@ struct SceneOptions {
                   "surfaces "
                   "always stay."),
             field("materials", &SceneOptions::materials,
-                  "as_is, or lambert: drop specular and metal of what scenes bring, keep base colour and "
-                  "emission."),
+                  "as_is, or lambert: drop specular, metal and transmission of what scenes bring, keep base "
+                  "colour and emission."),
             field("subdivide", &SceneOptions::subdivide,
                   "Splits every triangle in four in place, so often: the same surfaces of more triangles.",
                   0u, 4u),
@@ -286,6 +286,12 @@ struct ConfigLight {
     TextLocation where;
 };
 
+/// An entry of `scene.hide`: the name of a node, mesh or material.
+struct HiddenName {
+    std::string name;
+    TextLocation where;
+};
+
 /// `scene`, read.
 struct SceneSettings {
     SceneSource source;
@@ -293,6 +299,7 @@ struct SceneSettings {
     std::optional<Placement> placement;  ///< Of the source; empty: as it is.
     std::vector<SceneAddition> additions;
     std::vector<MaterialOverride> overrides;
+    std::vector<HiddenName> hidden;
     std::string cameraName;  ///< Empty: `camera`, or the scene's first camera.
     std::optional<CameraSettings> camera;
     std::vector<ConfigLight> lights;

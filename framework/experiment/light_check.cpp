@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "experiment/facing.h"
+#include "experiment/light_blockers.h"
 
 namespace voxray {
 namespace {
@@ -106,16 +107,37 @@ Ray rayFrom(const SeenPoint& point, const Light& light, float offset) {
     return {point.position, offset, way, kShorter * distance};
 }
 
-bool isInSight(const Light& light, std::span<const SeenPoint> seen, const Geometry& g,
-               const EmbreeScene& tracer) {
+std::vector<Ray> raysFrom(std::span<const SeenPoint> seen, const Light& light, const Geometry& g) {
     const float offset = 1e-5f * glm::length(g.boundsMax - g.boundsMin);
-    const auto inSight = std::ranges::count_if(seen, [&](const SeenPoint& point) {
-        const Ray ray = rayFrom(point, light, offset);
-        return ray.tMax > ray.tMin && !tracer.occluded(ray);
-    });
+    std::vector<Ray> rays;
+    for (const SeenPoint& point : seen) rays.push_back(rayFrom(point, light, offset));
+    return rays;
+}
+
+bool isInSight(std::span<const Ray> ways, const EmbreeScene& tracer) {
+    const auto inSight = std::ranges::count_if(
+        ways, [&](const Ray& ray) { return ray.tMax > ray.tMin && !tracer.occluded(ray); });
     // Where surfaces meet, rays along one of them may slip through the edge, which is seen as a line of
     // points
-    return inSight * inSight > ptrdiff_t(seen.size());
+    return inSight * inSight > ptrdiff_t(ways.size());
+}
+
+/// Warnings of suns that a scene brings and that its own surfaces shut out. Lamps may well be in other rooms.
+std::vector<std::string> warningsOfSuns(const SceneSettings& scene, const SceneState& state,
+                                        const EmbreeScene& tracer, std::span<const SeenPoint> seen,
+                                        const std::function<bool(const Light&)>& isFound) {
+    std::vector<std::string> warnings;
+    for (const Light& light : std::span(state.lights).first(state.lights.size() - scene.lights.size())) {
+        if (light.type != LightType::Directional || light.intensity == glm::vec3(0.0f)) continue;
+        const std::vector<Ray> ways = raysFrom(seen, light, state.geometry);
+        if (isInSight(ways, tracer) || isFound(light)) continue;
+        warnings.push_back(
+            UsageError(scene.where,
+                       "scene: none of the light of its sun '{}' comes to what the camera sees{}", light.name,
+                       blockerAdvice(ways, state, tracer))
+                .what());
+    }
+    return warnings;
 }
 
 }  // namespace
@@ -123,10 +145,10 @@ bool isInSight(const Light& light, std::span<const SeenPoint> seen, const Geomet
 std::vector<std::string> lightWarnings(const SceneSettings& scene, const SceneState& state,
                                        const EmbreeScene& tracer, std::span<const SeenPoint> seen,
                                        const std::function<bool(const Light&)>& isFound) {
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings = warningsOfSuns(scene, state, tracer, seen, isFound);
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         const ConfigLight& entry = scene.lights[i];
-        const auto warn = [&](const char* what) {
+        const auto warn = [&](const std::string& what) {
             warnings.push_back(UsageError(entry.where, "scene.lights[{}]: {}", i, what).what());
         };
         if (entry.light.intensity == glm::vec3(0.0f)) {
@@ -135,6 +157,7 @@ std::vector<std::string> lightWarnings(const SceneSettings& scene, const SceneSt
         }
         if (entry.move != glm::vec3(0.0f)) continue;
         const Met met = whatIsMet(entry.light, state, tracer);
+        const std::vector<Ray> ways = raysFrom(seen, entry.light, state.geometry);
         if (met == Met::Nothing)
             warn(
                 "it lights nothing: no surface lies where it shines; is its direction the way that the light "
@@ -142,13 +165,15 @@ std::vector<std::string> lightWarnings(const SceneSettings& scene, const SceneSt
         else if (met == Met::Backs)
             warn(
                 "it lights the backs of surfaces alone, from outside of a room or within a solid; is its "
-                "direction the way that the light travels, and are its numbers metres?");
-        else if (!isInSight(entry.light, seen, state.geometry, tracer) && !isFound(entry.light))
-            warn(entry.light.type == LightType::Directional
-                     ? "none of its light comes to what the camera sees: is its direction the way that the "
-                       "light travels?"
-                     : "none of its light comes to what the camera sees: does it stand inside of an object, "
-                       "or behind a wall?");
+                "direction the way that the light travels, and are its numbers metres?" +
+                blockerAdvice(ways, state, tracer));
+        else if (!isInSight(ways, tracer) && !isFound(entry.light))
+            warn((entry.light.type == LightType::Directional
+                      ? "none of its light comes to what the camera sees: is its direction the way that the "
+                        "light travels?"
+                      : "none of its light comes to what the camera sees: does it stand inside of an object, "
+                        "or behind a wall?") +
+                 blockerAdvice(ways, state, tracer));
     }
     return warnings;
 }

@@ -14,6 +14,7 @@
 #include "config/overrides.h"
 #include "experiment/addition_check.h"
 #include "experiment/idle_motion.h"
+#include "experiment/light_cost.h"
 #include "experiment/session.h"
 #include "experiment/view_check.h"
 
@@ -212,6 +213,7 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
     IdleMotion motion(experiment.measure);
     std::string key;
     PreparedScene prepared;
+    std::optional<LightCost> lightCost;
     ReferencePlan reference(experiment, registry, device);
     PlanCheck found;
     const std::span<WiredVariant> all(wired.variants);
@@ -224,6 +226,7 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
         if (std::string own = loader.key(variant.setup.scene); own != key) {
             prepared = loader.prepare(variant.setup.scene);
             key = std::move(own);
+            lightCost.emplace(prepared.state);
             checkMaskNames(experiment.measure.masks, *prepared.state.scene);
             say(checkView(variant.setup, prepared, registry.preview));
             say(additionWarnings(variant.setup.scene, prepared, loader));
@@ -244,6 +247,7 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
         const Frame frame = frameOf(variant.setup, prepared, variant.setup.general.seed);
         try {
             needs.push_back(needOf(variant, variant.graph.plan(frame, device, kAnySize)));
+            say(lightCost->warnings(variant.graph.passes()));
             say(shortHistory(variant, experiment.measure));
             if (wired.reference.isNull()) continue;
             say(missingLight(variant, registry));

@@ -11,11 +11,15 @@
 #include "base/files.h"
 #include "base/interrupt.h"
 #include "base/suggest.h"
+#include "experiment/environment_map.h"
 #include "image/image.h"
 #include "scene/compose.h"
 #include "scene/content_hash.h"
 #include "scene/load.h"
+#include "scene/panes.h"
+#include "scene/select_instances.h"
 #include "scene/subdivide.h"
+#include "scene/value_ranges.h"
 
 namespace voxray {
 namespace fs = std::filesystem;
@@ -49,13 +53,6 @@ void checkBuiltin(const SceneSource& source, const std::vector<fs::path>& folder
         if (std::find(own.begin(), own.end(), key) == own.end())
             throw UsageError(value.where, "{}: {} has no parameter '{}'{}", source.owner, name, key,
                              didYouMean(key, all));
-}
-
-void checkRadiance(const ImageF& map, const fs::path& path) {
-    if (map.channels != 3) throw Error("{}: an environment map has three channels", path.string());
-    for (const float value : map.data)
-        if (!std::isfinite(value) || value < 0)
-            throw Error("{}: an environment map holds finite radiance of at least 0", path.string());
 }
 
 void checkFormat(const SceneSource& source) {
@@ -257,6 +254,7 @@ std::string SceneLoader::key(const SceneSettings& settings) {
             .add(name)
             .add(writeParams(change.settings).text())
             .add(fmt::format("{}", fmt::join(change.keys, " ")));
+    for (const HiddenName& hidden : settings.hidden) hasher.add("hide").add(hidden.name);
     hasher.addPlain(settings.options.keepFileLights).addPlain(settings.options.materials);
     if (settings.options.subdivide > 0) hasher.add("subdivide").addPlain(settings.options.subdivide);
     hasher.addPlain(settings.options.time).add(settings.cameraName);
@@ -302,6 +300,21 @@ void SceneLoader::checkOverrides(const SceneSettings& settings) {
                              didYouMean(entry.material, names));
 }
 
+void SceneLoader::hideObjects(const SceneSettings& settings, Scene& scene) {
+    if (settings.hidden.empty()) return;
+    for (const HiddenName& hidden : settings.hidden) {
+        std::set<std::string> names;
+        for (const Instance& instance : scene.instances)
+            for (std::string& name : namesOfInstance(scene, instance)) names.insert(std::move(name));
+        if (hide(scene, hidden.name) == 0)
+            throw UsageError(hidden.where, "scene.hide: the scene has no node, mesh or material '{}'{}",
+                             hidden.name,
+                             didYouMean(hidden.name, std::vector<std::string>(names.begin(), names.end())));
+    }
+    if (scene.instances.empty())
+        throw UsageError(settings.hidden.back().where, "scene.hide: nothing of the scene is left to render");
+}
+
 std::shared_ptr<const Scene> SceneLoader::compose(const SceneSettings& settings) {
     // What scenes bring is made Lambert where the config asks for it; what the config itself says stands
     // above that
@@ -311,7 +324,8 @@ std::shared_ptr<const Scene> SceneLoader::compose(const SceneSettings& settings)
     };
     std::shared_ptr<const Scene> scene = loadInMode(settings.source);
     if (!settings.placement && settings.additions.empty() && settings.overrides.empty() &&
-        !settings.environment && !settings.movingSpheres && settings.options.subdivide == 0)
+        settings.hidden.empty() && !settings.environment && !settings.movingSpheres &&
+        settings.options.subdivide == 0)
         return scene;
 
     auto composed = settings.placement ? std::make_shared<Scene>(placedScene(*scene, *settings.placement))
@@ -325,6 +339,15 @@ std::shared_ptr<const Scene> SceneLoader::compose(const SceneSettings& settings)
     for (const MaterialOverride& entry : settings.overrides)
         for (Material& material : composed->materials)
             if (material.name == entry.material) changeMaterial(material, entry.change);
+    if (!settings.overrides.empty())
+        for (Mesh& mesh : composed->meshes)
+            if (limitColors(mesh, composed->materials[mesh.material]) > 0)
+                changes_.insert(
+                    fmt::format("mesh '{}': its vertex colours are limited, so that times 'base_color' of "
+                                "'{}' they are from "
+                                "0 to 1",
+                                mesh.name, composed->materials[mesh.material].name));
+    hideObjects(settings, *composed);
     subdivide(*composed, settings.options.subdivide);
     if (settings.movingSpheres) addMovingSpheres(*composed, *settings.movingSpheres);
     if (settings.environment) {
@@ -339,13 +362,13 @@ PreparedScene SceneLoader::prepare(const SceneSettings& settings, Origin origin)
     PreparedScene prepared;
     const Playback playback = settings.options.timeStep > 0 ? Playback::Looping : Playback::Frozen;
     std::shared_ptr<const Scene> scene = compose(settings);
-    prepared.state = evaluate(scene, settings.options.time, playback);
+    prepared.state = evaluateParted(scene, settings.options.time, playback);
     if (origin == Origin::Scene) prepared.origin = nearestOrigin(prepared.state.geometry);
     if (prepared.origin != glm::vec3(0.0f)) {
         // A node over all nodes takes their translations away before any vertex is added to them
         auto moved = std::make_shared<Scene>(placedScene(*scene, {.translate = -prepared.origin}));
         moved->contentHash = hashScene(*moved);
-        prepared.state = evaluate(std::move(moved), settings.options.time, playback);
+        prepared.state = evaluateParted(std::move(moved), settings.options.time, playback);
     }
     prepared.memo = memoOf(fmt::format("{} {} {}", prepared.state.scene->contentHash, settings.options.time,
                                        playback == Playback::Looping));
@@ -377,6 +400,7 @@ std::vector<std::string> SceneLoader::warnings() const {
     for (const auto& [name, scene] : scenes_)
         for (const std::string& warning : scene->warnings)
             lines.push_back(fs::path(name).filename().string() + ": " + warning);
+    lines.insert(lines.end(), changes_.begin(), changes_.end());
     return lines;
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,13 +67,15 @@ class SceneLoader {
     /// @return where surfaces moved, as `advance`. @throws Error for a light that is left without direction.
     static std::vector<Box> goToFrame(PreparedScene& prepared, const SceneSettings& settings, int frame);
 
-    /// What loading left out, a line each, of all scenes loaded.
+    /// What loading left out and composing changed, a line each, of all scenes.
     std::vector<std::string> warnings() const;
 
  private:
     /// @throws UsageError for an overridden material that no scene has.
     void checkOverrides(const SceneSettings& settings);
-    /// The scene with all that is added and overridden.
+    /// Takes what `hide` names out of a scene. @throws UsageError for a name that nothing goes by.
+    static void hideObjects(const SceneSettings& settings, Scene& scene);
+    /// The scene with all that is added, overridden and hidden.
     std::shared_ptr<const Scene> compose(const SceneSettings& settings);
     std::shared_ptr<const ImageF> loadMap(const SceneSettings& settings);
     /// The memo of these surfaces: other cameras, lights, profiles and configs plan on the same ones.
@@ -84,6 +87,7 @@ class SceneLoader {
     std::map<std::pair<std::string, std::string>, std::shared_ptr<const ImageF>>
         maps_;                              ///< By path and layer.
     std::vector<std::string> mapWarnings_;  ///< Which layers were taken, where a map has several.
+    std::set<std::string> changes_;                                        ///< What composing changed.
     std::deque<std::pair<std::string, std::shared_ptr<PlanMemo>>> memos_;  ///< Of the last few surfaces.
 };
 

@@ -66,7 +66,8 @@ Graph& Graph::operator=(Graph&&) noexcept = default;
 std::vector<Graph::PassInfo> Graph::passes() const {
     std::vector<PassInfo> infos;
     for (const GraphNode& node : impl_->nodes)
-        infos.push_back({node.id, node.kind, node.phase, node.pass->framesBefore(), node.where});
+        infos.push_back(
+            {node.id, node.kind, node.phase, node.pass->framesBefore(), node.where, node.lightRays});
     return infos;
 }
 
@@ -187,6 +188,7 @@ std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device
         } catch (const Error& error) {
             throw Error(node.where, "{}", error.what());
         }
+        node.lightRays = plan.lightRays;
         impl_->books[n] = MemoryBook(node.id, plan);
         memory.push_back(impl_->books[n].planned());
         for (const MemoryPlan::Part& part : plan.parts()) {

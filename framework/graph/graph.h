@@ -48,6 +48,7 @@ class Graph {
         Phase phase;
         uint32_t framesBefore;  ///< Pass::framesBefore()
         TextLocation where;
+        uint64_t lightRays;  ///< PassPlan's; 0 before it was planned.
     };
     /// In execution order.
     std::vector<PassInfo> passes() const;

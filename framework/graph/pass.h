@@ -163,6 +163,8 @@ class PassPlan : public PortAccess, public MemoryPlan {
     const Frame& frame;
     const DeviceInfo& device;
     const Phase phase;  ///< In which the pass runs.
+    /// Rays that one run traces to or from lights, where they are so many for each light.
+    uint64_t lightRays = 0;
 
     /// The answer of `find`, which depends on the scene's surfaces and on what `key` names alone: asked once
     /// for all variants of a scene (PlanMemo).

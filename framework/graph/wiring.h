@@ -25,6 +25,7 @@ struct GraphNode {
     std::vector<std::string> lessNoise;              ///< Parameters whose larger values lower its noise.
     std::vector<IdleParameter> idle;  ///< What its entry names although it has no effect there.
     TextLocation where;
+    uint64_t lightRays = 0;  ///< As planned.
 };
 
 /// The number of a node's output port of that name.

@@ -41,6 +41,7 @@ std::shared_ptr<const Scene> withLambertMaterials(const Scene& scene) {
     for (Material& material : lambert->materials) {
         material.metallic = 0;
         material.specular = 0;
+        material.transmission = 0;
         material.metallicRoughnessTexture = {};
     }
     lambert->contentHash = hashScene(*lambert);

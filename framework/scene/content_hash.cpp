@@ -19,11 +19,13 @@ void add(Hasher& hash, const Texture& texture) {
     hash.add(texture.name).addPlain(texture.width).addPlain(texture.height);
     addArray(hash, texture.rgba);
     hash.addPlain(texture.srgb).addPlain(texture.wrapU).addPlain(texture.wrapV);
+    hash.addPlain(texture.filter);
 }
 
 void add(Hasher& hash, const Material& m) {
     hash.add(m.name).addPlain(m.baseColor).addPlain(m.metallic).addPlain(m.roughness);
     hash.addPlain(m.specular).addPlain(m.specularColor).addPlain(m.ior).addPlain(m.emission);
+    hash.addPlain(m.transmission);
     hash.addPlain(m.normalScale).addPlain(m.alphaMode).addPlain(m.alphaCutoff).addPlain(m.doubleSided);
     for (const TextureRef* ref :
          {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissiveTexture})

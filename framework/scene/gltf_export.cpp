@@ -119,8 +119,9 @@ void GltfWriter::addTexture(const Texture& texture) {
     image.bufferView = addView(png.data(), png.size(), 0);
     model_.images.push_back(std::move(image));
     tinygltf::Sampler sampler;
-    sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
-    sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+    sampler.magFilter = sampler.minFilter = texture.filter == TexelFilter::Nearest
+                                                ? TINYGLTF_TEXTURE_FILTER_NEAREST
+                                                : TINYGLTF_TEXTURE_FILTER_LINEAR;
     sampler.wrapS = wrapMode(texture.wrapU);
     sampler.wrapT = wrapMode(texture.wrapV);
     model_.samplers.push_back(std::move(sampler));
@@ -187,6 +188,11 @@ void GltfWriter::addMaterials(const Scene& scene) {
             out.extensions["KHR_materials_specular"] = tinygltf::Value(Object{
                 {"specularFactor", number(m.specular)}, {"specularColorFactor", array(m.specularColor)}});
             useExtension("KHR_materials_specular");
+        }
+        if (m.transmission > 0) {
+            out.extensions["KHR_materials_transmission"] =
+                tinygltf::Value(Object{{"transmissionFactor", number(m.transmission)}});
+            useExtension("KHR_materials_transmission");
         }
         if (m.ior != 1.5f) {
             out.extensions["KHR_materials_ior"] = tinygltf::Value(Object{{"ior", number(m.ior)}});
@@ -317,9 +323,12 @@ void exportGlb(const SceneState& state, const std::filesystem::path& path) {
         throw Error("{}: glTF can't carry an environment; export with environment: none", path.string());
     GltfWriter writer;
     writer.addMaterials(*state.scene);
-    for (size_t i = 0; i < state.geometry.instances.size(); ++i)
-        writer.addInstance(state.geometry, state.geometry.instances[i],
-                           state.scene->meshes[state.scene->instances[i].mesh]);
+    for (const SceneState* part : {&state, static_cast<const SceneState*>(state.panes.get())}) {
+        if (!part) continue;
+        for (size_t i = 0; i < part->geometry.instances.size(); ++i)
+            writer.addInstance(part->geometry, part->geometry.instances[i],
+                               part->scene->meshes[part->scene->instances[i].mesh]);
+    }
     for (const Light& light : state.lights) writer.addLight(light);
     for (const Camera& camera : state.cameras) writer.addCamera(camera);
     writeFileAtomically(path, writer.glb());

@@ -5,11 +5,13 @@
 #include "base/interrupt.h"
 #include "base/parallel.h"
 #include "scene/gltf_values.h"
+#include "scene/panes.h"
 
 namespace voxray {
 namespace {
 
 constexpr const char* emissiveStrength = "KHR_materials_emissive_strength";
+constexpr const char* transmission = "KHR_materials_transmission";
 constexpr const char* specular = "KHR_materials_specular";
 constexpr const char* textureTransform = "KHR_texture_transform";
 
@@ -28,6 +30,25 @@ Wrap MaterialReader::wrap(int mode) {
     }
 }
 
+TexelFilter MaterialReader::filter(const tinygltf::Sampler& sampler) {
+    // Level 0 is looked up as if it were magnified. -1: the file leaves it open, and the other filter
+    // decides.
+    switch (sampler.magFilter == -1 ? sampler.minFilter : sampler.magFilter) {
+        case -1:
+        case TINYGLTF_TEXTURE_FILTER_LINEAR:
+        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
+            return TexelFilter::Linear;
+        case TINYGLTF_TEXTURE_FILTER_NEAREST:
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+            return TexelFilter::Nearest;
+        default:
+            file_.fail("texture filters {} and {}: one is not of glTF's", sampler.magFilter,
+                       sampler.minFilter);
+    }
+}
+
 TextureRef MaterialReader::texture(int index, int texCoord, const tinygltf::ExtensionMap& extensions,
                                    bool srgb, const std::string& what) {
     TextureRef ref;
@@ -41,21 +62,24 @@ TextureRef MaterialReader::texture(int index, int texCoord, const tinygltf::Exte
     const EncodedImage& image = file_.at(file_.images(), source.source, "image");
     Wrap wrapU = Wrap::Repeat;
     Wrap wrapV = Wrap::Repeat;
+    TexelFilter texelFilter = TexelFilter::Linear;
     if (source.sampler >= 0) {
         const tinygltf::Sampler& sampler = file_.at(model.samplers, source.sampler, "sampler");
         wrapU = wrap(sampler.wrapS);
         wrapV = wrap(sampler.wrapT);
+        texelFilter = filter(sampler);
     }
 
-    // One texture for each image, encoding and pair of wrap modes.
-    const auto [entry, added] =
-        textures_.try_emplace({source.source, srgb, wrapU, wrapV}, int32_t(scene_.textures.size()));
+    // One texture for each image, encoding and sampler.
+    const auto [entry, added] = textures_.try_emplace({source.source, srgb, wrapU, wrapV, texelFilter},
+                                                      int32_t(scene_.textures.size()));
     if (added) {
         Texture texture;
         texture.name = shortLine(image.name);
         texture.srgb = srgb;
         texture.wrapU = wrapU;
         texture.wrapV = wrapV;
+        texture.filter = texelFilter;
         scene_.textures.push_back(std::move(texture));
         images_.push_back(source.source);
     }
@@ -66,10 +90,10 @@ TextureRef MaterialReader::texture(int index, int texCoord, const tinygltf::Exte
     glm::vec2 scale(1);
     float rotation = 0;
     float set = float(texCoord);
-    readExtensionVector(file_, extensions, textureTransform, "offset", -maxNumber, maxNumber, offset);
-    readExtensionVector(file_, extensions, textureTransform, "scale", -maxNumber, maxNumber, scale);
-    readExtension(file_, extensions, textureTransform, "rotation", -maxNumber, maxNumber, rotation);
-    readExtension(file_, extensions, textureTransform, "texCoord", 0, 1e6, set);
+    readExtensionVector(file_, what, extensions, textureTransform, "offset", -maxNumber, maxNumber, offset);
+    readExtensionVector(file_, what, extensions, textureTransform, "scale", -maxNumber, maxNumber, scale);
+    readExtension(file_, what, extensions, textureTransform, "rotation", -maxNumber, maxNumber, rotation);
+    readExtension(file_, what, extensions, textureTransform, "texCoord", 0, 1e6, set);
     const float c = std::cos(rotation);
     const float s = std::sin(rotation);
     ref.transform = {glm::vec3(c * scale.x, s * scale.y, offset.x),
@@ -79,6 +103,14 @@ TextureRef MaterialReader::texture(int index, int texCoord, const tinygltf::Exte
     else
         file_.warn("{}: TEXCOORD_{} is not supported; TEXCOORD_0 is used", what, set);
     return ref;
+}
+
+float MaterialReader::readIor(const tinygltf::Material& source, const std::string& what) {
+    constexpr const char* extension = "KHR_materials_ior";
+    float ior = 1.5f;
+    readExtension(file_, what, source.extensions, extension, "ior", 0, 1000, ior);
+    // 0 stands for an infinite one (KHR_materials_ior); nothing is between it and that of empty space.
+    return ior == 0 ? 0 : limited(file_, ior, 1, 1000, what + ": KHR_materials_ior.ior");
 }
 
 Material MaterialReader::read(int index) {
@@ -93,30 +125,32 @@ Material MaterialReader::read(int index) {
     const std::string what = fmt::format("material {} '{}'", index, m.name);
 
     // Factors.
-    readVector(file_, pbr.baseColorFactor, m.baseColor, 0, maxNumber, what + ": baseColorFactor");
-    m.metallic = checkedFloat(file_, pbr.metallicFactor, 0, 1, what + ": metallicFactor");
-    m.roughness = checkedFloat(file_, pbr.roughnessFactor, 0, 1, what + ": roughnessFactor");
-    readExtension(file_, source.extensions, specular, "specularFactor", 0, 1, m.specular);
-    readExtensionVector(file_, source.extensions, specular, "specularColorFactor", 0, maxNumber,
+    readLimited(file_, pbr.baseColorFactor, m.baseColor, 0, 1, what + ": baseColorFactor");
+    m.metallic = limited(file_, pbr.metallicFactor, 0, 1, what + ": metallicFactor");
+    m.roughness = limited(file_, pbr.roughnessFactor, 0, 1, what + ": roughnessFactor");
+    readExtension(file_, what, source.extensions, specular, "specularFactor", 0, 1, m.specular);
+    readExtensionVector(file_, what, source.extensions, specular, "specularColorFactor", 0, maxNumber,
                         m.specularColor);
-    readExtension(file_, source.extensions, "KHR_materials_ior", "ior", 0, 1000, m.ior);
+    readExtension(file_, what, source.extensions, transmission, "transmissionFactor", 0, 1, m.transmission);
+    m.ior = readIor(source, what);
     float strength = 1;
-    readExtension(file_, source.extensions, emissiveStrength, "emissiveStrength", 0, maxNumber, strength);
-    readVector(file_, source.emissiveFactor, m.emission, 0, maxNumber, what + ": emissiveFactor");
+    readExtension(file_, what, source.extensions, emissiveStrength, "emissiveStrength", 0, maxNumber,
+                  strength);
+    readLimited(file_, source.emissiveFactor, m.emission, 0, maxNumber, what + ": emissiveFactor");
     for (int i = 0; i < 3; ++i)
-        m.emission[i] =
-            checkedFloat(file_, double(m.emission[i]) * strength, 0, maxNumber, what + ": emission");
+        m.emission[i] = limited(file_, double(m.emission[i]) * strength, 0, maxNumber, what + ": emission");
     m.doubleSided = source.doubleSided;
 
     // Alpha.
-    m.alphaCutoff = checkedFloat(file_, source.alphaCutoff, 0, maxNumber, what + ": alphaCutoff");
+    m.alphaCutoff = limited(file_, source.alphaCutoff, 0, maxNumber, what + ": alphaCutoff");
     if (source.alphaMode == "MASK")
         m.alphaMode = AlphaMode::Mask;
     else if (source.alphaMode == "BLEND")
         m.alphaMode = AlphaMode::Blend;
     else if (source.alphaMode != "OPAQUE")
         file_.fail("{}: alphaMode '{}' is not one of glTF's", what, source.alphaMode);
-    if (m.alphaMode == AlphaMode::Blend) file_.warn("{}: alphaMode BLEND is rendered as opaque", what);
+    if (m.alphaMode == AlphaMode::Blend && !isPane(m))
+        file_.warn("{}: alphaMode BLEND is rendered as opaque; 'scene.hide' takes it out", what);
 
     // Textures.
     const tinygltf::TextureInfo& color = pbr.baseColorTexture;
@@ -127,11 +161,20 @@ Material MaterialReader::read(int index) {
     m.metallicRoughnessTexture = texture(rough.index, rough.texCoord, rough.extensions, false, what);
     m.normalTexture = texture(normal.index, normal.texCoord, normal.extensions, false, what);
     m.emissiveTexture = texture(emissive.index, emissive.texCoord, emissive.extensions, true, what);
-    m.normalScale = checkedFloat(file_, normal.scale, -maxNumber, maxNumber, what + ": normalTexture.scale");
+    m.normalScale = limited(file_, normal.scale, -maxNumber, maxNumber, what + ": normalTexture.scale");
 
     // What is left out.
+    if (isPane(m))
+        file_.warn(
+            "{}: {} makes it a pane: light passes it straight, times its colour, and nothing is reflected or "
+            "bent; 'materials: lambert' makes it opaque",
+            what, transmission);
+    else if (m.transmission > 0)
+        file_.warn("{}: {} is rendered as opaque: it emits, or transmits less than half", what, transmission);
     if (source.extensions.contains("KHR_materials_unlit"))
         file_.warn("{}: KHR_materials_unlit is rendered as an ordinary, lit material", what);
+    if (extensionMember(source.extensions, transmission, "transmissionTexture") != nullptr)
+        file_.warn("{}: transmissionTexture of {} is left out; its factor is used", what, transmission);
     for (const char* member : {"specularTexture", "specularColorTexture"})
         if (extensionMember(source.extensions, specular, member) != nullptr)
             file_.warn("{}: {} of {} is left out; its factor is used", what, member, specular);

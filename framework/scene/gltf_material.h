@@ -21,12 +21,15 @@ class MaterialReader {
     void decodeTextures();
 
  private:
-    using TextureKey = std::tuple<int, bool, Wrap, Wrap>;  ///< Image, sRGB, wrap modes.
+    /// Image, sRGB, wrap modes, filter.
+    using TextureKey = std::tuple<int, bool, Wrap, Wrap, TexelFilter>;
 
     Material read(int index);
+    float readIor(const tinygltf::Material& source, const std::string& what);
     TextureRef texture(int index, int texCoord, const tinygltf::ExtensionMap& extensions, bool srgb,
                        const std::string& what);
     Wrap wrap(int mode);
+    TexelFilter filter(const tinygltf::Sampler& sampler);
 
     GltfFile& file_;
     Scene& scene_;

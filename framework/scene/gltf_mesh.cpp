@@ -7,6 +7,7 @@
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_deform.h"
 #include "scene/mesh_repair.h"
+#include "scene/value_ranges.h"
 
 namespace voxray {
 namespace {
@@ -157,6 +158,9 @@ Mesh readPrimitive(GltfFile& file, const tinygltf::Primitive& primitive,
         file.warn("{}: texture coordinates that are not finite are taken as 0", what);
     if (replaceNonFinite(mesh.colors, 1) > 0)
         file.warn("{}: colours that are not finite are taken as 1", what);
+    if (const size_t others = limitColors(mesh, material); others > 0)
+        file.warn("{}: COLOR_0 of {} vertices is limited, so that it is from 0 to 1 times baseColorFactor",
+                  what, others);
     completeNormals(file, material, mesh, what);
     return mesh;
 }

@@ -102,16 +102,16 @@ void readLight(GltfFile& file, const tinygltf::Node& node, int32_t nodeIndex, Sc
         light.type = LightType::Directional;
     else
         file.fail("{}: type '{}' is not one of glTF's", what, source.type);
-    const float intensity = checkedFloat(file, source.intensity, 0, maxNumber, what + ": intensity");
-    readVector(file, source.color, light.intensity, 0, maxNumber, what + ": color");
+    const float intensity = limited(file, source.intensity, 0, maxNumber, what + ": intensity");
+    readLimited(file, source.color, light.intensity, 0, maxNumber, what + ": color");
     for (int i = 0; i < 3; ++i)
         light.intensity[i] =
-            checkedFloat(file, double(light.intensity[i]) * intensity, 0, maxNumber, what + ": intensity");
+            limited(file, double(light.intensity[i]) * intensity, 0, maxNumber, what + ": intensity");
     if (light.type == LightType::Spot) {
         light.outerConeAngle =
-            checkedFloat(file, source.spot.outerConeAngle, 0, 1.5708, what + ": outerConeAngle");
+            limited(file, source.spot.outerConeAngle, 0, 1.5708, what + ": outerConeAngle");
         light.innerConeAngle =
-            checkedFloat(file, source.spot.innerConeAngle, 0, 1.5708, what + ": innerConeAngle");
+            limited(file, source.spot.innerConeAngle, 0, 1.5708, what + ": innerConeAngle");
         if (light.innerConeAngle > light.outerConeAngle) {
             file.warn("{}: innerConeAngle is wider than outerConeAngle; both are taken as the latter", what);
             light.innerConeAngle = light.outerConeAngle;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/gltf_file.h"
+#include "scene/value_ranges.h"
 
 namespace voxray {
 
@@ -39,30 +40,31 @@ inline const tinygltf::Value* extensionMember(const tinygltf::ExtensionMap& exte
     return &entry->second.Get(member);
 }
 
-/// A number of an extension's object; a missing one keeps the default. @throws Error
-inline void readExtension(const GltfFile& file, const tinygltf::ExtensionMap& extensions,
+/// A number of an extension's object, limited to a range; a missing one keeps the default. @param owner that
+/// warnings name. @throws Error
+inline void readExtension(GltfFile& file, const std::string& owner, const tinygltf::ExtensionMap& extensions,
                           const char* extension, const char* member, double min, double max, float& out) {
     const tinygltf::Value* value = extensionMember(extensions, extension, member);
     if (value == nullptr) return;
-    const std::string what = std::string(extension) + "." + member;
+    const std::string what = owner + ": " + extension + "." + member;
     if (!value->IsNumber()) file.fail("{} is not a number", what);
-    out = checkedFloat(file, value->GetNumberAsDouble(), min, max, what);
+    out = limited(file, value->GetNumberAsDouble(), min, max, what);
 }
 
-/// A vector of an extension's object; a missing one keeps the default. @throws Error
+/// The same of a vector. @throws Error
 template <typename Vector>
-void readExtensionVector(const GltfFile& file, const tinygltf::ExtensionMap& extensions,
+void readExtensionVector(GltfFile& file, const std::string& owner, const tinygltf::ExtensionMap& extensions,
                          const char* extension, const char* member, double min, double max, Vector& out) {
     const tinygltf::Value* value = extensionMember(extensions, extension, member);
     if (value == nullptr) return;
-    const std::string what = std::string(extension) + "." + member;
+    const std::string what = owner + ": " + extension + "." + member;
     std::vector<double> numbers;
     for (size_t i = 0; i < value->ArrayLen(); ++i) {
         if (!value->Get(int(i)).IsNumber()) file.fail("{} is not an array of numbers", what);
         numbers.push_back(value->Get(int(i)).GetNumberAsDouble());
     }
     if (numbers.empty()) file.fail("{} is not an array of numbers", what);
-    readVector(file, numbers, out, min, max, what);
+    readLimited(file, numbers, out, min, max, what);
 }
 
 }  // namespace voxray

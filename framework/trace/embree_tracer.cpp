@@ -44,7 +44,7 @@ void EmbreeTracer::trace(CommandStream& stream, Query query, const Buffer& rays,
                         [&](auto from, auto to) { scene_.occluded(from, to, coherence); });
 }
 
-void EmbreeTracer::update(CommandStream& stream) {
+void EmbreeTracer::updateStructure(CommandStream& stream) {
     stream.finish();
     scene_.update();
 }

@@ -13,10 +13,10 @@ class EmbreeTracer final : public RayTracer {
     explicit EmbreeTracer(const SceneState& state) : scene_(state) {}
     std::string_view name() const override { return "embree"; }
 
-    void update(CommandStream& stream) override;
     size_t memoryBytes() const override { return scene_.memoryBytes(); }
 
  private:
+    void updateStructure(CommandStream& stream) override;
     /// @throws Error naming the first ray that is not finite.
     void trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
                Coherence coherence) override;

@@ -10,9 +10,6 @@
 namespace voxray {
 namespace {
 
-static_assert(uint32_t(Wrap::Repeat) == WRAP_REPEAT && uint32_t(Wrap::ClampToEdge) == WRAP_CLAMP &&
-              uint32_t(Wrap::MirroredRepeat) == WRAP_MIRROR);
-
 /// Alpha channels of textures one after the other, each texture once.
 class AlphaTexels {
  public:
@@ -20,12 +17,12 @@ class AlphaTexels {
 
     gpu::AlphaMaterial describe(const Material& material) {
         const int32_t index = material.baseColorTexture.texture;
-        if (index < 0) return {material.alphaCutoff, NO_ALPHA_TEXTURE, 0, 0, 0, 0};
+        if (index < 0) return {alphaThreshold(material), NO_ALPHA_TEXTURE, 0, 0, 0, 0, 0};
         const Texture& texture = scene_.textures[size_t(index)];
         const auto [entry, isNew] = firstTexels_.try_emplace(index, uint32_t(texels_.size()));
         if (isNew) append(texture);
-        return {material.alphaCutoff, entry->second,           texture.width,
-                texture.height,       uint32_t(texture.wrapU), uint32_t(texture.wrapV)};
+        return {alphaThreshold(material), entry->second,           texture.width,           texture.height,
+                uint32_t(texture.wrapU),  uint32_t(texture.wrapV), uint32_t(texture.filter)};
     }
 
     /// The texels so far, padded to whole words.

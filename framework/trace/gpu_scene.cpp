@@ -6,7 +6,10 @@
 #include <span>
 
 #include "base/error.h"
+#include "scene/panes.h"
 #include "shaders/scene/scene_types.h"
+#include "trace/emission.h"
+#include "trace/texture_lookup.h"
 
 namespace voxray {
 namespace {
@@ -17,12 +20,21 @@ struct GpuSceneGeometry {  // Device addresses, as in SceneGeometry of shaders/s
     uint64_t positions, attributes, triangles, triangleMaterials;
 };
 
-gpu::GpuTextureRef toGpu(const TextureRef& ref) {
-    return {ref.texture < 0 ? NO_TEXTURE : uint32_t(ref.texture), ref.texCoord, ref.transform[0],
-            ref.transform[1]};
+static_assert(uint32_t(Wrap::Repeat) == WRAP_REPEAT && uint32_t(Wrap::ClampToEdge) == WRAP_CLAMP &&
+              uint32_t(Wrap::MirroredRepeat) == WRAP_MIRROR);
+static_assert(uint32_t(TexelFilter::Linear) == FILTER_LINEAR &&
+              uint32_t(TexelFilter::Nearest) == FILTER_NEAREST);
+
+gpu::GpuTextureRef toGpu(const Scene& scene, const TextureRef& ref) {
+    if (ref.texture < 0) return {NO_TEXTURE, ref.texCoord, ref.transform[0], ref.transform[1], 0, 0, 0};
+    const Texture& texture = scene.textures[size_t(ref.texture)];
+    return {uint32_t(ref.texture),   ref.texCoord,
+            ref.transform[0],        ref.transform[1],
+            uint32_t(texture.wrapU), uint32_t(texture.wrapV),
+            uint32_t(texture.filter)};
 }
 
-gpu::GpuMaterial toGpu(const Material& m) {
+gpu::GpuMaterial toGpu(const Scene& scene, const Material& m) {
     gpu::GpuMaterial out{};
     out.baseColor = m.baseColor;
     out.emission = m.emission;
@@ -32,13 +44,14 @@ gpu::GpuMaterial toGpu(const Material& m) {
     out.specular = m.specular;
     out.ior = m.ior;
     out.normalScale = m.normalScale;
-    out.alphaCutoff = m.alphaCutoff;
+    out.transmission = m.transmission;
+    out.alphaThreshold = alphaThreshold(m);
     out.alphaMode = uint32_t(m.alphaMode);
     out.doubleSided = m.doubleSided ? 1u : 0u;
-    out.baseColorTexture = toGpu(m.baseColorTexture);
-    out.metallicRoughnessTexture = toGpu(m.metallicRoughnessTexture);
-    out.normalTexture = toGpu(m.normalTexture);
-    out.emissiveTexture = toGpu(m.emissiveTexture);
+    out.baseColorTexture = toGpu(scene, m.baseColorTexture);
+    out.metallicRoughnessTexture = toGpu(scene, m.metallicRoughnessTexture);
+    out.normalTexture = toGpu(scene, m.normalTexture);
+    out.emissiveTexture = toGpu(scene, m.emissiveTexture);
     return out;
 }
 
@@ -51,27 +64,22 @@ float luminance(glm::vec3 c) {
     return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
 }
 
-bool isEmissive(const SceneState& state, uint32_t triangle) {
-    return luminance(state.scene->materials[state.geometry.triangleMaterials[triangle]].emission) > 0;
-}
-
-// Emissive triangles with the chance of picking each, in proportion to emission (without its texture) times
-// area.
+// Triangles that emit anywhere, with the chance of picking each, in proportion to what it emits.
 std::vector<gpu::GpuEmitter> findEmitters(const SceneState& state) {
     const Geometry& g = state.geometry;
     std::vector<gpu::GpuEmitter> emitters;
     std::vector<double> powers;
     double total = 0;
     for (uint32_t t = 0; t < g.triangles.size(); ++t) {
-        const Material& material = state.scene->materials[g.triangleMaterials[t]];
-        const float radiance = luminance(material.emission);
+        const float radiance = luminance(meanEmission(state, t));
         if (!(radiance > 0)) continue;
         const glm::uvec3 v = g.triangles[t];
         const float area = 0.5f * glm::length(glm::cross(g.positions[v.y] - g.positions[v.x],
                                                          g.positions[v.z] - g.positions[v.x]));
         if (!(area > 0)) continue;
+        const bool doubleSided = state.scene->materials[g.triangleMaterials[t]].doubleSided;
         emitters.push_back({t, area, 0, 0});
-        powers.push_back(double(radiance) * area * 3.14159265358979 * (material.doubleSided ? 2 : 1));
+        powers.push_back(double(radiance) * area * 3.14159265358979 * (doubleSided ? 2 : 1));
         total += powers.back();
     }
     double running = 0;
@@ -156,7 +164,7 @@ uint64_t gpuSceneBytes(const SceneState& state) {
     const uint64_t bytes = g.positions.size() * (sizeof(glm::vec3) + sizeof(VertexAttributes)) +
                            g.triangles.size() * (sizeof(glm::uvec3) + sizeof(uint32_t)) +
                            state.scene->materials.size() * sizeof(gpu::GpuMaterial);
-    return bytes + gpuTextureBytes(*state.scene);
+    return bytes + gpuTextureBytes(*state.scene) + (dimsLight(state) ? gpuSceneBytes(*state.panes) : 0);
 }
 
 uint64_t gpuTextureBytes(const Scene& scene) {
@@ -198,12 +206,13 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
 
     // Materials and lights.
     std::vector<gpu::GpuMaterial> materials;
-    for (const Material& material : state.scene->materials) materials.push_back(toGpu(material));
+    for (const Material& material : state.scene->materials)
+        materials.push_back(toGpu(*state.scene, material));
     scene.materials = uploaded(device, stream, "scene materials", materials);
     scene.lightCount = uint32_t(state.lights.size());
     scene.lights = Buffer(device, "scene lights", std::max(1u, scene.lightCount) * sizeof(gpu::GpuLight));
     uint32_t emissive = 0;
-    for (uint32_t t = 0; t < scene.triangleCount; ++t) emissive += isEmissive(state, t);
+    for (uint32_t t = 0; t < scene.triangleCount; ++t) emissive += canEmit(state, t);
     scene.emitters = Buffer(device, "scene emitters", std::max(1u, emissive) * sizeof(gpu::GpuEmitter));
     uploadLights(stream, state, scene);
     uploadEmitters(stream, state, scene);
@@ -222,16 +231,20 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
 
     // Textures with their mip levels; one white texel stands in where a scene has none.
     std::vector<TextureArray::Entry> entries;
-    const Texture white{"white", 1, 1, {255, 255, 255, 255}, false, Wrap::Repeat, Wrap::Repeat};
+    const Texture white{.name = "white", .width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
     const std::vector<Texture> none{white};
     const std::vector<Texture>& textures = state.scene->textures.empty() ? none : state.scene->textures;
     for (const Texture& texture : textures) {
         scene.images.push_back(uploadedTexture(device, stream, texture));
-        scene.samplers.emplace_back(device, Filter::Linear, toVulkan(texture.wrapU), toVulkan(texture.wrapV));
+        scene.samplers.emplace_back(device,
+                                    texture.filter == TexelFilter::Nearest ? Filter::Nearest : Filter::Linear,
+                                    toVulkan(texture.wrapU), toVulkan(texture.wrapV));
     }
     for (size_t i = 0; i < scene.images.size(); ++i)
         entries.push_back({&scene.images[i], &scene.samplers[i]});
     scene.textures = TextureArray(device, entries);
+    if (dimsLight(state))
+        scene.panes = std::make_unique<GpuScene>(makeGpuScene(device, stream, *state.panes));
     stream.finish();
     return scene;
 }
@@ -249,8 +262,9 @@ void updateGpuScene(CommandStream& stream, const SceneState& state, GpuScene& sc
     uploadLights(stream, state, scene);
     const bool emitterMoved = std::any_of(
         g.instances.begin(), g.instances.end(),
-        [&](const InstanceRange& range) { return range.moves && isEmissive(state, range.firstTriangle); });
+        [&](const InstanceRange& range) { return range.moves && canEmit(state, range.firstTriangle); });
     if (emitterMoved) uploadEmitters(stream, state, scene);
+    if (scene.panes) updateGpuScene(stream, *state.panes, *scene.panes);
 }
 
 }  // namespace voxray

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "scene/geometry.h"
@@ -28,6 +29,8 @@ struct GpuScene {
     uint32_t lightCount = 0;
     uint32_t emitterCount = 0;
     bool hasEnvironment = false;
+
+    std::unique_ptr<GpuScene> panes;  ///< Of the state's, where they dim light; else nullptr.
 
     std::vector<Image> images;
     std::vector<Sampler> samplers;

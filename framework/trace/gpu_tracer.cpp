@@ -18,7 +18,7 @@ GpuTracer::GpuTracer(Device& device, const SceneState& state, uint32_t triangles
     stream.finish();
 }
 
-void GpuTracer::update(CommandStream& stream) {
+void GpuTracer::updateStructure(CommandStream& stream) {
     const auto& [opaque, masked] = order_.moving;
     if (opaque.first == opaque.end && masked.first == masked.end) return;
     stream.finish();

@@ -11,7 +11,6 @@ namespace voxray {
 /// can take in one.
 class GpuTracer : public RayTracer {
  public:
-    void update(CommandStream& stream) final;
     size_t memoryBytes() const final { return structure_.bytes(); }
 
  protected:
@@ -23,6 +22,7 @@ class GpuTracer : public RayTracer {
     VkAccelerationStructureKHR structure() const { return structure_.top.handle(); }
 
  private:
+    void updateStructure(CommandStream& stream) final;
     void trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
                Coherence coherence) final;
 

@@ -1,6 +1,7 @@
 #include "trace/ray_tracer.h"
 
 #include "base/error.h"
+#include "scene/panes.h"
 #include "trace/embree_tracer.h"
 #include "trace/ray_pipeline_tracer.h"
 #include "trace/ray_query_tracer.h"
@@ -40,6 +41,11 @@ void RayTracer::occluded(CommandStream& stream, const Buffer& rays, const Buffer
     trace(stream, Query::Occluded, rays, results, count, coherence);
 }
 
+void RayTracer::update(CommandStream& stream) {
+    updateStructure(stream);
+    if (panes_) panes_->update(stream);
+}
+
 TracerKind resolveTracer(TracerKind wanted, const Device& device) {
     if (wanted != TracerKind::Auto) return wanted;
     if (device.info().isCpu) return TracerKind::Embree;
@@ -47,8 +53,10 @@ TracerKind resolveTracer(TracerKind wanted, const Device& device) {
     return device.info().rayPipeline ? TracerKind::RayPipeline : TracerKind::Embree;
 }
 
-std::unique_ptr<RayTracer> makeRayTracer(TracerKind kind, Device& device, ShaderCompiler& compiler,
-                                         const SceneState& state) {
+namespace {
+
+std::unique_ptr<RayTracer> makeTracerOfSurfaces(TracerKind kind, Device& device, ShaderCompiler& compiler,
+                                                const SceneState& state) {
     switch (resolveTracer(kind, device)) {
         case TracerKind::RayQuery:
             require(device.info().rayQuery, device, "ray_query", "VK_KHR_ray_query");
@@ -59,6 +67,15 @@ std::unique_ptr<RayTracer> makeRayTracer(TracerKind kind, Device& device, Shader
         default:
             return std::make_unique<EmbreeTracer>(state);
     }
+}
+
+}  // namespace
+
+std::unique_ptr<RayTracer> makeRayTracer(TracerKind kind, Device& device, ShaderCompiler& compiler,
+                                         const SceneState& state) {
+    std::unique_ptr<RayTracer> tracer = makeTracerOfSurfaces(kind, device, compiler, state);
+    if (dimsLight(state)) tracer->setPanes(makeTracerOfSurfaces(kind, device, compiler, *state.panes));
+    return tracer;
 }
 
 }  // namespace voxray

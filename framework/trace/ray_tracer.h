@@ -31,14 +31,19 @@ class RayTracer {
                   Coherence coherence = Coherence::Incoherent);
     /// Takes over where the moving instances of the scene's state are now (`advance`); what stays is not
     /// built again.
-    virtual void update(CommandStream& stream) = 0;
-    /// Bytes of acceleration structures.
+    void update(CommandStream& stream);
+    /// Bytes of acceleration structures, without those of panes.
     virtual size_t memoryBytes() const = 0;
 
     /// Rays traced since construction.
-    uint64_t raysTraced() const { return raysTraced_; }
+    uint64_t raysTraced() const { return raysTraced_ + (panes_ ? panes_->raysTraced() : 0); }
+    /// Finds the panes that dim light (scene/panes.h), which this tracer meets nowhere; nullptr: there are
+    /// none.
+    RayTracer* panes() const { return panes_.get(); }
+    void setPanes(std::unique_ptr<RayTracer> panes) { panes_ = std::move(panes); }
 
  protected:
+    virtual void updateStructure(CommandStream& stream) = 0;
     enum class Query { ClosestHit, Occluded };
     /// The buffers are large enough.
     virtual void trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
@@ -46,14 +51,15 @@ class RayTracer {
 
  private:
     uint64_t raysTraced_ = 0;
+    std::unique_ptr<RayTracer> panes_;
 };
 
 /// What `auto` becomes on this device: ray_query on a GPU that has it, ray_pipeline on a GPU with ray
 /// pipelines only, else embree.
 TracerKind resolveTracer(TracerKind wanted, const Device& device);
 
-/// @throws Error naming the missing feature where the device lacks what `kind` needs. `state` must outlive
-/// the tracer.
+/// A tracer of the state's surfaces, and of its panes where they dim light. @throws Error naming the missing
+/// feature where the device lacks what `kind` needs. `state` must outlive the tracer.
 std::unique_ptr<RayTracer> makeRayTracer(TracerKind kind, Device& device, ShaderCompiler& compiler,
                                          const SceneState& state);
 

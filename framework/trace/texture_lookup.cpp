@@ -56,19 +56,35 @@ int32_t wrapTexel(int32_t x, int32_t size, Wrap wrap) {
     return x < 0 ? 0 : (x >= size ? size - 1 : x);
 }
 
+namespace {
+
+/// What a filter mixes along one axis: two texels and the second one's weight.
+struct Texels {
+    int32_t first, second;
+    float weight;
+};
+
+Texels filteredTexels(float coordinate, int32_t size, Wrap wrap, TexelFilter filter) {
+    const bool isNearest = filter == TexelFilter::Nearest;
+    const float x = reduceCoordinate(coordinate, wrap) * float(size) - (isNearest ? 0.0f : 0.5f);
+    const float floorX = std::floor(x);
+    const int32_t first = int32_t(floorX);
+    return {wrapTexel(first, size, wrap), wrapTexel(first + 1, size, wrap), isNearest ? 0.0f : x - floorX};
+}
+
+}  // namespace
+
 glm::vec4 sampleTexture(const Texture& texture, glm::vec2 uv) {
-    const int32_t width = int32_t(texture.width), height = int32_t(texture.height);
-    const float x = reduceCoordinate(uv.x, texture.wrapU) * float(width) - 0.5f;
-    const float y = reduceCoordinate(uv.y, texture.wrapV) * float(height) - 0.5f;
-    const float floorX = std::floor(x), floorY = std::floor(y);
-    const float fx = x - floorX, fy = y - floorY;
-    const int32_t x0 = wrapTexel(int32_t(floorX), width, texture.wrapU);
-    const int32_t x1 = wrapTexel(int32_t(floorX) + 1, width, texture.wrapU);
-    const int32_t y0 = wrapTexel(int32_t(floorY), height, texture.wrapV);
-    const int32_t y1 = wrapTexel(int32_t(floorY) + 1, height, texture.wrapV);
-    const glm::vec4 top = texel(texture, x0, y0) * (1.0f - fx) + texel(texture, x1, y0) * fx;
-    const glm::vec4 bottom = texel(texture, x0, y1) * (1.0f - fx) + texel(texture, x1, y1) * fx;
-    return top * (1.0f - fy) + bottom * fy;
+    const Texels x = filteredTexels(uv.x, int32_t(texture.width), texture.wrapU, texture.filter);
+    const Texels y = filteredTexels(uv.y, int32_t(texture.height), texture.wrapV, texture.filter);
+    const auto row = [&](int32_t at) {
+        return texel(texture, x.first, at) * (1.0f - x.weight) + texel(texture, x.second, at) * x.weight;
+    };
+    return row(y.first) * (1.0f - y.weight) + row(y.second) * y.weight;
+}
+
+float alphaThreshold(const Material& material) {
+    return material.alphaCutoff * (1.0f - 0x1p-20f);
 }
 
 bool isCutAway(const SceneState& state, uint32_t triangle, float u, float v) {
@@ -85,7 +101,7 @@ bool isCutAway(const SceneState& state, uint32_t triangle, float u, float v) {
                                textureCoordinates(material.baseColorTexture, texCoords))
                      .a;
     }
-    return alpha < material.alphaCutoff;
+    return alpha < alphaThreshold(material);
 }
 
 }  // namespace voxray

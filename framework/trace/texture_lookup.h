@@ -9,7 +9,7 @@
 
 #include "scene/geometry.h"
 
-/// Texture lookups on the CPU: level 0, bilinear, sRGB decoded before filtering (CONVENTIONS 10).
+/// Texture lookups on the CPU: level 0, sRGB decoded before filtering (CONVENTIONS 10).
 namespace voxray {
 
 /// Linear values of the 256 sRGB codes (IEC 61966-2-1).
@@ -18,8 +18,8 @@ extern const std::array<float, 256> kSrgbToLinear;
 /// A texel's integer coordinate after wrapping; any `x` that fits in 32 bits, `size` >= 1.
 int32_t wrapTexel(int32_t x, int32_t size, Wrap wrap);
 
-/// Bilinear lookup. (0, 0) is the upper left corner of the upper left texel, as in glTF. A coordinate that is
-/// not finite reads as 0. The texture has at least one texel.
+/// Lookup by the texture's filter. (0, 0) is the upper left corner of the upper left texel, as in glTF. A
+/// coordinate that is not finite reads as 0. The texture has at least one texel.
 glm::vec4 sampleTexture(const Texture& texture, glm::vec2 uv);
 
 /// The coordinates with which a material reads a texture: set 0 or 1, then KHR_texture_transform.
@@ -36,8 +36,12 @@ T interpolate(const T& a, const T& b, const T& c, float u, float v) {
     return a * (1.0f - u - v) + b * u + c * v;
 }
 
+/// Alphas below it are cut away: the material's cutoff, less what rounds off in floats on the way to a
+/// product of factor, texture and vertex colour. An alpha equal to the cutoff is opaque.
+float alphaThreshold(const Material& material);
+
 /// Whether an alpha-masked surface is cut away at a point of a triangle: base colour's alpha (factor *
-/// texture * vertex colour) below the cutoff.
+/// texture * vertex colour) below the threshold.
 bool isCutAway(const SceneState& state, uint32_t triangle, float u, float v);
 
 }  // namespace voxray

@@ -1,6 +1,7 @@
 #include "passes/direct_shadow_maps/direct_shadow_maps.h"
 
 #include "passes/common/compute/dispatch.h"
+#include "passes/common/lights/pane_tint.h"
 
 namespace voxray {
 namespace {
@@ -20,6 +21,7 @@ void DirectShadowMaps::declare(PassBuilder& builder) {
 }
 
 void DirectShadowMaps::plan(PassPlan& plan) {
+    requireClearPanes(*plan.frame.scene, kName);
     plan.image(plan.get(direct_).image, "direct", frameImageDesc(plan.frame));
 }
 

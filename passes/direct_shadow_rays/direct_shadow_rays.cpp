@@ -53,6 +53,9 @@ void DirectShadowRays::plan(PassPlan& plan) {
     plan.buffer(rays_, "shadow rays", rays * sizeof(Ray));
     plan.buffer(carried_, "shadow ray radiance", rays * 4 * sizeof(float));
     plan.buffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
+    tint_.plan(plan, rays);
+    plan.lightRays = uint64_t(plan.frame.width) * plan.frame.height * gbuffer.samples * gbuffer.samples *
+                     plan.frame.scene->lights.size();
     plan.image(plan.get(direct_).image, "direct", frameImageDesc(plan.frame));
     if (params_.visibility == Visibility::Voxels) voxelTracer_.plan(plan, plan.get(voxels_));
 }
@@ -62,6 +65,7 @@ void DirectShadowRays::prepare(PassSetup& setup) {
                               {{0, params_.visibility == Visibility::Voxels}});
     add_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/direct_shadow_rays/add.comp"));
     sampler_ = texelSampler(setup.device);
+    tint_.prepare(setup);
     if (params_.visibility == Visibility::Voxels) voxelTracer_.prepare(setup.device, setup.compiler);
 }
 
@@ -104,6 +108,7 @@ void DirectShadowRays::record(PassContext& context) {
                 linearGroups(rays));
             tracer->occluded(stream, rays_, occluded_, rays,
                              kind == kPunctual ? Coherence::Coherent : Coherence::Incoherent);
+            tint_.apply(context, rays_, carried_, 4, rays);
             stream.dispatch(add_, {{"carried", carried_}, {"occluded", occluded_}, {"direct", direct}},
                             AddPush{frame.width, first, count, perPixel}, linearGroups(count));
         }

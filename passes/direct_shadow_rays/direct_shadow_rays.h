@@ -1,5 +1,6 @@
 #pragma once
 
+#include "passes/common/lights/pane_tint.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/voxel_march/voxel_tracer.h"
 
@@ -60,6 +61,7 @@ class DirectShadowRays final : public Pass {
     Program aim_, add_;
     Sampler sampler_;
     Buffer rays_, carried_, occluded_;
+    PaneTint tint_;
     VoxelTracer voxelTracer_{VoxelWalk::Bricks};  ///< With Visibility::Voxels. All walks tell the same.
 };
 

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/compute/random_seed.h"
+#include "passes/common/lights/pane_tint.h"
 #include "passes/inject_clusters/part_face_types.h"
 
 namespace voxray {
@@ -50,6 +51,7 @@ void InjectClusters::declare(PassBuilder& builder) {
 }
 
 void InjectClusters::plan(PassPlan& plan) {
+    requireClearPanes(*plan.frame.scene, kName);
     const uint64_t voxels = plan.get(voxels_).voxelCount;
     const uint64_t patches = ClusterLight::bytes(kPatchesPerVoxel * voxels);
     plan.reserve("light of patches (estimated)", 2 * patches);

@@ -18,8 +18,10 @@ void InjectLightRays::declare(PassBuilder& builder) {
 
 void InjectLightRays::plan(PassPlan& plan) {
     plan.get(irradiance_).lightBounces = params_.lastBounce();
+    const std::vector<LightSource> sources = requireLightSources(*plan.frame.scene, kName);
     paths_.plan(plan, kName, params_, std::min(params_.raysPerLight, kMaxBatchRays), plan.get(voxels_),
-                requireLightSources(*plan.frame.scene, kName));
+                sources);
+    plan.lightRays = uint64_t(params_.raysPerLight) * (params_.lastBounce() + 1) * sources.size();
 }
 
 void InjectLightRays::prepare(PassSetup& setup) {

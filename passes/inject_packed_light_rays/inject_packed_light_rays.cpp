@@ -62,6 +62,7 @@ void InjectPackedLightRays::plan(PassPlan& plan) {
     const uint64_t batch = std::min(params_.raysPerLight, kMaxBatchRays);
     plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
+    tint_.plan(plan, batch);
     plan.scratchBuffer(intensities_, "intensities of light rays", batch * sizeof(glm::vec3));
 }
 
@@ -69,6 +70,7 @@ void InjectPackedLightRays::prepare(PassSetup& setup) {
     const auto program = [&](const char* file, const Defines& defines = {}) {
         return makeComputeProgram(setup.device, setup.compiler.compile(file, defines));
     };
+    tint_.prepare(setup);
     gridRays_ = program("passes/inject_packed_light_rays/grid_rays.comp");
     deposit_ = program("passes/inject_packed_light_rays/deposit.comp", params_.defines());
 }
@@ -86,6 +88,7 @@ void InjectPackedLightRays::record(PassContext& context) {
         for (uint32_t bounce = 0; bounce <= params_.bounces; ++bounce) {
             context.tracer.closestHit(stream, rays_, hits_, count,
                                       bounce == 0 ? Coherence::Coherent : Coherence::Incoherent);
+            if (bounce == 0) tint_.apply(context, rays_, intensities_, 3, count, &hits_);
             stream.dispatch(deposit_,
                             {{"rays", rays_},
                              {"intensities", intensities_},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "passes/common/lights/pane_tint.h"
 #include "passes/common/packed_voxels/packed_voxels.h"
 
 namespace voxray {
@@ -62,6 +63,7 @@ class InjectPackedLightRays final : public Pass {
     uint32_t raysPerEdge_ = 0;
     Program gridRays_, deposit_;
     Buffer rays_, hits_, intensities_;
+    PaneTint tint_;
 };
 
 }  // namespace voxray

@@ -40,6 +40,7 @@ void InjectRadiosity::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
     injection_.plan(plan, kName, params_, {Surfels::kChunk, false, false}, plan.get(voxels_));
     light_.plan(plan, Surfels::kChunk);
+    plan.lightRays = plan.get(surfels_).maxCount * plan.frame.scene->lights.size();
     // A ray's is about 1.
     plan.get(surfelIrradiance_).relativeVariance = 1.0f / float(plan.get(links_).raysPerSurfel);
     if (plan.get(surfelIrradiance_).isRead)

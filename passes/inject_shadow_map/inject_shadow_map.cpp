@@ -2,6 +2,7 @@
 
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/compute/random_seed.h"
+#include "passes/common/lights/pane_tint.h"
 
 namespace voxray {
 namespace {
@@ -25,6 +26,7 @@ void InjectShadowMap::declare(PassBuilder& builder) {
 }
 
 void InjectShadowMap::plan(PassPlan& plan) {
+    requireClearPanes(*plan.frame.scene, kName);
     plan.get(irradiance_).lightBounces = params_.bounces;
     sources_ = requireViewpoints(*plan.frame.scene, kName);
     injection_.plan(plan, kName, params_, {Surfels::kChunk, false, params_.bounces > 0}, plan.get(voxels_));

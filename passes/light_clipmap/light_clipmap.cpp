@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/lights/light_sources.h"
+#include "passes/common/lights/pane_tint.h"
 
 namespace voxray {
 namespace {
@@ -26,6 +27,7 @@ void LightClipmap::declare(PassBuilder& builder) {
 }
 
 void LightClipmap::plan(PassPlan& plan) {
+    requireClearPanes(*plan.frame.scene, kName);
     if (!plan.device.shaderInt64Atomics)
         throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", kName,
                     plan.device.name);

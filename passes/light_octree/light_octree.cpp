@@ -1,6 +1,7 @@
 #include "passes/light_octree/light_octree.h"
 
 #include "passes/common/compute/dispatch.h"
+#include "passes/common/lights/pane_tint.h"
 #include "passes/common/voxels/grid_levels.h"
 
 namespace voxray {
@@ -31,6 +32,7 @@ void LightOctree::declare(PassBuilder& builder) {
 }
 
 void LightOctree::plan(PassPlan& plan) {
+    requireClearPanes(*plan.frame.scene, kName);
     const BrickOctree& octree = plan.get(octree_);
     RadianceVoxels& radiance = plan.get(radiance_);
     radiance.lightBounces = 1;

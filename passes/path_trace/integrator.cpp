@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "scene/panes.h"
+
 namespace voxray::path_trace {
 
 namespace {
@@ -12,6 +14,8 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Shadow rays end this part of their way before the light.
 constexpr float kShadowEnd = 1.0f - 4e-6f;
+/// Panes that one ray crosses, at most.
+constexpr uint32_t kMaxPanes = 64;
 /// Vertices before Russian roulette starts.
 constexpr uint32_t kSureVertices = 3;
 
@@ -38,9 +42,24 @@ Integrator::Integrator(const SceneState& state, const EmbreeScene& tracer, uint3
     : tracer_(tracer),
       surfaces_(state),
       lights_(state, surfaces_),
+      panes_(dimsLight(state) ? std::make_unique<const Panes>(*state.panes) : nullptr),
       bounces_(bounces),
       strategy_(strategy),
       light_(light) {}
+
+glm::vec3 Integrator::transmittance(Ray ray) const {
+    glm::vec3 all(1.0f);
+    for (uint32_t pane = 0; panes_ && pane < kMaxPanes; ++pane) {
+        const Hit hit = panes_->tracer.closestHit(ray);
+        if (hit.triangle == Hit::kMiss) break;
+        const SurfaceTable& surfaces = panes_->surfaces;
+        all *= surfaces.material(surfaces.triangle(hit.triangle)).transmission *
+               surfaces.at(hit, glm::normalize(ray.direction)).bsdf.diffuse;
+        // The next one is farther by more than a distance rounds off.
+        ray.tMin = hit.t * (1 + 1e-5f);
+    }
+    return all;
+}
 
 float Integrator::weightOfHit(float reflectionPdf, float lightPdf) const {
     switch (strategy_) {
@@ -69,7 +88,8 @@ class Integrator::Path {
     bool arrive(const Hit& hit);
     /// Adds what the light that was drawn sends here.
     void addLight(bool isOccluded) {
-        if (shadow_.tMax >= shadow_.tMin && !isOccluded) add(vertex_ == 0, light_);
+        if (shadow_.tMax >= shadow_.tMin && !isOccluded)
+            add(vertex_ == 0, light_ * in_.transmittance(shadow_));
     }
     /// @return whether the path goes on, along ray().
     bool scatter();
@@ -79,6 +99,13 @@ class Integrator::Path {
     void add(bool isDirect, const glm::vec3& light, float weight = 1.0f) {
         (isDirect ? path_.direct : path_.indirect) += throughput_ * light * weight;
         if (!isDirect) path_.irradiance += irradianceThroughput_ * light * weight;
+    }
+    /// Light that the ray runs into `distance` away. What the camera sees, in mirrors too, panes leave as it
+    /// is.
+    void addFound(const glm::vec3& light, float weight, float distance) {
+        const bool isSeen = isMirrored_ || vertex_ == 0;
+        const Ray way{ray_.origin, ray_.tMin, ray_.direction, distance};
+        add(vertex_ <= 1, isSeen ? light : light * in_.transmittance(way), weight);
     }
     void drawLight();
 
@@ -108,7 +135,7 @@ bool Integrator::Path::arrive(const Hit& hit) {
             const float weight =
                 isMirrored_ ? 1.0f
                             : in_.weightOfHit(reflectionPdf_, in_.lights_.pdfOfEnvironment(ray_.direction));
-            add(vertex_ <= 1, environment.radiance(ray_.direction), weight);
+            addFound(environment.radiance(ray_.direction), weight, hit.t);
         }
         return false;
     }
@@ -118,7 +145,7 @@ bool Integrator::Path::arrive(const Hit& hit) {
             isMirrored_
                 ? 1.0f
                 : in_.weightOfHit(reflectionPdf_, in_.lights_.pdfOfHit(triangle, ray_.direction, hit.t));
-        add(vertex_ <= 1, in_.surfaces_.emission(hit.triangle, hit.u, hit.v), weight);
+        addFound(in_.surfaces_.emission(hit.triangle, hit.u, hit.v), weight, hit.t);
     }
     if (vertex_ > in_.bounces_) return false;
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <memory>
 #include <span>
 
 #include "passes/path_trace/lights.h"
@@ -46,9 +47,19 @@ class Integrator {
     class Path;
     float weightOfHit(float reflectionPdf, float lightPdf) const;
 
+    /// What a ray's light loses to the colour of panes on its way up to tMax.
+    glm::vec3 transmittance(Ray ray) const;
+
     const EmbreeScene& tracer_;
     SurfaceTable surfaces_;
     LightTable lights_;
+    /// Panes that dim light.
+    struct Panes {
+        explicit Panes(const SceneState& state) : tracer(state), surfaces(state) {}
+        EmbreeScene tracer;
+        SurfaceTable surfaces;
+    };
+    std::unique_ptr<const Panes> panes_;  ///< nullptr: there are none.
     uint32_t bounces_;
     Strategy strategy_;
     PathLight light_;

@@ -80,10 +80,10 @@ LightTable::LightTable(const SceneState& state, SurfaceTable& surfaces)
         double area = areaOf(t);
         if (!(maxComponent(m.emission) > 0.0f) || !(area > 0.0)) continue;
         const double emission = meanEmission(surfaces, i) * (m.doubleSided ? 2.0 : 1.0);
-        if (!(emission > 0.0) && m.emissiveTexture.texture < 0) continue;
+        if (!(emission > 0.0) && !surfaces.emissionVaries(t)) continue;
         Patch patch{i, false, 0.0f};
         t.light = uint32_t(patches_.size());
-        if (m.emissiveTexture.texture < 0 && i + 1 < surfaces.triangleCount() &&
+        if (!surfaces.emissionVaries(t) && i + 1 < surfaces.triangleCount() &&
             completesParallelogram(t, surfaces.triangle(i + 1))) {
             patch.isParallelogram = true;
             area *= 2.0;

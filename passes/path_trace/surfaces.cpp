@@ -40,7 +40,7 @@ SurfaceTable::SurfaceTable(const SceneState& state) : state_(&state) {
     for (const Material& m : state.scene->materials)
         materials_.push_back(
             {Bsdf::make(glm::vec3(m.baseColor), m.metallic, m.roughness, m.specular, m.specularColor, m.ior),
-             &m, m.emissiveTexture.texture >= 0});
+             &m, m.emissiveTexture.texture >= 0 || m.alphaMode == AlphaMode::Mask});
 
     triangles_.resize(geometry.triangles.size());
     parallelRanges(triangles_.size(), 4096, [&](size_t begin, size_t end) {
@@ -125,10 +125,12 @@ void SurfaceTable::shadeInDetail(const Hit& hit, SurfacePoint& point) const {
     point.bsdf = Bsdf::make(baseColor, metallic, roughness, m.specular, m.specularColor, m.ior);
 }
 
-glm::vec3 SurfaceTable::texturedEmission(uint32_t triangle, float u, float v) const {
+glm::vec3 SurfaceTable::varyingEmission(uint32_t triangle, float u, float v) const {
     const Geometry& geometry = state_->geometry;
     const glm::uvec3 corners = geometry.triangles[triangle];
     const Material& m = *materials_[triangles_[triangle].material].source;
+    if (m.alphaMode == AlphaMode::Mask && isCutAway(*state_, triangle, u, v)) return glm::vec3(0.0f);
+    if (m.emissiveTexture.texture < 0) return m.emission;
     const glm::vec4 texCoords =
         interpolate(geometry.attributes[corners.x].texCoords, geometry.attributes[corners.y].texCoords,
                     geometry.attributes[corners.z].texCoords, u, v);

@@ -50,10 +50,15 @@ class SurfaceTable {
     /// Geometry and material where a ray of unit `direction` hits.
     SurfacePoint at(const Hit& hit, const glm::vec3& direction) const;
 
-    /// Radiance that leaves a triangle's emitting sides at barycentrics (u, v).
+    /// Radiance that leaves a triangle's emitting sides at barycentrics (u, v): none where the alpha mask
+    /// cuts the surface away.
     glm::vec3 emission(uint32_t triangle, float u, float v) const {
         const MaterialData& m = materials_[triangles_[triangle].material];
-        return m.texturedEmission ? texturedEmission(triangle, u, v) : m.source->emission;
+        return m.emissionVaries ? varyingEmission(triangle, u, v) : m.source->emission;
+    }
+    /// Whether a triangle's emission may differ from point to point.
+    bool emissionVaries(const SurfaceTriangle& triangle) const {
+        return materials_[triangle.material].emissionVaries;
     }
     /// Whether light leaves towards a unit `direction` that points away from the triangle.
     bool emitsTowards(const SurfaceTriangle& triangle, const glm::vec3& direction) const {
@@ -68,10 +73,10 @@ class SurfaceTable {
     struct MaterialData {
         Bsdf bsdf;  ///< Without textures and vertex colours.
         const Material* source = nullptr;
-        bool texturedEmission = false;
+        bool emissionVaries = false;
     };
 
-    glm::vec3 texturedEmission(uint32_t triangle, float u, float v) const;
+    glm::vec3 varyingEmission(uint32_t triangle, float u, float v) const;
     void shadeInDetail(const Hit& hit, SurfacePoint& point) const;
     glm::vec4 lookUp(const TextureRef& ref, const glm::vec4& texCoords) const;
 

@@ -25,7 +25,9 @@ void main() {
     if (i >= push.points) return;
     const SurfacePoint p = surfacePoint(pointTriangles.data[i], trianglePoint(sobol2(push.firstPoint + i, push.seed)));
     const uint voxel = voxelNumber(push.grid, voxelAt(push.grid, p.position));
-    const vec3 albedo = clamp(diffuseAlbedo(sceneMaterials.data[p.material], p, 0.0), 0.0, 1.0);
+    const GpuMaterial m = sceneMaterials.data[p.material];
+    const bool isCut = alphaCut(m, p);
+    const vec3 albedo = clamp(diffuseAlbedo(m, p, 0.0), 0.0, 1.0);
     for (uint side = 0u; side < 2u; ++side) {
         Surfel s;
         s.position = p.position;
@@ -36,7 +38,7 @@ void main() {
         s.parent = 0u;
         s.area = 1.0;
         candidates.data[2u * i + side] = s;
-        const bool isPlaced = voxel != NO_VOXEL && dot(s.normal, s.normal) > 0.0;
+        const bool isPlaced = voxel != NO_VOXEL && !isCut && dot(s.normal, s.normal) > 0.0;
         rays.data[2u * i + side] = isPlaced ? openSpaceRay(s.position, s.normal, push.grid.voxelSize) : kNoRay;
     }
 }

@@ -84,11 +84,13 @@ void SampleVpls::plan(PassPlan& plan) {
     plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
     plan.scratchBuffer(paths_, "light paths", batch * sizeof(gpu::LightPath));
+    tint_.plan(plan, batch);
     if (params_.first == FirstVertices::Rsm) rsmSampling_.plan(plan, plan.get(rsm_));
     if (voxelTracer_) voxelTracer_->plan(plan, plan.get(voxels_));
 }
 
 void SampleVpls::prepare(PassSetup& setup) {
+    tint_.prepare(setup);
     if (params_.first == FirstVertices::Rsm)
         rsmSampling_.prepare(setup);
     else
@@ -151,6 +153,9 @@ void SampleVpls::record(PassContext& context) {
                     furtherTracer->closestHit(stream, rays_, hits_, batch.count);
                 else if (!areHitsKnown)
                     context.tracer.closestHit(stream, rays_, hits_, batch.count);
+                if (bounce == 0)
+                    tint_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float), batch.count,
+                                &hits_);
                 std::vector<Binding> bindings = context.scene.bindings({{"rays", rays_},
                                                                         {"hits", hits_},
                                                                         {"paths", paths_},

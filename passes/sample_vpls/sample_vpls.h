@@ -4,6 +4,7 @@
 
 #include "passes/common/compute/compaction.h"
 #include "passes/common/light_paths/light_emission.h"
+#include "passes/common/lights/pane_tint.h"
 #include "passes/common/voxel_march/voxel_tracer.h"
 #include "passes/common/vpls/vpls.h"
 #include "passes/sample_vpls/rsm_sampling.h"
@@ -92,6 +93,7 @@ class SampleVpls final : public Pass {
     Program record_, recordVoxels_;           ///< Hits of triangles, and of voxels.
     std::optional<Compaction> compaction_;
     Buffer rays_, hits_, paths_, order_, flags_;
+    PaneTint tint_;
 };
 
 }  // namespace voxray

@@ -51,7 +51,7 @@ void emitFromSurface(EmittingSource e, uint index, vec2 u, vec2 onTriangle, inou
     const vec3 n = back ? -s.geometricNormal : s.geometricNormal;
     ray.origin = s.position + n * surfaceOffset(s.position);
     ray.direction = cosineDirection(u, n);
-    path.power = emission(m, s, 0.0) * PI * emitter.area * sides / emitter.probability;
+    path.power = emittedRadiance(m, s) * PI * emitter.area * sides / emitter.probability;
 }
 
 // Uniform over directions and over the disc: flux = L * 4 pi * its area.

@@ -62,7 +62,7 @@ LightSample sampleEmitters(uint emitterCount, vec3 position, float pick, vec2 u)
     float cosine = -dot(e.geometricNormal, s.direction);
     if (m.doubleSided != 0u) cosine = abs(cosine);
     const float angle = isWide ? float(cosine > 0.0) * t.solidAngle : max(cosine, 0.0) * emitter.area / (s.distance_ * s.distance_);
-    s.irradiance = emission(m, e, 0.0) * angle / emitter.probability;
+    s.irradiance = emittedRadiance(m, e) * angle / emitter.probability;
     return s;
 }
 

@@ -7,6 +7,7 @@
 #extension GL_EXT_buffer_reference : require
 
 #include "shaders/scene/scene_types.h"
+#include "shaders/scene/texel_filter.glsl"
 
 // By address, for millions of triangles outgrow what devices bind at once (128 MiB on software Vulkan).
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer VertexPositions { vec3 data[]; };
@@ -74,7 +75,7 @@ vec2 textureUv(GpuTextureRef ref, vec4 texCoords) {
     return vec2(dot(ref.rowU, uv), dot(ref.rowV, uv));
 }
 
-// Bilinear lookup at a mip level; white where the material has no such texture.
+// Filtered lookup at a mip level; white where the material has no such texture.
 vec4 lookup(GpuTextureRef ref, vec4 texCoords, float level) {
     if (ref.texture == NO_TEXTURE) return vec4(1.0);
     return textureLod(sceneTextures[nonuniformEXT(ref.texture)], textureUv(ref, texCoords), level);
@@ -84,8 +85,24 @@ vec4 baseColor(GpuMaterial m, SurfacePoint s, float level) {
     return m.baseColor * s.color * lookup(m.baseColorTexture, s.texCoords, level);
 }
 
+float textureAlpha(GpuTextureRef ref, vec4 texCoords) {
+    if (ref.texture == NO_TEXTURE) return 1.0;
+    const vec2 uv = textureUv(ref, texCoords);
+    const ivec2 size = textureSize(sceneTextures[nonuniformEXT(ref.texture)], 0);
+    const Texels x = filteredTexels(uv.x, size.x, ref.wrapU, ref.filter_);
+    const Texels y = filteredTexels(uv.y, size.y, ref.wrapV, ref.filter_);
+    const ivec4 at[2] = ivec4[2](ivec4(x.first, y.first, x.second, y.first), ivec4(x.first, y.second, x.second, y.second));
+    vec2 rows;
+    for (int row = 0; row < 2; ++row)
+        rows[row] = mix(texelFetch(sceneTextures[nonuniformEXT(ref.texture)], at[row].xy, 0).a,
+                        texelFetch(sceneTextures[nonuniformEXT(ref.texture)], at[row].zw, 0).a, x.weight);
+    return mix(rows.x, rows.y, y.weight);
+}
+
+// Whether the material's alpha mask cuts a point of a triangle away: nothing is there, and nothing shines from there.
 bool alphaCut(GpuMaterial m, SurfacePoint s) {
-    return m.alphaMode == ALPHA_MASK && baseColor(m, s, 0.0).a < m.alphaCutoff;
+    return m.alphaMode == ALPHA_MASK &&
+           m.baseColor.a * s.color.a * textureAlpha(m.baseColorTexture, s.texCoords) < m.alphaThreshold;
 }
 
 // Fraction of the light that the surface reflects diffusely: base colour less what the metal takes.
@@ -94,9 +111,12 @@ vec3 diffuseAlbedo(GpuMaterial m, SurfacePoint s, float level) {
     return baseColor(m, s, level).rgb * (1.0 - metallic);
 }
 
+// Radiance that a point of a surface emits. The point was met; of one that was picked ask emittedRadiance().
 vec3 emission(GpuMaterial m, SurfacePoint s, float level) {
     return m.emission * lookup(m.emissiveTexture, s.texCoords, level).rgb;
 }
+
+vec3 emittedRadiance(GpuMaterial m, SurfacePoint s) { return alphaCut(m, s) ? vec3(0.0) : emission(m, s, 0.0); }
 
 // The normal that the normal map gives, on the side of the interpolated normal.
 vec3 shadingNormal(GpuMaterial m, SurfacePoint s, float level) {

@@ -11,6 +11,9 @@ struct GpuTextureRef {
     uint texCoord;  // 0 or 1.
     vec3 rowU;      // uv' = (dot(rowU, (u, v, 1)), dot(rowV, (u, v, 1)))
     vec3 rowV;
+    uint wrapU;  // WRAP_*
+    uint wrapV;
+    uint filter_;  // FILTER_*
 };
 
 struct GpuMaterial {
@@ -22,8 +25,9 @@ struct GpuMaterial {
     float specular;
     float ior;
     float normalScale;
-    float alphaCutoff;
-    uint alphaMode;  // ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND
+    float transmission;
+    float alphaThreshold;  // Masked alphas below it are cut away.
+    uint alphaMode;        // ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND
     uint doubleSided;
     GpuTextureRef baseColorTexture;
     GpuTextureRef metallicRoughnessTexture;
@@ -40,8 +44,8 @@ struct GpuLight {
     float cosOuter;
 };
 
-// An emissive triangle. `cumulativePower` runs from 0 to 1 over the list, so that a binary search picks
-// emitters in proportion to their power.
+// A triangle that emits somewhere. `cumulativePower` runs from 0 to 1 over the list, so that a binary search
+// picks emitters in proportion to their power.
 struct GpuEmitter {
     uint triangle;
     float area;             // m²
@@ -60,6 +64,11 @@ struct GpuVertexAttributes {
 VOXRAY_SHARED_END
 
 #define NO_TEXTURE 0xffffffffu
+#define WRAP_REPEAT 0u
+#define WRAP_CLAMP 1u
+#define WRAP_MIRROR 2u
+#define FILTER_LINEAR 0u
+#define FILTER_NEAREST 1u
 #define ALPHA_OPAQUE 0u
 #define ALPHA_MASK 1u
 #define ALPHA_BLEND 2u

@@ -6,7 +6,8 @@
 
 VOXRAY_SHARED_BEGIN
 
-// One launch over a part of a stream. Buffers are given by address: a stream may be larger than a device binds.
+// One launch over a part of a stream. Buffers are given by address: a stream may be larger than a device
+// binds.
 struct TraceCall {
     uint64_t rays;             // Ray each.
     uint64_t results;          // Hit each (closest hit), or uint each (occluded).
@@ -31,20 +32,18 @@ struct MaskedTriangle {
 };
 
 struct AlphaMaterial {
-    float cutoff;
+    float threshold;  // Alphas below it are cut away.
     uint firstTexel;  // NO_ALPHA_TEXTURE: alpha 1 everywhere.
     uint width;
     uint height;
     uint wrapU;  // WRAP_*
     uint wrapV;
+    uint filter_;  // FILTER_*
 };
 
 VOXRAY_SHARED_END
 
 #define NO_ALPHA_TEXTURE 0xffffffffu
-#define WRAP_REPEAT 0u
-#define WRAP_CLAMP 1u
-#define WRAP_MIRROR 2u
 #define MAX_COORDINATE 1.8e18  // As Embree has it: a ray beyond it is a miss.
 
 #endif

@@ -58,6 +58,20 @@ class TraceBackends : public VulkanTest {
     }
 };
 
+TEST_F(TraceBackends, AnAlphaAtTheCutoffIsOpaque) {
+    TestRandom random(4);
+    std::vector<Ray> rays(512);
+    for (Ray& ray : rays) ray = {{random(0.01f, 0.99f), random(0.01f, 0.99f), 1}, 0, {0, 0, -1}, kInfinity};
+    for (const auto& [code, factor, vertex] :
+         {std::tuple{128, 1.0, 1.0}, {77, 0.6, 1.0}, {255, 0.3, 0.7}, {201, 0.81, 0.37}}) {
+        const SceneState state = alphaAtCutoff(uint8_t(code), factor, vertex);
+        for (TracerKind kind : tracerKinds(device())) {
+            const std::unique_ptr<RayTracer> tracer = make(kind, state);
+            EXPECT_EQ(std::ranges::count(occlusions(*tracer, rays), 1u), 512) << tracer->name() << code;
+        }
+    }
+}
+
 TEST_F(TraceBackends, AgreeOnATriangleSoupWithAlphaMasks) {
     const SceneState state = triangleSoup(1500, 0.12f, 1);
     const std::vector<Ray> rays = randomRays(10000, 2);

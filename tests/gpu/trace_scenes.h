@@ -28,7 +28,8 @@ class TestRandom {
     std::mt19937 engine_;
 };
 
-/// Opaque, masked (by a texture of each wrap mode, by vertex alpha) and blended materials.
+/// Opaque, masked (by a texture of each wrap mode, one of them not filtered, by vertex alpha) and blended
+/// materials.
 inline std::shared_ptr<Scene> soupMaterials(TestRandom& random) {
     auto scene = std::make_shared<Scene>();
     scene->materials.emplace_back();
@@ -38,6 +39,7 @@ inline std::shared_ptr<Scene> soupMaterials(TestRandom& random) {
         texture.height = 7;
         texture.srgb = true;
         texture.wrapU = texture.wrapV = wrap;
+        if (wrap == Wrap::MirroredRepeat) texture.filter = TexelFilter::Nearest;
         for (uint32_t i = 0; i < 4 * 13 * 7; ++i) texture.rgba.push_back(uint8_t(random(0, 255.99f)));
         Material material;
         material.alphaMode = AlphaMode::Mask;
@@ -95,6 +97,33 @@ inline SceneState oneTriangle() {
     state.geometry.attributes.resize(3);
     state.geometry.triangles = {{0, 1, 2}};
     state.geometry.triangleMaterials = {0};
+    state.geometry.boundsMax = {1, 1, 0};
+    return state;
+}
+
+/// A masked square of 1 m that faces +Z, with one alpha everywhere: a texture's code times factor times
+/// vertex color. The cutoff is that product.
+inline SceneState alphaAtCutoff(uint8_t code, double factor, double vertex) {
+    SceneState state = oneTriangle();
+    auto scene = std::make_shared<Scene>();
+    Texture& texture = scene->textures.emplace_back();
+    texture.width = 3;
+    texture.height = 2;
+    for (int i = 0; i < 24; ++i) texture.rgba.push_back(i % 4 == 3 ? code : 255);
+    Material& material = scene->materials.emplace_back();
+    material.alphaMode = AlphaMode::Mask;
+    material.alphaCutoff = float(factor * vertex * code / 255);
+    material.baseColor.a = float(factor);
+    material.baseColorTexture.texture = 0;
+    state.scene = scene;
+    state.geometry.positions.emplace_back(1, 1, 0);
+    state.geometry.attributes.resize(4);
+    for (uint32_t i = 0; i < 4; ++i) {
+        state.geometry.attributes[i].color.a = float(vertex);
+        state.geometry.attributes[i].texCoords = glm::vec4(state.geometry.positions[i], 0) * 2.7f;
+    }
+    state.geometry.triangles.emplace_back(1, 3, 2);
+    state.geometry.triangleMaterials.push_back(0);
     state.geometry.boundsMax = {1, 1, 0};
     return state;
 }

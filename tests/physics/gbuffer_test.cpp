@@ -154,6 +154,19 @@ TEST(GBuffer, TexturesAreSeenAtTheFootprintOfAPixel) {
     }
 }
 
+TEST(GBuffer, ANearestTextureHasNoColorBetweenItsTexels) {
+    for (const std::string method : {"rays", "raster"}) {
+        const auto state = std::make_shared<SceneState>(*stripes(2, {0, 0, 1}));
+        auto scene = std::make_shared<Scene>(*state->scene);
+        scene->textures[0].filter = TexelFilter::Nearest;
+        state->scene = scene;
+        Chain chain(state, graphYaml({"gbuffer, method: " + method}), 32, 32, 1);
+        const auto albedos = texels(chain, gbuffer(chain).albedo);
+        EXPECT_EQ(std::ranges::count(albedos, 0.0f, &glm::vec4::x), 512) << method;
+        EXPECT_EQ(std::ranges::count(albedos, 1.0f, &glm::vec4::x), 512) << method;
+    }
+}
+
 TEST(GBuffer, SharpColorsAreThoseAtThePoint) {
     // 1024 columns on a metre are 17 a pixel; so each pixel sees some column, and not their mean.
     for (const std::string method : {"rays", "raster"}) {

@@ -33,6 +33,21 @@ class SceneSize : public RunTest {};
 
 }  // namespace
 
+TEST(ComposedSceneLoader, HidesWhatGoesByANodesAMeshsOrAMaterialsName) {
+    SceneLoader loader({});
+    const auto triangles = [&](const std::string& rest) {
+        return loader.prepare(settingsOf(rest)).state.geometry.triangles.size();
+    };
+    const size_t all = triangles("  add: [{builtin: spheres, count: 2}]\n"), cornell = triangles("");
+    EXPECT_LT(cornell, all);
+    EXPECT_EQ(triangles("  add: [{builtin: spheres, count: 2}]\n  hide: [spheres]\n"), cornell);
+    EXPECT_EQ(triangles("  hide: red\n"), cornell - 2);
+    EXPECT_EQ(errorOf<UsageError>([&] { triangles("  hide: [red, gren]\n"); }),
+              "x.yaml:5: scene.hide: the scene has no node, mesh or material 'gren'; did you mean 'green'?");
+    EXPECT_CONTAINS(errorOf<UsageError>([&] { triangles("  hide: {red: 1}\n"); }), "as in [Window, Curtain]");
+    EXPECT_NE(loader.key(settingsOf("")), loader.key(settingsOf("  hide: [red]\n")));
+}
+
 TEST(ComposedSceneLoader, AddsOverridesAndKeepsItsCamera) {
     SceneLoader loader({});
     const PreparedScene plain = loader.prepare(settingsOf(""));

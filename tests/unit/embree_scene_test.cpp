@@ -144,6 +144,49 @@ TEST(EmbreeScene, MaskedTrianglesAreCutForEveryRay) {
     }
 }
 
+TEST(AlphaMask, AnAlphaAtTheCutoffIsOpaqueAndOneBelowIsNot) {
+    // Of factor, vertex colours and a texture of 8 bits, each alone and all together.
+    Soup soup;
+    soup.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1);
+    auto scene = std::make_shared<Scene>(*soup.state.scene);
+    soup.state.scene = scene;
+    Material& material = scene->materials[1];
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (int i = 0; i < 20000; ++i) {
+        const uint8_t code = uint8_t(1 + i % 255);
+        const double factor = i % 2 == 0 ? 1 : unit(random), vertex = i % 3 == 0 ? 1 : unit(random);
+        scene->textures[0].rgba[3] = scene->textures[0].rgba[7] = code;
+        material.baseColor.a = float(factor);
+        for (VertexAttributes& a : soup.state.geometry.attributes) a.color.a = float(vertex);
+        material.alphaCutoff = float(factor * vertex * code / 255);
+        const float u = unit(random), v = unit(random) * (1 - u);
+        ASSERT_FALSE(isCutAway(soup.state, 0, u, v)) << int(code) << " " << factor << " " << vertex;
+        material.alphaCutoff *= 1.00001f;
+        ASSERT_TRUE(isCutAway(soup.state, 0, u, v)) << int(code) << " " << factor << " " << vertex;
+    }
+}
+
+TEST(Textures, NearestTakesOneTexel) {
+    Texture texture;
+    texture.width = 2;
+    texture.height = 1;
+    texture.rgba = {10, 0, 0, 255, 110, 0, 0, 255};
+    const auto red = [&](float u) { return std::lround(255 * sampleTexture(texture, {u, 0.5f}).x); };
+    texture.wrapU = Wrap::ClampToEdge;
+    EXPECT_EQ(red(0.5f), 60);
+    texture.filter = TexelFilter::Nearest;
+    EXPECT_EQ(red(0.49f), 10);
+    EXPECT_EQ(red(0.51f), 110);
+    for (const Wrap wrap : {Wrap::Repeat, Wrap::ClampToEdge, Wrap::MirroredRepeat}) {
+        texture.wrapU = wrap;
+        EXPECT_EQ(red(0), 10);
+        EXPECT_EQ(red(0.9999999f), 110);
+        EXPECT_EQ(red(1), wrap == Wrap::Repeat ? 10 : 110);
+        EXPECT_EQ(red(1.6f), wrap == Wrap::MirroredRepeat ? 10 : 110);
+    }
+}
+
 TEST(EmbreeScene, StreamsAgreeWithSingleRays) {
     Soup soup;
     std::mt19937 random(1);

@@ -24,6 +24,7 @@ void expectSameTexture(const SceneState& a, const TextureRef& refA, const SceneS
     EXPECT_EQ(textureA.srgb, textureB.srgb);
     EXPECT_EQ(textureA.wrapU, textureB.wrapU);
     EXPECT_EQ(textureA.wrapV, textureB.wrapV);
+    EXPECT_EQ(textureA.filter, textureB.filter);
     EXPECT_EQ(refA.texCoord, refB.texCoord);
     for (size_t row = 0; row < 2; ++row) expectNear(refA.transform[row], refB.transform[row], 2e-6f);
 }
@@ -115,7 +116,7 @@ TEST(GlbExport, ComposedScenesComeBackAsTheyWere) {
 
 TEST(GlbExport, TexturesMirrorsAndEveryAttributeComeBack) {
     GltfBuilder b;
-    b.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}});
+    b.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}});
     b.add("images", {{"bufferView", b.view(tinyPng())}, {"mimeType", "image/png"}});
     b.add("textures", {{"source", 0}, {"sampler", 0}});
     const json transform = {

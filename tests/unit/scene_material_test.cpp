@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "scene/panes.h"
 #include "scene_gltf_builder.h"
 
 namespace voxray::test {
@@ -128,12 +129,103 @@ TEST(GltfMaterials, BadOnesAreRefusedInOneLine) {
     b.root["textures"][0]["source"] = 4;
     EXPECT_CONTAINS(b.error(), "image 4");
     EXPECT_CONTAINS(textured(good, {{"wrapS", 1}}).error(), "wrap mode 1");
-    EXPECT_CONTAINS(textured({{"pbrMetallicRoughness", {{"metallicFactor", 2}}}}).error(), "metallicFactor");
+    EXPECT_CONTAINS(textured(good, {{"magFilter", 5}}).error(), "texture filters 5");
     EXPECT_CONTAINS(textured({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1}}}}}).error(),
                     "baseColorFactor");
     EXPECT_CONTAINS(textured({{"alphaMode", "SHINY"}}).error(), "SHINY");
     b = textured({{"extensions", {{"KHR_materials_ior", {{"ior", "glass"}}}}}});
     EXPECT_CONTAINS(b.error(), "KHR_materials_ior.ior");
+}
+
+TEST(GltfMaterials, TheFilterIsThatOfMagnification) {
+    const auto filter = [](json sampler) {
+        return textured({{"emissiveTexture", {{"index", 0}}}}, std::move(sampler)).load()->textures[0].filter;
+    };
+    constexpr int nearest = 9728, linear = 9729, nearestMipmapLinear = 9986, linearMipmapNearest = 9985;
+    EXPECT_EQ(filter(json::object()), TexelFilter::Linear);
+    EXPECT_EQ(filter({{"magFilter", nearest}}), TexelFilter::Nearest);
+    EXPECT_EQ(filter({{"magFilter", nearest}, {"minFilter", linearMipmapNearest}}), TexelFilter::Nearest);
+    EXPECT_EQ(filter({{"magFilter", linear}, {"minFilter", nearest}}), TexelFilter::Linear);
+    EXPECT_EQ(filter({{"minFilter", nearestMipmapLinear}}), TexelFilter::Nearest);
+    EXPECT_EQ(filter({{"minFilter", linearMipmapNearest}}), TexelFilter::Linear);
+}
+
+TEST(GltfMaterials, NumbersOutOfRangeAreLimitedWithAWarning) {
+    const auto scene =
+        textured(
+            {{"name", "bright"},
+             {"pbrMetallicRoughness",
+              {{"baseColorFactor", {1.2, -1, 0.5, 3}}, {"metallicFactor", 2}, {"roughnessFactor", -0.5}}},
+             {"emissiveFactor", {2, -1, 0}},
+             {"alphaMode", "MASK"},
+             {"alphaCutoff", -1},
+             {"extensions",
+              {{"KHR_materials_specular", {{"specularFactor", 7}, {"specularColorFactor", {-1, 1, 2}}}},
+               {"KHR_materials_ior", {{"ior", 0.5}}},
+               {"KHR_materials_transmission", {{"transmissionFactor", 1.5}}},
+               {"KHR_materials_emissive_strength", {{"emissiveStrength", 3}}}}}})
+            .load();
+    const Material& m = scene->materials[0];
+    EXPECT_EQ(m.baseColor, glm::vec4(1, 0, 0.5f, 1));
+    EXPECT_EQ(m.metallic, 1);
+    EXPECT_EQ(m.roughness, 0);
+    EXPECT_EQ(m.emission, glm::vec3(6, 0, 0));
+    EXPECT_EQ(m.alphaCutoff, 0);
+    EXPECT_EQ(m.specular, 1);
+    EXPECT_EQ(m.specularColor, glm::vec3(0, 1, 2));
+    EXPECT_EQ(m.ior, 1);
+    EXPECT_EQ(m.transmission, 1);
+    EXPECT_TRUE(warns(*scene, "material 0 'bright': baseColorFactor is 1.2, not from 0 to 1; taken as 1"));
+    for (const char* name :
+         {"metallicFactor", "roughnessFactor", "emissiveFactor", "alphaCutoff", "specularFactor",
+          "specularColorFactor", "KHR_materials_ior.ior", "transmissionFactor"})
+        EXPECT_TRUE(warns(*scene, name)) << name;
+    const auto infinite =
+        textured({{"extensions", {{"KHR_materials_ior", {{"ior", 0}}}}}}).load()->materials[0].ior;
+    EXPECT_EQ(infinite, 0);
+}
+
+TEST(GltfMaterials, TransmissionMakesPanesUnlessAllIsLambert) {
+    GltfBuilder b;
+    b.add("materials", {{"name", "wall"}});
+    b.add("materials", {{"name", "glass"},
+                        {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 0.9}}}}}});
+    b.triangle({{"material", 0}});
+    b.triangle({{"material", 1}});
+    b.root["extensionsUsed"] = {"KHR_materials_transmission"};
+    const auto scene = b.load();
+    EXPECT_TRUE(warns(*scene, "'glass': KHR_materials_transmission makes it a pane"));
+    EXPECT_FALSE(warns(*scene, "is not supported"));
+    const SceneState parted = evaluateParted(scene, 0);
+    EXPECT_EQ(parted.geometry.triangles.size(), 1u);
+    ASSERT_TRUE(parted.panes);
+    EXPECT_EQ(parted.panes->geometry.triangles.size(), 1u);
+    EXPECT_EQ(evaluateParted(withLambertMaterials(*scene), 0).geometry.triangles.size(), 2u);
+
+    // Nothing but panes is rendered as surfaces; what transmits less than half, or shines, is none.
+    b.root["materials"][0] = b.root["materials"][1];
+    EXPECT_EQ(evaluateParted(b.load(), 0).geometry.triangles.size(), 2u);
+    b.root["materials"][0] = {{"name", "wall"}};
+    b.root["materials"][1]["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0.4;
+    EXPECT_EQ(evaluateParted(b.load(), 0).panes, nullptr);
+    EXPECT_TRUE(warns(*b.load(), "rendered as opaque"));
+}
+
+TEST(GltfColours, BaseColorIsFromZeroToOne) {
+    // Factor 0.8 leaves room for vertex colours of 1.25: their product is what is limited.
+    GltfBuilder b;
+    b.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0.8, 0.8, 0.5, 1}}}}});
+    const float infinity = std::numeric_limits<float>::infinity(), nan = std::nanf("");
+    const int rgb =
+        b.floats(std::vector<glm::vec3>{{1.5f, 1.2f, 1.5f}, {-1, 0.5f, 3}, {infinity, nan, 1}}, "VEC3");
+    b.triangle({{"material", 0}, {"attributes", {{"COLOR_0", rgb}}}});
+    const auto scene = b.load();
+    const auto& colors = scene->meshes[0].colors;
+    EXPECT_EQ(colors[0], glm::vec4(1.25f, 1.2f, 1.5f, 1));
+    EXPECT_EQ(colors[1], glm::vec4(0, 0.5f, 2, 1));
+    EXPECT_EQ(colors[2], glm::vec4(1));
+    EXPECT_TRUE(warns(*scene, "mesh 0 '', primitive 0: COLOR_0 of 2 vertices is limited"));
+    EXPECT_TRUE(warns(*scene, "not finite"));
 }
 
 TEST(GltfColours, VertexColoursOfAllKinds) {

@@ -113,6 +113,15 @@ TEST(ViewCheck, WarnsOfLightThatDoesNotComeToTheView) {
     EXPECT_EQ(saidOf("builtin: cornell, lights: [{directional: [0, -0.5, -1]}]"), "");
 }
 
+TEST(ViewCheck, NamesWhatIsInTheWayOfASun) {
+    // The floor of the open box below a dome, a sphere that encloses it
+    const std::string dome = saidOf(
+        "builtin: cornell, lights: [{directional: [0, -0.5, -1]}], add: [{builtin: furnace, transform: "
+        "{scale: 20}, material: {base_color: 0.5}}]");
+    EXPECT_CONTAINS(dome, "scene.lights[0]: it lights the backs of surfaces alone");
+    EXPECT_CONTAINS(dome, "; 'furnace' is in its way: 'scene.hide: [\"furnace\"]' takes it out of the scene");
+}
+
 TEST(ViewCheck, WarnsOfViewsThatAreWhiteOrBlack) {
     const std::string lamp =
         "builtin: white_room, keep_file_lights: false, lights: [{point: [0, 0, 0], intensity: ";

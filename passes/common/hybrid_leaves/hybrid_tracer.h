@@ -45,7 +45,6 @@ class HybridTracer final : public RayTracer {
     /// null: bare rays.
     void setStarts(const Buffer* starts) { starts_ = starts; }
     /// Nothing: begin() takes over what has moved.
-    void update(CommandStream&) override {}
     /// Of bricks or octree.
     size_t memoryBytes() const override { return march_.memoryBytes(); }
     /// Steps and visits of nodes (PassContext::voxelCounts), and tests of triangles, since begin(): 64 bits
@@ -54,6 +53,7 @@ class HybridTracer final : public RayTracer {
     const Buffer& testCounts() const { return testCounts_; }
 
  private:
+    void updateStructure(CommandStream&) override {}
     void trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
                Coherence coherence) override;
     void dispatch(CommandStream& stream, const Program& program, VkDeviceAddress rays, VkDeviceAddress starts,

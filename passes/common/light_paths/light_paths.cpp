@@ -70,6 +70,7 @@ void LightPaths::plan(PassPlan& plan, const std::string& pass, const LightPathPa
     plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
     plan.scratchBuffer(paths_, "light paths", batch * sizeof(gpu::LightPath));
+    tint_.plan(plan, batch);
     plan.scratchBuffer(visibilityRays_, "visibility rays", batch * sizeof(Ray));
     plan.scratchBuffer(hidden_, "visibility results", batch * sizeof(uint32_t));
     plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
@@ -81,6 +82,7 @@ void LightPaths::prepare(PassSetup& setup) {
     };
     visibility_ =
         makeComputeProgram(setup.device, compile("passes/common/light_paths/light_paths_visibility.comp"));
+    tint_.prepare(setup);
     follow_ = makeComputeProgram(
         setup.device,
         compile("passes/common/light_paths/light_paths_follow.comp",
@@ -112,6 +114,9 @@ void LightPaths::follow(PassContext& context, const SurfaceVoxels& voxels, const
     CommandStream& stream = context.stream;
     for (uint32_t bounce = 0; bounce <= params_.lastBounce(); ++bounce) {
         if (bounce > 0 || !batch.hitsKnown) context.tracer.closestHit(stream, rays_, hits_, batch.count);
+
+        if (bounce == 0)
+            tint_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float), batch.count, &hits_);
 
         // Whether each hit is visible from open space, where only unoccluded area counts.
         if (voxels.unoccludedOnly) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "passes/common/lights/light_sources.h"
+#include "passes/common/lights/pane_tint.h"
 #include "passes/common/voxels/flux_accumulator.h"
 #include "passes/common/voxels/voxel_accumulator.h"
 
@@ -79,6 +80,7 @@ class LightPaths {
     bool sumsFlux_ = true;  ///< Else irradiance samples are merged.
     Program visibility_, follow_, unoccludedArea_;
     Buffer rays_, hits_, paths_, visibilityRays_, hidden_;
+    PaneTint tint_;
     std::array<FluxAccumulator, 2> fluxes_;        ///< Direct, indirect.
     std::array<VoxelAccumulator, 2> irradiances_;  ///< Direct, indirect.
 };

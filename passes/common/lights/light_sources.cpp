@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "trace/emission.h"
 
 namespace voxray {
 namespace {
@@ -40,10 +41,10 @@ std::vector<LightSource> lightSources(const SceneState& state) {
     }
     float emitted = 0;
     for (size_t t = 0; t < g.triangles.size(); ++t) {
-        const Material& m = state.scene->materials[g.triangleMaterials[t]];
-        const float emission = largest(m.emission);
+        const float emission = largest(meanEmission(state, uint32_t(t)));
+        const bool doubleSided = state.scene->materials[g.triangleMaterials[t]].doubleSided;
         if (emission > 0)
-            emitted += emission * triangleArea(g, g.triangles[t]) * kPi * (m.doubleSided ? 2.0f : 1.0f);
+            emitted += emission * triangleArea(g, g.triangles[t]) * kPi * (doubleSided ? 2.0f : 1.0f);
     }
     add(LightSource::Emitters, 0, emitted);
     const Environment& e = state.scene->environment;

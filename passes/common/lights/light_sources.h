@@ -12,7 +12,7 @@ struct LightSource {
     enum Kind : uint32_t { Punctual = 0, Emitters = 1, Environment = 2 };  // As shaders have them.
     Kind kind;
     uint32_t light;  ///< Index of a punctual light.
-    float power;     ///< W, an upper bound over the colour channels.
+    float power;     ///< W, about: of the brightest colour channel, no less but for textures.
 };
 
 /// All sources of light whose power is not 0. A directional light and the environment shine on the disc that
@@ -28,7 +28,7 @@ float triangleArea(const Geometry& geometry, glm::uvec3 triangle);
 /// Area of one side of all surfaces, m².
 double surfaceArea(const Geometry& geometry);
 
-/// W, an upper bound over the colour channels.
+/// W, about, as LightSource::power.
 double totalPower(const std::vector<LightSource>& sources);
 
 /// Irradiance of the scene's surfaces, W/m², if each caught its part by area of all power: a scale for sums.

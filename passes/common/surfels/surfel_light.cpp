@@ -20,11 +20,13 @@ void SurfelLight::plan(PassPlan& plan, uint32_t batch) {
     plan.buffer(rays_, "shadow rays", uint64_t(batch) * sizeof(Ray));
     plan.buffer(carried_, "shadow ray irradiance", uint64_t(batch) * 4 * sizeof(float));
     plan.buffer(occluded_, "shadow ray results", uint64_t(batch) * sizeof(uint32_t));
+    tint_.plan(plan, batch);
 }
 
 void SurfelLight::prepare(PassSetup& setup) {
     aim_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/common/surfels/surfel_aim.comp"));
     add_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/common/surfels/surfel_add.comp"));
+    tint_.prepare(setup);
 }
 
 void SurfelLight::measure(PassContext& context, const std::vector<LightSource>& sources,
@@ -41,6 +43,7 @@ void SurfelLight::measure(PassContext& context, const std::vector<LightSource>& 
                         seed + source.kind},
                 linearGroups(count));
             context.tracer.occluded(stream, rays_, occluded_, count);
+            tint_.apply(context, rays_, carried_, 4, count);
             stream.dispatch(add_, {{"carried", carried_}, {"occluded", occluded_}, {"direct", direct}}, count,
                             linearGroups(count));
         }

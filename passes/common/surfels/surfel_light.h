@@ -2,6 +2,7 @@
 
 #include "graph/pass.h"
 #include "passes/common/lights/light_sources.h"
+#include "passes/common/lights/pane_tint.h"
 #include "shaders/surfels/surfel_types.h"
 
 namespace voxray {
@@ -20,6 +21,7 @@ class SurfelLight {
  private:
     Program aim_, add_;
     Buffer rays_, carried_, occluded_;
+    PaneTint tint_;
 };
 
 }  // namespace voxray

@@ -25,7 +25,7 @@ void main() {
     if (i >= push.points) return;
     const uvec2 point = points.data[i];
     const SurfacePoint s = surfacePoint(point.x, trianglePoint(sobol2(point.y, hashCombine(push.seed, point.x))));
-    if (s.geometricNormal == vec3(0.0)) return;
+    if (s.geometricNormal == vec3(0.0) || alphaCut(sceneMaterials.data[s.material], s)) return;
     const float offset = surfaceOffset(s.position);
     const vec3 inVoxel = s.position + s.geometricNormal * offset;
     if (!isOccupied(push.grid, voxelAt(push.grid, inVoxel))) return;

@@ -25,11 +25,11 @@ class VoxelTracer final : public RayTracer {
         grid_ = voxels.grid;
     }
     /// Nothing: begin() takes over what has moved.
-    void update(CommandStream&) override {}
     size_t memoryBytes() const override { return march_.memoryBytes(); }
     const VoxelMarch& march() const { return march_; }
 
  private:
+    void updateStructure(CommandStream&) override {}
     void trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
                Coherence coherence) override;
 

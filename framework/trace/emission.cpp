@@ -1,0 +1,73 @@
+#include "trace/emission.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "trace/texture_lookup.h"
+
+namespace voxray {
+namespace {
+
+/// Points along a side of the square that is folded onto a triangle.
+constexpr uint32_t kSide = 4;
+/// What lies between the points counts as much as this part of the factor.
+constexpr float kUnseen = 0.01f;
+
+const Material& materialOf(const SceneState& state, uint32_t triangle) {
+    return state.scene->materials[state.geometry.triangleMaterials[triangle]];
+}
+
+/// Of the factor times the vertices' alphas: what lies between them is no more and no less.
+struct AlphaRange {
+    float lowest, highest;
+};
+AlphaRange alphaRange(const SceneState& state, uint32_t triangle) {
+    const Geometry& g = state.geometry;
+    const glm::uvec3 v = g.triangles[triangle];
+    const auto [lowest, highest] =
+        std::minmax({g.attributes[v.x].color.a, g.attributes[v.y].color.a, g.attributes[v.z].color.a});
+    const float factor = materialOf(state, triangle).baseColor.a;
+    return {factor * lowest, factor * highest};
+}
+
+glm::vec3 emissionAt(const SceneState& state, uint32_t triangle, float u, float v) {
+    const Material& m = materialOf(state, triangle);
+    if (m.alphaMode == AlphaMode::Mask && isCutAway(state, triangle, u, v)) return glm::vec3(0.0f);
+    if (m.emissiveTexture.texture < 0) return m.emission;
+    const Geometry& g = state.geometry;
+    const glm::uvec3 corners = g.triangles[triangle];
+    const glm::vec4 texCoords =
+        interpolate(g.attributes[corners.x].texCoords, g.attributes[corners.y].texCoords,
+                    g.attributes[corners.z].texCoords, u, v);
+    const Texture& texture = state.scene->textures[size_t(m.emissiveTexture.texture)];
+    return m.emission * glm::vec3(sampleTexture(texture, textureCoordinates(m.emissiveTexture, texCoords)));
+}
+
+}  // namespace
+
+bool canEmit(const SceneState& state, uint32_t triangle) {
+    const Material& m = materialOf(state, triangle);
+    if (!(std::max({m.emission.r, m.emission.g, m.emission.b}) > 0)) return false;
+    return m.alphaMode != AlphaMode::Mask || alphaRange(state, triangle).highest >= alphaThreshold(m);
+}
+
+glm::vec3 meanEmission(const SceneState& state, uint32_t triangle) {
+    if (!canEmit(state, triangle)) return glm::vec3(0.0f);
+    const Material& m = materialOf(state, triangle);
+    const bool isWhole =
+        m.alphaMode != AlphaMode::Mask ||
+        (m.baseColorTexture.texture < 0 && alphaRange(state, triangle).lowest >= alphaThreshold(m));
+    if (isWhole && m.emissiveTexture.texture < 0) return m.emission;
+    glm::vec3 sum(0.0f);
+    for (uint32_t i = 0; i < kSide * kSide; ++i) {
+        float u = (float(i % kSide) + 0.5f) / float(kSide), v = (float(i / kSide) + 0.25f) / float(kSide);
+        if (u + v > 1) {
+            u = 1 - u;
+            v = 1 - v;
+        }
+        sum += emissionAt(state, triangle, u, v);
+    }
+    return glm::max(sum / float(kSide * kSide), kUnseen * m.emission);
+}
+
+}  // namespace voxray

@@ -1,0 +1,24 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Rays as they look for panes: up to their ends.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/trace/ray_types.h"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Rays { Ray data[]; } rays;
+layout(scalar) writeonly buffer PaneRays { Ray data[]; } paneRays;
+#ifdef AT_HITS
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+#endif
+layout(push_constant) uniform Push { uint count; } push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    Ray ray = rays.data[i];
+#ifdef AT_HITS
+    if (ray.tMax >= ray.tMin && hits.data[i].triangle != NO_HIT) ray.tMax = hits.data[i].t;
+#endif
+    paneRays.data[i] = ray;
+}
