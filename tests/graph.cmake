@@ -19,3 +19,8 @@ voxray_tests(chain SHARDS 12
            house/march/mutual_visibility_test.cpp house/occlusion/ambient_occlusion.cpp
            house/occlusion/ambient_occlusion_test.cpp support/watched_device.cpp
   DEPENDS voxray_experiment voxray_passes)
+
+# What follows from where surfaces lie: offsets of rays, counts of voxels, regions.
+voxray_tests(regions
+  SOURCES physics/region_test.cpp physics/surface_offset_test.cpp physics/voxel_count_test.cpp support/watched_device.cpp
+  DEPENDS voxray_experiment voxray_passes)

@@ -13,6 +13,7 @@
 #include "app/config_options.h"
 #include "app/scene_view.h"
 #include "app/source_root.h"
+#include "app/view_search.h"
 #include "base/suggest.h"
 #include "experiment/pixel_masks.h"
 #include "experiment/scene_setup.h"
@@ -72,15 +73,6 @@ SceneSettings settingsOf(const SceneArguments& arguments, const std::vector<std:
 
 std::string triple(glm::vec3 v) {
     return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v.x, v.y, v.z);
-}
-
-std::string block(const CameraSettings& camera) {
-    // Upright cameras need no 'up'
-    const glm::vec3 right = glm::cross(camera.target - camera.position, camera.up);
-    const bool isUpright = camera.up.y > 0 && std::abs(right.y) < 1e-3f * glm::length(right);
-    const std::string up = isUpright ? "" : ", up: " + triple(camera.up);
-    return fmt::format("camera: {{position: {}, target: {}{}, fov_deg: {:.4g}}}", triple(camera.position),
-                       triple(camera.target), up, camera.fovDegrees);
 }
 
 /// Square metres and triangles of each material.
@@ -173,9 +165,10 @@ void describe(const SceneArguments& arguments) {
     SceneLoader loader(folders);
     const SceneState own = evaluate(loader.load(settings.source), settings.options.time);
     const bool hasCamera = settings.camera || !own.cameras.empty();
-    if (!hasCamera) settings.camera = suggestCamera(own.geometry, EmbreeScene(own));
-    const PreparedScene scene = loader.prepare(settings);
+    if (!hasCamera) settings.camera = CameraSettings();  // Until one is found.
+    PreparedScene scene = loader.prepare(settings);
     const Geometry& g = scene.state.geometry;
+    const EmbreeScene tracer(scene.state);
 
     const glm::vec3 size = g.boundsMax - g.boundsMin;
     fmt::print("{}: {} triangles in {} objects, {} textures\n", arguments.what.string(), g.triangles.size(),
@@ -184,19 +177,27 @@ void describe(const SceneArguments& arguments) {
                size.x, size.y, size.z);
     fmt::print("cameras: {}\n", own.cameras.size());
     for (const Camera& camera : own.cameras)
-        fmt::print("  '{}'  {}\n", camera.name, block(settingsOf(camera, g)));
+        fmt::print("  '{}'  {}\n", camera.name, yamlOf(settingsOf(camera, g, tracer)));
     const bool shines = printLights(scene.state);
     printMaterials(scene.state);
     printObjects(*scene.state.scene);
-    if (!shines) fmt::print("nothing shines: add lights, or an environment as in\n  environment: 1\n");
-    fmt::print("{}:\n  {}\n", hasCamera ? "the camera in use" : "a camera to begin with",
-               block(settingsOf(scene.camera, g)));
-    if (settings.camera && hasCamera && own.cameras.empty())
-        fmt::print("another, which sees the scene:\n  {}\n",
-                   block(suggestCamera(g, EmbreeScene(scene.state, RaysToCome::Few))));
+
+    // A camera to paste, and light for it
+    const CameraSettings inUse = settingsOf(scene.camera, g, tracer);
+    const bool isSeen = hasCamera && seesLight(scene.state, tracer, inUse);
+    if (hasCamera) fmt::print("the camera in use:\n  {}\n", yamlOf(inUse));
+    if (!isSeen || (settings.camera && own.cameras.empty())) {
+        const SuggestedView view = suggestView(scene.state, tracer);
+        fmt::print("{}:\n  {}\n", hasCamera ? "another, which sees the scene" : "a camera to begin with",
+                   yamlOf(view.camera));
+        if (!view.light.empty())
+            fmt::print("{}: add lights, as in\n  {}\n",
+                       shines ? "it sees none of what shines" : "nothing shines", view.light);
+        if (!hasCamera) scene.camera = cameraOf(view.camera);
+    }
     for (const std::string& warning : loader.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     if (!arguments.picture.empty())
-        writePicture(scene.state, EmbreeScene(scene.state), scene.camera, shines, arguments.picture);
+        writePicture(scene.state, tracer, scene.camera, shines, arguments.picture);
 }
 
 }  // namespace

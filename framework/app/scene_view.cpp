@@ -1,65 +1,114 @@
 #include "app/scene_view.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <memory>
+
+#include "app/view_search.h"
 
 namespace voxray {
 namespace {
 
-constexpr int kRays = 200;
-constexpr float kEnclosed = 0.7f;  ///< Part of the rays that must meet a surface that looks inwards.
+constexpr size_t kLookedAt = 32;  ///< Of all candidates, those that show most, with light.
 
-// Points evenly spread over the sphere (Fibonacci lattice)
-glm::vec3 directionOf(int ray) {
-    const float z = 1 - (2 * float(ray) + 1) / kRays, angle = float(ray) * 2.39996323f;
-    const float r = std::sqrt(1 - z * z);
-    return {r * std::cos(angle), z, r * std::sin(angle)};
+bool shines(const SceneState& state) {
+    const auto emits = [](const Material& m) { return m.emission != glm::vec3(0.0f); };
+    return !state.lights.empty() || state.scene->environment.radiance != glm::vec3(0.0f) ||
+           std::ranges::any_of(state.scene->materials, emits);
 }
 
-bool isEnclosed(glm::vec3 from, const Geometry& geometry, const EmbreeScene& tracer) {
-    int inwards = 0;
-    for (int i = 0; i < kRays; ++i) {
-        const glm::vec3 direction = directionOf(i);
-        const Hit hit = tracer.closestHit({from, 0, direction, std::numeric_limits<float>::infinity()});
-        if (hit.triangle == Hit::kMiss) continue;
-        const glm::uvec3 t = geometry.triangles[hit.triangle];
-        const glm::vec3 a = geometry.positions[t.x];
-        const glm::vec3 normal = glm::cross(geometry.positions[t.y] - a, geometry.positions[t.z] - a);
-        inwards += glm::dot(normal, direction) < 0;
+/// The best view in the scene's own light.
+std::pair<CameraSettings, Sight> best(const SceneState& state, const EmbreeScene& tracer) {
+    std::vector<CameraSettings> cameras = cameraCandidates(state, tracer);
+    std::pair found(cameras.front(), look(state, tracer, cameras.front()));
+    if (found.second.isGood()) return found;
+
+    std::vector<std::pair<float, size_t>> order;
+    for (size_t i = 0; i < cameras.size(); ++i) {
+        Sight sight = lookAround(state, tracer, cameras[i]);
+        sight.lit = 1;
+        order.emplace_back(-sight.score(), i);
     }
-    return float(inwards) >= kEnclosed * kRays;
+    std::ranges::sort(order);
+    if (order.size() > kLookedAt) order.resize(kLookedAt);
+    for (const auto& [score, i] : order)
+        if (const Sight sight = look(state, tracer, cameras[i]); sight.score() > found.second.score())
+            found = {cameras[i], sight};
+    return found;
 }
+
+/// A number with as many digits as tell `step` apart, four at least.
+std::string number(float value, float step) {
+    const float ratio = std::abs(value) / step;
+    const int digits = ratio > 1 ? int(std::ceil(std::log10(ratio))) : 0;
+    return fmt::format("{:.{}g}", value, std::clamp(digits, 4, 9));
+}
+
+std::string triple(const glm::vec3& v, float step) {
+    return fmt::format("[{}, {}, {}]", number(v.x, step), number(v.y, step), number(v.z, step));
+}
+
+constexpr float kPlaces = 1e-3f;  ///< Of the distance to the target, by which what is printed may be off.
 
 }  // namespace
 
-CameraSettings suggestCamera(const Geometry& geometry, const EmbreeScene& tracer) {
-    const glm::vec3 center = 0.5f * (geometry.boundsMin + geometry.boundsMax);
-    const glm::vec3 half = 0.5f * (geometry.boundsMax - geometry.boundsMin);
-    CameraSettings camera;
-    camera.target = center;
-    if (isEnclosed(center, geometry, tracer)) {
-        const glm::vec3 along = half.x > half.z ? glm::vec3(half.x, 0, 0) : glm::vec3(0, 0, half.z);
-        camera.position = center + 0.8f * along;
-    } else {
-        const float distance = glm::length(half) / std::sin(glm::radians(camera.fovDegrees / 2));
-        camera.position = center + distance * glm::normalize(glm::vec3(0.6f, 0.4f, 1.0f));
+SuggestedView suggestView(const SceneState& state, const EmbreeScene& tracer) {
+    constexpr float kLit = 0.1f;
+    SuggestedView view;
+    auto [camera, sight] = best(state, tracer);
+    if (sight.lit < kLit && !shines(state)) {
+        auto lit = std::make_shared<Scene>(*state.scene);
+        lit->environment.radiance = glm::vec3(1.0f);
+        SceneState inSky = state;
+        inSky.scene = lit;
+        std::tie(camera, sight) = best(inSky, tracer);
+        view.light = "environment: 1";
     }
-    return camera;
+    view.camera = camera;
+    if (sight.lit >= kLit) return view;
+
+    // A lamp at the camera lights all that it sees: irradiance of pi at the median distance
+    const float distance = std::max(sight.distance, 1e-6f);
+    const float step = kPlaces * glm::length(camera.target - camera.position);
+    view.light = fmt::format("lights: [{{point: {}, intensity: {:.3g}}}]", triple(camera.position, step),
+                             glm::pi<float>() * distance * distance);
+    return view;
 }
 
-CameraSettings settingsOf(const Camera& camera, const Geometry& geometry) {
+bool seesLight(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera) {
+    const Sight sight = look(state, tracer, camera);
+    return sight.filled > 0.01f && sight.lit > 0.02f && sight.fronts >= 0.5f;
+}
+
+CameraSettings settingsOf(const Camera& camera, const Geometry& geometry, const EmbreeScene& tracer) {
     const glm::vec3 center = 0.5f * (geometry.boundsMin + geometry.boundsMax);
     CameraSettings settings;
     settings.position = camera.position;
-    const float nearest = 0.1f * glm::length(geometry.boundsMax - geometry.boundsMin);
-    settings.target = camera.position +
-                      std::max(nearest, glm::dot(center - camera.position, camera.forward)) * camera.forward;
+    float distance = std::max(0.1f * glm::length(geometry.boundsMax - geometry.boundsMin),
+                              glm::dot(center - camera.position, camera.forward));
+    const Hit hit =
+        tracer.closestHit({camera.position, 0, camera.forward, std::numeric_limits<float>::infinity()});
+    if (hit.triangle != Hit::kMiss && distance > 10 * hit.t && hit.t > 0) distance = hit.t;
+    settings.target = camera.position + distance * camera.forward;
     settings.up = camera.up;
     settings.fovDegrees = glm::degrees(camera.verticalFovRadians);
     return settings;
+}
+
+std::string yamlOf(const CameraSettings& camera) {
+    // Upright cameras need no 'up'
+    const glm::vec3 way = camera.target - camera.position, right = glm::cross(way, camera.up);
+    const bool isUpright = camera.up.y > 0 && std::abs(right.y) < 1e-3f * glm::length(right);
+    const std::string up = isUpright ? "" : ", up: " + triple(camera.up, kPlaces);
+    const float step = kPlaces * glm::length(way);
+    return fmt::format("camera: {{position: {}, target: {}{}, fov_deg: {:.4g}}}",
+                       triple(camera.position, step), triple(camera.target, step), up, camera.fovDegrees);
 }
 
 }  // namespace voxray

@@ -157,11 +157,22 @@ std::vector<HiddenName> readHidden(const Value& value) {
     return hidden;
 }
 
+void readRegion(const Value& value, SceneSettings& settings) {
+    settings.regionWhere = value.where;
+    const RegionSettings region = readParams<RegionSettings>(value, "scene.region");
+    for (const char* key : {"min", "max"})
+        if (!value.find(key)) throw UsageError(value.where, "scene.region: '{}' is missing", key);
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(region.min[axis] < region.max[axis]))
+            throw UsageError(value.where, "scene.region: min must be less than max along each axis");
+    settings.region = region;
+}
+
 /// Keys that any scene may have next to its source.
 std::vector<std::string> sceneKeys() {
     std::vector<std::string> keys = fieldNames<SceneOptions>();
-    keys.insert(keys.end(), {"camera", "lights", "environment", "moving_spheres", "transform", "add",
-                             "override", "hide"});
+    keys.insert(keys.end(), {"camera", "lights", "environment", "moving_spheres", "region", "transform",
+                             "add", "override", "hide"});
     return keys;
 }
 
@@ -196,6 +207,8 @@ SceneSettings readSceneSettings(const Value& map) {
             readCamera(value, settings);
         } else if (key == "environment") {
             readEnvironment(value, settings);
+        } else if (key == "region") {
+            readRegion(value, settings);
         } else if (key == "moving_spheres") {
             settings.movingSpheres = readParams<MovingSpheres>(value, "scene.moving_spheres");
         } else if (key == "lights" && !settings.source.builtinParameters.find(key)) {

@@ -182,6 +182,18 @@ struct CameraSettings {
     }
 };
 
+/// `scene.region`: a box.
+struct RegionSettings {
+    glm::vec3 min{0.0f};
+    glm::vec3 max{0.0f};
+    static constexpr auto schema() {
+        constexpr glm::vec3 low(-kMaxCoordinate), high(kMaxCoordinate);
+        return std::tuple{
+            field("min", &RegionSettings::min, "Its lowest corner, metres.", low, high).asVector(),
+            field("max", &RegionSettings::max, "Its highest corner, metres.", low, high).asVector()};
+    }
+};
+
 /// `off_at` of a light.
 template <typename Light>
 constexpr auto lightOffField(uint32_t Light::*offAt) {
@@ -304,8 +316,9 @@ struct SceneSettings {
     std::optional<CameraSettings> camera;
     std::vector<ConfigLight> lights;
     std::optional<MovingSpheres> movingSpheres;
+    std::optional<RegionSettings> region;            ///< What voxels and parallel light are for; empty: all.
     std::optional<EnvironmentSettings> environment;  ///< Empty: the scene's own.
-    TextLocation where, cameraWhere, environmentWhere;
+    TextLocation where, cameraWhere, environmentWhere, regionWhere;
 };
 
 /// Reads the block `measure`. @throws UsageError with file, line and the nearest valid word.

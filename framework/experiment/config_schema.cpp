@@ -155,6 +155,7 @@ Value sceneSchema() {
     Value& properties = *schema.find("properties");
     properties.set("moving_spheres", mapSchema(describeParams<MovingSpheres>()));
     properties.set("transform", mapSchema(describeParams<Placement>()));
+    properties.set("region", withRequired(mapSchema(describeParams<RegionSettings>()), {"min", "max"}));
     properties.set("camera", anyOf({string, camera}));
     properties.set("lights", anyOf({string, lightList}));
     properties.set("environment",

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "scene/geometry.h"
+#include "scene/surface_offset.h"
 
 namespace voxray {
 
@@ -17,9 +18,20 @@ inline bool showsBack(const Geometry& g, uint32_t triangle, const glm::vec3& dir
 inline glm::vec3 normalTowards(const Geometry& g, uint32_t triangle, const glm::vec3& direction) {
     const glm::uvec3 corners = g.triangles[triangle];
     const glm::vec3 a = g.positions[corners.x];
-    const glm::vec3 normal =
-        glm::normalize(glm::cross(g.positions[corners.y] - a, g.positions[corners.z] - a));
+    // In double: slivers underflow a float
+    const glm::vec3 normal(glm::normalize(
+        glm::cross(glm::dvec3(g.positions[corners.y] - a), glm::dvec3(g.positions[corners.z] - a))));
     return glm::dot(normal, direction) > 0 ? -normal : normal;
+}
+
+/// A point of a triangle at barycentrics (u, v), so far off the side that a ray of that direction meets that
+/// rays may begin there.
+inline glm::vec3 pointTowards(const Geometry& g, uint32_t triangle, float u, float v,
+                              const glm::vec3& direction) {
+    const glm::uvec3 corners = g.triangles[triangle];
+    const glm::vec3 &a = g.positions[corners.x], &b = g.positions[corners.y], &c = g.positions[corners.z];
+    const glm::vec3 point = a + (b - a) * u + (c - a) * v, normal = normalTowards(g, triangle, direction);
+    return point + normal * std::max(planeOffset(a, b, c, normal), pointOffset(point));
 }
 
 }  // namespace voxray

@@ -36,25 +36,24 @@ glm::vec2 evenPoint(uint32_t i) {
     return glm::vec2(point - glm::floor(point));
 }
 
-/// The i-th of kRays rays that a light sends.
-Ray sentRay(const Light& light, const Geometry& g, uint32_t i) {
+/// The i-th of kRays rays that a light at a point sends.
+Ray sentRay(const Light& light, uint32_t i) {
     const glm::vec2 point = evenPoint(i);
-    const float infinity = std::numeric_limits<float>::infinity();
-    const glm::vec3 center = 0.5f * (g.boundsMin + g.boundsMax);
-    const float radius = std::max(0.5f * glm::length(g.boundsMax - g.boundsMin), 1e-6f);
     const Axes axes = perpendicularTo(light.direction);
-    if (light.type == LightType::Directional) {
-        const glm::vec2 offset = radius * (2.0f * point - 1.0f);
-        const glm::vec3 origin =
-            center - 2.0f * radius * light.direction + offset.x * axes.x + offset.y * axes.y;
-        return {origin, 0, light.direction, infinity};
-    }
     const float lowest = light.type == LightType::Spot ? std::cos(light.outerConeAngle) : -1.0f;
     const float cosine = glm::mix(lowest, 1.0f, point.x), azimuth = glm::two_pi<float>() * point.y;
     const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
     const glm::vec3 direction =
         cosine * light.direction + sine * (std::cos(azimuth) * axes.x + std::sin(azimuth) * axes.y);
-    return {light.position, 0, glm::normalize(direction), infinity};
+    return {light.position, 0, glm::normalize(direction), std::numeric_limits<float>::infinity()};
+}
+
+bool hasBack(const SceneState& state, uint32_t triangle) {
+    return !state.scene->materials[state.geometry.triangleMaterials[triangle]].doubleSided;
+}
+
+bool isFinite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 /// A ray of the light to a triangle's center; inactive where it does not shine there.
@@ -70,47 +69,66 @@ Ray rayTo(const Light& light, const Geometry& g, uint32_t triangle) {
     return {light.position, 0, distance > 0 ? way / distance : light.direction, end};
 }
 
+/// Which sides of surfaces parallel light comes to: looked for from points of them, since its rays begin
+/// nowhere.
+Met whatIsMetByParallel(const Light& light, const SceneState& state, const EmbreeScene& tracer, size_t step) {
+    const Geometry& g = state.geometry;
+    const size_t triangles = g.triangles.size();
+    const uint32_t points = uint32_t(std::max<size_t>(1, kRays / std::max<size_t>(1, triangles)));
+    Met met = Met::Nothing;
+    for (size_t t = 0; t < triangles; t += step)
+        for (uint32_t i = 0; i < points; ++i) {
+            glm::vec2 at = evenPoint(i);
+            if (at.x + at.y > 1) at = 1.0f - at;
+            const glm::vec3 from = pointTowards(g, uint32_t(t), at.x, at.y, light.direction);
+            const Ray back{from, 0, -light.direction, std::numeric_limits<float>::infinity()};
+            if (!isFinite(from) || tracer.occluded(back)) continue;
+            if (!hasBack(state, uint32_t(t)) || !showsBack(g, uint32_t(t), light.direction))
+                return Met::Fronts;
+            met = Met::Backs;
+        }
+    return met;
+}
+
 Met whatIsMet(const Light& light, const SceneState& state, const EmbreeScene& tracer) {
     const Geometry& g = state.geometry;
+    const size_t triangles = g.triangles.size();
+    const size_t step = std::max<size_t>(1, triangles / kRays);
+    if (light.type == LightType::Directional) return whatIsMetByParallel(light, state, tracer, step);
     Met met = Met::Nothing;
     const auto look = [&](const Ray& ray) {
         if (ray.tMax < ray.tMin || met == Met::Fronts) return;
         const Hit hit = tracer.closestHit(ray);
         if (hit.triangle == Hit::kMiss) return;
-        const bool hasBack = !state.scene->materials[g.triangleMaterials[hit.triangle]].doubleSided;
-        met = hasBack && showsBack(g, hit.triangle, ray.direction) ? Met::Backs : Met::Fronts;
+        met = hasBack(state, hit.triangle) && showsBack(g, hit.triangle, ray.direction) ? Met::Backs
+                                                                                        : Met::Fronts;
     };
-    for (uint32_t i = 0; i < kRays; ++i) look(sentRay(light, g, i));
-    if (light.type == LightType::Directional) return met;
-
+    for (uint32_t i = 0; i < kRays; ++i) look(sentRay(light, i));
     // Few of a distant light's rays come near
-    const size_t triangles = g.triangles.size();
-    const size_t step = std::max<size_t>(1, triangles / kRays);
     for (size_t t = 0; t < triangles; t += step) look(rayTo(light, g, uint32_t(t)));
     return met;
 }
 
 /// The way from a point to a light, inactive where it does not shine there.
-Ray rayFrom(const SeenPoint& point, const Light& light, float offset) {
+Ray rayFrom(const SeenPoint& point, const Light& light) {
     constexpr float kShorter = 1 - 1e-4f;
     const Ray inactive{point.position, 0, light.direction, -1};
     glm::vec3 way = -light.direction;
     float distance = std::numeric_limits<float>::infinity();
     if (light.type != LightType::Directional) {
         distance = glm::length(light.position - point.position);
-        if (!(distance > offset)) return inactive;
+        if (!(distance > 0)) return inactive;
         way = (light.position - point.position) / distance;
     }
     const bool isInCone =
         light.type != LightType::Spot || glm::dot(-way, light.direction) > std::cos(light.outerConeAngle);
     if (!isInCone || glm::dot(way, point.normal) <= 0) return inactive;
-    return {point.position, offset, way, kShorter * distance};
+    return {point.position, 0, way, kShorter * distance};
 }
 
-std::vector<Ray> raysFrom(std::span<const SeenPoint> seen, const Light& light, const Geometry& g) {
-    const float offset = 1e-5f * glm::length(g.boundsMax - g.boundsMin);
+std::vector<Ray> raysFrom(std::span<const SeenPoint> seen, const Light& light) {
     std::vector<Ray> rays;
-    for (const SeenPoint& point : seen) rays.push_back(rayFrom(point, light, offset));
+    for (const SeenPoint& point : seen) rays.push_back(rayFrom(point, light));
     return rays;
 }
 
@@ -129,7 +147,7 @@ std::vector<std::string> warningsOfSuns(const SceneSettings& scene, const SceneS
     std::vector<std::string> warnings;
     for (const Light& light : std::span(state.lights).first(state.lights.size() - scene.lights.size())) {
         if (light.type != LightType::Directional || light.intensity == glm::vec3(0.0f)) continue;
-        const std::vector<Ray> ways = raysFrom(seen, light, state.geometry);
+        const std::vector<Ray> ways = raysFrom(seen, light);
         if (isInSight(ways, tracer) || isFound(light)) continue;
         warnings.push_back(
             UsageError(scene.where,
@@ -157,7 +175,7 @@ std::vector<std::string> lightWarnings(const SceneSettings& scene, const SceneSt
         }
         if (entry.move != glm::vec3(0.0f)) continue;
         const Met met = whatIsMet(entry.light, state, tracer);
-        const std::vector<Ray> ways = raysFrom(seen, entry.light, state.geometry);
+        const std::vector<Ray> ways = raysFrom(seen, entry.light);
         if (met == Met::Nothing)
             warn(
                 "it lights nothing: no surface lies where it shines; is its direction the way that the light "

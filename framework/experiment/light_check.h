@@ -11,7 +11,7 @@
 
 namespace voxray {
 
-/// A point that the camera sees, with the unit normal of the side that it sees.
+/// A point off a surface that the camera sees, with the unit normal of the side that it sees.
 struct SeenPoint {
     glm::vec3 position, normal;
 };

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "base/files.h"
 #include "base/interrupt.h"
@@ -17,6 +19,7 @@
 #include "scene/content_hash.h"
 #include "scene/load.h"
 #include "scene/panes.h"
+#include "scene/region_split.h"
 #include "scene/select_instances.h"
 #include "scene/subdivide.h"
 #include "scene/value_ranges.h"
@@ -129,6 +132,20 @@ Camera chooseCamera(const SceneSettings& settings, const SceneState& state, cons
     }
     throw UsageError(settings.cameraWhere, "scene.camera: no camera '{}'{}", settings.cameraName,
                      didYouMean(settings.cameraName, names));
+}
+
+/// Cuts triangles at the region's border, so that none lies in it in part.
+void putRegion(PreparedScene& prepared, const SceneSettings& settings) {
+    SceneState& state = prepared.state;
+    const Box bounds{state.geometry.boundsMin, state.geometry.boundsMax};
+    const Box region{glm::max(settings.region->min - prepared.origin, bounds.min),
+                     glm::min(settings.region->max - prepared.origin, bounds.max)};
+    if (!glm::all(glm::lessThanEqual(region.min, region.max)))
+        throw UsageError(settings.regionWhere, "scene.region: none of the scene lies in it");
+    std::shared_ptr<Scene> scene = splitAtBorder(state, region);
+    scene->contentHash = hashScene(*scene);
+    state = evaluate(std::move(scene), settings.options.time, state.playback);
+    state.geometry.region = region;
 }
 
 /// The lights that shine in a frame and its camera, out of those of the evaluated scene.
@@ -261,6 +278,7 @@ std::string SceneLoader::key(const SceneSettings& settings) {
     // Where all goes from the compared frame on changes nothing in it but the bounds
     hasher.addPlain(settings.options.timeStep > 0);
     hasher.add(settings.movingSpheres ? writeParams(*settings.movingSpheres).text() : "");
+    hasher.add(settings.region ? writeParams(*settings.region).text() : "");
     Value camera = settings.camera ? writeParams(*settings.camera) : Value();
     camera.erase("move");
     hasher.add(settings.camera ? camera.text() : "");
@@ -370,8 +388,10 @@ PreparedScene SceneLoader::prepare(const SceneSettings& settings, Origin origin)
         moved->contentHash = hashScene(*moved);
         prepared.state = evaluateParted(std::move(moved), settings.options.time, playback);
     }
-    prepared.memo = memoOf(fmt::format("{} {} {}", prepared.state.scene->contentHash, settings.options.time,
-                                       playback == Playback::Looping));
+    if (settings.region) putRegion(prepared, settings);
+    prepared.memo = memoOf(fmt::format("{} {} {} {}", prepared.state.scene->contentHash,
+                                       settings.options.time, playback == Playback::Looping,
+                                       settings.region ? writeParams(*settings.region).text() : ""));
     chooseLightsAndCamera(prepared, settings, 0);
     return prepared;
 }

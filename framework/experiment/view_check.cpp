@@ -13,6 +13,7 @@
 #include "experiment/exposure_check.h"
 #include "experiment/facing.h"
 #include "experiment/light_check.h"
+#include "experiment/region_check.h"
 #include "scene/camera_rays.h"
 #include "scene/view.h"
 #include "trace/embree_scene.h"
@@ -68,8 +69,8 @@ Seen lookThrough(const SceneState& state, const EmbreeScene& tracer, const Camer
                 continue;
             }
             ++(showsBack(state.geometry, hit.triangle, direction) ? seen.backs : seen.fronts);
-            seen.points.push_back(
-                {rays.origin + hit.t * direction, normalTowards(state.geometry, hit.triangle, direction)});
+            seen.points.push_back({pointTowards(state.geometry, hit.triangle, hit.u, hit.v, direction),
+                                   normalTowards(state.geometry, hit.triangle, direction)});
         }
     return seen;
 }
@@ -187,6 +188,8 @@ std::vector<std::string> checkView(const Setup& setup, const PreparedScene& prep
     };
     std::vector<std::string> warnings = lightWarnings(scene, state, tracer, seen.points, isFound);
     if (std::string text = radians(scene); !text.empty()) warnings.push_back(std::move(text));
+    if (std::string text = regionWarning(setup, prepared, tracer, seen.points); !text.empty())
+        warnings.push_back(std::move(text));
     for (std::string& text : radiansOfSpots(scene)) warnings.push_back(std::move(text));
     if (isEmpty) {
         warnings.push_back(mostlyEmpty(scene, state.geometry, camera));

@@ -187,6 +187,7 @@ void findBounds(const Scene& scene, Geometry& geometry) {
         geometry.boundsMin = glm::min(geometry.boundsMin, box.min);
         geometry.boundsMax = glm::max(geometry.boundsMax, box.max);
     }
+    geometry.region = {geometry.boundsMin, geometry.boundsMax};
 }
 
 /// A node's axis in world space. @throws Error where the node's scale leaves no direction.

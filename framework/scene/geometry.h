@@ -51,6 +51,7 @@ struct Geometry {
     std::vector<InstanceRange> instances;      ///< In the order of Scene::instances.
     glm::vec3 boundsMin{0.0f};                 ///< At all times of a looping animation.
     glm::vec3 boundsMax{0.0f};
+    Box region{};  ///< What voxels and parallel light are for: the bounds, or a part of them (scene.region).
 };
 
 /// A scene evaluated at one time: geometry, lights and cameras in world space (their node is -1).

@@ -182,7 +182,7 @@ uint64_t gpuEnvironmentBytes(const Environment& environment) {
 std::vector<Binding> GpuScene::bindings(std::vector<Binding> more) const {
     more.insert(more.begin(), {ifUsed({"sceneGeometry", geometry}), ifUsed({"sceneMaterials", materials}),
                                ifUsed({"sceneLights", lights}), ifUsed({"sceneEmitters", emitters}),
-                               ifUsed({"sceneSize", size}), ifUsed({"sceneTextures", textures}),
+                               ifUsed({"sceneTextures", textures}),
                                ifUsed({"sceneEnvironment", environment, environmentSampler})});
     return more;
 }
@@ -201,8 +201,6 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
         std::vector<GpuSceneGeometry>{{scene.positions.address(), scene.attributes.address(),
                                        scene.triangles.address(), scene.triangleMaterials.address()}});
     scene.triangleCount = uint32_t(g.triangles.size());
-    scene.size =
-        uploaded(device, stream, "scene size", std::vector<float>{glm::length(g.boundsMax - g.boundsMin)});
 
     // Materials and lights.
     std::vector<gpu::GpuMaterial> materials;

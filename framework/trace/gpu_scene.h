@@ -20,7 +20,6 @@ struct GpuScene {
     Buffer materials;          ///< GpuMaterial each.
     Buffer lights;             ///< GpuLight each; at least one element is allocated.
     Buffer emitters;           ///< GpuEmitter each: emissive triangles; at least one element is allocated.
-    Buffer size;               ///< 1 float: the diagonal of its bounds, m, at all times.
     TextureArray textures;     ///< All with full mip chains.
     Image environment;         ///< Equirectangular radiance, 1x1 for a constant one; black without one.
     Sampler environmentSampler;

@@ -8,8 +8,6 @@
 namespace voxray {
 namespace {
 
-constexpr double kMargin = 1.0 / 4096;  // As in passes/common/triangle_walk/grid_triangle.glsl.
-
 uint32_t packed(glm::ivec3 v) {
     return uint32_t(v.x | v.y << 10 | v.z << 20);
 }
@@ -57,7 +55,7 @@ LeafCounts countLeaves(const Geometry& geometry, const gpu::VoxelGrid& grid) {
     const std::vector<uint32_t> weight = weights(geometry);
     std::vector<uint32_t> pairs;  // The voxel of each.
     for (uint32_t t = 0; t < geometry.triangles.size(); ++t)
-        visitVoxels(grid.resolution, cornersInVoxels(geometry, grid, t), kMargin,
+        visitVoxels(grid.resolution, cornersInVoxels(geometry, grid, t),
                     [&](glm::ivec3 v) { pairs.insert(pairs.end(), weight[t], packed(v)); });
     std::ranges::sort(pairs);
 
@@ -84,13 +82,13 @@ uint64_t countGridCells(const Geometry& geometry, const gpu::VoxelGrid& grid, co
         for (uint32_t t = 0; t < geometry.triangles.size(); ++t) {
             if ((weight[t] == 2) != moving) continue;
             const std::array<glm::dvec3, 3> corners = cornersInVoxels(geometry, grid, t);
-            visitVoxels(grid.resolution, corners, kMargin, [&](glm::ivec3 voxel) {
+            visitVoxels(grid.resolution, corners, [&](glm::ivec3 voxel) {
                 const auto found = std::ranges::lower_bound(grids, packed(voxel));
                 if (found == grids.end() || *found != packed(voxel)) return;
                 const size_t first = size_t(found - grids.begin()) * cellsOfGrid;
                 std::array<glm::dvec3, 3> inCells;
                 for (size_t k = 0; k < 3; ++k) inCells[k] = (corners[k] - glm::dvec3(voxel)) * double(m);
-                visitVoxels(glm::uvec3(m), inCells, kMargin, [&](glm::ivec3 finest) {
+                visitVoxels(glm::uvec3(m), inCells, [&](glm::ivec3 finest) {
                     const glm::uvec3 cell(finest);
                     marked[first + cell.x + size_t(m) * (cell.y + size_t(m) * cell.z)] = true;
                 });

@@ -9,7 +9,6 @@
 #include "shaders/trace/ray_types.h"
 #include "shaders/voxel_march/surface_segment.glsl"
 #include "shaders/scene/specular.glsl"
-#include "shaders/scene/surface_offset.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kMeetVoxels = false;  // Else triangles.
 // Rays through voxels end so far before the light, which may be a surface: two diagonals of a voxel.
@@ -60,14 +59,13 @@ void main() {
 
         // Irradiance on a plane facing the sample, were it not in shadow. Surfaces of light are sampled from where the ray begins: else one
         // that meets them at a slant would end behind them.
-        const float offset = surfaceOffset(p.xyz);
-        const vec3 from = p.xyz + side * offset, lit = push.kind == SOURCE_EMITTERS ? from : p.xyz;
+        const vec3 from = p.xyz + side * p.w, lit = push.kind == SOURCE_EMITTERS ? from : p.xyz;
         const LightSample s = sampleSource(push.kind, push.light, push.lightSamples, push.emitterCount, lit, n,
                                            push.firstPixel * perPixel + i, push.seed);
         const float cosine = dot(n, s.direction);
         if (cosine > 0.0 && dot(side, s.direction) > 0.0) {
             radiance = reflectance(texelFetch(albedo, texel, 0).rgb, surface, n, out_, s.direction) * s.irradiance * cosine;
-            ray = Ray(from, 0.0, s.direction, s.distance_ - 2.0 * offset);
+            ray = Ray(from, 0.0, s.direction, s.reach);
             if (kMeetVoxels) {
                 ray.origin = beginOffSurface(push.grid, p.xyz, side, s.direction);
                 ray.tMax = s.distance_ - dot(ray.origin - lit, s.direction) - VOXELS_BEFORE_LIGHT * push.grid.voxelSize;

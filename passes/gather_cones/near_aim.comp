@@ -4,7 +4,6 @@
 #include "passes/gather_cones/near_cones.glsl"
 #include "shaders/radiance/cone_direction.glsl"
 #include "shaders/scene/sampling.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
@@ -22,5 +21,5 @@ void main() {
     const vec3 side = normalize(texelFetch(geometricNormal, texel, 0).xyz);
     const vec3 direction = coneDirection(cones.data[i % push.cones], normalize(texelFetch(normal, texel, 0).xyz), texelDither(texel).xy);
     // A normal map may point cones below the surface: those see the surface itself, which sends nothing there.
-    if (dot(direction, side) > 0.0) rays.data[i] = Ray(p.xyz + side * surfaceOffset(p.xyz), 0.0, direction, push.range);
+    if (dot(direction, side) > 0.0) rays.data[i] = Ray(p.xyz + side * p.w, 0.0, direction, push.range);
 }

@@ -28,7 +28,9 @@ void endRay(uint i, uint parent, vec3 side, vec3 throughput, float width, float 
     if (hit.triangle != NO_HIT && hit.t < range) {
         Surfel at;
         vec3 normal;
-        if (!surfelAtHit(hit, ray.origin, at, normal)) return;
+        float offset;
+        if (!surfelAtHit(hit, ray.origin, at, normal, offset)) return;
+        at.position += offset * normal;
         at.reflectance *= throughput;
         at.id = id;
         at.parent = parent;

@@ -4,7 +4,6 @@
 // The first ray of each listed slot, from its g-buffer texel.
 #include "passes/gather_mirror/batch.glsl"
 #include "shaders/scene/lobe_ray.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
@@ -44,7 +43,8 @@ void main() {
     const MirrorBatch b = push.batch;
     const uint slot = slots.data[i];
     const ivec2 texel = texelOf(b, slot / b.rays);
-    const vec3 p = texelFetch(position, texel, 0).xyz;
+    const vec4 at = texelFetch(position, texel, 0);
+    const vec3 p = at.xyz;
     const Specular s = specularOf(texelFetch(specular, texel, 0), texelFetch(fresnel, texel, 0));
     const vec3 away = p - b.camera, out_ = -normalize(away);
     const vec3 shading = normalize(texelFetch(normal, texel, 0).xyz), n = specularNormal(shading, out_);
@@ -64,7 +64,7 @@ void main() {
     const vec3 throughput = rayWeight(b, s.roughness) / float(rays_) * ray.weight;
     const bool isLost = all(equal(throughput, vec3(0.0)));
     paths.data[i] = MirrorPath(throughput, slot, texelSpread * length(away), spread, isMirror(s) ? 1u : 0u);
-    rays.data[i] = isLost ? kNoRay : Ray(p + side * surfaceOffset(p), 0.0, ray.direction, 1.0e30);
+    rays.data[i] = isLost ? kNoRay : Ray(p + side * at.w, 0.0, ray.direction, 1.0e30);
 #ifdef HYBRID
     starts.data[i] = RayStart(side, paths.data[i].width, paths.data[i].spread);
 #endif

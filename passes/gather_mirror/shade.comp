@@ -6,7 +6,6 @@
 #include "passes/gather_mirror/diffuse_fraction.glsl"
 #include "shaders/scene/lobe_ray.glsl"
 #include "passes/gather_mirror/surface.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/surfels/surfel_types.h"
 #include "shaders/voxels/face_irradiance.glsl"
 layout(local_size_x = 64) in;
@@ -94,7 +93,7 @@ void main() {
         light.data[path.slot].indirect += diffuse * interpolatedIrradianceAt(grid.data, at.position, at.faceNormal, isKnown);
         if (kShadowRays)
             surfels.data[atomicAdd(counts.surfels, 1u)] =
-                Surfel(at.position + clearance * at.faceNormal, NO_VOXEL, at.normal, id, diffuse, path.slot, 1.0);
+                Surfel(at.position + max(clearance, at.offset) * at.faceNormal, NO_VOXEL, at.normal, id, diffuse, path.slot, 1.0);
     }
 
     // A mirror in a mirror.
@@ -105,7 +104,7 @@ void main() {
     const uint next = atomicAdd(counts.next, 1u);
     const float spread = sqrt(path.spread * path.spread + on.solidAngle);
     nextPaths.data[next] = MirrorPath(throughput, path.slot, width, spread, 1u);
-    nextRays.data[next] = Ray(at.position + at.faceNormal * surfaceOffset(at.position), 0.0, on.direction, 1.0e30);
+    nextRays.data[next] = Ray(at.position + at.faceNormal * at.offset, 0.0, on.direction, 1.0e30);
 #ifdef HYBRID
     nextStarts.data[next] = RayStart(at.faceNormal, width, spread);
 #endif

@@ -13,6 +13,7 @@ struct MirrorSurface {
     vec3 albedo;
     vec3 emission;    // Towards the ray, W/(m² sr).
     Specular specular;
+    float offset;     // m, along the face normal: there rays begin.
 };
 
 // At a hit of a ray along unit `direction`, whose footprint there is `area` m² across the ray. False for a triangle without area.
@@ -23,6 +24,7 @@ bool surfaceAtHit(Hit hit, vec3 direction, float area, out MirrorSurface at) {
     const float cosine = -dot(s.geometricNormal, direction);
     const bool isFront = cosine >= 0.0;
     at.position = s.position;
+    at.offset = s.offset;
     at.faceNormal = isFront ? s.geometricNormal : -s.geometricNormal;
 
     // Textures at the mip level of the footprint on the surface. Mip levels of a cut-out mix in the colour of what is cut away.
@@ -50,6 +52,7 @@ void surfaceOfCell(Hit hit, Ray ray, out MirrorSurface at) {
     const GridCell cell = gridCell(hit.triangle & ~HIT_IS_CELL);
     const bool isFront = dot(cell.normal, ray.direction) <= 0.0;
     at.position = ray.origin + hit.t * ray.direction;
+    at.offset = pointOffset(at.position);
     at.normal = at.faceNormal = isFront ? cell.normal : -cell.normal;
     at.albedo = cell.albedo;
     const BrightCell bright = brightCell(hit.triangle & ~HIT_IS_CELL);

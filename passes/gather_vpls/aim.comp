@@ -78,7 +78,7 @@ void main() {
             left = r.faceNormal;
             vec3 from, to;
             if (push.grid.voxelSize == 0.0)
-                ray = vplRay(vpl, r.position, r.faceNormal, direction);
+                ray = vplRay(vpl, r.position, direction);
             else if (segment(r, vpl, from, to))
                 ray = Ray(from, 0.0, normalize(to - from), length(to - from));
         }

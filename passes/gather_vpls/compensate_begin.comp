@@ -23,8 +23,9 @@ void main() {
     const uint number = push.first + i, columns = uint(textureSize(position, 0).x);
     const ivec2 texel = ivec2(number % columns, number / columns);
     const vec4 p = texelFetch(position, texel, 0);
+    const vec3 faceNormal = normalize(texelFetch(geometricNormal, texel, 0).xyz);
     // Where there is no surface, nothing is reflected
-    surfels.data[i] = Surfel(p.xyz, 0xffffffffu, normalize(texelFetch(normal, texel, 0).xyz), number * push.rays + push.ray,
+    surfels.data[i] = Surfel(p.xyz + p.w * faceNormal, 0xffffffffu, normalize(texelFetch(normal, texel, 0).xyz), number * push.rays + push.ray,
                              vec3(p.w > 0.0 ? 1.0 : 0.0), number, 1.0);
-    faceNormals.data[i] = toOctahedral(normalize(texelFetch(geometricNormal, texel, 0).xyz));
+    faceNormals.data[i] = toOctahedral(faceNormal);
 }

@@ -26,7 +26,9 @@ void main() {
     const Surfel start = from.data[ray];
     Surfel at;
     vec3 faceNormal;
-    surfelAtHit(hits.data[ray], start.position, at, faceNormal);
+    float offset;
+    surfelAtHit(hits.data[ray], start.position, at, faceNormal, offset);
+    at.position += offset * faceNormal;
     const vec3 way = at.position - start.position;
     at.reflectance *= start.reflectance * (max(1.0 - dot(way, way) / push.minDistanceSquared, 0.0) / survival(start.reflectance));
     at.id = start.id;

@@ -4,7 +4,6 @@
 // A ray from each virtual light of a run through the center of each texel of its shadow map.
 #include "passes/gather_vpls/hemisphere.glsl"
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/vpls/vpls.glsl"
 layout(local_size_x = 64) in;
@@ -21,6 +20,5 @@ void main() {
     if (i >= push.vplCount * perMap) return;
     const Vpl vpl = vpls.data[list.data[push.firstVpl + i / perMap]];
     const vec2 place = (vec2(i % push.resolution, i % perMap / push.resolution) + 0.5) / float(push.resolution);
-    const vec3 from = vpl.position + vpl.faceNormal * surfaceOffset(vpl.position);
-    rays.data[i] = Ray(from, 0.0, hemisphereDirection(place, vpl.faceNormal), 1.0e30);
+    rays.data[i] = Ray(vpl.position, 0.0, hemisphereDirection(place, vpl.faceNormal), 1.0e30);
 }

@@ -5,6 +5,7 @@
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/lights/light_sources.h"
 #include "passes/gather_vpls/map_point_types.h"
+#include "scene/region_split.h"
 
 namespace voxray {
 namespace {
@@ -28,12 +29,13 @@ struct LevelPush {
     uint32_t maps;
 };
 
-/// Area of all triangles up to each one and with it, over that of all.
+/// Area of all triangles of the region up to each one and with it, over that of all.
 std::vector<float> areasUpTo(const Geometry& g) {
     std::vector<float> upTo;
     upTo.reserve(g.triangles.size());
     double sum = 0;
-    for (const glm::uvec3 t : g.triangles) upTo.push_back(float(sum += double(triangleArea(g, t))));
+    for (uint32_t t = 0; t < g.triangles.size(); ++t)
+        upTo.push_back(float(sum += isInRegion(g, t) ? double(triangleArea(g, g.triangles[t])) : 0.0));
     for (float& area : upTo) area = float(area / sum);
     return upTo;
 }

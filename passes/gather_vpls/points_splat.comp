@@ -6,7 +6,6 @@
 #include "passes/gather_vpls/hemisphere.glsl"
 #include "passes/gather_vpls/map_point_types.h"
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/vpls/vpls.glsl"
 layout(local_size_x = 64) in;
@@ -26,7 +25,7 @@ void main() {
     if (map >= push.vplCount) return;
     const Vpl vpl = vpls.data[list.data[place]];
     const MapPoint p = points.data[place % push.sets * push.points_ + i % push.points_];
-    const vec3 way = p.position - (vpl.position + vpl.faceNormal * surfaceOffset(vpl.position));
+    const vec3 way = p.position - vpl.position;
     if (p.normal == vec3(0.0) || dot(way, vpl.faceNormal) <= 0.0) return;
 
     // Texels within a square round the disc. A texel's solid angle is 2 pi over their number, on average

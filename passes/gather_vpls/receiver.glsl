@@ -2,7 +2,7 @@
 #include "passes/gather_vpls/batch.glsl"
 
 struct Receiver {
-    vec3 position;    // m
+    vec3 position;    // m; off the surface, where rays may begin.
     vec3 normal;      // Unit length: the shading normal.
     vec3 faceNormal;  // Unit length: the triangle's, on the same side.
 };
@@ -32,7 +32,8 @@ bool receiver(VplBatch b, uint i, out Receiver r) {
     const ivec2 texel = batchTexel(b, i);
     if (isOutside(b, texel)) return false;
     const vec4 p = texelFetch(position, texel, 0);
-    r = Receiver(p.xyz, normalize(texelFetch(normal, texel, 0).xyz), normalize(texelFetch(geometricNormal, texel, 0).xyz));
+    const vec3 faceNormal = normalize(texelFetch(geometricNormal, texel, 0).xyz);
+    r = Receiver(p.xyz + p.w * faceNormal, normalize(texelFetch(normal, texel, 0).xyz), faceNormal);
     return p.w > 0.0;
 }
 #endif

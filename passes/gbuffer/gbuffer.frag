@@ -15,9 +15,10 @@ layout(location = 4) in vec4 color;
 layout(location = 5) flat in vec3 geometricNormal;
 layout(location = 6) flat in uint material;
 layout(location = 7) flat in vec2 uvDensity;
+layout(location = 8) flat in float planeOffset_;
 #ifdef MOTION
-layout(location = 8) in vec3 previous;
-layout(location = 9) flat in float instance;
+layout(location = 9) in vec3 previous;
+layout(location = 10) flat in float instance;
 #endif
 
 layout(location = 0) out vec4 outPosition;
@@ -41,10 +42,11 @@ void main() {
     s.color = color;
     s.uvDensity = uvDensity;
     s.material = material;
+    s.offset = max(planeOffset_, pointOffset(position));
     if (alphaCut(sceneMaterials.data[material], s)) discard;
 
     const VisibleSurface visible = visibleSurface(push.view, s);
-    outPosition = vec4(position, 1.0);
+    outPosition = vec4(position, s.offset);
     outNormal = vec4(visible.normal, 0.0);
     outGeometricNormal = vec4(visible.geometricNormal, 0.0);
     outAlbedo = vec4(visible.albedo, 1.0);

@@ -19,9 +19,10 @@ layout(location = 4) out vec4 color;
 layout(location = 5) flat out vec3 geometricNormal;
 layout(location = 6) flat out uint material;
 layout(location = 7) flat out vec2 uvDensity;
+layout(location = 8) flat out float planeOffset_;
 #ifdef MOTION
-layout(location = 8) out vec3 previous;
-layout(location = 9) flat out float instance;
+layout(location = 9) out vec3 previous;
+layout(location = 10) flat out float instance;
 #endif
 
 void main() {
@@ -34,6 +35,8 @@ void main() {
     texCoords = s.texCoords;
     color = s.color;
     uvDensity = s.uvDensity;
+    const uvec3 v = triangleVertices(uint(gl_VertexIndex) / 3u);
+    planeOffset_ = planeOffset(vertexPosition(v.x), vertexPosition(v.y), vertexPosition(v.z), s.geometricNormal);
 #ifdef MOTION
     previous = previousPosition(uint(gl_VertexIndex) / 3u, barycentrics);
     instance = instanceOf(uint(gl_VertexIndex) / 3u);

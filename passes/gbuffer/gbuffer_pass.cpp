@@ -210,9 +210,7 @@ void GBufferPass::rasterize(PassContext& context) {
     }
     targets.depth = &depth_;
     targets.extent = {extent, 1};
-    const SurfacePush push{
-        viewProjection(frame.camera, frame.width, frame.height, geometry.boundsMin, geometry.boundsMax),
-        view};
+    const SurfacePush push{viewProjection(frame.camera, frame.width, frame.height, geometry), view};
     context.stream.draw(surfaces_, bindings, push, targets, context.scene.triangleCount * 3);
 }
 

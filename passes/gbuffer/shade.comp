@@ -41,7 +41,7 @@ void main() {
         visible.emission = environmentRadiance(viewDirection(push.view, uvec2(texel)));
     } else {
         const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
-        point = vec4(s.position, 1.0);
+        point = vec4(s.position, s.offset);
         visible = visibleSurface(push.view, s);
 #ifdef MOTION
         before = vec4(previousPosition(hit.triangle, vec2(hit.u, hit.v)), instanceOf(hit.triangle));
@@ -50,7 +50,7 @@ void main() {
     imageStore(position, texel, point);
     imageStore(normal, texel, vec4(visible.normal, 0.0));
     imageStore(geometricNormal, texel, vec4(visible.geometricNormal, 0.0));
-    imageStore(albedo, texel, vec4(visible.albedo, point.w));
+    imageStore(albedo, texel, vec4(visible.albedo, hit.triangle == NO_HIT ? 0.0 : 1.0));
     imageStore(emitted, texel, vec4(visible.emission, 0.0));
     imageStore(specular, texel, specularTexel(visible.specular));
     imageStore(fresnel, texel, fresnelTexel(visible.specular));

@@ -38,8 +38,10 @@ void main() {
     const Hit hit = hits.data[i];
     Surfel s;
     vec3 faceNormal;
-    if (!surfelAtHit(hit, ray.origin, s, faceNormal)) return;
+    float offset;
+    if (!surfelAtHit(hit, ray.origin, s, faceNormal, offset)) return;
     s.voxel = voxelNumber(push.grid, voxelAt(push.grid, s.position));
+    s.position += offset * faceNormal;
     s.normal = faceNormal;
     s.id = push.firstId + i;
     s.parent = i;

@@ -3,7 +3,6 @@
 #extension GL_EXT_scalar_block_layout : require
 // A batch of rays from surfels, distributed by cosine.
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/surfels/path_ray.glsl"
 layout(local_size_x = 64) in;
 
@@ -22,5 +21,5 @@ void main() {
     const Surfel s = surfels.data[push.firstSurfel + i / push.raysPerSurfel];
     // A Sobol set of its own for each surfel, so that its rays are spread well over the hemisphere.
     const vec3 direction = cosineDirection(sobol2(i % push.raysPerSurfel, hashCombine(push.seed, s.id)), s.normal);
-    rays.data[i] = Ray(s.position + s.normal * surfaceOffset(s.position), 0.0, direction, 1.0e30);
+    rays.data[i] = Ray(s.position, 0.0, direction, 1.0e30);
 }

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "scene/outliers.h"
 
 namespace voxray::path_trace {
 
@@ -47,10 +50,10 @@ double meanEmission(const SurfaceTable& surfaces, uint32_t triangle) {
 
 LightTable::LightTable(const SceneState& state, SurfaceTable& surfaces)
     : state_(&state), surfaces_(&surfaces), environment_(state.scene->environment) {
-    // Power of the punctual lights. A directional one shines on the scene's bounding sphere.
+    // Power of the punctual lights. A directional one shines on the sphere round most of the scene.
     std::vector<double> power;
-    const double radius =
-        0.5 * glm::length(glm::dvec3(state.geometry.boundsMax) - glm::dvec3(state.geometry.boundsMin));
+    const auto [low, high] = boundsWithoutOutliers(state.geometry);
+    const double radius = 0.5 * double(glm::length(high - low));
     for (const Light& light : state.lights) {
         const double strength = luminance(light.intensity);
         switch (light.type) {
@@ -126,7 +129,7 @@ LightSample LightTable::samplePatch(const Patch& patch, const glm::vec3& from, g
     if (!surfaces_->emitsTowards(t, -sample.direction) || cosine == 0.0f) return sample;
     sample.pdf = patch.pdf * distance2 / std::fabs(cosine);
     sample.radiance = surfaces_->emission(patch.triangle, b.x, b.y);
-    sample.target = point + t.normal * std::copysign(t.offset, cosine);
+    sample.target = point + t.normal * std::copysign(t.offsetAt(point), cosine);
     return sample;
 }
 

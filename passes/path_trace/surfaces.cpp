@@ -10,13 +10,7 @@ namespace voxray::path_trace {
 
 namespace {
 
-/// Rays start this many times the largest coordinate off their surface: some 30 roundings of a float.
-constexpr float kOffsetScale = 2e-6f;
 constexpr float kMinCosine = 1e-3f;
-
-float largestCoordinate(const glm::vec3& p) {
-    return std::max(std::fabs(p.x), std::max(std::fabs(p.y), std::fabs(p.z)));
-}
 
 bool readsTextures(const Material& m) {
     return m.baseColorTexture.texture >= 0 || m.metallicRoughnessTexture.texture >= 0 ||
@@ -54,13 +48,12 @@ SurfaceTable::SurfaceTable(const SceneState& state) : state_(&state) {
             t.edge1 = b - a;
             t.edge2 = c - a;
             t.material = geometry.triangleMaterials[i];
-            t.offset = kOffsetScale *
-                       std::max(largestCoordinate(a), std::max(largestCoordinate(b), largestCoordinate(c)));
 
             // The normal in double: slivers underflow a float.
             const glm::dvec3 n = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
             const double length = glm::length(n);
             if (length > 0.0) t.normal = glm::vec3(n / length);
+            t.offset = planeOffset(a, b, c, t.normal);
 
             // Most triangles need nothing but their material's constants.
             bool simple = !readsTextures(*materials_[t.material].source);
@@ -78,7 +71,7 @@ SurfacePoint SurfaceTable::at(const Hit& hit, const glm::vec3& direction) const 
     const SurfaceTriangle& t = triangles_[hit.triangle];
     SurfacePoint point;
     point.position = t.corner + t.edge1 * hit.u + t.edge2 * hit.v;
-    point.offset = t.offset;
+    point.offset = t.offsetAt(point.position);
     point.faceNormal = glm::dot(t.normal, direction) > 0.0f ? -t.normal : t.normal;
     point.shadingNormal = point.faceNormal;
     point.bsdf = materials_[t.material].bsdf;

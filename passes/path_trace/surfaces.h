@@ -6,6 +6,7 @@
 
 #include "passes/path_trace/bsdf.h"
 #include "scene/geometry.h"
+#include "scene/surface_offset.h"
 #include "trace/ray.h"
 
 namespace voxray::path_trace {
@@ -15,14 +16,16 @@ constexpr uint32_t kNoLight = 0xffffffffu;
 /// What a path needs to know of a triangle, gathered in one cache line.
 struct alignas(64) SurfaceTriangle {
     glm::vec3 corner{0.0f};
-    float offset =
-        0.0f;  ///< How far new rays start from the surface, metres: above the rounding error of hits.
+    float offset = 0.0f;  ///< Of its plane: planeOffset().
     glm::vec3 edge1{0.0f};
     uint32_t material = 0;
     glm::vec3 edge2{0.0f};
     uint32_t light = kNoLight;     ///< Patch among the lights, or kNoLight.
     glm::vec3 normal{0.0f, 1, 0};  ///< Geometric, unit length, on the front side.
     uint32_t isSimple = 0;         ///< 1: flat, no textures, no vertex colours.
+
+    /// How far off the surface new rays start at a point of it, m.
+    float offsetAt(const glm::vec3& position) const { return std::max(offset, pointOffset(position)); }
 };
 
 /// A point where a path scatters.

@@ -30,8 +30,8 @@ void main() {
     const vec3 albedo = clamp(diffuseAlbedo(m, p, 0.0), 0.0, 1.0);
     for (uint side = 0u; side < 2u; ++side) {
         Surfel s;
-        s.position = p.position;
         s.normal = side == 0u ? p.geometricNormal : -p.geometricNormal;
+        s.position = p.position + p.offset * s.normal;
         s.voxel = voxel;
         s.id = 2u * (push.firstPoint + i) + side;
         s.reflectance = albedo;

@@ -60,7 +60,7 @@ void main() {
     const vec3 flux = path.power * p.albedo;
     if (any(greaterThan(flux, vec3(0.0)))) {
         const uint number = order.data[push.firstPath + i] * push.bounces + push.bounce;
-        vpls.data[number] = Vpl(p.position, p.normal, p.faceNormal, flux);
+        vpls.data[number] = Vpl(p.position + p.offset * p.faceNormal, p.normal, p.faceNormal, flux);
         atomicOr(flags.words[number / 32u], 1u << (number % 32u));
     }
     if (push.bounce + 1u == push.bounces) return;

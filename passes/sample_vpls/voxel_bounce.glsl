@@ -16,7 +16,7 @@ vec3 voxelNormal(VoxelMaterial m, vec3 direction) {
 LitPoint litVoxel(uint number, vec3 position, vec3 direction) {
     const VoxelMaterial m = voxelMaterial(number);
     const vec3 n = voxelNormal(m, direction);
-    return LitPoint(position, n, n, clamp(m.albedo, 0.0, 1.0));
+    return LitPoint(position, n, n, clamp(m.albedo, 0.0, 1.0), pointOffset(position));
 }
 
 // Where a ray from a point of a surface begins: off its surface's voxels. In another surface's voxel it begins there if it goes towards

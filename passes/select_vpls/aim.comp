@@ -33,8 +33,9 @@ void main() {
     if (p.w > 0.0) {
         const vec3 n = normalize(texelFetch(normal, texel, 0).xyz), face = normalize(texelFetch(geometricNormal, texel, 0).xyz);
         vec3 direction;
-        kernel = vplKernel(vpl, p.xyz, n, face, push.minDistanceSquared, direction);
-        if (kernel > 0.0) ray = vplRay(vpl, p.xyz, face, direction);
+        const vec3 from = p.xyz + p.w * face;
+        kernel = vplKernel(vpl, from, n, face, push.minDistanceSquared, direction);
+        if (kernel > 0.0) ray = vplRay(vpl, from, direction);
     }
     rays.data[i] = ray;
     carried.data[i] = kernel;

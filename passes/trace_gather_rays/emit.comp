@@ -4,7 +4,6 @@
 // Starts a batch of gather rays from the G-buffer's surfaces, distributed by cosine about their normals.
 #include "shaders/view/gather_layout.glsl"
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
@@ -38,7 +37,7 @@ void main() {
         const vec3 direction = cosineDirection(raySample(g, block, j), n);
         // A normal map may point rays below the surface: those see the surface itself, which reflects nothing to it.
         if (dot(direction, faceNormal) > 0.0) {
-            ray.origin = p.xyz + faceNormal * surfaceOffset(p.xyz);
+            ray.origin = p.xyz + faceNormal * p.w;
             ray.direction = direction;
             ray.tMax = 1.0e30;
         }

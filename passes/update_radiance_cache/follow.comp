@@ -37,7 +37,8 @@ void main() {
     const Hit hit = hits.data[i];
     Surfel s;
     vec3 faceNormal;
-    if (ray.tMax < ray.tMin || !surfelAtHit(hit, ray.origin, s, faceNormal)) return;
+    float offset;
+    if (ray.tMax < ray.tMin || !surfelAtHit(hit, ray.origin, s, faceNormal, offset)) return;
     const vec3 albedo = s.reflectance;
 
     // A cell that is read instead: not where the camera looks, and no nearer than points in one cell are to each other.
@@ -57,6 +58,7 @@ void main() {
 
     // The vertex, linked to the one before it.
     const uint v = atomicAdd(vertexCount.value, 1u);
+    s.position += offset * faceNormal;
     s.parent = fromCamera ? NO_VERTEX : origins.data[i];
     s.id = fromCamera ? push.firstPath + i : surfels.data[s.parent].id + push.paths;
     s.reflectance = fromCamera ? albedo : albedo / vertices.data[s.parent].survival;

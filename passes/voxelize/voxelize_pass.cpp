@@ -32,7 +32,7 @@ void VoxelizePass::plan(PassPlan& plan) {
     const Geometry& geometry = plan.frame.scene->geometry;
     SurfaceVoxels& v = plan.get(voxels_);
     v.unoccludedOnly = params_.visibilityRays > 0;
-    v.grid = makeVoxelGrid(geometry.boundsMin, geometry.boundsMax, params_.resolution);
+    v.grid = makeVoxelGrid(geometry.region.min, geometry.region.max, params_.resolution);
     v.grid.directions = params_.directions;
     v.expectedCounts = plan.ofScene(fmt::format("voxels of {}", params_.resolution),
                                     [&] { return countSurfaceVoxels(geometry, v.grid); });

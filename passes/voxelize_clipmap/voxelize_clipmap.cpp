@@ -31,7 +31,7 @@ void VoxelizeClipmap::declare(PassBuilder& builder) {
 
 void VoxelizeClipmap::plan(PassPlan& plan) {
     const Geometry& geometry = plan.frame.scene->geometry;
-    gpu::VoxelGrid finest = makeVoxelGrid(geometry.boundsMin, geometry.boundsMax, params_.resolution);
+    gpu::VoxelGrid finest = makeVoxelGrid(geometry.region.min, geometry.region.max, params_.resolution);
     finest.directions = params_.directions;
     ClipmapVoxels& clipmap = plan.get(clipmap_);
     clipmap.grid = {finest.origin,     finest.voxelSize,

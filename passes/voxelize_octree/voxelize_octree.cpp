@@ -37,7 +37,7 @@ void VoxelizeOctree::declare(PassBuilder& builder) {
 void VoxelizeOctree::plan(PassPlan& plan) {
     const Geometry& geometry = plan.frame.scene->geometry;
     BrickOctree& octree = plan.get(octree_);
-    octree.grid = cubeRound(geometry.boundsMin, geometry.boundsMax, params_.resolution);
+    octree.grid = cubeRound(geometry.region.min, geometry.region.max, params_.resolution);
     octree.expected =
         plan.ofScene(fmt::format("octree of bricks, {} voxels, {} samples, neighbors {}", params_.resolution,
                                  params_.samples, params_.brickNeighbors),

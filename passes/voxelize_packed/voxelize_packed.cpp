@@ -13,7 +13,7 @@ void VoxelizePacked::declare(PassBuilder& builder) {
 void VoxelizePacked::plan(PassPlan& plan) {
     const Geometry& geometry = plan.frame.scene->geometry;
     PackedVoxels& voxels = plan.get(voxels_);
-    voxels.grid = makeVoxelGrid(geometry.boundsMin, geometry.boundsMax, params_.resolution);
+    voxels.grid = makeVoxelGrid(geometry.region.min, geometry.region.max, params_.resolution);
     plan.buffer(voxels.normals, "packed normals", voxels.bytes());
     plan.buffer(voxels.albedos, "packed albedos", voxels.bytes());
     walk_->plan(plan, voxels.grid);

@@ -12,7 +12,7 @@ VOXRAY_SHARED_BEGIN
 
 // A point of a side.
 struct PatchSurfel {
-    vec3 position;  // m
+    vec3 position;  // m, as Surfel's.
     uint number;    // Through all chunks of surfels.
     vec3 normal;    // Unit length, on the lit side.
     uint id;        // As Surfel's: the same in every run.

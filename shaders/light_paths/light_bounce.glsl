@@ -5,7 +5,6 @@
 #include "shaders/light_paths/light_path_types.h"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 
 // The triangle's unit normal on the side that a ray along `direction` comes from; 0 for a triangle without area.
@@ -27,13 +26,14 @@ struct LitPoint {
     vec3 normal;      // Unit length: the shading normal, which light is reflected about.
     vec3 faceNormal;  // Unit length: the triangle's, on the same side.
     vec3 albedo;
+    float offset;     // m, along the face normal: there rays begin.
 };
 
 // The point of a triangle with area, as the ray sees it.
 LitPoint litPoint(SurfacePoint s, vec3 direction) {
     const GpuMaterial m = sceneMaterials.data[s.material];
     const vec3 faceNormal = litSide(s, direction);
-    return LitPoint(s.position, litNormal(m, s, faceNormal), faceNormal, litAlbedo(m, s));
+    return LitPoint(s.position, litNormal(m, s, faceNormal), faceNormal, litAlbedo(m, s), s.offset);
 }
 
 // Whether a ray is one of a punctual light, whose cross-section is known (LightPath).
@@ -54,7 +54,7 @@ bool bounceLightRay(LitPoint p, bool mirror, uint index, uint seed, inout Ray ra
         path.power *= p.albedo / chance;
     }
     if (dot(direction, p.faceNormal) <= 0.0) return false;
-    ray = Ray(p.position + p.faceNormal * surfaceOffset(p.position), 0.0, direction, 1.0e30);
+    ray = Ray(p.position + p.faceNormal * p.offset, 0.0, direction, 1.0e30);
     return true;
 }
 

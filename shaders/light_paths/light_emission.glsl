@@ -6,15 +6,14 @@
 #include "shaders/lights/lights.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 
-// A point on the disc that the scene fits behind, seen along a direction.
+// A point before all surfaces on the disc that the scene's region fits behind, seen along a direction.
 vec3 discPoint(EmittingSource e, vec2 u, vec3 direction) {
     vec3 t, b;
     frame(direction, t, b);
     const float r = e.sceneRadius * sqrt(u.x), phi = 2.0 * PI * u.y;
-    return e.sceneCenter - direction * e.sceneRadius + t * (r * cos(phi)) + b * (r * sin(phi));
+    return e.sceneCenter - direction * e.reach + t * (r * cos(phi)) + b * (r * sin(phi));
 }
 
 // Sets the ray's origin and direction, and the path's power and beam as if this were the source's only ray.
@@ -49,7 +48,7 @@ void emitFromSurface(EmittingSource e, uint index, vec2 u, vec2 onTriangle, inou
     const float sides = m.doubleSided != 0u ? 2.0 : 1.0;
     const bool back = m.doubleSided != 0u && (hash(hashCombine(e.seed, index)) & 1u) != 0u;
     const vec3 n = back ? -s.geometricNormal : s.geometricNormal;
-    ray.origin = s.position + n * surfaceOffset(s.position);
+    ray.origin = s.position + n * s.offset;
     ray.direction = cosineDirection(u, n);
     path.power = emittedRadiance(m, s) * PI * emitter.area * sides / emitter.probability;
 }

@@ -29,8 +29,9 @@ struct EmittingSource {
     uint emitterCount;  // Emissive triangles of the scene.
     uint rays;          // That the source sends.
     uint seed;          // One for each source.
-    vec3 sceneCenter;   // m, of the scene's bounding sphere.
+    vec3 sceneCenter;   // m, of the sphere round the scene's region.
     float sceneRadius;  // m
+    float reach;        // m: as far from the center there are surfaces.
 };
 
 VOXRAY_SHARED_END

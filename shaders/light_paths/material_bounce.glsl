@@ -4,7 +4,6 @@
 
 #include "shaders/light_paths/light_bounce.glsl"
 #include "shaders/scene/lobe_ray.glsl"
-#include "shaders/scene/surface_offset.glsl"
 
 Specular litSpecular(GpuMaterial m, SurfacePoint s) {
     const vec2 rough = lookup(m.metallicRoughnessTexture, s.texCoords, 0.0).gb;
@@ -39,7 +38,7 @@ bool bounceByMaterial(SurfacePoint s, LitPoint p, bool mirrors, uint index, uint
         path.power *= p.albedo * (through * total / (survives * byDiffuse));
     }
     if (dot(direction, p.faceNormal) <= 0.0 || all(equal(path.power, vec3(0.0)))) return false;
-    ray = Ray(p.position + p.faceNormal * surfaceOffset(p.position), 0.0, direction, 1.0e30);
+    ray = Ray(p.position + p.faceNormal * p.offset, 0.0, direction, 1.0e30);
     return true;
 }
 

@@ -14,6 +14,7 @@
 struct LightSample {
     vec3 direction;   // Towards the light, unit length.
     float distance_;  // m
+    float reach;      // m: of a shadow ray, which ends short of the surface that the light lies on.
     vec3 irradiance;  // W/m² on a surface that faces the sample, divided by the density of picking it.
 };
 
@@ -22,12 +23,13 @@ LightSample samplePunctual(GpuLight light, vec3 position) {
     LightSample s;
     if (light.type == LIGHT_DIRECTIONAL) {
         s.direction = -light.direction;
-        s.distance_ = 1.0e30;
+        s.distance_ = s.reach = 1.0e30;
         s.irradiance = light.intensity;
         return s;
     }
     const vec3 away = light.position - position;
     s.distance_ = max(length(away), 1e-6);
+    s.reach = s.distance_ - 2.0 * pointOffset(light.position);
     s.direction = away / s.distance_;
     s.irradiance = light.intensity / (s.distance_ * s.distance_);
     if (light.type == LIGHT_SPOT) s.irradiance *= spotFalloff(light, dot(-s.direction, light.direction));
@@ -58,6 +60,7 @@ LightSample sampleEmitters(uint emitterCount, vec3 position, float pick, vec2 u)
     const vec3 away = e.position - position;
     LightSample s;
     s.distance_ = max(length(away), 1e-6);
+    s.reach = s.distance_ - 2.0 * e.offset;
     s.direction = away / s.distance_;
     float cosine = -dot(e.geometricNormal, s.direction);
     if (m.doubleSided != 0u) cosine = abs(cosine);
@@ -80,7 +83,7 @@ LightSample sampleSource(uint kind, uint light, uint samples, uint emitterCount,
     } else {
         // Radiance * cos / (cos / pi).
         s.direction = cosineDirection(u, normal);
-        s.distance_ = 1.0e30;
+        s.distance_ = s.reach = 1.0e30;
         s.irradiance = environmentRadiance(s.direction) * PI / max(dot(normal, s.direction), 1e-6);
     }
     s.irradiance /= float(samples);

@@ -36,11 +36,11 @@ uint radianceCacheNormalBin(RadianceCacheGrid g, vec3 normal) {
     return (face * g.normalBins + bin.y) * g.normalBins + bin.x;
 }
 
-// 17 bits for each coordinate, 5 for the level and one more than it, so that no key is 0, and 8 for the normal.
+// 17 bits for each coordinate, which outside of the cube counts on modulo these; 5 for the level and one more than it, so that no key is 0, and 8 for the normal.
 uint64_t radianceCacheKey(RadianceCacheGrid g, vec3 position, vec3 normal) {
     const uint level = radianceCacheLevel(g, position);
     const vec3 inCells = (position - g.origin) / radianceCacheCellSize(g, level);
-    const uvec3 cell = uvec3(clamp(inCells, vec3(0.0), vec3(float((1u << level) - 1u))));
+    const uvec3 cell = uvec3(ivec3(floor(clamp(inCells, -1.0e9, 1.0e9)))) & 0x1ffffu;
     return uint64_t(cell.x) | (uint64_t(cell.y) << 17) | (uint64_t(cell.z) << 34) | (uint64_t(level + 1u) << 51) |
            (uint64_t(radianceCacheNormalBin(g, normal)) << 56);
 }

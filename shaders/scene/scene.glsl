@@ -7,6 +7,7 @@
 #extension GL_EXT_buffer_reference : require
 
 #include "shaders/scene/scene_types.h"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/scene/texel_filter.glsl"
 
 // By address, for millions of triangles outgrow what devices bind at once (128 MiB on software Vulkan).
@@ -45,6 +46,7 @@ struct SurfacePoint {
     vec4 color;
     vec2 uvDensity;        // Area of the triangle in uv0 and in uv1 over its own, 1/m²; 0 for a degenerate one.
     uint material;
+    float offset;          // m, along the geometric normal: there rays begin that leave the surface.
 };
 
 SurfacePoint surfacePoint(uint triangle, vec2 barycentrics) {
@@ -67,6 +69,7 @@ SurfacePoint surfacePoint(uint triangle, vec2 barycentrics) {
     const vec4 e1 = a1.texCoords - a0.texCoords, e2 = a2.texCoords - a0.texCoords;
     s.uvDensity = length_ > 0.0 ? abs(e1.xz * e2.yw - e1.yw * e2.xz) / length_ : vec2(0.0);
     s.material = triangleMaterial(triangle);
+    s.offset = max(planeOffset(p0, p1, p2, s.geometricNormal), pointOffset(s.position));
     return s;
 }
 

@@ -69,6 +69,9 @@ VOXRAY_SHARED_END
 #define WRAP_MIRROR 2u
 #define FILTER_LINEAR 0u
 #define FILTER_NEAREST 1u
+// Of a coordinate: some 70 roundings of a float, which are made on the way from corners to a point and from
+// a point to a hit.
+#define COORDINATE_ERROR 4e-6f
 #define ALPHA_OPAQUE 0u
 #define ALPHA_MASK 1u
 #define ALPHA_BLEND 2u

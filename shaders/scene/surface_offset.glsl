@@ -1,16 +1,17 @@
-// Where a ray that leaves a surface may start.
+// How far off a surface a ray begins, so that it does not meet the surface again.
 #ifndef VOXRAY_SURFACE_OFFSET_GLSL
 #define VOXRAY_SURFACE_OFFSET_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
+#include "shaders/scene/scene_types.h"
 
-layout(scalar) readonly buffer SceneSize { float diagonal; } sceneSize;  // Of its bounds, m.
+float largestCoordinate(vec3 p) { return max(abs(p.x), max(abs(p.y), abs(p.z))); }
 
-// So far off the surface, m: an error bound of float positions. A point of a large triangle is as uncertain as the triangle's corners
-// are, so the scene's size counts besides the point's own coordinates: wherever a scene lies near the origin, it is the same offset.
-float surfaceOffset(vec3 position) {
-    const vec3 a = abs(position);
-    return 4e-6 * max(sceneSize.diagonal, max(a.x, max(a.y, a.z)));
-}
+// Of a point that belongs to no triangle, m; never 0.
+float pointOffset(vec3 position) { return COORDINATE_ERROR * max(largestCoordinate(position), 1.0e-20); }
+
+// What rounding may move the points of a triangle along its unit normal, m: coordinates are as uncertain as those of the triangle's
+// corners are, each along its own axis (as Pharr, Jakob and Humphreys 2023, section 6.8.5). Ground that lies level is certain however
+// far it reaches.
+float planeOffset(vec3 a, vec3 b, vec3 c, vec3 normal) { return COORDINATE_ERROR * dot(abs(normal), max(abs(a), max(abs(b), abs(c)))); }
 
 #endif

@@ -3,12 +3,11 @@
 #define VOXRAY_OPEN_SPACE_GLSL
 
 #include "shaders/scene/sampling.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 
-// The ray whose occlusion tells it. normal: geometric, unit length, on that side; voxelSize in m.
+// `position`: off the surface, where rays may begin. The ray whose occlusion tells it. normal: geometric, unit length, on that side; voxelSize in m.
 Ray openSpaceRay(vec3 position, vec3 normal, float voxelSize) {
-    return Ray(position + normal * surfaceOffset(position), 0.0, normal, voxelSize);
+    return Ray(position, 0.0, normal, voxelSize);
 }
 
 #endif

@@ -3,7 +3,6 @@
 #define VOXRAY_PATH_RAY_GLSL
 
 #include "shaders/scene/sampling.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/surfels/surfel_types.h"
 #include "shaders/trace/ray_types.h"
 
@@ -12,7 +11,7 @@
 Ray pathRay(Surfel s, vec3 geometricNormal, uint seed) {
     const vec3 direction = cosineDirection(sobol2(s.id, seed), s.normal);
     if (dot(direction, geometricNormal) <= 0.0) return kNoRay;
-    return Ray(s.position + geometricNormal * surfaceOffset(s.position), 0.0, direction, 1.0e30);
+    return Ray(s.position, 0.0, direction, 1.0e30);
 }
 
 #endif

@@ -8,7 +8,7 @@ VOXRAY_SHARED_BEGIN
 
 // A point on one side of a surface.
 struct Surfel {
-    vec3 position;     // m
+    vec3 position;     // m; so far off its surface that rays may begin there (SurfacePoint::offset).
     uint voxel;        // Number of its voxel, or NO_VOXEL.
     vec3 normal;       // Unit length, on the lit side; geometric, at hits the shading normal.
     uint id;           // Picks its random numbers; unique among surfels that are handled together.

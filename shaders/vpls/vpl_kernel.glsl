@@ -3,7 +3,6 @@
 #define VOXRAY_VPL_KERNEL_GLSL
 
 #include "shaders/scene/sampling.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/vpls/vpl_types.h"
 
@@ -20,13 +19,7 @@ float vplKernel(Vpl vpl, vec3 position, vec3 normal, vec3 faceNormal, float minD
     return cosine * vplCosine / (PI * max(squared, minDistanceSquared));
 }
 
-// From a surface to a virtual light in a unit direction, off both surfaces; none where the ends have passed each other: then
-// nothing can be in the way.
-Ray vplRay(Vpl vpl, vec3 position, vec3 faceNormal, vec3 direction) {
-    const vec3 from = position + faceNormal * surfaceOffset(position);
-    const vec3 way = vpl.position + vpl.faceNormal * surfaceOffset(vpl.position) - from;
-    const float reach = length(way);
-    return dot(way, direction) > 0.0 ? Ray(from, 0.0, way / reach, reach) : kNoRay;
-}
+// From a point off a surface to a virtual light, in the unit direction that vplKernel() finds.
+Ray vplRay(Vpl vpl, vec3 position, vec3 direction) { return Ray(position, 0.0, direction, distance(vpl.position, position)); }
 
 #endif

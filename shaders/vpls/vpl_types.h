@@ -8,7 +8,7 @@ VOXRAY_SHARED_BEGIN
 
 // A point on one side of a Lambert surface that sends light on: cosine / pi times its flux, W/sr.
 struct Vpl {
-    vec3 position;    // m
+    vec3 position;    // m; so far off its surface that rays may begin there (SurfacePoint::offset).
     vec3 normal;      // Unit length: the shading normal, which the cosine is about.
     vec3 faceNormal;  // Unit length: the triangle's, on the same side. Nothing is sent below it.
     vec3 flux;        // W, that the surface reflects here.

@@ -11,11 +11,12 @@ namespace voxray {
 namespace {
 
 /// What is said of a scene's view.
-std::string saidOf(const std::string& scene, int exposureStops = 0) {
+std::string saidOf(const std::string& scene, int exposureStops = 0,
+                   const std::string& graph = "[{pass: gbuffer}]") {
     const Experiment experiment = parseExperiment(
         fmt::format("name: x\nscene: {{{}}}\nimage: {{width: 64, height: 36, exposure_stops: {}}}\n"
-                    "graph: [{{pass: gbuffer}}]\n",
-                    scene, exposureStops),
+                    "graph: {}\n",
+                    scene, exposureStops, graph),
         "x.yaml");
     SceneLoader loader({});
     Registry registry;
@@ -120,6 +121,32 @@ TEST(ViewCheck, NamesWhatIsInTheWayOfASun) {
         "{scale: 20}, material: {base_color: 0.5}}]");
     EXPECT_CONTAINS(dome, "scene.lights[0]: it lights the backs of surfaces alone");
     EXPECT_CONTAINS(dome, "; 'furnace' is in its way: 'scene.hide: [\"furnace\"]' takes it out of the scene");
+}
+
+TEST(ViewCheck, AStrayTriangleHidesNoSun) {
+    for (const char* away : {"1e3", "1e5", "1e6"})
+        EXPECT_EQ(
+            saidOf(fmt::format("builtin: plane, add: [{{builtin: plane, transform: {{translate: [{0}, {0}, "
+                               "0]}}}}], lights: [{{directional: [0, -1, 0]}}]",
+                               away)),
+            "");
+}
+
+TEST(ViewCheck, WarnsOfVoxelsOverMoreThanIsSeen) {
+    const std::string stray =
+        "builtin: cornell, add: [{builtin: plane, transform: {translate: [1000, 0, 0]}}]";
+    const std::string graph = "[{pass: gbuffer}, {pass: voxelize}]";
+    EXPECT_EQ(saidOf("builtin: cornell", 0, graph), "");
+    EXPECT_EQ(saidOf(stray), "") << "nothing is voxelized";
+    const std::string said = saidOf(stray, 0, graph);
+    EXPECT_CONTAINS(said, "x.yaml:2: scene: it is 1e+03 m across");
+    // What is proposed is a region of a config
+    const std::string region = said.substr(said.find("region: {"));
+    EXPECT_EQ(saidOf(stray + ", " + region, 0, graph), "");
+    EXPECT_CONTAINS(refusalOf(stray + ", region: {min: [5, 5, 5], max: [6, 6, 6]}"),
+                    "none of the scene lies in it");
+    EXPECT_CONTAINS(refusalOf(stray + ", region: {min: [1, 0, 0], max: [1, 1, 1]}"),
+                    "min must be less than max");
 }
 
 TEST(ViewCheck, WarnsOfViewsThatAreWhiteOrBlack) {

@@ -38,7 +38,8 @@ buffer Counts {
 void endRay(uint i, Hit hit, vec3 from, vec3 throughput, uint id, float nearField) {
     Surfel at;
     vec3 faceNormal;
-    if (!surfelAtHit(hit, from, at, faceNormal)) return;
+    float offset;
+    if (!surfelAtHit(hit, from, at, faceNormal, offset)) return;
 
     // What is stored there, of the side that the ray came from.
     at.reflectance *= throughput;
@@ -52,6 +53,7 @@ void endRay(uint i, Hit hit, vec3 from, vec3 throughput, uint id, float nearFiel
 #endif
 
     // Where light is measured.
+    at.position += offset * faceNormal;
     at.id = id;
     at.parent = i;
     const uint number = atomicAdd(counts.surfels, 1u);

@@ -22,9 +22,9 @@ void LightEmission::prepare(PassSetup& setup) {
 void LightEmission::emit(PassContext& context, const LightSource& source, const Batch& batch,
                          const Buffer& rays, const Buffer& paths) const {
     const BoundingSphere sphere = boundingSphere(context.frame.scene->geometry);
-    const gpu::EmittingSource emitting{source.kind,  source.light, context.scene.emitterCount,
-                                       batch.rays,   batch.seed,   sphere.center,
-                                       sphere.radius};
+    const gpu::EmittingSource emitting{source.kind,   source.light, context.scene.emitterCount,
+                                       batch.rays,    batch.seed,   sphere.center,
+                                       sphere.radius, sphere.reach};
     context.stream.dispatch(emit_, context.scene.bindings({{"rays", rays}, {"paths", paths}}),
                             EmitPush{emitting, batch.first, batch.count}, linearGroups(batch.count));
 }

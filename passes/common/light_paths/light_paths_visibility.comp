@@ -4,7 +4,6 @@
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
@@ -30,7 +29,7 @@ void main() {
         const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
         if (dot(s.geometricNormal, s.geometricNormal) > 0.0) {
             const vec3 normal = dot(s.geometricNormal, ray.direction) <= 0.0 ? s.geometricNormal : -s.geometricNormal;
-            probe.origin = s.position + normal * surfaceOffset(s.position);
+            probe.origin = s.position + normal * s.offset;
             probe.direction = normal;
             probe.tMax = push.voxelSize;
         }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "scene/region_split.h"
 #include "trace/emission.h"
 
 namespace voxray {
@@ -65,7 +66,8 @@ std::vector<LightSource> requireLightSources(const SceneState& state, const std:
 
 double surfaceArea(const Geometry& geometry) {
     double area = 0;
-    for (const glm::uvec3 t : geometry.triangles) area += triangleArea(geometry, t);
+    for (uint32_t t = 0; t < geometry.triangles.size(); ++t)
+        if (isInRegion(geometry, t)) area += triangleArea(geometry, geometry.triangles[t]);
     return area;
 }
 
@@ -86,8 +88,11 @@ float radianceUnit(const SceneState& state) {
 }
 
 BoundingSphere boundingSphere(const Geometry& geometry) {
-    return {0.5f * (geometry.boundsMin + geometry.boundsMax),
-            0.5f * glm::length(geometry.boundsMax - geometry.boundsMin) * 1.001f + 1e-6f};
+    const auto [low, high] = geometry.region;
+    const glm::vec3 center = 0.5f * (low + high);
+    const auto larger = [](float radius) { return radius * 1.001f + 1e-6f; };
+    const glm::vec3 away = glm::max(center - geometry.boundsMin, geometry.boundsMax - center);
+    return {center, larger(0.5f * glm::length(high - low)), larger(glm::length(away))};
 }
 
 }  // namespace voxray

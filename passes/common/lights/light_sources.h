@@ -16,7 +16,7 @@ struct LightSource {
 };
 
 /// All sources of light whose power is not 0. A directional light and the environment shine on the disc that
-/// the scene's bounding sphere covers.
+/// the bounding sphere covers.
 std::vector<LightSource> lightSources(const SceneState& state);
 
 /// The same. @throws Error naming the pass where there is none.
@@ -25,7 +25,7 @@ std::vector<LightSource> requireLightSources(const SceneState& state, const std:
 /// Area of one side of a triangle, by its vertices, m².
 float triangleArea(const Geometry& geometry, glm::uvec3 triangle);
 
-/// Area of one side of all surfaces, m².
+/// Area of one side of all surfaces in the region, m².
 double surfaceArea(const Geometry& geometry);
 
 /// W, about, as LightSource::power.
@@ -38,10 +38,11 @@ float meanIrradiance(const std::vector<LightSource>& sources, const Geometry& ge
 /// is in the center of the range of half floats.
 float radianceUnit(const SceneState& state);
 
-/// The scene's bounding sphere, a little larger, from which parallel light and the environment shine.
+/// The sphere round the scene's region, a little larger, on which parallel light and the environment shine.
 struct BoundingSphere {
     glm::vec3 center;
     float radius;  ///< m
+    float reach;   ///< m: as far from the center there are surfaces.
 };
 BoundingSphere boundingSphere(const Geometry& geometry);
 

@@ -38,8 +38,8 @@ std::vector<gpu::LightView> lightViews(const Light& light, const Geometry& geome
     const BoundingSphere sphere = boundingSphere(geometry);
     if (light.type == LightType::Directional) {
         gpu::LightView view =
-            makeView(sphere.center - light.direction * sphere.radius, light.direction, sphere.radius);
-        view.farthest = 2 * sphere.radius;
+            makeView(sphere.center - light.direction * sphere.reach, light.direction, sphere.radius);
+        view.farthest = 2 * sphere.reach;
         view.parallel = 1;
         return {view};
     }
@@ -54,8 +54,9 @@ std::vector<gpu::LightView> lightViews(const Light& light, const Geometry& geome
                 views.push_back(makeView(light.position, forward, 1.0f));
             }
     for (gpu::LightView& view : views) {
-        view.farthest = glm::length(light.position - sphere.center) + sphere.radius;
-        view.nearest = view.farthest * 1e-4f;
+        const float distance = glm::length(light.position - sphere.center);
+        view.farthest = distance + sphere.reach;
+        view.nearest = (distance + sphere.radius) * 1e-4f;
     }
     return views;
 }

@@ -37,8 +37,9 @@ void visitFragments(const std::array<glm::dvec3, 3>& corners, glm::ivec3 resolut
 
     const glm::dvec3 low = glm::min(corners[0], glm::min(corners[1], corners[2]));
     const glm::dvec3 high = glm::max(corners[0], glm::max(corners[1], corners[2]));
-    const glm::ivec3 first = glm::max(glm::ivec3(glm::floor(low)), 0);
-    const glm::ivec3 last = glm::min(glm::ivec3(glm::floor(high)), resolution - 1);
+    const glm::dvec3 voxels(resolution);
+    const glm::ivec3 first(glm::clamp(glm::floor(low), glm::dvec3(0), voxels));
+    const glm::ivec3 last(glm::clamp(glm::floor(high), glm::dvec3(-1), voxels - 1.0));
     for (int y = first[v]; y <= last[v]; ++y)
         for (int x = first[u]; x <= last[u]; ++x) {
             const glm::dvec2 center(x + 0.5, y + 0.5);
@@ -135,7 +136,7 @@ uint64_t countFragments(const Geometry& geometry, const gpu::VoxelGrid& grid, ui
 
 VoxelBits metVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
     return voxelsOf(geometry, grid, [&](const std::array<glm::dvec3, 3>& corners, const auto& mark) {
-        visitVoxels(grid.resolution, corners, 0, mark);
+        visitVoxels(grid.resolution, corners, mark);
     });
 }
 

@@ -28,7 +28,8 @@ void main() {
     const Ray ray = rays.data[i];
     Surfel s;
     vec3 faceNormal;
-    if (ray.tMax < ray.tMin || !surfelAtHit(hits.data[i], ray.origin, s, faceNormal)) return;
+    float offset;
+    if (ray.tMax < ray.tMin || !surfelAtHit(hits.data[i], ray.origin, s, faceNormal, offset)) return;
 
     // Does the path survive?
     const Surfel from = ends.data[i];
@@ -41,6 +42,7 @@ void main() {
     // Its end, and its next ray.
     if (push.geometric != 0u) s.normal = faceNormal;
     s.voxel = voxelNumber(push.grid, voxelAt(push.grid, s.position));
+    s.position += offset * faceNormal;
     s.id = from.id;
     s.parent = from.parent;
     const uint number = atomicAdd(count.value, 1u);

@@ -2,6 +2,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "scene/region_split.h"
+
 namespace voxray {
 namespace {
 
@@ -11,16 +13,18 @@ double areaOf(const Geometry& g, uint32_t triangle) {
     return 0.5 * glm::length(glm::cross(p1 - p0, p2 - p0));
 }
 
-/// Calls visit(triangle) for all that stay, then visit(triangle) for all that move.
+/// Calls visit(triangle) for all of the region that stay, then visit(triangle) for all that move.
 template <typename Still, typename Moving>
 void visitTriangles(const Geometry& g, const Still& visitStill, const Moving& visitMoving) {
     const std::vector<InstanceRange> runs = movingRuns(g);
     uint32_t next = 0;
     for (const InstanceRange& run : runs) {
-        for (; next < run.firstTriangle; ++next) visitStill(next);
+        for (; next < run.firstTriangle; ++next)
+            if (isInRegion(g, next)) visitStill(next);
         next += run.triangleCount;
     }
-    for (; next < g.triangles.size(); ++next) visitStill(next);
+    for (; next < g.triangles.size(); ++next)
+        if (isInRegion(g, next)) visitStill(next);
     for (const InstanceRange& run : runs)
         for (uint32_t i = 0; i < run.triangleCount; ++i) visitMoving(run.firstTriangle + i);
 }

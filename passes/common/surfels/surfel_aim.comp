@@ -3,7 +3,6 @@
 // One shadow ray from each surfel towards a source of light, with the irradiance that arrives if nothing is in the way.
 #include "shaders/lights/lights.glsl"
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
@@ -24,16 +23,13 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
-    // Surfaces of light are sampled from where the ray begins: else one that meets them at a slant would end behind them.
-    const float offset = surfaceOffset(s.position);
-    const vec3 from = s.position + s.normal * offset, lit = push.kind == SOURCE_EMITTERS ? from : s.position;
-    const LightSample l = sampleSource(push.kind, push.light, push.samples, push.emitterCount, lit, s.normal, s.id, push.seed);
+    const LightSample l = sampleSource(push.kind, push.light, push.samples, push.emitterCount, s.position, s.normal, s.id, push.seed);
     const vec3 irradiance = l.irradiance * max(dot(s.normal, l.direction), 0.0);
     Ray ray;
-    ray.origin = from;
+    ray.origin = s.position;
     ray.direction = l.direction;
     ray.tMin = 0.0;
-    ray.tMax = any(greaterThan(irradiance, vec3(0.0))) ? l.distance_ - 2.0 * offset : -1.0;
+    ray.tMax = any(greaterThan(irradiance, vec3(0.0))) ? l.reach : -1.0;
     rays.data[i] = ray;
     carried.data[i] = vec4(irradiance, 0.0);
 }

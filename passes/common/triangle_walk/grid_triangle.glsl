@@ -83,7 +83,8 @@ bool overlapsSquare(vec2 a, vec2 b, vec2 c, float winding, vec2 corner, float ma
 
 // The columns of voxels along z, first and last, that the triangle's bounds meet.
 ivec4 columnRange(GridTriangle t, float margin, ivec2 resolution) {
-    return ivec4(max(ivec2(floor(t.lower.xy - margin)), ivec2(0)), min(ivec2(floor(t.upper.xy + margin)), resolution - 1));
+    return ivec4(clamp(floor(t.lower.xy - margin), vec2(0.0), vec2(resolution)),
+                 clamp(floor(t.upper.xy + margin), vec2(-1.0), vec2(resolution) - 1.0));
 }
 
 bool overlapsColumn(GridTriangle t, ivec2 column, float margin) {
@@ -95,7 +96,8 @@ ivec2 depthRange(GridTriangle t, ivec2 column, float margin, int resolution) {
     const float center = depthAt(t, vec2(column) + 0.5);
     const float reach = 0.5 * (abs(t.slope.x) + abs(t.slope.y)) + margin + t.planeError;
     const float from = max(center - reach, t.lower.z - margin), to = min(center + reach, t.upper.z + margin);
-    return ivec2(max(int(floor(from)), 0), min(int(floor(to)), resolution - 1));
+    const float end = float(resolution);
+    return ivec2(clamp(floor(from), 0.0, end), clamp(floor(to), -1.0, end - 1.0));
 }
 
 // Whether a voxel that columnRange, overlapsColumn and depthRange leave meets the triangle: the other two projections.

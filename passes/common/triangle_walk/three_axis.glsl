@@ -74,6 +74,6 @@ void main() {
     voxel[a] = int(floor(clamp(gridPosition[a], depths.x, depths.y)));
     voxel[b] = int(gl_FragCoord.x) / int(walk.samples);
     voxel[c] = int(gl_FragCoord.y) / int(walk.samples);
-    voxel = clamp(voxel, ivec3(0), ivec3(walk.grid.resolution) - 1);
+    if (any(lessThan(voxel, ivec3(0))) || any(greaterThanEqual(voxel, ivec3(walk.grid.resolution)))) return;
     visitFragment(TriangleFragment(triangle, voxel, barycentrics, nearestSubSamples()));
 }

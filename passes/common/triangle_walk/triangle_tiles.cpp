@@ -23,7 +23,7 @@ void forEachTile(const Geometry& geometry, const gpu::VoxelGrid& grid, const Vox
     const int u = (axis + 1) % 3, w = (axis + 2) % 3;
     const GridBounds bounds(geometry, grid, triangle);
     const auto column = [&](float at, int along) {
-        return std::clamp(int(std::floor(at)), 0, int(grid.resolution[along]) - 1);
+        return int(std::clamp(std::floor(at), 0.0f, float(grid.resolution[along]) - 1));
     };
     // Tiles begin with the triangle, wherever the region is; those before and beyond it are passed over.
     const auto first = [&](int along) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "passes/common/voxels/voxels.h"
+#include "scene/region_split.h"
 
 namespace voxray {
 GridBounds::GridBounds(const Geometry& geometry, const gpu::VoxelGrid& grid, uint32_t triangle) {
@@ -17,12 +18,10 @@ GridBounds::GridBounds(const Geometry& geometry, const gpu::VoxelGrid& grid, uin
     high = (glm::max(a, glm::max(b, c)) - grid.origin) / grid.voxelSize + kSpare;
 }
 
-VoxelRegion::VoxelRegion(const gpu::VoxelGrid& grid) : VoxelRegion(grid, {heldVoxels(grid)}) {
-    wholeGrid_ = boxes_[0].size == grid.resolution;
-}
+VoxelRegion::VoxelRegion(const gpu::VoxelGrid& grid) : VoxelRegion(grid, {heldVoxels(grid)}) {}
 
 VoxelRegion::VoxelRegion(const gpu::VoxelGrid& grid, std::vector<VoxelBox> boxes)
-    : grid_(grid), boxes_(std::move(boxes)), wholeGrid_(false) {
+    : grid_(grid), boxes_(std::move(boxes)) {
     for (const VoxelBox& box : boxes_) {
         const glm::vec3 first(box.first), end = first + glm::vec3(box.size);
         low_ = &box == &boxes_[0] ? first : glm::min(low_, first);
@@ -56,7 +55,6 @@ bool VoxelRegion::meets(const glm::vec3& low, const glm::vec3& high) const {
     const auto meet = [&](const glm::vec3& first, const glm::vec3& end) {
         return glm::all(glm::lessThanEqual(low, end)) && glm::all(glm::greaterThanEqual(high, first));
     };
-    if (wholeGrid_) return true;
     return meet(low_, high_) && std::ranges::any_of(boxes_, [&](const VoxelBox& box) {
                return meet(glm::vec3(box.first), glm::vec3(box.first) + glm::vec3(box.size));
            });
@@ -65,10 +63,9 @@ bool VoxelRegion::meets(const glm::vec3& low, const glm::vec3& high) const {
 std::vector<uint32_t> VoxelRegion::triangles(const Geometry& geometry) const {
     std::vector<uint32_t> found(geometry.triangles.size());
     std::iota(found.begin(), found.end(), 0u);
-    if (wholeGrid_) return found;
     std::erase_if(found, [&](uint32_t triangle) {
         const GridBounds bounds(geometry, grid_, triangle);
-        return !meets(bounds.low, bounds.high);
+        return !isInRegion(geometry, triangle) || !meets(bounds.low, bounds.high);
     });
     return found;
 }

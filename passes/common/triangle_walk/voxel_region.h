@@ -31,7 +31,6 @@ class VoxelRegion {
  private:
     gpu::VoxelGrid grid_;
     std::vector<VoxelBox> boxes_;
-    bool wholeGrid_;
     glm::vec3 low_{0}, high_{0};
 };
 

@@ -6,12 +6,13 @@
 
 namespace voxray {
 
-glm::mat4 viewProjection(const Camera& camera, uint32_t width, uint32_t height, glm::vec3 boundsMin,
-                         glm::vec3 boundsMax) {
-    const float reach =
-        glm::length(glm::max(glm::abs(camera.position - boundsMin), glm::abs(camera.position - boundsMax)));
-    const float far = std::max(reach * 1.01f, 1e-3f);
-    const float near = far * 1e-4f;
+glm::mat4 viewProjection(const Camera& camera, uint32_t width, uint32_t height, const Geometry& geometry) {
+    const auto reach = [&](const glm::vec3& low, const glm::vec3& high) {
+        const glm::vec3 away = glm::max(glm::abs(camera.position - low), glm::abs(camera.position - high));
+        return std::max(glm::length(away) * 1.01f, 1e-3f);
+    };
+    const float far = reach(geometry.boundsMin, geometry.boundsMax);
+    const float near = reach(geometry.region.min, geometry.region.max) * 1e-4f;
     const float aspect = float(width) / float(height);
     glm::mat4 projection = glm::perspective(camera.verticalFovRadians, aspect, near, far);
     projection[1][1] = -projection[1][1];

@@ -7,9 +7,8 @@
 
 namespace voxray {
 
-/// World space to Vulkan clip space (y down, depth 0 to 1) for a pinhole camera; near and far planes enclose
-/// the scene.
-glm::mat4 viewProjection(const Camera& camera, uint32_t width, uint32_t height, glm::vec3 boundsMin,
-                         glm::vec3 boundsMax);
+/// World space to Vulkan clip space (y down, depth 0 to 1) for a pinhole camera; the far plane is
+/// behind all of the scene, the near one by the size of its region before the camera.
+glm::mat4 viewProjection(const Camera& camera, uint32_t width, uint32_t height, const Geometry& geometry);
 
 }  // namespace voxray

@@ -10,9 +10,9 @@ namespace voxray {
 /// sub-pixel (i, j) of pixel (x, y), seen through its center; whoever makes an image of the frame's size from
 /// it averages the texels of each pixel. Texels that show no surface have position.w = 0.
 struct GBuffer : Resource {
-    uint32_t samples = 1;   ///< Sub-pixels along each side of a pixel; known from plan() on.
-    Image position;         ///< RGBA32F: world position in m, 1 where there is a surface.
-    Image normal;           ///< RGBA16F: shading normal, flipped to the camera's side.
+    uint32_t samples = 1;  ///< Sub-pixels along each side of a pixel; known from plan() on.
+    Image position;  ///< RGBA32F: world position in m; how far off it rays begin, 0 where there is none.
+    Image normal;    ///< RGBA16F: shading normal, flipped to the camera's side.
     Image geometricNormal;  ///< RGBA16F: the triangle's normal, flipped to the camera's side.
     Image albedo;           ///< RGBA16F: diffuse reflectance.
     Image emission;  ///< RGBA32F: radiance towards the camera, W/(m² sr); the environment's on a miss.

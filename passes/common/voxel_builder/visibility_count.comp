@@ -5,7 +5,6 @@
 #include "passes/common/voxel_builder/visibility_point.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/voxels/face.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -40,7 +39,7 @@ void main() {
     if (i >= push.points) return;
     const ProbePoint point = keptPoints.data[i];
     const vec3 normal = -rays.data[2u * i].direction;
-    const float offset = surfaceOffset(point.position);
+    const float offset = rays.data[2u * i].tMax - push.grid.voxelSize;  // visibility_emit.comp
     const bool frontVisible = meets(2u * i, point.triangle, normal, offset);
     const bool backVisible = meets(2u * i + 1u, point.triangle, normal, offset);
     const uint voxel = voxelNumber(push.grid, voxelAt(push.grid, point.position));

@@ -5,7 +5,6 @@
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
@@ -26,8 +25,7 @@ void main() {
     const uvec2 point = points.data[i];
     const SurfacePoint s = surfacePoint(point.x, trianglePoint(sobol2(point.y, hashCombine(push.seed, point.x))));
     if (s.geometricNormal == vec3(0.0) || alphaCut(sceneMaterials.data[s.material], s)) return;
-    const float offset = surfaceOffset(s.position);
-    const vec3 inVoxel = s.position + s.geometricNormal * offset;
+    const vec3 inVoxel = s.position + s.geometricNormal * s.offset;
     if (!isOccupied(push.grid, voxelAt(push.grid, inVoxel))) return;
 
     const uint at = atomicAdd(kept.count, 1u);
@@ -38,7 +36,7 @@ void main() {
         ray.origin = s.position + normal * push.grid.voxelSize;
         ray.direction = -normal;
         ray.tMin = 0.0;
-        ray.tMax = push.grid.voxelSize + offset;
+        ray.tMax = push.grid.voxelSize + s.offset;
         rays.data[2u * at + side] = ray;
     }
 }

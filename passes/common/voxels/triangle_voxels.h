@@ -24,13 +24,19 @@ inline std::array<glm::dvec3, 3> cornersInVoxels(const Geometry& geometry, const
     return corners;
 }
 
+/// Counts take voxels for larger than walks over triangles do, by so much on each side: those have a margin
+/// of up to 1/2048 (grid_triangle.glsl), and coordinates that are rounded to 2^-14.
+constexpr double kCountMargin = 1.0 / 1024;
+/// What rounding on the device may move a plane, twice, over the product of its edges' lengths, likewise.
+constexpr double kCountRounding = 1e-6;
+
 /// Calls visit(glm::ivec3) once for each voxel that a triangle, in voxels, passes through, of a grid of
 /// `resolution`: where its column along the axis that the triangle faces most meets the triangle, within the
-/// triangle's plane's depth there. That is all that exact voxelization finds, and about a hundredth more.
-/// Nothing for a triangle without area. @param margin by which voxels are larger on each side.
+/// triangle's plane's depth there, by less than any walk's rounding. That is all that exact voxelization
+/// finds, and about a hundredth more. Nothing for a triangle without area.
 template <typename Visit>
-void visitVoxels(glm::uvec3 resolution, const std::array<glm::dvec3, 3>& corners, double margin,
-                 const Visit& visit) {
+void visitVoxels(glm::uvec3 resolution, const std::array<glm::dvec3, 3>& corners, const Visit& visit) {
+    constexpr double margin = kCountMargin;
     const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const glm::dvec3 size = glm::abs(normal);
     const int w = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -38,8 +44,9 @@ void visitVoxels(glm::uvec3 resolution, const std::array<glm::dvec3, 3>& corners
     if (size[w] <= 0) return;
     const glm::dvec3 low = glm::min(corners[0], glm::min(corners[1], corners[2]));
     const glm::dvec3 high = glm::max(corners[0], glm::max(corners[1], corners[2]));
-    const glm::ivec3 first = glm::max(glm::ivec3(glm::floor(low - margin)), glm::ivec3(0));
-    const glm::ivec3 last = glm::min(glm::ivec3(glm::floor(high + margin)), glm::ivec3(resolution) - 1);
+    const glm::dvec3 voxels(resolution);
+    const glm::ivec3 first(glm::clamp(glm::floor(low - margin), glm::dvec3(0), voxels));
+    const glm::ivec3 last(glm::clamp(glm::floor(high + margin), glm::dvec3(-1), voxels - 1.0));
 
     // Within one voxel
     if (first == last) {
@@ -57,6 +64,11 @@ void visitVoxels(glm::uvec3 resolution, const std::array<glm::dvec3, 3>& corners
                                  margin * (std::abs(outward.x) + std::abs(outward.y))};
     }
     const double slopeU = -normal[u] / normal[w], slopeV = -normal[v] / normal[w];
+    const double length1 = glm::length(corners[1] - corners[0]),
+                 length2 = glm::length(corners[2] - corners[0]);
+    const double planeError =
+        kCountRounding * length1 * length2 / glm::length(normal) * std::max(length1, length2);
+    const double reach = 0.5 * (std::abs(slopeU) + std::abs(slopeV)) + margin + planeError;
     for (int y = first[v]; y <= last[v]; ++y)
         for (int x = first[u]; x <= last[u]; ++x) {
             // A column is passed by where for each edge its nearest corner is outside.
@@ -66,9 +78,8 @@ void visitVoxels(glm::uvec3 resolution, const std::array<glm::dvec3, 3>& corners
             if (outside) continue;
             const double center =
                 corners[0][w] + slopeU * (x + 0.5 - corners[0][u]) + slopeV * (y + 0.5 - corners[0][v]);
-            const double reach = 0.5 * (std::abs(slopeU) + std::abs(slopeV)) + margin;
-            const int from = std::max(int(std::floor(std::max(center - reach, low[w] - margin))), first[w]);
-            const int to = std::min(int(std::floor(std::min(center + reach, high[w] + margin))), last[w]);
+            const int from = int(std::max(std::floor(center - reach), double(first[w])));
+            const int to = int(std::min(std::floor(center + reach), double(last[w])));
             glm::ivec3 voxel;
             voxel[u] = x;
             voxel[v] = y;

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "passes/common/voxels/triangle_voxels.h"
 #include "passes/common/voxels/voxel_bits.h"
+#include "scene/region_split.h"
 
 namespace voxray {
 namespace {
@@ -44,9 +45,9 @@ std::vector<uint32_t> count(const Geometry& geometry, const gpu::VoxelGrid& grid
     VoxelBits bits(grid.resolution);
     parallelRanges(geometry.triangles.size(), 1024, [&](size_t begin, size_t end) {
         for (size_t t = begin; t < end; ++t) {
-            if (!selected[t]) continue;
+            if (!selected[t] || !isInRegion(geometry, uint32_t(t))) continue;
             const std::array<glm::dvec3, 3> corners = cornersInVoxels(geometry, grid, uint32_t(t));
-            visitVoxels(bits.size(), corners, 0, [&](glm::ivec3 voxel) { bits.mark(voxel); });
+            visitVoxels(bits.size(), corners, [&](glm::ivec3 voxel) { bits.mark(voxel); });
         }
     });
 

@@ -2,11 +2,10 @@
 #extension GL_GOOGLE_include_directive : require
 // Ambient rays of a batch of pixels, by cosine about the normals of the g-buffer's texels.
 #include "shaders/scene/sampling.glsl"
-#include "shaders/scene/surface_offset.glsl"
 #include "tests/house/occlusion/batch.glsl"
 layout(local_size_x = 64) in;
 
-uniform sampler2D position;  // m; w = 0 where there is no surface.
+uniform sampler2D position;  // m; w: how far off it rays begin, 0 where there is no surface.
 uniform sampler2D normal;
 uniform sampler2D geometricNormal;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
@@ -25,7 +24,7 @@ void main() {
         const uint texelSeed = hashCombine(push.seed, uint(texel.y) * push.width * push.samples + uint(texel.x));
         const vec3 direction = cosineDirection(sobol2(i % push.raysPerTexel, texelSeed), n);
         if (dot(direction, faceNormal) > 0.0)
-            ray = Ray(p.xyz + faceNormal * surfaceOffset(p.xyz), 0.0, direction, push.radius);
+            ray = Ray(p.xyz + faceNormal * p.w, 0.0, direction, push.radius);
     }
     rays.data[i] = ray;
 }

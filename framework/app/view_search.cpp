@@ -1,0 +1,175 @@
+#include "app/view_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+#include <limits>
+
+#include "passes/path_trace/path_tracer.h"
+#include "scene/camera_rays.h"
+#include "scene/outliers.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kWidth = 32, kHeight = 18;  ///< Of a look.
+constexpr int kRays = 200;                     ///< In all directions.
+constexpr float kEnclosed = 0.7f;              ///< Part of them that must meet a surface that looks inwards.
+constexpr size_t kParts = 6;                   ///< Instances that are looked at by themselves.
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// A point of a Fibonacci lattice, which is spread evenly over the sphere.
+glm::vec3 directionOf(int ray) {
+    const float z = 1 - (2 * float(ray) + 1) / kRays, angle = float(ray) * 2.39996323f;
+    const float r = std::sqrt(1 - z * z);
+    return {r * std::cos(angle), z, r * std::sin(angle)};
+}
+
+bool isFront(const SceneState& state, uint32_t triangle, const glm::vec3& direction) {
+    const Geometry& g = state.geometry;
+    if (state.scene->materials[g.triangleMaterials[triangle]].doubleSided) return true;
+    const glm::uvec3 t = g.triangles[triangle];
+    const glm::vec3 a = g.positions[t.x];
+    return glm::dot(glm::cross(g.positions[t.y] - a, g.positions[t.z] - a), direction) < 0;
+}
+
+bool isEnclosed(glm::vec3 from, const SceneState& state, const EmbreeScene& tracer) {
+    int inwards = 0;
+    for (int i = 0; i < kRays; ++i) {
+        const glm::vec3 direction = directionOf(i);
+        const Hit hit = tracer.closestHit({from, 0, direction, kInfinity});
+        inwards += hit.triangle != Hit::kMiss && isFront(state, hit.triangle, direction);
+    }
+    return float(inwards) >= kEnclosed * kRays;
+}
+
+/// All of the scene, most of it, and its largest parts.
+std::vector<Box> boxesOf(const Geometry& g) {
+    std::vector<Box> boxes;
+    for (const InstanceRange& range : g.instances) {
+        if (range.vertexCount == 0) continue;
+        Box box{g.positions[range.firstVertex], g.positions[range.firstVertex]};
+        for (uint32_t i = 0; i < range.vertexCount; ++i) {
+            const glm::vec3& p = g.positions[range.firstVertex + i];
+            box = {glm::min(box.min, p), glm::max(box.max, p)};
+        }
+        boxes.push_back(box);
+    }
+    std::ranges::stable_sort(boxes, std::greater(), [](const Box& b) { return glm::length(b.max - b.min); });
+    if (boxes.size() > kParts) boxes.resize(kParts);
+    boxes.insert(boxes.begin(), {{g.boundsMin, g.boundsMax}, boundsWithoutOutliers(g)});
+    return boxes;
+}
+
+CameraSettings lookingFrom(const glm::vec3& position, const glm::vec3& target) {
+    CameraSettings camera;
+    camera.position = position;
+    camera.target = target;
+    return camera;
+}
+
+/// From outside, where all of a box is in view.
+CameraSettings outside(const Box& box, const glm::vec3& direction) {
+    CameraSettings camera;
+    const glm::vec3 center = 0.5f * (box.min + box.max);
+    const float radius = std::max(0.5f * glm::length(box.max - box.min), 1e-3f);
+    const float distance = radius / std::sin(glm::radians(camera.fovDegrees / 2));
+    return lookingFrom(center + distance * glm::normalize(direction), center);
+}
+
+/// From inside of a box, at its center and along the axes.
+void addInside(const Box& box, std::vector<CameraSettings>& cameras) {
+    const glm::vec3 center = 0.5f * (box.min + box.max), half = 0.5f * (box.max - box.min);
+    const float reach = std::max({half.x, half.y, half.z, 1e-3f});
+    for (const float y : {0.0f, 0.6f, -0.6f})
+        for (const float z : {0.0f, 0.8f, -0.8f, 0.4f, -0.4f})
+            for (const float x : {0.0f, 0.8f, -0.8f, 0.4f, -0.4f}) {
+                const glm::vec3 position = center + half * glm::vec3(x, y, z);
+                if (x != 0 || z != 0)
+                    cameras.push_back(lookingFrom(position, {center.x, position.y, center.z}));
+                for (int i = 0; i < 8; ++i) {
+                    const float angle = float(i) * glm::quarter_pi<float>();
+                    const glm::vec3 along(std::cos(angle), -0.2f, std::sin(angle));
+                    cameras.push_back(lookingFrom(position, position + reach * along));
+                }
+            }
+}
+
+}  // namespace
+
+float Sight::score() const {
+    return std::sqrt(std::min(1.0f, 2 * filled)) * fronts * (1 - near) * (0.01f + lit);
+}
+
+Camera cameraOf(const CameraSettings& settings) {
+    Camera camera;
+    camera.verticalFovRadians = glm::radians(settings.fovDegrees);
+    camera.position = settings.position;
+    camera.forward = glm::normalize(settings.target - settings.position);
+    const glm::vec3 right = glm::normalize(glm::cross(camera.forward, settings.up));
+    camera.up = glm::normalize(glm::cross(right, camera.forward));
+    return camera;
+}
+
+Sight lookAround(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& settings) {
+    const CameraRays rays = cameraRays(cameraOf(settings), kWidth, kHeight);
+    std::vector<float> distances;
+    Sight sight;
+    for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t x = 0; x < kWidth; ++x) {
+            const glm::vec3 direction =
+                rays.direction((float(x) + 0.5f) / float(kWidth), (float(y) + 0.5f) / float(kHeight));
+            const Hit hit = tracer.closestHit({rays.origin, 0, direction, kInfinity});
+            if (hit.triangle == Hit::kMiss) continue;
+            distances.push_back(hit.t);
+            sight.fronts += isFront(state, hit.triangle, direction) ? 1.0f : 0.0f;
+        }
+    if (distances.empty()) return sight;
+    std::ranges::sort(distances);
+    const float far = distances[distances.size() * 3 / 4], seen = float(distances.size());
+    sight.filled = seen / float(kWidth * kHeight);
+    sight.fronts /= seen;
+    sight.near = float(std::ranges::lower_bound(distances, far / 20) - distances.begin()) / seen;
+    sight.distance = distances[distances.size() / 2];
+    return sight;
+}
+
+Sight look(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera) {
+    Sight sight = lookAround(state, tracer, camera);
+    if (sight.filled == 0) return sight;
+    const PathTraceOptions options{.width = kWidth, .height = kHeight, .spp = 4, .bounces = 4};
+    const ImageF image = pathTrace(state, tracer, cameraOf(camera), options).total;
+    size_t lit = 0;
+    for (size_t i = 0; i + 2 < image.data.size(); i += 3)
+        lit += image.data[i] > 0 || image.data[i + 1] > 0 || image.data[i + 2] > 0;
+    // A sky fills what surfaces do not
+    const bool hasSky = state.scene->environment.radiance != glm::vec3(0.0f);
+    const float pixels = float(kWidth * kHeight), sky = hasSky ? (1 - sight.filled) * pixels : 0;
+    sight.lit = std::clamp((float(lit) - sky) / (sight.filled * pixels), 0.0f, 1.0f);
+    return sight;
+}
+
+std::vector<CameraSettings> cameraCandidates(const SceneState& state, const EmbreeScene& tracer) {
+    const Geometry& g = state.geometry;
+    std::vector<CameraSettings> cameras;
+    for (const Box& box : boxesOf(g)) {
+        const glm::vec3 center = 0.5f * (box.min + box.max), half = 0.5f * (box.max - box.min);
+        const glm::vec3 along = half.x > half.z ? glm::vec3(half.x, 0, 0) : glm::vec3(0, 0, half.z);
+        if (along != glm::vec3(0.0f) && isEnclosed(center, state, tracer))
+            cameras.push_back(lookingFrom(center + 0.8f * along, center));
+        for (const float up : {0.4f, 1.5f, -0.4f})
+            for (int i = 0; i < 8; ++i) {
+                const float angle = float(i) * glm::quarter_pi<float>(), c = std::cos(angle),
+                            s = std::sin(angle);
+                cameras.push_back(outside(box, {0.6f * c - s, up, 0.6f * s + c}));
+            }
+        addInside(box, cameras);
+    }
+    return cameras;
+}
+
+}  // namespace voxray

@@ -1,0 +1,139 @@
+#include "scene/region_split.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace voxray {
+namespace {
+
+/// A corner of a part of a triangle: its weights on the triangle's corners, and where it is in the world.
+struct Corner {
+    glm::dvec3 weights, world;
+};
+using Polygon = std::vector<Corner>;
+
+/// The parts of a convex polygon before and behind a plane across an axis.
+std::pair<Polygon, Polygon> cut(const Polygon& polygon, int axis, double at) {
+    Polygon below, above;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+        const Corner &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+        const double a = from.world[axis] - at, b = to.world[axis] - at;
+        if (a <= 0) below.push_back(from);
+        if (a >= 0) above.push_back(from);
+        if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
+            const double t = a / (a - b);
+            Corner between{glm::mix(from.weights, to.weights, t), glm::mix(from.world, to.world, t)};
+            between.world[axis] = at;
+            below.push_back(between);
+            above.push_back(between);
+        }
+    }
+    return {below, above};
+}
+
+/// The parts of a triangle, each inside or outside of a box.
+std::vector<Polygon> parts(const Polygon& triangle, const Box& box) {
+    std::vector<Polygon> found;
+    Polygon rest = triangle;
+    for (int axis = 0; axis < 3; ++axis) {
+        auto [outside, inside] = cut(rest, axis, double(box.min[axis]));
+        auto [kept, beyond] = cut(inside, axis, double(box.max[axis]));
+        found.push_back(std::move(outside));
+        found.push_back(std::move(beyond));
+        rest = std::move(kept);
+    }
+    found.push_back(std::move(rest));
+    std::erase_if(found, [](const Polygon& polygon) { return polygon.size() < 3; });
+    return found;
+}
+
+template <typename T>
+T weighed(const std::vector<T>& list, const glm::uvec3& t, const glm::vec3& w) {
+    return list[t.x] * w.x + list[t.y] * w.y + list[t.z] * w.z;
+}
+
+glm::vec3 unit(const glm::vec3& v) {
+    const float length = glm::length(v);
+    return length > 0 ? v / length : v;
+}
+
+uint32_t addVertex(Mesh& mesh, const glm::uvec3& t, const glm::vec3& w) {
+    const auto add = [&](auto& list) {
+        if (!list.empty()) list.push_back(weighed(list, t, w));
+    };
+    add(mesh.positions);
+    add(mesh.normals);
+    if (!mesh.normals.empty()) mesh.normals.back() = unit(mesh.normals.back());
+    add(mesh.tangents);
+    if (!mesh.tangents.empty())
+        mesh.tangents.back() = glm::vec4(unit(mesh.tangents.back()), mesh.tangents[t.x].w);
+    add(mesh.texCoords0);
+    add(mesh.texCoords1);
+    add(mesh.colors);
+    return uint32_t(mesh.positions.size() - 1);
+}
+
+/// @param world positions of the mesh's vertices. @return whether anything was cut.
+bool split(Mesh& mesh, const glm::vec3* world, const Box& box) {
+    std::vector<glm::uvec3> triangles;
+    bool isCut = false;
+    for (const glm::uvec3 t : mesh.triangles) {
+        const Polygon whole{{{1, 0, 0}, glm::dvec3(world[t.x])},
+                            {{0, 1, 0}, glm::dvec3(world[t.y])},
+                            {{0, 0, 1}, glm::dvec3(world[t.z])}};
+        const glm::vec3 low = glm::min(world[t.x], glm::min(world[t.y], world[t.z]));
+        const glm::vec3 high = glm::max(world[t.x], glm::max(world[t.y], world[t.z]));
+        const bool isInside =
+            glm::all(glm::greaterThanEqual(low, box.min)) && glm::all(glm::lessThanEqual(high, box.max));
+        const bool isOutside =
+            glm::any(glm::lessThan(high, box.min)) || glm::any(glm::greaterThan(low, box.max));
+        const std::vector<Polygon> found = isInside || isOutside ? std::vector<Polygon>() : parts(whole, box);
+        if (found.size() < 2) {
+            triangles.push_back(t);
+            continue;
+        }
+        isCut = true;
+        for (const Polygon& polygon : found) {
+            std::vector<uint32_t> corners;
+            for (const Corner& corner : polygon) {
+                const glm::dvec3& w = corner.weights;
+                corners.push_back(w.x == 1   ? t.x
+                                  : w.y == 1 ? t.y
+                                  : w.z == 1 ? t.z
+                                             : addVertex(mesh, t, glm::vec3(w)));
+            }
+            for (size_t i = 2; i < corners.size(); ++i)
+                triangles.emplace_back(corners[0], corners[i - 1], corners[i]);
+        }
+    }
+    mesh.triangles = std::move(triangles);
+    return isCut;
+}
+
+}  // namespace
+
+std::shared_ptr<Scene> splitAtBorder(const SceneState& state, const Box& box) {
+    auto scene = std::make_shared<Scene>(*state.scene);
+    for (size_t i = 0; i < scene->instances.size(); ++i) {
+        const InstanceRange& range = state.geometry.instances[i];
+        if (range.moves) continue;
+        Mesh mesh = scene->meshes[scene->instances[i].mesh];
+        if (!split(mesh, state.geometry.positions.data() + range.firstVertex, box)) continue;
+        scene->instances[i].mesh = uint32_t(scene->meshes.size());
+        scene->meshes.push_back(std::move(mesh));
+    }
+    return scene;
+}
+
+bool isInRegion(const Geometry& g, uint32_t triangle) {
+    const auto& [low, high] = g.region;
+    if (low == g.boundsMin && high == g.boundsMax) return true;
+    const glm::uvec3 t = g.triangles[triangle];
+    const glm::vec3 center = g.positions[t.x] / 3.0f + g.positions[t.y] / 3.0f + g.positions[t.z] / 3.0f;
+    return glm::all(glm::greaterThanEqual(center, low)) && glm::all(glm::lessThanEqual(center, high));
+}
+
+}  // namespace voxray

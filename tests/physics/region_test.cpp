@@ -1,0 +1,78 @@
+// A region of interest in a scene that is much larger: what is cut, and light in it against the path tracer.
+#include "scene/region_split.h"
+
+#include <gtest/gtest.h>
+
+#include "passes/common/voxels/voxels.h"
+#include "scene/shapes.h"
+#include "tests/gpu/chain.h"
+#include "tests/support/errors.h"
+
+namespace voxray::test {
+namespace {
+
+/// A room of 4 m, open to the front, on ground of 1 km, in the sun.
+SceneState roomOnGround() {
+    SceneBuilder builder("room on ground");
+    const uint32_t gray = builder.lambert("gray", glm::vec3(0.6f)),
+                   ground = builder.lambert("ground", glm::vec3(0.3f));
+    builder.quad("ground", {-500, 0, 500}, {1000, 0, 0}, {0, 0, -1000}, ground);
+    builder.room({-2, 0.01f, -2}, {2, 3, 2}, {gray, gray, gray, gray, gray, SceneBuilder::none});
+    builder.directionalLight({0.3f, -0.7f, -1}, glm::vec3(5));
+    builder.camera({0, 1.5f, 3.5f}, {0, 1.4f, 0}, 60);
+    return evaluate(builder.finish(), 0);
+}
+
+SceneState inRegion(const SceneState& state, const Box& region) {
+    SceneState cut = evaluate(splitAtBorder(state, region), 0);
+    cut.geometry.region = region;
+    return cut;
+}
+
+double areaOf(const Geometry& g, const std::function<bool(uint32_t)>& isCounted) {
+    double area = 0;
+    for (uint32_t i = 0; i < g.triangles.size(); ++i) {
+        const glm::uvec3 t = g.triangles[i];
+        const glm::dvec3 a = g.positions[t.x], b = g.positions[t.y], c = g.positions[t.z];
+        if (isCounted(i)) area += 0.5 * glm::length(glm::cross(b - a, c - a));
+    }
+    return area;
+}
+
+constexpr Box kRoom{{-2.5f, 0, -2.5f}, {2.5f, 3.2f, 3}};
+
+TEST(Region, CutsTrianglesAtItsBorderAndKeepsTheirSurface) {
+    const SceneState whole = roomOnGround(), cut = inRegion(whole, kRoom);
+    const auto all = [](uint32_t) { return true; };
+    EXPECT_NEAR(areaOf(cut.geometry, all), areaOf(whole.geometry, all), 1e-6 * areaOf(whole.geometry, all));
+    // 5 m by 5.5 m of ground, and the room
+    const auto inside = [&](uint32_t t) { return isInRegion(cut.geometry, t); };
+    EXPECT_NEAR(areaOf(cut.geometry, inside), 5 * 5.5 + 2 * 16 + 3 * 4 * 2.99, 1e-3);
+    for (uint32_t t = 0; t < cut.geometry.triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3 p = cut.geometry.positions[cut.geometry.triangles[t][k]];
+            const bool within = glm::all(glm::greaterThanEqual(p, kRoom.min - 1e-4f)) &&
+                                glm::all(glm::lessThanEqual(p, kRoom.max + 1e-4f));
+            if (inside(t)) EXPECT_TRUE(within);
+        }
+    EXPECT_EQ(inRegion(whole, {{-1000, -1, -1000}, {1000, 9, 1000}}).geometry.triangles.size(),
+              whole.geometry.triangles.size());
+}
+
+TEST(Region, GatherRaysInARoomOnALargeGroundMatchTheReference) {
+    const auto state = std::make_shared<SceneState>(inRegion(roomOnGround(), kRoom));
+    Chain chain(state,
+                graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 64",
+                           "inject_light_rays, rays_per_light: 1048576, bounces: 6",
+                           "trace_gather_rays, rays_per_block: 64", "gather_rays"}),
+                32, 32, 1);
+    Chain reference(state, graphYaml({"gbuffer", "path_trace, spp: 1024, bounces: 7"}), 32, 32, 1);
+    const double expected = mean(reference.image("indirect")), found = mean(chain.image("indirect"));
+    RecordProperty("ratio", fmt::format("{:.4f}", found / expected));
+    EXPECT_NEAR(found, expected, 0.03 * expected);
+    // 64 voxels along the region's longest side
+    EXPECT_NEAR(chain.graph().resource<SurfaceVoxels>("voxels")->grid.voxelSize, 5.5f / 63.75f, 1e-4f);
+}
+
+}  // namespace
+}  // namespace voxray::test
