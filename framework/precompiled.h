@@ -1,4 +1,5 @@
-// Headers that most files include, compiled once for all layers. Files still include what they use.
+// Headers that most files include, compiled once for all layers below graph. Files still include what they
+// use.
 #pragma once
 
 #include <fmt/format.h>

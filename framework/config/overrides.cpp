@@ -10,6 +10,22 @@
 namespace voxray {
 namespace {
 
+/// Takes the first key off what is left of a path that goes on below `parent`, with the dot behind it. A name
+/// with dots is one key where it stands there already, or in double quotes.
+std::string takeKey(const Value& parent, std::string_view& path) {
+    const size_t quote = path.starts_with('"') ? path.find('"', 1) : std::string_view::npos;
+    const bool isQuoted = quote != std::string_view::npos;
+    size_t length = isQuoted ? quote + 1 : std::min(path.find('.'), path.size());
+    if (!isQuoted)
+        for (const auto& [key, value] : parent.members)
+            if (key.size() > length && path.starts_with(key) &&
+                (path.size() == key.size() || path[key.size()] == '.'))
+                length = key.size();
+    const std::string key(isQuoted ? path.substr(1, quote - 1) : path.substr(0, length));
+    path.remove_prefix(std::min(length + 1, path.size()));
+    return key;
+}
+
 void setNested(Value& parent, const std::string& key, const Value& value, Merge merge);
 
 void mergeInto(Value& target, const Value& value, Merge merge) {
@@ -33,10 +49,10 @@ void setNested(Value& parent, const std::string& key, const Value& value, Merge 
 
 // Follows a dotted path below `root`, making the maps on the way.
 void setAlong(Value& root, std::string_view path, const std::string& whole, const Value& value, Merge merge) {
+    if (path.ends_with('.')) throw UsageError(value.where, "'{}': a path must not end in a dot", whole);
     Value* parent = &root;
-    for (size_t dot = path.find('.'); dot != std::string_view::npos; dot = path.find('.')) {
-        const std::string key(path.substr(0, dot));
-        path.remove_prefix(dot + 1);
+    std::string key = takeKey(root, path);
+    for (; !path.empty(); key = takeKey(*parent, path)) {
         Value* child = parent->find(key);
         if (!child) {
             Value made = Value::map();
@@ -51,8 +67,7 @@ void setAlong(Value& root, std::string_view path, const std::string& whole, cons
                                              : "");
         parent = child;
     }
-    if (path.empty()) throw UsageError(value.where, "'{}': a path must not end in a dot", whole);
-    setNested(*parent, std::string(path), value, merge);
+    setNested(*parent, key, value, merge);
 }
 
 // An entry of the graph: a pass's name stands for a map with `pass`.
@@ -174,24 +189,28 @@ const Value* valueAt(const Value& config, const std::string& path) {
             from = first.size() + 1;
         }
     }
-    while (found && from < path.size()) {
-        const size_t dot = std::min(path.find('.', from), path.size());
-        found = found->find(path.substr(from, dot - from));
-        from = dot + 1;
-    }
+    std::string_view left = std::string_view(path).substr(std::min(from, path.size()));
+    while (found && !left.empty()) found = found->find(takeKey(*found, left));
     return found;
 }
 
 TextLocation placeOf(const Value& config, const std::string& path) {
     const Value* found = &config;
-    for (size_t from = 0; from < path.size();) {
-        const size_t dot = std::min(path.find('.', from), path.size());
-        const Value* next = found->find(path.substr(from, dot - from));
+    for (std::string_view left = path; !left.empty();) {
+        const Value* next = found->find(takeKey(*found, left));
         if (!next) break;
         found = next;
-        from = dot + 1;
     }
     return found->where;
+}
+
+std::string lastKey(const Value& config, const std::string& path) {
+    const Value* parent = &config;
+    std::string_view left = path;
+    std::string key = takeKey(config, left);
+    for (; !left.empty(); key = takeKey(parent ? *parent : Value(), left))
+        if (parent) parent = parent->find(key);
+    return key;
 }
 
 std::string passId(const Value& entry) {

@@ -11,6 +11,7 @@
 ///   inject                 a whole pass: a name, a map with `pass`, or a list of these, a chain; the id
 ///                          stays, with the chain's last pass
 ///   sweep.inject           an axis of the sweep (the rest of the path is the axis' own path)
+///   scene.override."Wood.001".metallic    a name with dots, in quotes where it does not stand there already
 namespace voxray {
 
 /// Keys of a config's top level.
@@ -36,6 +37,9 @@ enum class Merge {
 
 /// Where the value that `path` names stands, or else the nearest map round it.
 TextLocation placeOf(const Value& config, const std::string& path);
+
+/// The key that a path ends with.
+std::string lastKey(const Value& config, const std::string& path);
 
 /// Sets what `path` names to `value`; null takes it out. Errors are located at `value.where`.
 /// @throws UsageError for a path that leads nowhere, with the nearest valid one.

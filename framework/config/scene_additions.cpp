@@ -93,6 +93,12 @@ std::vector<MaterialOverride> readMaterialOverrides(const Value& map) {
         if (!settings.isMap() || settings.members.empty())
             throw UsageError(settings.where, "{}: expected settings of a material, as in {{roughness: 0}}",
                              owner);
+        for (const auto& [key, value] : settings.members)
+            if (value.isMap())
+                throw UsageError(value.where,
+                                 "{0}: no setting of a material is called '{1}'; in a path a name with dots "
+                                 "stands in double quotes: scene.override.\"{2}.{1}\"",
+                                 owner, key, name);
         MaterialOverride change{name, {readParams<MaterialSettings>(settings, owner), {}}, settings.where};
         for (const auto& member : settings.members) change.change.keys.push_back(member.key);
         overrides.push_back(std::move(change));

@@ -46,13 +46,12 @@ std::string fileSafe(const std::string& text) {
     return safe;
 }
 
-std::vector<Axis> readAxes(const Value& sweep) {
+std::vector<Axis> readAxes(const Experiment& experiment) {
     std::vector<Axis> axes;
     std::map<std::string, int> labels;
-    for (const auto& [path, list] : sweep.members) {
+    for (const auto& [path, list] : experiment.sweep.members) {
         checkPath(path, list.where);
-        const size_t dot = path.rfind('.');
-        const std::string label = dot == std::string::npos ? path : path.substr(dot + 1);
+        const std::string label = lastKey(experiment.config, path);
         ++labels[label];
         axes.push_back({path, label, sweepValues(list), {}, list.where});
         axes.back().texts = sweepLabels(list);
@@ -149,7 +148,7 @@ std::vector<std::string> sweepLabels(const Value& axis) {
 }
 
 std::vector<Variant> expandSweep(const Experiment& experiment) {
-    const std::vector<Axis> axes = readAxes(experiment.sweep);
+    const std::vector<Axis> axes = readAxes(experiment);
     size_t count = 1;
     for (const Axis& axis : axes) {
         count *= axis.values.size();
@@ -191,7 +190,7 @@ std::vector<Variant> expandSweep(const Experiment& experiment) {
 }
 
 VariantNames::VariantNames(const Experiment& experiment) {
-    for (const Axis& axis : readAxes(experiment.sweep)) labels_.push_back(axis.label);
+    for (const Axis& axis : readAxes(experiment)) labels_.push_back(axis.label);
 }
 
 std::string VariantNames::next(const std::vector<std::string>& values) {

@@ -163,7 +163,7 @@ Experiment experimentOf(const WiredExperiment& wired, const WiredVariant& varian
     return experiment;
 }
 
-Value listOf(const std::vector<std::string>& words) {
+Value quotedList(const std::vector<std::string>& words) {
     Value list = Value::list();
     for (const std::string& word : words) list.items.push_back(Value::fromScalar(word, true));
     return list;
@@ -230,11 +230,11 @@ std::string SwapPlan::json() const {
         Value entry = Value::map();
         entry.set("name", Value::fromScalar(stage.name, true));
         entry.set("cure", Value::fromScalar(stage.cure, true));
-        entry.set("needs", listOf(stage.needs));
-        entry.set("changes", listOf(stage.changes));
+        entry.set("needs", quotedList(stage.needs));
+        entry.set("changes", quotedList(stage.changes));
         stageList.items.push_back(std::move(entry));
     }
-    for (const auto& set : swaps) swapMap.set(labelOf(set), listOf(set));
+    for (const auto& set : swaps) swapMap.set(labelOf(set), quotedList(set));
     whole.set("stages", std::move(stageList));
     whole.set("variants", std::move(swapMap));
     return whole.json();

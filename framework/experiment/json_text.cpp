@@ -5,10 +5,10 @@
 namespace voxray {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 /// Reads a document up to a text. Each handler tells whether to go on.
-class TextSearch final : public Json::json_sax_t {
+class TextSearch final : public PlainJson::json_sax_t {
  public:
     explicit TextSearch(const std::vector<std::string>& path) : path_(path) {}
     const std::string& found() const { return found_; }
@@ -32,7 +32,7 @@ class TextSearch final : public Json::json_sax_t {
         keys_.back() = std::move(text);
         return true;
     }
-    bool parse_error(size_t, const std::string&, const Json::exception&) override { return false; }
+    bool parse_error(size_t, const std::string&, const PlainJson::exception&) override { return false; }
 
  private:
     bool enter() {
@@ -53,7 +53,7 @@ class TextSearch final : public Json::json_sax_t {
 
 std::string jsonTextAt(std::string_view json, const std::vector<std::string>& path) {
     TextSearch search(path);
-    Json::sax_parse(json, &search);
+    PlainJson::sax_parse(json, &search);
     return search.found();
 }
 

@@ -96,7 +96,7 @@ const PreparedReference* PartRunner::referenceOf(const WiredVariant& variant, Pr
     return &*reference_;
 }
 
-void PartRunner::writeReference(const WiredVariant& variant) {
+void PartRunner::writeReference(const WiredVariant& variant, Progress& progress) {
     const bool isKnown = reference_ && reference_->images.hash == prepared_.referenceHash(variant);
     if (!isKnown || hasReferenceImages(variant)) return;
     references_ = folder_.references();  // Another process may have been faster.
@@ -109,6 +109,9 @@ void PartRunner::writeReference(const WiredVariant& variant) {
         writeFileAtomically(path / "reference.json", text);
     });
     references_ = folder_.references();
+    if (references_.size() == 1)
+        progress.note(fmt::format("the first image, path traced: {}",
+                                  (folder_.path() / "images" / record.folder / "final.png").string()));
 }
 
 std::optional<VariantResult> PartRunner::runVariant(WiredVariant& variant, Progress& progress) {
@@ -116,30 +119,40 @@ std::optional<VariantResult> PartRunner::runVariant(WiredVariant& variant, Progr
     Session& session = prepared_.session();
     std::optional<RenderedVariant> rendered;
     VariantResult failed;
-    try {
+    const auto attempt = [&](const auto& work) {
+        try {
+            work();
+        } catch (const std::bad_alloc&) {
+            failed.error = "out of memory";
+        } catch (const std::exception& error) {
+            failed.error = oneLine(error.what());
+        }
+    };
+    const PreparedReference* reference = nullptr;
+    attempt([&] {
         progress.begin(experiment.reference.isNull() ? variant.name : variant.name + ": reference");
-        const PreparedReference* reference = referenceOf(variant, progress);
-        progress.begin(variant.name);
-        const auto update = [&](double fraction) { progress.update(fraction); };
-        std::function<FrameReference(uint32_t)> referenceOfFrame;
-        if (!standsStill(variant.setup.scene))
-            referenceOfFrame = [&](uint32_t number) {
-                return FrameReference{session.frameReference(prepared_.wired(), variant.setup,
-                                                             prepared_.registry(), number, update),
-                                      session.selectPixels(experiment, variant.setup, number)};
-            };
-        rendered = renderVariant(variant, experiment, session, reference, referenceOfFrame,
-                                 prepared_.registry(), prepared_.options().aovs, update);
-    } catch (const std::bad_alloc&) {
-        failed.error = "out of memory";
-    } catch (const std::exception& error) {
-        failed.error = oneLine(error.what());
-    }
+        reference = referenceOf(variant, progress);
+    });
+
+    // What can't be written ends the run; what was written stays. The reference comes first, to be looked at
+    // while variants render
+    if (!interruptRequested()) writeReference(variant, progress);
+    const auto update = [&](double fraction) { progress.update(fraction); };
+    if (failed.error.empty())
+        attempt([&] {
+            progress.begin(variant.name);
+            std::function<FrameReference(uint32_t)> referenceOfFrame;
+            if (!standsStill(variant.setup.scene))
+                referenceOfFrame = [&](uint32_t number) {
+                    return FrameReference{session.frameReference(prepared_.wired(), variant.setup,
+                                                                 prepared_.registry(), number, update),
+                                          session.selectPixels(experiment, variant.setup, number)};
+                };
+            rendered = renderVariant(variant, experiment, session, reference, referenceOfFrame,
+                                     prepared_.registry(), prepared_.options().aovs, update);
+        });
     if (!rendered) session.stream().discard();
     if (interruptRequested()) return {};
-
-    // What can't be written ends the run; what was written stays
-    writeReference(variant);
     if (rendered) {
         rendered->result.session = prepared_.manifest().started;
         const VariantInputs inputs = prepared_.inputsOf(variant);

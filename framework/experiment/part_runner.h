@@ -44,7 +44,7 @@ class PartRunner {
  private:
     const PreparedReference* referenceOf(const WiredVariant& variant, Progress& progress);
     std::string referenceFolder(const std::string& hash) const;
-    void writeReference(const WiredVariant& variant);
+    void writeReference(const WiredVariant& variant, Progress& progress);
 
     PreparedExperiment& prepared_;
     const ResultsFolder& folder_;

@@ -46,14 +46,14 @@ uint32_t partsIn(const std::string& id) {
 }
 
 /// What a part takes.
-struct Need {
+struct PartNeed {
     uint64_t bytes = 0;
     uint64_t cost = 0;
     const char* unit = "";
     std::string error;  ///< Why it would fail.
 };
 
-Need needOf(const Part& part, PreparedExperiment& prepared, Forecaster& forecaster) {
+PartNeed partNeedOf(const Part& part, PreparedExperiment& prepared, Forecaster& forecaster) {
     if (part.kind == Part::Kind::Merge) return {};
     WiredVariant& variant = prepared.variants()[part.variant];
     if (part.kind == Part::Kind::Reference) {
@@ -74,7 +74,7 @@ const char* nameOf(Part::Kind kind) {
     return kind == Part::Kind::Reference ? "reference" : kind == Part::Kind::Variant ? "variant" : kMerge;
 }
 
-Json jobJson(const Part& part, const Need& need) {
+Json jobJson(const Part& part, const PartNeed& need) {
     Json job{{"id", part.id}, {"kind", nameOf(part.kind)}, {"after", part.after}, {"writes", part.writes}};
     if (!need.error.empty()) job["error"] = need.error;
     if (part.kind == Part::Kind::Merge || !need.error.empty()) return job;
@@ -84,7 +84,7 @@ Json jobJson(const Part& part, const Need& need) {
     return job;
 }
 
-std::string jobLine(const Part& part, const Need& need) {
+std::string jobLine(const Part& part, const PartNeed& need) {
     std::vector<std::string> said;
     if (!need.error.empty())
         said.push_back("would fail: " + need.error);
@@ -176,7 +176,7 @@ std::string describeParts(PreparedExperiment& prepared, uint32_t referenceParts,
     Forecaster forecaster(prepared);
     for (const Part& part : partsOf(prepared, referenceParts)) {
         if (interruptRequested()) throw Interrupted();
-        const Need need = needOf(part, prepared, forecaster);
+        const PartNeed need = partNeedOf(part, prepared, forecaster);
         jobs.push_back(jobJson(part, need));
         table += jobLine(part, need);
     }

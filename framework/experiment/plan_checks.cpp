@@ -157,13 +157,13 @@ class ReferencePlan {
 };
 
 /// A variant and the memory that it takes.
-struct Need {
+struct MemoryNeed {
     std::string variant;
     uint64_t bytes;
     std::string largest;  ///< Id of the pass that takes most.
 };
 
-Need needOf(const WiredVariant& variant, const std::vector<PassMemory>& memory) {
+MemoryNeed memoryNeedOf(const WiredVariant& variant, const std::vector<PassMemory>& memory) {
     const std::vector<Graph::PassInfo> passes = variant.graph.passes();
     size_t largest = 0;
     for (size_t i = 0; i < memory.size(); ++i)
@@ -174,12 +174,12 @@ Need needOf(const WiredVariant& variant, const std::vector<PassMemory>& memory) 
 
 /// @return what to warn of where some variants are over the config's limit, else "".
 /// @throws UsageError with file and line where all are.
-std::string overTheLimit(const Experiment& experiment, std::vector<Need> needs) {
+std::string overTheLimit(const Experiment& experiment, std::vector<MemoryNeed> needs) {
     const uint64_t limitMb = experiment.measure.memoryLimitMb;
-    const auto isOver = [&](const Need& need) { return limitMb > 0 && need.bytes > limitMb << 20; };
+    const auto isOver = [&](const MemoryNeed& need) { return limitMb > 0 && need.bytes > limitMb << 20; };
     const size_t over = size_t(std::ranges::count_if(needs, isOver));
     if (over == 0) return {};
-    std::ranges::stable_sort(needs, {}, &Need::bytes);
+    std::ranges::stable_sort(needs, {}, &MemoryNeed::bytes);
     const auto& [variant, bytes, largest] = *std::ranges::find_if(needs, isOver);
     const UsageError error(
         placeOf(experiment.config, "measure.memory_limit_mb"),
@@ -209,7 +209,7 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
                      const Registry& registry, std::optional<size_t> only) {
     const Experiment& experiment = wired.experiment;
     std::map<std::string, std::vector<std::string>> notices;  // What is said, of which variants.
-    std::vector<Need> needs;
+    std::vector<MemoryNeed> needs;
     IdleMotion motion(experiment.measure);
     std::string key;
     PreparedScene prepared;
@@ -246,7 +246,7 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
         say(spheresThatStay(variant));
         const Frame frame = frameOf(variant.setup, prepared, variant.setup.general.seed);
         try {
-            needs.push_back(needOf(variant, variant.graph.plan(frame, device, kAnySize)));
+            needs.push_back(memoryNeedOf(variant, variant.graph.plan(frame, device, kAnySize)));
             say(lightCost->warnings(variant.graph.passes()));
             say(shortHistory(variant, experiment.measure));
             if (wired.reference.isNull()) continue;

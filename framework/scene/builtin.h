@@ -17,7 +17,7 @@ struct BuiltinScene {
 };
 
 /// The scenes of each file.
-std::vector<BuiltinScene> roomScenes();        ///< cornell, thin_wall, mirror_room, mirror_row
+std::vector<BuiltinScene> roomScenes();        ///< cornell, still_life, thin_wall, mirror_room, mirror_row
 std::vector<BuiltinScene> daylightScenes();    ///< window_room, shell_room
 std::vector<BuiltinScene> clutterScenes();     ///< clutter
 std::vector<BuiltinScene> closedFormScenes();  ///< furnace, white_room, quad_light, plane

@@ -65,6 +65,38 @@ std::shared_ptr<const Scene> make(const Cornell& params) {
     return b.finish();
 }
 
+struct StillLife {
+    static constexpr const char* name = "still_life";
+    float glow = 9.0f;
+    static constexpr auto schema() {
+        return std::tuple{field("glow", &StillLife::glow,
+                                "Red radiance of the glowing ball, in W/(m² sr); green and blue follow.",
+                                0.0f, 1e6f)};
+    }
+};
+
+/// Boxes and balls in a room of 3.4 m x 2 m x 2.4 m between two colored walls, open towards +Z; one ball
+/// glows.
+std::shared_ptr<const Scene> make(const StillLife& params) {
+    SceneBuilder b(StillLife::name);
+    const uint32_t grey = b.lambert("grey", glm::vec3(0.73f));
+    const uint32_t orange = b.lambert("orange", {0.72f, 0.22f, 0.06f});
+    const uint32_t teal = b.lambert("teal", {0.05f, 0.32f, 0.42f});
+    b.room({-1.7f, 0, -1.2f}, {1.7f, 2, 1.2f}, {orange, teal, grey, grey, grey, SceneBuilder::none});
+    b.box("tall box", {-0.85f, 0, -0.45f}, {0.5f, 1.15f, 0.5f}, glm::radians(20.0f), grey);
+    b.box("short box", {0.85f, 0, 0.1f}, {0.55f, 0.45f, 0.55f}, glm::radians(-18.0f), grey);
+    const auto ball = [&](const char* name, const glm::vec3& center, float radius, uint32_t material) {
+        b.place(b.mesh(sphereMesh(name, center, radius, 3, material, false, true)));
+    };
+    ball("white ball", {-0.2f, 0.28f, 0.35f}, 0.28f, b.lambert("white", glm::vec3(0.8f)));
+    ball("violet ball", {0.85f, 0.66f, 0.1f}, 0.21f, b.lambert("violet", {0.3f, 0.12f, 0.5f}));
+    const glm::vec3 emission = params.glow * glm::vec3(1.0f, 0.5f, 0.13f);
+    ball("glowing ball", {0.25f, 0.17f, -0.35f}, 0.17f, b.lambert("glowing", glm::vec3(0.5f), emission));
+    b.pointLight({0.5f, 1.7f, 0.5f}, glm::vec3(3.0f));
+    b.camera({0, 1, 3.6f}, {0, 0.95f, 0}, 42);
+    return b.finish();
+}
+
 struct ThinWall {
     static constexpr const char* name = "thin_wall";
     float thickness = 0.05f;
@@ -156,8 +188,8 @@ std::shared_ptr<const Scene> make(const MirrorRow& params) {
 }  // namespace
 
 std::vector<BuiltinScene> roomScenes() {
-    return {builtinScene<Cornell>(), builtinScene<ThinWall>(), builtinScene<MirrorRoom>(),
-            builtinScene<MirrorRow>()};
+    return {builtinScene<Cornell>(), builtinScene<StillLife>(), builtinScene<ThinWall>(),
+            builtinScene<MirrorRoom>(), builtinScene<MirrorRow>()};
 }
 
 }  // namespace voxray

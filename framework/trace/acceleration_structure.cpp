@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "trace/uploaded.h"
 #include "vulkan/structure.h"
 
 namespace voxray {
@@ -149,13 +150,6 @@ void buildTop(Device& device, CommandStream& stream, SceneStructure& scene) {
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR);
     build.geometry.geometry.instances.data.deviceAddress = buffer.address();
     run(device, stream, "top-level acceleration structure", build, scene.top);
-}
-
-template <typename T>
-Buffer uploaded(Device& device, CommandStream& stream, const char* name, const std::vector<T>& data) {
-    Buffer buffer(device, name, std::max<size_t>(data.size(), 1) * sizeof(T));
-    stream.upload(buffer, data);
-    return buffer;
 }
 
 }  // namespace

@@ -47,7 +47,8 @@ class AlphaTexels {
 };
 
 template <typename T>
-Buffer uploaded(Device& device, CommandStream& stream, const char* name, const std::vector<T>& data) {
+Buffer uploadedUnlessEmpty(Device& device, CommandStream& stream, const char* name,
+                           const std::vector<T>& data) {
     if (data.empty()) return {};
     Buffer buffer(device, name, data.size() * sizeof(T));
     stream.upload(buffer, data);
@@ -80,9 +81,9 @@ GpuAlphaMask makeGpuAlphaMask(Device& device, CommandStream& stream, const Scene
         triangles.push_back(triangle);
     }
     GpuAlphaMask mask;
-    mask.triangles = uploaded(device, stream, "alpha-masked triangles", triangles);
-    mask.materials = uploaded(device, stream, "alpha-masked materials", materials);
-    mask.texels = uploaded(device, stream, "alpha masks", texels.padded());
+    mask.triangles = uploadedUnlessEmpty(device, stream, "alpha-masked triangles", triangles);
+    mask.materials = uploadedUnlessEmpty(device, stream, "alpha-masked materials", materials);
+    mask.texels = uploadedUnlessEmpty(device, stream, "alpha masks", texels.padded());
     return mask;
 }
 

@@ -10,6 +10,7 @@
 #include "shaders/scene/scene_types.h"
 #include "trace/emission.h"
 #include "trace/texture_lookup.h"
+#include "trace/uploaded.h"
 
 namespace voxray {
 namespace {
@@ -123,13 +124,6 @@ ImageDesc describe(const Texture& texture) {
     desc.usage =
         VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     return desc;
-}
-
-template <typename T>
-Buffer uploaded(Device& device, CommandStream& stream, const char* name, const std::vector<T>& data) {
-    Buffer buffer(device, name, std::max<uint64_t>(data.size() * sizeof(T), sizeof(T)));
-    if (!data.empty()) stream.upload(buffer, data);
-    return buffer;
 }
 
 Image uploadedTexture(Device& device, CommandStream& stream, const Texture& texture) {

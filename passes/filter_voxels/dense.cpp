@@ -12,7 +12,7 @@ namespace {
 constexpr uint32_t kValueBytes = 8;  // Four half floats.
 
 /// The buffer `radianceVoxels` of shaders/radiance/radiance_dense.glsl.
-struct Header {
+struct DenseHeader {
     gpu::RadianceGrid grid;
     uint64_t values;
     std::array<gpu::DenseLevel, RADIANCE_DENSE_LEVELS> levels;
@@ -38,12 +38,12 @@ class DenseStorage final : public RadianceStorage {
                 values, grid.resolution.x, grid.resolution.y, grid.resolution.z);
         radiance.storage = std::vector<Buffer>(1);
         plan.buffer(radiance.storage[0], "radiance voxels", values * kValueBytes);
-        plan.buffer(radiance.header, "radiance voxels' header", sizeof(Header));
+        plan.buffer(radiance.header, "radiance voxels' header", sizeof(DenseHeader));
     }
 
     void prepare(PassSetup& setup, RadianceVoxels& radiance) override {
         const gpu::RadianceGrid& grid = radiance.grid;
-        Header header{grid, radiance.storage[0].address(), {}};
+        DenseHeader header{grid, radiance.storage[0].address(), {}};
         uint32_t first = 0;
         for (uint32_t level = 0; level < grid.levels; ++level) {
             header.levels[level] = {levelResolution(grid.resolution, level), first};

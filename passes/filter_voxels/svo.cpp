@@ -10,7 +10,7 @@
 namespace voxray {
 namespace {
 
-struct SurfacePush {
+struct OctreeSurfacePush {
     gpu::VoxelGrid grid;
     float emission;
     uint32_t firstLeaf;
@@ -69,7 +69,7 @@ class SvoStorage final : public RadianceStorage {
         for (const Binding& binding : radiance.bindings()) bindings.push_back(binding);
         bindings.insert(bindings.end(), {{"leaves", radiance.octree.leafVoxels}, {"changed", changed_}});
         stream.dispatch(surface_, bindings,
-                        SurfacePush{voxels.grid, emission, size.first()[0], size.nodes[0]},
+                        OctreeSurfacePush{voxels.grid, emission, size.first()[0], size.nodes[0]},
                         linearGroups(size.nodes[0]));
         filter_.run(stream, radiance, changed_);
     }

@@ -8,7 +8,7 @@ namespace voxray {
 namespace {
 
 /// The buffer `radianceVoxels` of shaders/radiance/radiance_svo.glsl.
-struct Header {
+struct OctreeHeader {
     gpu::RadianceGrid grid;
     VkDeviceAddress values;
 };
@@ -26,7 +26,7 @@ uint64_t arrayBytes(const OctreeSize& size, uint32_t directions) {
 }  // namespace
 
 uint64_t svoValueBytes(const OctreeSize& size, uint32_t directions) {
-    return sizeof(Header) + arrayBytes(size, directions);
+    return sizeof(OctreeHeader) + arrayBytes(size, directions);
 }
 
 void allocateSvoValues(CommandStream& stream, Octree octree, RadianceVoxels& radiance) {
@@ -37,8 +37,8 @@ void allocateSvoValues(CommandStream& stream, Octree octree, RadianceVoxels& rad
     const OctreeSize& size = radiance.octree.size;
     const Buffer& values =
         radiance.storage.emplace_back(device, "octree values", arrayBytes(size, directions));
-    radiance.header = Buffer(device, "octree values' header", sizeof(Header));
-    const Header header{radiance.grid, values.address()};
+    radiance.header = Buffer(device, "octree values' header", sizeof(OctreeHeader));
+    const OctreeHeader header{radiance.grid, values.address()};
     stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
 
     // NO_NODE holds nothing.

@@ -9,7 +9,7 @@ namespace voxray {
 namespace {
 
 /// The buffer `radianceVoxels` of shaders/radiance/radiance_textures.glsl.
-struct Header {
+struct TextureHeader {
     gpu::RadianceGrid grid;
     gpu::TextureLayout layout;
 };
@@ -35,11 +35,11 @@ class TexturesStorage final : public RadianceStorage {
         planRadianceTexture(plan, "filter_voxels", "set 'layout' to dense",
                             layout_.extent * (1u + (grid.directions - 1u) * layout_.along), grid.levels,
                             radiance);
-        plan.buffer(radiance.header, "radiance voxels' header", sizeof(Header));
+        plan.buffer(radiance.header, "radiance voxels' header", sizeof(TextureHeader));
     }
 
     void prepare(PassSetup& setup, RadianceVoxels& radiance) override {
-        const Header header{radiance.grid, layout_};
+        const TextureHeader header{radiance.grid, layout_};
         setup.stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
         prepareRadianceTexture(setup, radiance);
         fill_ = DenseFill(setup, radiance);

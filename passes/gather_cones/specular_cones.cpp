@@ -14,7 +14,7 @@ struct TablePush {
     uint32_t points;
 };
 
-struct TracePush {
+struct SpecularTracePush {
     glm::vec3 camera;
     uint32_t strata;
 };
@@ -58,7 +58,7 @@ void SpecularCones::record(PassContext& context, const GBuffer& gbuffer, const R
                                      {"strata", table_},
                                      {"reflected", reflected}});
     const glm::uvec3 texels = reflected.desc().extent;
-    context.stream.dispatch(trace_, bindings, TracePush{context.frame.camera.position, strata_},
+    context.stream.dispatch(trace_, bindings, SpecularTracePush{context.frame.camera.position, strata_},
                             pixelGroups(texels.x, texels.y));
 }
 

@@ -18,7 +18,7 @@ struct BeginPush {
     uint32_t ray, rays;
 };
 
-struct AimPush {
+struct CompensationAimPush {
     uint32_t count;
     uint32_t seed;
     float radius;
@@ -29,7 +29,7 @@ struct HitPush {
     float minDistanceSquared;
 };
 
-struct AddPush {
+struct CompensationAddPush {
     uint32_t count;
     uint32_t rays;
     float radius;
@@ -94,13 +94,14 @@ void VplCompensation::record(PassContext& context, const Vpls& vpls, const VplLi
                 direct_.measure(context, sources_, from_.surfels, count, 1, seed + 0x35u, arriving_);
                 light.addToSurfels(context, vpls, visibility, from_.surfels, from_.faceNormals, count,
                                    reflections, arriving_);
-                stream.dispatch(add_,
-                                {{"surfels", from_.surfels},
-                                 {"arriving", arriving_},
-                                 {"irradiance", target.irradiance},
-                                 {"sums", target.sums}},
-                                AddPush{count, settings_.rays, std::sqrt(settings_.minDistanceSquared)},
-                                linearGroups(count));
+                stream.dispatch(
+                    add_,
+                    {{"surfels", from_.surfels},
+                     {"arriving", arriving_},
+                     {"irradiance", target.irradiance},
+                     {"sums", target.sums}},
+                    CompensationAddPush{count, settings_.rays, std::sqrt(settings_.minDistanceSquared)},
+                    linearGroups(count));
             }
         }
 }
@@ -110,7 +111,8 @@ uint32_t VplCompensation::step(PassContext& context, uint32_t count, uint32_t se
     stream.dispatch(aim_,
                     context.scene.bindings(
                         {{"surfels", from_.surfels}, {"faceNormals", from_.faceNormals}, {"rays", rays_}}),
-                    AimPush{count, seed, std::sqrt(settings_.minDistanceSquared)}, linearGroups(count));
+                    CompensationAimPush{count, seed, std::sqrt(settings_.minDistanceSquared)},
+                    linearGroups(count));
     context.tracer.closestHit(stream, rays_, hits_, count);
 
     // Few rays hit: from here on there are only these.

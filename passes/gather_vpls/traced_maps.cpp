@@ -5,7 +5,7 @@
 namespace voxray {
 namespace {
 
-struct AimPush {
+struct MapAimPush {
     uint32_t firstVpl, vplCount;
     uint32_t resolution;
 };
@@ -25,7 +25,7 @@ void TracedMaps::draw(PassContext& context, const Vpls& vpls, uint32_t first, ui
     const uint32_t rays = count * resolution() * resolution();
     context.stream.dispatch(
         aim_, context.scene.bindings({{"VplsAt", vpls.points.at()}, {"list", vpls.list}, {"rays", rays_}}),
-        AimPush{first, count, resolution()}, linearGroups(rays));
+        MapAimPush{first, count, resolution()}, linearGroups(rays));
     context.tracer.closestHit(context.stream, rays_, hits_, rays);
 }
 

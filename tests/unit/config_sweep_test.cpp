@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "config/sweep.h"
 #include "tests/support/errors.h"
@@ -143,6 +146,31 @@ TEST(Sweep, ConfigAxes) {
     EXPECT_EQ(variants[15].setup.scene.source.builtinParameters.find("lights")->scalar, "spot");
     EXPECT_EQ(variants[15].setup.general.seed, 2u);
     EXPECT_EQ(variants[15].setup.general.tracer, TracerKind::RayQuery);
+}
+
+TEST(Sweep, NamesWithDotsAreOneKey) {
+    const auto variantsOf = [](const std::string& overrides, const std::string& axis) {
+        return expandSweep(parseExperiment("name: demo\nscene: {builtin: cornell, override: {" + overrides +
+                                               "}}\ngraph: [{pass: voxelize}]\nsweep: {" + axis +
+                                               ": [0, 1]}\n",
+                                           "demo.yaml"));
+    };
+    // In quotes anywhere; without them where the config has the name already, the longest of several
+    for (const auto& [overrides, axis] : std::vector<std::pair<std::string, std::string>>{
+             {"", "scene.override.\"Wood.001\".metallic"},
+             {"Wood.001: {roughness: 0.5}", "scene.override.\"Wood.001\".metallic"},
+             {"Wood: {roughness: 0.1}, Wood.001: {roughness: 0.5}", "scene.override.Wood.001.metallic"}}) {
+        const auto variants = variantsOf(overrides, axis);
+        ASSERT_EQ(variants.size(), 2u);
+        EXPECT_EQ(variants[1].name, "metallic-1");
+        const MaterialOverride& changed = variants[1].setup.scene.overrides.back();
+        EXPECT_EQ(changed.material, "Wood.001");
+        EXPECT_EQ(changed.change.settings.metallic, 1);
+    }
+    EXPECT_CONTAINS(
+        errorOf<UsageError>([&] { variantsOf("", "scene.override.Wood.001.metallic"); }),
+        "scene.override.Wood: no setting of a material is called '001'; in a path a name with dots stands "
+        "in double quotes: scene.override.\"Wood.001\"");
 }
 
 TEST(Sweep, NamesAreSafeAndUnique) {

@@ -5,7 +5,7 @@
 namespace voxray {
 namespace {
 
-struct Push {
+struct HistogramPush {
     uint32_t count;
     uint32_t bins;
 };
@@ -18,7 +18,8 @@ Histogram::Histogram(Device& device, const ShaderCompiler& compiler)
 void Histogram::record(CommandStream& stream, const Buffer& values, const Buffer& counts, uint32_t count,
                        uint32_t bins) const {
     stream.fill(counts, 0);
-    stream.dispatch(count_, {{"values", values}, {"counts", counts}}, Push{count, bins}, linearGroups(count));
+    stream.dispatch(count_, {{"values", values}, {"counts", counts}}, HistogramPush{count, bins},
+                    linearGroups(count));
 }
 
 }  // namespace voxray

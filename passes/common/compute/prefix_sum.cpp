@@ -8,12 +8,12 @@ namespace {
 constexpr uint32_t kBlockValues = 1024;  // As in prefix_sum.comp.
 constexpr uint32_t kRow = 32768;         // Work groups along x; devices allow 65535.
 
-struct Push {
+struct ScanPush {
     uint32_t count;
     uint32_t blocks;
 };
 
-uint32_t blocksOf(uint32_t count) {
+uint32_t scanBlocksOf(uint32_t count) {
     return count / kBlockValues + (count % kBlockValues > 0 ? 1 : 0);
 }
 
@@ -31,12 +31,12 @@ PrefixSum::PrefixSum(Device& device, const ShaderCompiler& compiler, Of of)
       scanValues_(stage(device, compiler, "SCAN_VALUES", of)) {}
 
 uint64_t PrefixSum::scratchBytes(uint32_t count) {
-    return (uint64_t(blocksOf(count)) + 1) * sizeof(uint32_t);
+    return (uint64_t(scanBlocksOf(count)) + 1) * sizeof(uint32_t);
 }
 
 void PrefixSum::record(CommandStream& stream, const Buffer& source, const Buffer& before,
                        const Buffer& blockSums, uint32_t count) const {
-    const Push push{count, blocksOf(count)};
+    const ScanPush push{count, scanBlocksOf(count)};
     const glm::uvec3 groups = push.blocks <= kRow ? glm::uvec3(push.blocks, 1, 1)
                                                   : glm::uvec3(kRow, (push.blocks + kRow - 1) / kRow, 1);
     const auto bindings = {ifUsed({"source", source}), ifUsed({"result", before}),

@@ -10,13 +10,13 @@ namespace {
 constexpr uint32_t kBlockPairs = 4096, kDigits = 16, kDigitBits = 4;  // As in radix_sort.comp.
 constexpr uint32_t kMaxBlocks = 65535;
 
-struct Push {
+struct SortPush {
     uint32_t count;
     uint32_t shift;
     uint32_t blocks;
 };
 
-uint32_t blocksOf(uint32_t count) {
+uint32_t sortBlocksOf(uint32_t count) {
     return count / kBlockPairs + (count % kBlockPairs > 0 ? 1 : 0);
 }
 
@@ -37,14 +37,14 @@ RadixSort::RadixSort(Device& device, const ShaderCompiler& compiler)
 }
 
 uint64_t RadixSort::scratchBytes(uint32_t count) {
-    const uint32_t counts = blocksOf(count) * kDigits;
+    const uint32_t counts = sortBlocksOf(count) * kDigits;
     return 2 * bytesOf(count) + bytesOf(counts) + PrefixSum::scratchBytes(counts);
 }
 
 void RadixSort::record(CommandStream& stream, Buffer& keys, Buffer& values, uint32_t count,
                        uint32_t keyBits) {
     if (count == 0) return;
-    const uint32_t blocks = blocksOf(count), counts = blocks * kDigits;
+    const uint32_t blocks = sortBlocksOf(count), counts = blocks * kDigits;
     if (blocks > kMaxBlocks)
         throw Error("a radix sort takes at most {} pairs; these are {}", uint64_t(kMaxBlocks) * kBlockPairs,
                     count);
@@ -58,7 +58,7 @@ void RadixSort::record(CommandStream& stream, Buffer& keys, Buffer& values, uint
     require(blockSums_, "radix sort sums", PrefixSum::scratchBytes(counts));
 
     for (uint32_t shift = 0; shift < keyBits; shift += kDigitBits) {
-        const Push push{count, shift, blocks};
+        const SortPush push{count, shift, blocks};
         stream.dispatch(count_, {{"keys", keys}, {"counts", counts_}}, push, {blocks, 1, 1});
         prefixSum_.record(stream, counts_, counts_, blockSums_, counts);
         stream.dispatch(scatter_,

@@ -6,7 +6,7 @@ namespace voxray {
 namespace {
 
 constexpr VkFormat kSeenFormat = VK_FORMAT_R32G32B32A32_UINT;
-constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+constexpr VkFormat kRsmDepthFormat = VK_FORMAT_D32_SFLOAT;
 
 ImageDesc targetDesc(uint32_t resolution, VkFormat format, VkImageUsageFlags usage) {
     ImageDesc desc;
@@ -24,7 +24,7 @@ void RsmImage::plan(PassPlan& plan, uint32_t resolution) {
                           VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
                               VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
     plan.image(depth_, "reflective shadow map depth",
-               targetDesc(resolution, kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT));
+               targetDesc(resolution, kRsmDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT));
 }
 
 void RsmImage::prepare(PassSetup& setup) {
@@ -32,7 +32,7 @@ void RsmImage::prepare(PassSetup& setup) {
                                    setup.compiler.compile("passes/common/lights/rsm.frag")};
     RasterState state;
     state.colorFormats = {kSeenFormat};
-    state.depthFormat = kDepthFormat;
+    state.depthFormat = kRsmDepthFormat;
     rasterize_ = makeRasterProgram(setup.device, stages, state);
 }
 

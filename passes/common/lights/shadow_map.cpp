@@ -5,7 +5,7 @@
 namespace voxray {
 namespace {
 
-constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+constexpr VkFormat kShadowMapFormat = VK_FORMAT_D32_SFLOAT;
 
 /// As shaders/lights/shadow_maps.glsl has it.
 struct ShadowLight {
@@ -16,7 +16,7 @@ struct ShadowLight {
 
 ImageDesc mapDesc(uint32_t resolution) {
     ImageDesc desc;
-    desc.format = kDepthFormat;
+    desc.format = kShadowMapFormat;
     desc.extent = {resolution, resolution, 1};
     desc.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
@@ -45,7 +45,7 @@ void ShadowMap::prepare(PassSetup& setup) {
     const ShaderModule stages[] = {setup.compiler.compile("passes/common/lights/light_view.vert"),
                                    setup.compiler.compile("passes/common/lights/shadow_map.frag")};
     RasterState state;
-    state.depthFormat = kDepthFormat;
+    state.depthFormat = kShadowMapFormat;
     rasterize_ = makeRasterProgram(setup.device, stages, state);
 }
 

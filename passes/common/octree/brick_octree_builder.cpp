@@ -16,7 +16,7 @@ static_assert(sizeof(BrickNode) == kBrickNodeBytes);
 constexpr uint32_t kLongestAxis = 1024;     // A node's place takes 10 bits an axis.
 constexpr uint32_t kScratchWordsANode = 3;  // Visited, flag, flags before.
 
-struct FlagPush {
+struct BrickFlagPush {
     LevelNodes nodes;
     glm::uvec3 resolution;
     uint32_t level;
@@ -28,7 +28,7 @@ struct LinkPush {
     LevelNodes nodes;
     uint32_t belowRoot;
 };
-struct SubdividePush {
+struct BrickSubdividePush {
     LevelNodes nodes;
     uint32_t firstBrick;
     uint32_t firstChild;
@@ -109,8 +109,8 @@ void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Se
                          {"OctreeNodesAt", octree.nodes.at()},
                          {"visited", visited},
                          {"flags", flags}},
-                        FlagPush{nodes, levelResolution(octree.grid.resolution, level), level, belowRoot,
-                                 fragments, neighbors_},
+                        BrickFlagPush{nodes, levelResolution(octree.grid.resolution, level), level, belowRoot,
+                                      fragments, neighbors_},
                         linearGroups(fragments));
         stream.dispatch(link_, {{"OctreeNodesAt", octree.nodes.at()}}, LinkPush{nodes, belowRoot},
                         linearGroups(count));
@@ -125,7 +125,7 @@ void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Se
         }
         stream.dispatch(subdivide_,
                         {{"OctreeNodesAt", octree.nodes.at()}, {"flags", flags}, {"before", before}},
-                        SubdividePush{nodes, octree.brickCount, firstChild}, linearGroups(count));
+                        BrickSubdividePush{nodes, octree.brickCount, firstChild}, linearGroups(count));
         octree.brickCount += flagged;
         stream.finish();
     }

@@ -5,7 +5,7 @@
 namespace voxray {
 namespace {
 
-struct Push {
+struct FaceIrradiancePush {
     uint32_t count;
     float voxelFaceArea;
     float addedWeight;
@@ -20,13 +20,14 @@ void FaceIrradiance::update(CommandStream& stream, const SurfaceVoxels& voxels, 
                             const LargeBuffer& flux, const LargeBuffer* added) {
     makeOrKeep(faces_, stream.device(), "face irradiance", bytes(voxels.voxelCount));
     const uint32_t faces = voxels.voxelCount * kFaces;
-    stream.dispatch(program_,
-                    {{"FluxAt", flux.at()},
-                     {"AddedAt", (added ? *added : flux).at()},
-                     {"area", area},
-                     {"FacesAt", faces_.at()}},
-                    Push{faces, voxels.grid.voxelSize * voxels.grid.voxelSize, added ? 1.0f : 0.0f},
-                    linearGroups(faces));
+    stream.dispatch(
+        program_,
+        {{"FluxAt", flux.at()},
+         {"AddedAt", (added ? *added : flux).at()},
+         {"area", area},
+         {"FacesAt", faces_.at()}},
+        FaceIrradiancePush{faces, voxels.grid.voxelSize * voxels.grid.voxelSize, added ? 1.0f : 0.0f},
+        linearGroups(faces));
 }
 
 }  // namespace voxray

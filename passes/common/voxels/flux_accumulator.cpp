@@ -8,7 +8,7 @@
 namespace voxray {
 namespace {
 
-struct ResolvePush {
+struct FluxResolvePush {
     uint32_t pairs;
     float wattsPerUnit;
 };
@@ -34,7 +34,7 @@ void FluxAccumulator::resolve(CommandStream& stream, const SurfaceVoxels& voxels
                               const LargeBuffer& flux) const {
     const uint32_t pairs = voxels.voxelCount * 3;
     stream.dispatch(resolve_, {{"FluxAccumulatorAt", sums_.at()}, {"FluxAt", flux.at()}},
-                    ResolvePush{pairs, 1.0f / unitsPerWatt_}, linearGroups(pairs));
+                    FluxResolvePush{pairs, 1.0f / unitsPerWatt_}, linearGroups(pairs));
 }
 
 }  // namespace voxray

@@ -9,7 +9,7 @@
 namespace voxray {
 namespace {
 
-struct Push {
+struct LookupPush {
     gpu::VoxelGrid grid;
     float radius;
     uint32_t samples;
@@ -56,15 +56,16 @@ void VoxelLookupPass::record(PassContext& context) {
     const GBuffer& gbuffer = context.get(gbuffer_);
     const SurfaceVoxels& voxels = context.get(voxels_);
     const VoxelIrradiance& irradiance = context.get(irradiance_);
-    context.stream.dispatch(program_,
-                            voxels.bindings({{"position", gbuffer.position, sampler_},
-                                             {"normal", gbuffer.normal, sampler_},
-                                             {"albedo", gbuffer.albedo, sampler_},
-                                             {"VoxelFluxAt", (irradiance.*flux_).at()},
-                                             {"voxelArea", irradiance.area},
-                                             {"result", context.get(reflected_).image}}),
-                            Push{voxels.grid, params_.radius, gbuffer.samples, uint32_t(params_.lookup)},
-                            pixelGroups(context.frame.width, context.frame.height));
+    context.stream.dispatch(
+        program_,
+        voxels.bindings({{"position", gbuffer.position, sampler_},
+                         {"normal", gbuffer.normal, sampler_},
+                         {"albedo", gbuffer.albedo, sampler_},
+                         {"VoxelFluxAt", (irradiance.*flux_).at()},
+                         {"voxelArea", irradiance.area},
+                         {"result", context.get(reflected_).image}}),
+        LookupPush{voxels.grid, params_.radius, gbuffer.samples, uint32_t(params_.lookup)},
+        pixelGroups(context.frame.width, context.frame.height));
 }
 
 }  // namespace voxray
