@@ -134,18 +134,14 @@ Camera chooseCamera(const SceneSettings& settings, const SceneState& state, cons
                      didYouMean(settings.cameraName, names));
 }
 
-/// Cuts triangles at the region's border, so that none lies in it in part.
+/// @throws UsageError for a region that holds nothing.
 void putRegion(PreparedScene& prepared, const SceneSettings& settings) {
-    SceneState& state = prepared.state;
-    const Box bounds{state.geometry.boundsMin, state.geometry.boundsMax};
-    const Box region{glm::max(settings.region->min - prepared.origin, bounds.min),
-                     glm::min(settings.region->max - prepared.origin, bounds.max)};
+    const Geometry& g = prepared.state.geometry;
+    const Box region{glm::max(settings.region->min - prepared.origin, g.boundsMin),
+                     glm::min(settings.region->max - prepared.origin, g.boundsMax)};
     if (!glm::all(glm::lessThanEqual(region.min, region.max)))
         throw UsageError(settings.regionWhere, "scene.region: none of the scene lies in it");
-    std::shared_ptr<Scene> scene = splitAtBorder(state, region);
-    scene->contentHash = hashScene(*scene);
-    state = evaluate(std::move(scene), settings.options.time, state.playback);
-    state.geometry.region = region;
+    prepared.state = inRegion(prepared.state, region, settings.options.time);
 }
 
 /// The lights that shine in a frame and its camera, out of those of the evaluated scene.

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "scene/content_hash.h"
+
 namespace voxray {
 namespace {
 
@@ -115,17 +117,20 @@ bool split(Mesh& mesh, const glm::vec3* world, const Box& box) {
 
 }  // namespace
 
-std::shared_ptr<Scene> splitAtBorder(const SceneState& state, const Box& box) {
+SceneState inRegion(const SceneState& state, const Box& region, double timeSeconds) {
     auto scene = std::make_shared<Scene>(*state.scene);
     for (size_t i = 0; i < scene->instances.size(); ++i) {
         const InstanceRange& range = state.geometry.instances[i];
         if (range.moves) continue;
         Mesh mesh = scene->meshes[scene->instances[i].mesh];
-        if (!split(mesh, state.geometry.positions.data() + range.firstVertex, box)) continue;
+        if (!split(mesh, state.geometry.positions.data() + range.firstVertex, region)) continue;
         scene->instances[i].mesh = uint32_t(scene->meshes.size());
         scene->meshes.push_back(std::move(mesh));
     }
-    return scene;
+    scene->contentHash = hashScene(*scene);
+    SceneState cut = evaluate(std::move(scene), timeSeconds, state.playback);
+    cut.geometry.region = region;
+    return cut;
 }
 
 bool isInRegion(const Geometry& g, uint32_t triangle) {

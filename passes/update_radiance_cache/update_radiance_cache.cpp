@@ -43,20 +43,15 @@ uint32_t batchPaths(const UpdateRadianceCache::Params& params) {
     return std::min(params.raysPerImage, kMaxVertices / pathVertices(params));
 }
 
-// A cube round the scene's region, whose halves, quarters and so on are no round fractions of it: surfaces of a model
-// often lie at those.
+// A cube round the scene's region, whose halves, quarters and so on are no round fractions of it: surfaces of
+// a model often lie at those.
 gpu::RadianceCacheGrid makeGrid(const Geometry& geometry, const UpdateRadianceCache::Params& params,
                                 glm::vec3 camera, float unitsPerIrradiance) {
     const auto [low, high] = geometry.region;
     const glm::vec3 size = high - low;
     const float largest = std::max({size.x, size.y, size.z, 1e-6f});
-    return {low - 0.0113f * largest,
-            1.0371f * largest,
-            camera,
-            params.cellSize,
-            params.capacity,
-            params.normalBins,
-            unitsPerIrradiance};
+    return {low - 0.0113f * largest, 1.0371f * largest, camera, params.cellSize, params.capacity,
+            params.normalBins,       unitsPerIrradiance};
 }
 
 }  // namespace
