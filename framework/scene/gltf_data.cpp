@@ -30,7 +30,7 @@ std::vector<uint8_t> readBuffer(const GltfContainer& container, size_t index, ui
         return {};
     else
         throw Error("it has no uri");
-    if (bytes.size() < size) throw Error("it is to have {} bytes, but has {}", size, bytes.size());
+    if (bytes.size() < size) throw Error("its byteLength is {}, but it has {} bytes", size, bytes.size());
     bytes.resize(size);
     return bytes;
 }

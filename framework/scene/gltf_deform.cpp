@@ -64,8 +64,8 @@ void readSkinWeights(GltfFile& file, const tinygltf::Primitive& primitive, Mesh&
         const auto weights = primitive.attributes.find(fmt::format("WEIGHTS_{}", set));
         if (joints == primitive.attributes.end() || weights == primitive.attributes.end()) break;
         const AccessorValues numbers = readAccessor(file, joints->second, 4, 4, "JOINTS");
-        const bool fractions =
-            file.model().accessors[size_t(weights->second)].componentType != TINYGLTF_COMPONENT_TYPE_FLOAT;
+        const bool fractions = file.at(file.model().accessors, weights->second, "accessor").componentType !=
+                               TINYGLTF_COMPONENT_TYPE_FLOAT;
         const AccessorValues parts = readAccessor(file, weights->second, 4, 4, "WEIGHTS", fractions);
         if (numbers.count != count || parts.count != count)
             file.fail("{}: {} JOINTS and {} WEIGHTS for {} positions", what, numbers.count, parts.count,

@@ -128,7 +128,7 @@ class Gltf:
         return path.with_suffix(".gltf")
 
 
-def turned(axis, degrees):
+def rotated(axis, degrees):
     half = math.radians(degrees) / 2
     return [*(math.sin(half) * numpy.array(axis, float)), math.cos(half)]
 
@@ -264,7 +264,7 @@ def nodes():
     shear = [1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
     transforms = [{"scale": [-1, 1, 1]}, {"scale": [-1, -1, 1]}, {"scale": [-1, -1, -1], "translation": [0, 2, 0]},
                   {"scale": [0, 1, 1]}, {"scale": [1, 0, 1]}, {"scale": [1e-3] * 3}, {"scale": [0.3, 2, 1]},
-                  {"matrix": shear}, {"rotation": turned((0, 1, 0), 40)}, {"translation": [0.5, 0.2, 0.5]},
+                  {"matrix": shear}, {"rotation": rotated((0, 1, 0), 40)}, {"translation": [0.5, 0.2, 0.5]},
                   {"rotation": [0, 0, 0, 1.005]}, {"matrix": [-v for v in shear[:15]] + [1]}]
     for number, node in enumerate(transforms):
         g = Gltf()
@@ -274,12 +274,12 @@ def nodes():
             g = Gltf()
             child = g.tetrahedron(node=node)
             g.root["scenes"][0]["nodes"][-1] = g.add("nodes", {"children": [child], "scale": [1, 0.5, 1],
-                                                               "rotation": turned((0, 1, 0), 30)})
+                                                               "rotation": rotated((0, 1, 0), 30)})
             yield f"transform_{number}_below", g
     for path, interpolation in itertools.product(["translation", "rotation", "scale"], ["LINEAR", "STEP", "CUBICSPLINE"]):
         g = Gltf()
         node = g.tetrahedron()
-        keys = {"translation": [(0, 0, 0), (0, 1, 0)], "rotation": [turned((0, 1, 0), 0), turned((0, 1, 0), 90)],
+        keys = {"translation": [(0, 0, 0), (0, 1, 0)], "rotation": [rotated((0, 1, 0), 0), rotated((0, 1, 0), 90)],
                 "scale": [(1, 1, 1), (1, 2, 1)]}[path]
         width = len(keys[0])
         if interpolation == "CUBICSPLINE":
@@ -314,7 +314,7 @@ def nodes():
             g.root["meshes"][1]["weights"] = weights
         if own:
             g.root["nodes"][number]["weights"] = own
-        yield f"morph_{weights}_{own}", g
+        yield f"morph_{len(weights or [])}_{'own' if own else 'mesh'}", g
     for kinds in itertools.chain.from_iterable(itertools.combinations(["perspective", "orthographic"], n) for n in (1, 2)):
         g = Gltf()
         g.tetrahedron()
@@ -330,11 +330,11 @@ def nodes():
         light = {"type": kind, "intensity": 20, **({"spot": {"outerConeAngle": math.pi / 2}} if kind == "spot" else {})}
         g.root["extensions"] = {"KHR_lights_punctual": {"lights": [light]}}
         g.root["scenes"][0]["nodes"].append(g.add("nodes", {
-            "translation": [0, 3, 0], "rotation": turned((1, 0, 0), -90),
+            "translation": [0, 3, 0], "rotation": rotated((1, 0, 0), -90),
             "extensions": {"KHR_lights_punctual": {"light": 0}}}))
         yield f"light_{kind}", g
     g = Gltf()
-    places = {"TRANSLATION": g.accessor([(-1, 0, 0), (1, 0, 0)]), "ROTATION": g.accessor([turned((0, 1, 0), 30)] * 2, "f", 4)}
+    places = {"TRANSLATION": g.accessor([(-1, 0, 0), (1, 0, 0)]), "ROTATION": g.accessor([rotated((0, 1, 0), 30)] * 2, "f", 4)}
     g.tetrahedron(node={"extensions": {"EXT_mesh_gpu_instancing": {"attributes": places}}})
     g.use("EXT_mesh_gpu_instancing", True)
     yield "instancing", g

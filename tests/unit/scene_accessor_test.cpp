@@ -138,7 +138,7 @@ TEST(GltfAccessors, HostileNumbersAreRefusedInOneLine) {
     EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["byteOffset"] = 4; }), "end outside");
     EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["byteOffset"] = 0xfffffffffffffff0u; }),
                     "too big");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["type"] = "MAT4"; }), "matrices");
+    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["type"] = "MAT3"; }), "matrices");
     EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["type"] = "VEC2"; }), "components");
     EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["componentType"] = 5124; }),
                     "component type");

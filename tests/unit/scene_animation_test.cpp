@@ -75,7 +75,7 @@ TEST(Animation, ScaleAndHierarchyAndSeveralAnimations) {
 
 TEST(Animation, BadKeysAreRefused) {
     const std::vector<glm::vec4> two{{0, 0, 0, 0}, {1, 0, 0, 0}};
-    EXPECT_CONTAINS(animated("translation", "LINEAR", {1, 1}, two).error(), "not increasing");
+    EXPECT_CONTAINS(animated("translation", "LINEAR", {2, 1}, two).error(), "not increasing");
     EXPECT_CONTAINS(animated("translation", "LINEAR", {1}, two).error(), "2 values for 1 keys");
     EXPECT_CONTAINS(animated("translation", "CUBICSPLINE", {1, 2}, two).error(), "2 values for 6 keys");
     EXPECT_CONTAINS(animated("translation", "WAVY", {1, 2}, two).error(), "WAVY");

@@ -118,8 +118,8 @@ TEST(GltfMaterials, BadOnesAreRefusedInOneLine) {
     const json good = {{"emissiveTexture", {{"index", 0}}}};
     EXPECT_EQ(textured(good).load()->textures.size(), 1u);
     GltfBuilder b = textured(good);
-    b.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-    EXPECT_CONTAINS(b.error(), "KHR_draco_mesh_compression");
+    b.root["extensionsRequired"] = {"KHR_materials_unheard_of"};
+    EXPECT_CONTAINS(b.error(), "KHR_materials_unheard_of");
     b = textured(good);
     b.bytes.replace(20, 8, "notpixel");
     EXPECT_CONTAINS(b.error(), "image 0");

@@ -44,8 +44,9 @@ TEST(GltfReading, DataUrisOfAllKinds) {
         writeBytes(folder / "scene.gltf", b.root.dump());
         EXPECT_EQ(loadGltf(folder / "scene.gltf")->meshes.size(), 1u) << uri;
     }
-    for (const auto& [uri, fault] :
-         {std::pair{"data:;base64", "no comma"}, {"data:;base64,A*", "base64"}, {"data:,a", "but has 1"}}) {
+    for (const auto& [uri, fault] : {std::pair{"data:;base64", "no comma"},
+                                     {"data:;base64,A*", "base64"},
+                                     {"data:,a", "it has 1 bytes"}}) {
         b.root["buffers"][0]["uri"] = uri;
         writeBytes(folder / "scene.gltf", b.root.dump());
         EXPECT_CONTAINS(errorOf([&] { loadGltf(folder / "scene.gltf"); }), fault);

@@ -43,7 +43,8 @@ TEST(Skins, JointsPlaceVerticesAndTheNodeDoesNot) {
 
 TEST(Skins, ScaledAndMirroredJointsTurnNormalsAndFronts) {
     Skinned b;
-    for (const int joint : {b.first, b.second}) b.root["nodes"][joint]["scale"] = {-2, 1, 1};
+    for (const int joint : {b.first, b.second})
+        b.root["nodes"][size_t(joint)] = {{"scale", {-2, 1, 1}}, {"translation", {10, 0, 0}}};
     const Geometry g = evaluate(b.load(), 0).geometry;
     const glm::uvec3 t = g.triangles[0];
     const glm::vec3 face =
@@ -112,13 +113,13 @@ TEST(Morphs, DefaultWeightsAreAppliedAndANodesOwnComeFirst) {
     expectNear(g.positions[3 + 1], {1, 0, 2}, 1e-6f);
 
     // A target that turns the triangle turns its flat normal: (1,0,0) to (0,0,1).
-    GltfBuilder turned;
-    const int turn = turned.floats(std::vector<glm::vec3>{{0, 0, 0}, {-1, 0, 1}, {0, 0, 0}}, "VEC3");
-    turned.triangle({{"targets", {{{"POSITION", turn}}}}});
-    turned.root["meshes"][0]["weights"] = {1};
-    expectNear(evaluate(turned.load(), 0).geometry.attributes[0].normal, {-1, 0, 0}, 1e-6f);
-    turned.root["accessors"][0]["count"] = 2;
-    EXPECT_CONTAINS(turned.error(), "morph target 0");
+    GltfBuilder rotated;
+    const int turn = rotated.floats(std::vector<glm::vec3>{{0, 0, 0}, {-1, 0, 1}, {0, 0, 0}}, "VEC3");
+    rotated.triangle({{"targets", {{{"POSITION", turn}}}}});
+    rotated.root["meshes"][0]["weights"] = {1};
+    expectNear(evaluate(rotated.load(), 0).geometry.attributes[0].normal, {-1, 0, 0}, 1e-6f);
+    rotated.root["accessors"][0]["count"] = 2;
+    EXPECT_CONTAINS(rotated.error(), "morph target 0");
 }
 
 }  // namespace
