@@ -11,7 +11,7 @@
 namespace voxray {
 namespace {
 
-constexpr size_t kLights = 16;                 ///< Fewer are not many.
+constexpr size_t kLights = 16;                ///< Fewer are not many.
 constexpr uint64_t kMaxUnasked = 20'000'000;  ///< Rays that no machine takes long for.
 constexpr double kLongSeconds = 10;
 constexpr uint32_t kTimedRays = 1u << 16;

@@ -87,7 +87,7 @@ class SceneLoader {
     std::map<std::pair<std::string, std::string>, std::shared_ptr<const ImageF>>
         maps_;                              ///< By path and layer.
     std::vector<std::string> mapWarnings_;  ///< Which layers were taken, where a map has several.
-    std::set<std::string> changes_;                                        ///< What composing changed.
+    std::set<std::string> changes_;         ///< What composing changed.
     std::deque<std::pair<std::string, std::shared_ptr<PlanMemo>>> memos_;  ///< Of the last few surfaces.
 };
 

@@ -20,10 +20,10 @@ constexpr std::array supportedExtensions{"EXT_mesh_gpu_instancing", "EXT_meshopt
                                          "KHR_lights_punctual",     "KHR_materials_emissive_strength",
                                          "KHR_materials_ior",       "KHR_materials_pbrSpecularGlossiness",
                                          "KHR_materials_specular",  "KHR_materials_transmission",
-                                         "KHR_materials_unlit",
-                                         "KHR_materials_variants",  "KHR_mesh_quantization",
-                                         "KHR_node_visibility",     "KHR_texture_basisu",
-                                         "KHR_texture_transform",   "KHR_xmp_json_ld"};
+                                         "KHR_materials_unlit",     "KHR_materials_variants",
+                                         "KHR_mesh_quantization",   "KHR_node_visibility",
+                                         "KHR_texture_basisu",      "KHR_texture_transform",
+                                         "KHR_xmp_json_ld"};
 
 /// The number before or after the dot of a version; -1 where there is none.
 int versionPart(std::string_view version, bool minor) {

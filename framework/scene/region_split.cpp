@@ -130,6 +130,7 @@ SceneState inRegion(const SceneState& state, const Box& region, double timeSecon
     scene->contentHash = hashScene(*scene);
     SceneState cut = evaluate(std::move(scene), timeSeconds, state.playback);
     cut.geometry.region = region;
+    cut.panes = state.panes;
     return cut;
 }
 

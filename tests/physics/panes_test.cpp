@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/panes.h"
+#include "scene/region_split.h"
 #include "scene/shapes.h"
 #include "tests/gpu/chain.h"
 #include "tests/support/injections.h"
@@ -62,6 +63,12 @@ TEST(Panes, AreMetByNoRayAndInNoVoxel) {
     EXPECT_EQ(state->panes->geometry.triangles.size(), 4u);
     EXPECT_TRUE(dimsLight(*state));
     EXPECT_FALSE(dimsLight(*twin));
+}
+
+TEST(Panes, StayWhereARegionIsCut) {
+    const auto state = glazedRoom(Shines::Sun, 1, glm::vec3(1));
+    const SceneState cut = inRegion(*state, {glm::vec3(-1), glm::vec3(0.5f)}, 0);
+    EXPECT_EQ(cut.panes, state->panes);
 }
 
 TEST(Panes, ColorTheReference) {
