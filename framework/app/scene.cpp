@@ -165,7 +165,7 @@ void describe(const SceneArguments& arguments) {
     SceneLoader loader(folders);
     const SceneState own = evaluate(loader.load(settings.source), settings.options.time);
     const bool hasCamera = settings.camera || !own.cameras.empty();
-    if (!hasCamera) settings.camera = CameraSettings();  // Until one is found.
+    if (!hasCamera) settings.camera = CameraSettings{.target = {0, 0, -1}};  // Until one is found.
     PreparedScene scene = loader.prepare(settings);
     const Geometry& g = scene.state.geometry;
     const EmbreeScene tracer(scene.state);
@@ -183,9 +183,12 @@ void describe(const SceneArguments& arguments) {
     printObjects(*scene.state.scene);
 
     // A camera to paste, and light for it
-    const CameraSettings inUse = settingsOf(scene.camera, g, tracer);
-    const bool isSeen = hasCamera && seesLight(scene.state, tracer, inUse);
-    if (hasCamera) fmt::print("the camera in use:\n  {}\n", yamlOf(inUse));
+    bool isSeen = false;
+    if (hasCamera) {
+        const CameraSettings inUse = settingsOf(scene.camera, g, tracer);
+        isSeen = seesLight(scene.state, tracer, inUse);
+        fmt::print("the camera in use:\n  {}\n", yamlOf(inUse));
+    }
     if (!isSeen || (settings.camera && own.cameras.empty())) {
         const SuggestedView view = suggestView(scene.state, tracer);
         fmt::print("{}:\n  {}\n", hasCamera ? "another, which sees the scene" : "a camera to begin with",
