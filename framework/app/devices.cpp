@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -38,16 +37,7 @@ void printDevice(const DeviceInfo& device) {
 void printDevices() {
     const std::vector<DeviceInfo> devices = listDevices();
     for (const DeviceInfo& device : devices) printDevice(device);
-    if (devices.empty())
-        throw Error(
-            "no Vulkan device found; install a Vulkan driver (for a machine without a GPU: Mesa's lavapipe, "
-            "package mesa-vulkan-drivers, version 25 or later)");
-    const bool any =
-        std::any_of(devices.begin(), devices.end(), [](const DeviceInfo& d) { return d.missing.empty(); });
-    if (!any)
-        throw Error(
-            "no Vulkan device qualifies: above stands what each lacks; a newer driver may have it, or "
-            "Mesa's lavapipe, package mesa-vulkan-drivers, version 25 or later");
+    if (const std::string why = whyNoDevice(devices); !why.empty()) throw Error("{}", why);
 }
 
 }  // namespace

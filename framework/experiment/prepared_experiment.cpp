@@ -22,6 +22,17 @@ void applyTracerOption(WiredExperiment& wired, const std::string& name) {
     for (WiredVariant& variant : wired.variants) variant.setup.general.tracer = kind;
 }
 
+/// Whether all that the experiment runs does without Vulkan.
+bool runsOnHost(const WiredExperiment& wired, const Registry& registry) {
+    const auto doesWithout = [&](const Graph& graph) {
+        return std::ranges::none_of(graph.passes(), [&](const Graph::PassInfo& pass) {
+            return registry.find(pass.kind)->needsDevice;
+        });
+    };
+    return std::ranges::all_of(wired.variants, doesWithout, &WiredVariant::graph) &&
+           (wired.reference.isNull() || doesWithout(referenceGraph(wired.experiment, registry)));
+}
+
 }  // namespace
 
 PreparedExperiment::PreparedExperiment(WiredExperiment experiment, const RunOptions& options,
@@ -31,6 +42,8 @@ PreparedExperiment::PreparedExperiment(WiredExperiment experiment, const RunOpti
     DeviceOptions device;
     device.name = options_.deviceName;
     device.validation = options_.validation;
+    device.isHost = device.name.empty() && !device.validation && runsOnHost(wired_, registry_) &&
+                    !whyNoDevice(listDevices()).empty();
     session_.emplace(device, options_.sourceRoot,
                      sceneFolders(options_.scenes, options_.sourceRoot, wired_.experiment.file));
 

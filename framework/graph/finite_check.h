@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include <optional>
 
 #include "vulkan/commands.h"
 #include "vulkan/memory.h"
@@ -8,7 +8,7 @@
 
 namespace voxray {
 
-/// Counts NaN and infinite values on the device.
+/// Counts NaN and infinite values: on the device, or on the host where that is all there is.
 class FiniteCheck {
  public:
     FiniteCheck(Device& device, const ShaderCompiler& compiler);
@@ -19,10 +19,14 @@ class FiniteCheck {
     uint32_t badFloats(CommandStream& stream, const Buffer& buffer);
 
  private:
+    struct Programs {
+        Programs(Device& device, const ShaderCompiler& compiler);
+        Program image2d, image3d, buffer;
+        Sampler sampler;
+        Buffer count;
+    };
     uint32_t readCount(CommandStream& stream);
-    Program image2d_, image3d_, buffer_;
-    Sampler sampler_;
-    Buffer count_;
+    std::optional<Programs> programs_;  ///< None where there is no Vulkan.
 };
 
 }  // namespace voxray

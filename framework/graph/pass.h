@@ -219,7 +219,7 @@ class PassContext : public PortAccess {
 
 /// A stage of a graph. A pass class also has `struct Params` with a schema, a constructor from Params, and
 /// `static constexpr const char* kName, *kHelp` (what it does, what biases it, what makes it noisy, its
-/// source).
+/// source), and `static constexpr bool kNeedsDevice = false` where it runs without Vulkan, too.
 class Pass {
  public:
     virtual ~Pass() = default;

@@ -24,6 +24,7 @@ struct PassKind {
     std::string help;
     std::vector<ParameterDoc> parameters;
     std::vector<PortDoc> ports;  ///< With any values of its parameters.
+    bool needsDevice = true;     ///< False: it runs where there is no Vulkan, too (Device::isHost()).
     /// Makes a pass from its map in the config. @param reserved keys that the graph itself reads.
     /// @throws UsageError for an unknown or invalid parameter.
     std::function<std::unique_ptr<Pass>(const Value& map, const std::string& id,
@@ -60,6 +61,7 @@ class Registry {
         kind.help = P::kHelp;
         kind.parameters = describeParams<typename P::Params>();
         kind.ports = portsOf<P>();
+        if constexpr (requires { P::kNeedsDevice; }) kind.needsDevice = P::kNeedsDevice;
         kind.create = [](const Value& map, const std::string& id, const std::vector<std::string>& reserved) {
             return std::unique_ptr<Pass>(new P(readParams<typename P::Params>(map, id, reserved)));
         };

@@ -184,6 +184,7 @@ std::vector<Binding> GpuScene::bindings(std::vector<Binding> more) const {
 GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& state) {
     const Geometry& g = state.geometry;
     GpuScene scene;
+    if (device.isHost()) return scene;
 
     // Geometry, as it is.
     scene.positions = uploaded(device, stream, "scene positions", g.positions);
@@ -242,6 +243,7 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
 }
 
 void updateGpuScene(CommandStream& stream, const SceneState& state, GpuScene& scene) {
+    if (stream.device().isHost()) return;
     const Geometry& g = state.geometry;
     const auto upload = [&](const Buffer& to, const auto& all, uint32_t first, uint32_t count) {
         stream.upload(to, std::as_bytes(std::span(all).subspan(first, count)), first * sizeof(all[0]));

@@ -47,7 +47,8 @@ uint64_t gpuSceneBytes(const SceneState& state);
 uint64_t gpuTextureBytes(const Scene& scene);
 uint64_t gpuEnvironmentBytes(const Environment& environment);
 
-/// Uploads a scene. @throws Error over the memory limit, or for more textures than the device can bind.
+/// Uploads a scene; nothing where there is no Vulkan. @throws Error over the memory limit, or for more
+/// textures than the device can bind.
 GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& state);
 
 /// Takes over where the state's moving instances and its lights are now (`advance`), in place.

@@ -24,6 +24,12 @@ Buffer::Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind
     name_ = std::move(name);
     bytes_ = bytes;
     if (bytes == 0) throw Error("buffer '{}' would hold 0 bytes", name_);
+    if (device.isHost()) {
+        device.reserveMemory(bytes, name_);
+        host_ = std::make_unique<std::byte[]>(bytes);
+        mapped_ = host_.get();
+        return;
+    }
     if (bytes > maxBufferBytes(device))
         throw SizeError("buffer '{}' would hold {:.1f} MiB; device '{}' allows {:.1f} MiB in one buffer",
                         name_, double(bytes) / kMiB, device.info().name,
@@ -52,6 +58,8 @@ Buffer::Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind
 
 Buffer::~Buffer() {
     if (!device_) return;
+    if (host_) device_->releaseMemory(bytes_, name_);
+    if (device_->isHost()) return;
     if (mapped_) vkUnmapMemory(device_->handle(), memory_.handle);
     vkDestroyBuffer(device_->handle(), handle_, nullptr);
     if (memory_.handle) freeMemory(*device_, name_, memory_);
@@ -69,6 +77,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
     std::swap(memory_, other.memory_);
     std::swap(address_, other.address_);
     std::swap(mapped_, other.mapped_);
+    std::swap(host_, other.host_);
     return *this;
 }
 

@@ -35,6 +35,7 @@ void fullBarrier(VkCommandBuffer commands) {
 
 CommandStream::Impl::Impl(Device& d)
     : device(d), smallUploads(d, "small uploads", kSmallBytes, MemoryKind::Upload) {
+    if (device.isHost()) return;
     if (!isMapped(device, MemoryKind::Device))
         smallReads = Buffer(device, "small reads", kSmallBytes, MemoryKind::Readback);
     pushDescriptors = device.function<PFN_vkCmdPushDescriptorSetKHR>("vkCmdPushDescriptorSetKHR");
@@ -55,12 +56,14 @@ CommandStream::Impl::Impl(Device& d)
 }
 
 CommandStream::Impl::~Impl() {
+    if (device.isHost()) return;
     for (VkQueryPool queries : queryPools) vkDestroyQueryPool(device.handle(), queries, nullptr);
     vkDestroyFence(device.handle(), fence, nullptr);
     vkDestroyCommandPool(device.handle(), pool, nullptr);
 }
 
 VkCommandBuffer CommandStream::Impl::open() {
+    if (device.isHost()) throw Error("{}", whyNoDevice({}));
     if (recording) return commands;
     auto begin = structure<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -101,7 +104,7 @@ void CommandStream::Impl::finish() {
 }
 
 void CommandStream::Impl::discard() {
-    check(vkResetCommandPool(device.handle(), pool, 0), "vkResetCommandPool");
+    if (!device.isHost()) check(vkResetCommandPool(device.handle(), pool, 0), "vkResetCommandPool");
     recording = false;
     labels.clear();
     staging.clear();
@@ -228,6 +231,11 @@ void CommandStream::endLabel() {
 
 uint32_t CommandStream::timestamp() {
     const uint32_t index = impl_->timestamps++;
+    if (impl_->device.isHost()) {
+        impl_->hostTimestamps.resize(index);
+        impl_->hostTimestamps.push_back(std::chrono::steady_clock::now());
+        return index;
+    }
     const uint32_t pool = index / kTimestampsPerPool, slot = index % kTimestampsPerPool;
     if (pool == impl_->queryPools.size()) {
         auto create = structure<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
@@ -244,8 +252,13 @@ uint32_t CommandStream::timestamp() {
 }
 
 double CommandStream::millisecondsBetween(uint32_t first, uint32_t second) const {
-    const auto ticks = [&](uint32_t index) {
+    for (const uint32_t index : {first, second})
         if (index >= impl_->timestamps) throw Error("there is no time stamp {}", index);
+    if (impl_->device.isHost())
+        return std::chrono::duration<double, std::milli>(impl_->hostTimestamps[second] -
+                                                         impl_->hostTimestamps[first])
+            .count();
+    const auto ticks = [&](uint32_t index) {
         uint64_t value = 0;
         const VkResult result = vkGetQueryPoolResults(
             impl_->device.handle(), impl_->queryPools[index / kTimestampsPerPool], index % kTimestampsPerPool,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,7 @@ struct CommandStream::Impl {
     StreamCounts counts;
     std::vector<VkQueryPool> queryPools;
     uint32_t timestamps = 0;
+    std::vector<std::chrono::steady_clock::time_point> hostTimestamps;  ///< Where there is no Vulkan.
     PFN_vkCmdPushDescriptorSetKHR pushDescriptors = nullptr;
     PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
     PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;

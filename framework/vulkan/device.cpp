@@ -1,8 +1,11 @@
 #include "vulkan/device.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
 #include <mutex>
+#include <optional>
 
 #include "base/byte_units.h"
 #include "vulkan/size_error.h"
@@ -27,25 +30,39 @@ std::string join(const std::vector<std::string>& words) {
 
 /// The best device that qualifies and whose name contains `wanted`.
 DeviceSupport choose(std::vector<DeviceSupport> devices, const std::string& wanted) {
-    if (devices.empty())
-        throw Error("no Vulkan device found; install a driver (mesa-vulkan-drivers has one for CPUs)");
     std::vector<std::string> names;
-    for (const DeviceSupport& device : devices) names.push_back(device.info.name);
-    std::vector<std::string> refused;
+    std::vector<DeviceInfo> refused;
     for (DeviceSupport& device : devices) {
+        names.push_back(device.info.name);
         if (lower(device.info.name).find(lower(wanted)) == std::string::npos) continue;
         if (device.info.missing.empty()) return std::move(device);
-        refused.push_back(fmt::format("'{}' lacks {}", device.info.name, join(device.info.missing)));
+        refused.push_back(device.info);
     }
-    if (refused.empty())
+    if (refused.empty() && !names.empty())
         throw UsageError("no Vulkan device's name contains '{}'; devices: {}", wanted, join(names));
-    throw Error("no Vulkan device qualifies: {}", fmt::join(refused, "; "));
+    throw Error("{}", whyNoDevice(refused));
 }
 
 }  // namespace
 
+std::string whyNoDevice(const std::vector<DeviceInfo>& devices) {
+    constexpr const char* kLavapipe = "Mesa's lavapipe, package mesa-vulkan-drivers, version 25 or later";
+    if (devices.empty())
+        return fmt::format(
+            "no Vulkan device found; install a Vulkan driver (for a machine without a GPU: {})", kLavapipe);
+    std::vector<std::string> lacks;
+    for (const DeviceInfo& device : devices) {
+        if (device.missing.empty()) return {};
+        lacks.push_back(fmt::format("'{}' lacks {}", device.name, join(device.missing)));
+    }
+    return fmt::format("no Vulkan device qualifies: {}; a newer driver may have it, or {}",
+                       fmt::join(lacks, "; "), kLavapipe);
+}
+
 struct Device::Impl {
-    explicit Impl(bool validation) : instance(validation), isWatched(validation) {}
+    explicit Impl(const DeviceOptions& options) : isWatched(options.validation) {
+        if (!options.isHost) instance.emplace(options.validation);
+    }
     ~Impl() {
         if (device) vkDeviceWaitIdle(device);
         spare.reset();
@@ -57,8 +74,9 @@ struct Device::Impl {
     void createDevice();
     void createTextureSetLayout();
     void readProperties();
+    void describeHost();
 
-    Instance instance;
+    std::optional<Instance> instance;
     bool isWatched;
     std::unique_ptr<SpareMemory> spare;
     DeviceSupport support;
@@ -150,8 +168,20 @@ void Device::Impl::readProperties() {
     }
 }
 
-Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>(options.validation)) {
-    impl_->support = choose(inspectDevices(impl_->instance.handle()), options.name);
+void Device::Impl::describeHost() {
+    support.info.name = "no Vulkan device";
+    support.info.driver = "none";
+    support.info.isCpu = true;
+    properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_CPU;
+    memoryLimit = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE));
+}
+
+Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>(options)) {
+    if (options.isHost) {
+        impl_->describeHost();
+        return;
+    }
+    impl_->support = choose(inspectDevices(impl_->instance->handle()), options.name);
     impl_->createDevice();
     impl_->spare = std::make_unique<SpareMemory>(impl_->device, kLargestSpareBytes);
     impl_->readProperties();
@@ -163,8 +193,11 @@ Device::~Device() = default;
 const DeviceInfo& Device::info() const {
     return impl_->support.info;
 }
+bool Device::isHost() const {
+    return !impl_->instance;
+}
 VkInstance Device::instance() const {
-    return impl_->instance.handle();
+    return impl_->instance->handle();
 }
 VkPhysicalDevice Device::physical() const {
     return impl_->support.physical;
@@ -197,7 +230,7 @@ uint32_t Device::maxTextures() const {
     return impl_->maxTextures;
 }
 bool Device::hasDebugLabels() const {
-    return impl_->instance.hasDebugUtils();
+    return impl_->instance->hasDebugUtils();
 }
 uint32_t Device::timestampBits() const {
     return impl_->support.timestampBits;
@@ -230,7 +263,8 @@ void Device::runNow(const std::function<void(VkCommandBuffer)>& commands) {
 }
 
 std::vector<std::string> Device::validationMessages() const {
-    ValidationLog& log = impl_->instance.log();
+    if (isHost()) return {};
+    ValidationLog& log = impl_->instance->log();
     const std::lock_guard lock(log.mutex);
     return log.messages;
 }
@@ -311,7 +345,7 @@ const char* nameOf(VkResult result) {
         case VK_ERROR_FEATURE_NOT_PRESENT:
             return "VK_ERROR_FEATURE_NOT_PRESENT";
         case VK_ERROR_INCOMPATIBLE_DRIVER:
-            return "VK_ERROR_INCOMPATIBLE_DRIVER (is a Vulkan driver installed?)";
+            return "VK_ERROR_INCOMPATIBLE_DRIVER";
         case VK_ERROR_TOO_MANY_OBJECTS:
             return "VK_ERROR_TOO_MANY_OBJECTS";
         case VK_ERROR_FORMAT_NOT_SUPPORTED:

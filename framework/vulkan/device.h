@@ -33,9 +33,13 @@ struct DeviceInfo {
 /// don't). Empty where there is no Vulkan.
 std::vector<DeviceInfo> listDevices();
 
+/// What is the matter where no device qualifies, and what to do; "" where one does.
+std::string whyNoDevice(const std::vector<DeviceInfo>& devices);
+
 struct DeviceOptions {
     std::string name;  ///< Substring of the device's name, case-insensitive; empty: the best that qualifies.
     bool validation = false;  ///< Turn the Khronos validation layer on.
+    bool isHost = false;      ///< No Vulkan (Device::isHost()).
 };
 
 /// A headless Vulkan 1.3 device with one graphics+compute queue. Required of every device: dynamic rendering,
@@ -51,6 +55,9 @@ class Device {
     Device& operator=(const Device&) = delete;
 
     const DeviceInfo& info() const;
+    /// Whether there is no Vulkan: buffers and images are the host's memory, a CommandStream copies at once,
+    /// and all that would run on a device throws.
+    bool isHost() const;
     VkInstance instance() const;
     VkPhysicalDevice physical() const;
     VkDevice handle() const;

@@ -121,6 +121,12 @@ Image::Image(Device& device, std::string name, const ImageDesc& desc) : Image() 
     desc_ = desc;
     if (desc.extent.x == 0 || desc.extent.y == 0 || desc.extent.z == 0 || desc.mipLevels == 0)
         throw Error("image '{}' would hold no texel", name_);
+    if (device.isHost()) {
+        memory_.bytes = imageBytes(desc);
+        device.reserveMemory(memory_.bytes, name_);
+        host_ = std::make_unique<std::byte[]>(memory_.bytes);
+        return;
+    }
     const VkImageCreateInfo create = describe(desc);
     checkSupported(device, name_, create);
     check(vkCreateImage(device.handle(), &create, nullptr, &handle_), "vkCreateImage");
@@ -158,6 +164,8 @@ Image::Image(Device& device, std::string name, const ImageDesc& desc) : Image() 
 
 Image::~Image() {
     if (!device_) return;
+    if (host_) device_->releaseMemory(memory_.bytes, name_);
+    if (device_->isHost()) return;
     for (VkImageView view : levelViews_) vkDestroyImageView(device_->handle(), view, nullptr);
     vkDestroyImageView(device_->handle(), view_, nullptr);
     vkDestroyImage(device_->handle(), handle_, nullptr);
@@ -176,6 +184,7 @@ Image& Image::operator=(Image&& other) noexcept {
     std::swap(memory_, other.memory_);
     std::swap(view_, other.view_);
     std::swap(levelViews_, other.levelViews_);
+    std::swap(host_, other.host_);
     return *this;
 }
 

@@ -53,7 +53,9 @@ Instance::Instance(bool validation) {
     create.ppEnabledLayerNames = &kValidationLayer;
     create.enabledExtensionCount = debugUtils_ ? uint32_t(extensions.size()) : 0;
     create.ppEnabledExtensionNames = extensions.data();
-    check(vkCreateInstance(&create, nullptr, &handle_), "vkCreateInstance");
+    const VkResult created = vkCreateInstance(&create, nullptr, &handle_);
+    if (created == VK_ERROR_INCOMPATIBLE_DRIVER) throw Error("{}", whyNoDevice({}));
+    check(created, "vkCreateInstance");
 
     // Messages of the validation layer go to the log.
     if (!validation) return;

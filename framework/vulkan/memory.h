@@ -2,8 +2,10 @@
 
 #include <vulkan/vulkan.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,7 +41,7 @@ class Buffer {
     Buffer(Buffer&& other) noexcept;
     Buffer& operator=(Buffer&& other) noexcept;
 
-    explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
+    explicit operator bool() const { return device_ != nullptr; }
     const std::string& name() const { return name_; }
     uint64_t bytes() const { return bytes_; }
     VkBuffer handle() const { return handle_; }
@@ -59,6 +61,7 @@ class Buffer {
     DeviceMemory memory_;
     VkDeviceAddress address_ = 0;
     void* mapped_ = nullptr;
+    std::unique_ptr<std::byte[]> host_;  ///< Where there is no Vulkan.
 };
 
 /// What an image is. `extent.z` > 1 makes it 3D.
@@ -90,13 +93,15 @@ class Image {
     Image(Image&& other) noexcept;
     Image& operator=(Image&& other) noexcept;
 
-    explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
+    explicit operator bool() const { return device_ != nullptr; }
     const std::string& name() const { return name_; }
     const ImageDesc& desc() const { return desc_; }
     uint64_t bytes() const { return memory_.bytes; }  ///< With the driver's padding.
     VkImage handle() const { return handle_; }
     VkImageView view() const { return view_; }
     VkImageView levelView(uint32_t level) const;  ///< One mip level, for storage access.
+    /// All levels one after another, tightly packed; nullptr on a device.
+    std::byte* hostTexels() const { return host_.get(); }
 
  private:
     Device* device_ = nullptr;
@@ -106,6 +111,7 @@ class Image {
     DeviceMemory memory_;
     VkImageView view_ = VK_NULL_HANDLE;
     std::vector<VkImageView> levelViews_;
+    std::unique_ptr<std::byte[]> host_;
 };
 
 enum class Filter { Nearest, Linear };

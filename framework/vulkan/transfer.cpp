@@ -31,6 +31,17 @@ VkBufferImageCopy wholeLevel(const Image& image, uint32_t level) {
     return region;
 }
 
+/// A level's texels where there is no Vulkan.
+std::byte* hostTexels(const Image& image, uint32_t level) {
+    std::byte* texels = image.hostTexels();
+    for (uint32_t before = 0; before < level; ++before) texels += levelBytes(image.desc(), before);
+    return texels;
+}
+
+std::byte* mappedBytes(const Buffer& buffer) {
+    return static_cast<std::byte*>(buffer.mapped());
+}
+
 void checkRange(const Buffer& buffer, uint64_t offset, uint64_t bytes) {
     if (offset > buffer.bytes() || bytes > buffer.bytes() - offset)
         throw Error("buffer '{}' holds {} bytes; {} at {} are out of range", buffer.name(), buffer.bytes(),
@@ -88,6 +99,10 @@ void CommandStream::copy(const Buffer& from, const Buffer& to, uint64_t bytes, u
     checkRange(from, fromOffset, bytes);
     checkRange(to, toOffset, bytes);
     if (bytes == 0) return;
+    if (impl_->device.isHost()) {
+        std::memmove(mappedBytes(to) + toOffset, mappedBytes(from) + fromOffset, bytes);
+        return;
+    }
     const VkBufferCopy region{fromOffset, toOffset, bytes};
     vkCmdCopyBuffer(impl_->next(), from.handle(), to.handle(), 1, &region);
 }
@@ -95,12 +110,20 @@ void CommandStream::copy(const Buffer& from, const Buffer& to, uint64_t bytes, u
 void CommandStream::copy(const Image& from, const Buffer& to, uint32_t level) {
     const VkBufferImageCopy region = wholeLevel(from, level);
     checkRange(to, 0, levelBytes(from.desc(), level));
+    if (impl_->device.isHost()) {
+        std::memcpy(to.mapped(), hostTexels(from, level), levelBytes(from.desc(), level));
+        return;
+    }
     vkCmdCopyImageToBuffer(impl_->next(), from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1, &region);
 }
 
 void CommandStream::copy(const Buffer& from, const Image& to, uint32_t level) {
     const VkBufferImageCopy region = wholeLevel(to, level);
     checkRange(from, 0, levelBytes(to.desc(), level));
+    if (impl_->device.isHost()) {
+        std::memcpy(hostTexels(to, level), from.mapped(), levelBytes(to.desc(), level));
+        return;
+    }
     vkCmdCopyBufferToImage(impl_->next(), from.handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
 }
 
@@ -127,6 +150,10 @@ void CommandStream::makeMipLevels(const Image& image) {
 void CommandStream::upload(const Buffer& to, std::span<const std::byte> data, uint64_t toOffset) {
     checkRange(to, toOffset, data.size());
     impl_->counts.hostBytes += data.size();
+    if (impl_->device.isHost()) {
+        std::ranges::copy(data, mappedBytes(to) + toOffset);
+        return;
+    }
     while (!data.empty()) {
         const std::span part = data.first(std::min<size_t>(data.size(), kStagingBytes));
         const Impl::Staged staged = impl_->stage(part);
@@ -142,6 +169,10 @@ void CommandStream::upload(const Image& to, std::span<const std::byte> data, uin
     if (data.size() != bytes)
         throw Error("image '{}', level {}: {} bytes given, {} needed", to.name(), level, data.size(), bytes);
     impl_->counts.hostBytes += bytes;
+    if (impl_->device.isHost()) {
+        std::ranges::copy(data, hostTexels(to, level));
+        return;
+    }
 
     // Slices of depth for volumes, blocks of rows for flat images, as many as fit into a staging buffer.
     const VkExtent3D size = whole.imageExtent;

@@ -22,6 +22,7 @@ struct EnumNames<PathLight> {
 class PathTracePass final : public Pass {
  public:
     static constexpr const char* kName = "path_trace";
+    static constexpr bool kNeedsDevice = false;
     static constexpr const char* kHelp =
         "Path tracer on the CPU (Embree): next-event estimation and multiple importance sampling, "
         "Owen-scrambled Sobol "

@@ -195,10 +195,13 @@ class Devices(CommandTest):
             self.assertEqual("'./voxray doctor' tells" in done.stderr, sends, done.stderr)
 
     def test_no_driver_is_an_error(self):
-        for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES"):
-            self.environment[name] = self.path("none.json")
-        self.assertIn("voxray: error: no Vulkan device found", self.expect(1, "devices").stderr)
-        self.expect(1, "doctor")
+        self.take_drivers_away()
+        told = self.expect(1, "devices").stderr
+        self.assertRegex(told, r"^voxray: error: no Vulkan device found; install .*mesa-vulkan-drivers, version 25 or later\)\n$")
+        self.write("tiny.yaml", TINY)
+        for command in (("doctor",), ("run", "tiny.yaml"), ("run", "tiny.yaml", "--dry-run")):
+            self.assertEqual(self.expect(1, *command).stderr, told, command)
+        self.assertEqual(self.expect(0, "validate", "tiny.yaml").stderr, "")
 
 
 class Validate(CommandTest):

@@ -20,6 +20,18 @@ VARIANTS = ["resolution-8", "resolution-16"]
 # As TINY, but each variant takes long enough to be interrupted.
 SLOW = TINY.replace("frames: 2", "frames: 150").replace("[8, 16]", "[8, 12, 16, 24]")
 
+# The reference as a method: nothing of it runs on a device.
+PATHS = """\
+name: paths
+scene: {builtin: cornell}
+image: {width: 32, height: 24}
+seed: 7
+graph: [{pass: path_trace, id: paths, bounces: 2}]
+reference: {pass: path_trace, spp: 8, bounces: 2}
+sweep: {paths.spp: [1, 4]}
+measure: {frames: 2, warmup: 1}
+"""
+
 
 class Run(CommandTest):
     def run_tiny(self, out="out", *more):
@@ -148,6 +160,35 @@ class Results(Run):
         self.assertEqual(rows["resolution-512"]["status"], "failed")
         self.assertIn("MiB", rows["resolution-512"]["error"])
         self.check_whole()
+
+
+class WithoutVulkan(Run):
+    def run_paths(self, out, *more):
+        self.write("paths.yaml", PATHS)
+        return self.expect(0, "run", "paths.yaml", "--out", out, *more)
+
+    def test_paths_are_the_same_without_a_device(self):
+        self.run_paths("with")
+        self.take_drivers_away()
+        self.environment["VOXRAY_CACHE"] = self.path("cache")  # The reference is rendered once more, too.
+        self.run_paths("without")
+        rows = self.rows("without", "results.csv")
+        self.assertEqual([(row["status"], row["device"], row["tracer"]) for row in rows],
+                         [("ok", "no Vulkan device", "embree")] * 2)
+        for row in rows:
+            self.assertGreater(float(row["frame_ms_median"]), 0)
+            self.assertGreaterEqual(int(row["memory_bytes"]), 32 * 24 * 16)
+        scores = [[row[name] for name in self.metrics()] for row in rows]
+        self.assertEqual(scores, [[row[name] for name in self.metrics()] for row in self.rows("with", "results.csv")])
+        for name in ("reference/final.exr", "spp-1/final.exr", "spp-4/indirect.exr"):
+            self.assertEqual(self.bytes("without", "images", name), self.bytes("with", "images", name), name)
+        self.check_whole("without")
+
+    def test_what_asks_for_a_device_wants_one(self):
+        self.take_drivers_away()
+        self.write("paths.yaml", PATHS)
+        for more in (("--device", "llvmpipe"), ("--validate",)):
+            self.assertIn("no Vulkan device found", self.expect(1, "run", "paths.yaml", *more).stderr)
 
 
 class Resume(Run):

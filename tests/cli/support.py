@@ -43,6 +43,11 @@ class CommandTest(unittest.TestCase):
         self.environment = dict(os.environ)
         self.environment.pop("VOXRAY_SCENES", None)
 
+    def take_drivers_away(self):
+        """No Vulkan device from here on."""
+        for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES"):
+            self.environment[name] = self.path("none.json")
+
     def path(self, *parts):
         return os.path.join(self.folder, *parts)
 
