@@ -82,14 +82,25 @@ void printJson(const std::vector<Row>& rows, const CompareOptions& options, cons
     fmt::print("{}\n", out.json());
 }
 
+/// The layer of that name, or the picture of a file that has plain channels alone.
+LayeredImage readLayerOrOnly(const std::filesystem::path& path, const std::string& layer) {
+    if (!layer.empty()) try {
+            LayeredImage only = readLayer(path, "");
+            if (only.layerCount <= 1 && only.layer.empty()) return only;
+        } catch (const Error&) {
+            // It isn't clear which is the picture: the name says.
+        }
+    return readLayer(path, layer);
+}
+
 /// Tells which layer it takes where a file has several. @throws UsageError for a file that is no whole image.
-ImageF readGiven(const std::filesystem::path& path, const std::string& layer = "") {
+LayeredImage readGiven(const std::filesystem::path& path, const std::string& layer) {
     try {
-        LayeredImage read = readLayer(path, layer);
+        LayeredImage read = readLayerOrOnly(path, layer);
         if (read.layerCount > 1 && !read.layer.empty())
             fmt::print(stderr, "voxray: {}: layer '{}' of {} is compared\n", path.string(),
                        oneLine(read.layer), read.layerCount);
-        return std::move(read.image);
+        return read;
     } catch (const Error& error) {
         throw UsageError("{}", error.what());
     }
@@ -104,7 +115,7 @@ std::vector<ImageF> readHalves(const std::filesystem::path& path, const ImageF& 
         paths.push_back(path.parent_path() / (path.stem().string() + end + path.extension().string()));
         if (!std::filesystem::exists(paths.back())) return {};
     }
-    for (const std::filesystem::path& half : paths) halves.push_back(readGiven(half));
+    for (const std::filesystem::path& half : paths) halves.push_back(readGiven(half, "").image);
     double difference = 0, sum = 0;
     const bool fits = std::ranges::all_of(
         halves, [&](const ImageF& half) { return half.data.size() == reference.data.size(); });
@@ -126,17 +137,16 @@ bool isPreview(const std::filesystem::path& file) {
     return end == ".png" || end == ".jpg" || end == ".jpeg";
 }
 
-/// The layer that is asked for, of EXR files: others have none.
-std::string layerOf(const CompareOptions& options, const std::filesystem::path& file) {
-    return file.extension() == ".exr" ? options.layer : "";
-}
-
 void compare(const CompareOptions& options) {
     for (const std::filesystem::path& file : {options.test, options.reference})
         if (!std::filesystem::exists(file))
             throw UsageError("no file '{}'{}", file.string(), didYouMeanFile(file));
-    const ImageF test = readGiven(options.test, layerOf(options, options.test));
-    const ImageF reference = readGiven(options.reference, layerOf(options, options.reference));
+    const LayeredImage given = readGiven(options.test, options.layer);
+    const LayeredImage wanted = readGiven(options.reference, options.layer);
+    if (!options.layer.empty() && given.layer.empty() && wanted.layer.empty())
+        throw UsageError("--layer: neither file has layers");
+    const ImageF& test = given.image;
+    const ImageF& reference = wanted.image;
     if (test.width != reference.width || test.height != reference.height)
         throw UsageError("{} is {}x{} and {} is {}x{}: images to compare are of one size",
                          options.test.string(), test.width, test.height, options.reference.string(),

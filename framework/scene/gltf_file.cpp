@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "base/files.h"
 #include "scene/gltf_check.h"
@@ -27,9 +28,26 @@ std::vector<size_t> takeStrides(json& root) {
     return strides;
 }
 
+/// Takes the indices out of the primitives, mesh by mesh: they may be sparse without a buffer view, which the
+/// parser refuses.
+std::vector<int> takeIndices(json& root) {
+    std::vector<int> indices;
+    for (size_t m = 0; m < objects(root, "meshes").size(); ++m)
+        for (size_t p = 0; p < objects(root["meshes"][m], "primitives").size(); ++p) {
+            json& primitive = root["meshes"][m]["primitives"][p];
+            const uint64_t none = std::numeric_limits<int>::max();
+            const uint64_t number =
+                unsignedMember(primitive, "indices", fmt::format("mesh {}, primitive {}", m, p), none);
+            indices.push_back(number == none ? -1 : int(std::min(number, none - 1)));
+            primitive.erase("indices");
+        }
+    return indices;
+}
+
 /// Gives the parser's own structures to JSON, without buffers and images, which are fetched before.
 tinygltf::Model parsed(json root) {
     const std::vector<size_t> strides = takeStrides(root);
+    const std::vector<int> indices = takeIndices(root);
     root.erase("buffers");
     root.erase("images");
     const std::string text = root.dump();
@@ -40,6 +58,9 @@ tinygltf::Model parsed(json root) {
                                                  static_cast<unsigned int>(text.size()), "");
     if (!good || !error.empty()) throw Error("{}", error.empty() ? "it can't be parsed" : error);
     for (size_t i = 0; i < model.bufferViews.size(); ++i) model.bufferViews[i].byteStride = strides[i];
+    size_t primitives = 0;
+    for (tinygltf::Mesh& mesh : model.meshes)
+        for (tinygltf::Primitive& primitive : mesh.primitives) primitive.indices = indices[primitives++];
     return model;
 }
 

@@ -5,12 +5,16 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 import unittest
 
 import numpy as np
 from PIL import Image
 
 from support import PROGRAM, SOURCE, TINY, CommandTest
+
+sys.path.insert(0, os.path.join(SOURCE, "tests", "unit"))
+import exr_writer
 
 
 def linear(display):
@@ -84,6 +88,22 @@ class Compare(CommandTest):
         self.assertEqual(plain["nrmse"], dark["nrmse"])
         self.assertEqual(plain["flip"], dark["flip"])
         self.assertNotAlmostEqual(plain["psnr_db"], dark["psnr_db"], places=1)
+
+    def test_layers_are_chosen_and_told(self):
+        names = [f"View.{layer}.{channel}" for layer in ("AO", "Combined") for channel in "BGR"]
+        values = np.ones((30, 40, 6), np.float32) * (4, 4, 4, 1, 1, 1)
+        with open(self.path("layers.exr"), "wb") as file:
+            file.write(exr_writer.exr(values, False, names))
+        with open(self.path("plain.exr"), "wb") as file:
+            file.write(exr_writer.exr(values[:, :, :3], False))
+        for more, ratio, taken in (((), 1, "View.Combined"), (("--layer", "AO"), 0.25, "View.AO")):
+            done = self.expect(0, "compare", "layers.exr", "plain.exr", "--json", *more)
+            self.assertAlmostEqual(json.loads(done.stdout)["scores"]["mean_ratio"], ratio, places=6)
+            self.assertEqual(done.stderr, f"voxray: layers.exr: layer '{taken}' of 2 is compared\n")
+        self.assertIn("its layers: View.AO, View.Combined",
+                      self.expect(2, "compare", "layers.exr", "plain.exr", "--layer", "Depth").stderr)
+        self.assertIn("neither file has layers",
+                      self.expect(2, "compare", "plain.exr", "plain.exr", "--layer", "Depth").stderr)
 
     def test_table(self):
         self.image("a.png", 90)

@@ -174,6 +174,17 @@ def meshes():
             del accessor["bufferView"]
         g.mesh(g.primitive(number))
         yield f"sparse_{'base' if base else 'alone'}_{count}", g
+    for base in (True, False):
+        g = Gltf()
+        number = g.accessor(FACES, "H", 1)
+        rows = [0, 1, 2] if base else range(12)
+        g.root["accessors"][number]["sparse"] = {
+            "count": len(rows), "indices": {"bufferView": g.view(numpy.array(rows, "<u1").tobytes()), "componentType": 5121},
+            "values": {"bufferView": g.view(numpy.array(FACES, "<u2").reshape(-1)[:len(rows)].tobytes())}}
+        if not base:
+            del g.root["accessors"][number]["bufferView"]
+        g.mesh(g.primitive(POINTS, indices=number))
+        yield f"sparse_indices_{'base' if base else 'alone'}", g
     for kind, width in itertools.product("fBH", [3, 4]):
         g = Gltf()
         top = 1 if kind == "f" else numpy.iinfo(TYPES[kind][1]).max

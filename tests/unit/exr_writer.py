@@ -5,12 +5,13 @@ import zlib
 import numpy
 
 
-def exr(image, zipped):
-    """The bytes of an OpenEXR file of channels B, G and R; `image` has the shape (height, width, 3)."""
+def exr(image, zipped, names=("B", "G", "R")):
+    """The bytes of an OpenEXR file; `image` has the shape (height, width, channels), the last channel that of the first
+    name. Names are sorted, as the format wants it."""
     height, width, _ = image.shape
     def attribute(name, kind, value):
         return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
-    channels = b"".join(name + b"\0" + struct.pack("<iBxxxii", 2, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    channels = b"".join(name.encode() + b"\0" + struct.pack("<iBxxxii", 2, 0, 1, 1) for name in names) + b"\0"
     header = (b"\x76\x2f\x31\x01" + struct.pack("<i", 2) + attribute("channels", "chlist", channels) +
               attribute("compression", "compression", bytes([3 if zipped else 0])) +
               attribute("dataWindow", "box2i", struct.pack("<4i", 0, 0, width - 1, height - 1)) + b"\0")

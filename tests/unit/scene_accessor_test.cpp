@@ -121,6 +121,18 @@ TEST(GltfAccessors, SparseValuesReplaceAndZerosNeedNoBuffer) {
     }
 }
 
+TEST(GltfAccessors, IndicesMayBeSparseAlone) {
+    GltfBuilder b;
+    const json sparse = {
+        {"count", 2},
+        {"indices", {{"bufferView", b.view(std::vector<uint8_t>{1, 2})}, {"componentType", ubyteType}}},
+        {"values", {{"bufferView", b.view(std::vector<uint16_t>{1, 2})}}}};
+    const int indices = b.add(
+        "accessors", {{"count", 3}, {"type", "SCALAR"}, {"componentType", ushortType}, {"sparse", sparse}});
+    b.triangle({{"indices", indices}});
+    EXPECT_EQ(b.load()->meshes.at(0).triangles.at(0), glm::uvec3(0, 1, 2));
+}
+
 TEST(GltfAccessors, HostileNumbersAreRefusedInOneLine) {
     const auto refused = [](const std::function<void(GltfBuilder&)>& spoil) {
         GltfBuilder b;
