@@ -43,8 +43,9 @@ TEST(MaskedLamp, IsInjectedByWhatIsLeft) {
 }
 
 TEST(MaskedLamp, MakesVirtualLightsAndLightsSurfelsByWhatIsLeft) {
-    expectTwinsLight({"gbuffer", "sample_vpls, vpls_per_bounce: 8192, bounces: 1", "gather_vpls"}, "indirect",
-                     0.03);
+    expectTwinsLight(
+        {"gbuffer", "sample_vpls, vpls_per_bounce: 8192, bounces: 1", "gather_vpls, visibility: exact"},
+        "indirect", 0.03);
     expectTwinsLight({"gbuffer", "voxelize, resolution: 16", "place_surfels, points_per_voxel: 8",
                       "link_surfels, rays_per_surfel: 32", "inject_radiosity, bounces: 1", "gather_surfels"},
                      "indirect", 0.03);

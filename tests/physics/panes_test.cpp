@@ -93,7 +93,8 @@ TEST(Panes, ColorInjectionsAndVirtualLights) {
              "trace_gather_rays, rays_per_block: 16", injection.withBounces(1), "gather_rays"},
             "indirect", 0.01);
     }
-    expectTwinsImage(Shines::Sun, 1, {"gbuffer", "sample_vpls, vpls_per_bounce: 2048", "gather_vpls"},
+    expectTwinsImage(Shines::Sun, 1,
+                     {"gbuffer", "sample_vpls, vpls_per_bounce: 2048", "gather_vpls, visibility: exact"},
                      "indirect", 0.01);
 }
 
