@@ -17,36 +17,41 @@ struct Corner {
 };
 using Polygon = std::vector<Corner>;
 
-/// The parts of a convex polygon before and behind a plane across an axis.
-std::pair<Polygon, Polygon> cut(const Polygon& polygon, int axis, double at) {
-    Polygon below, above;
+/// The parts of a convex polygon inside and outside of a plane across an axis, which has the inside on the
+/// side of `sign`. What lies in the plane is inside.
+std::pair<Polygon, Polygon> cut(const Polygon& polygon, int axis, double at, double sign) {
+    Polygon inside, outside;
+    bool reachesIn = false, reachesOut = false;
     for (size_t i = 0; i < polygon.size(); ++i) {
         const Corner &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
-        const double a = from.world[axis] - at, b = to.world[axis] - at;
-        if (a <= 0) below.push_back(from);
-        if (a >= 0) above.push_back(from);
+        const double a = sign * (from.world[axis] - at), b = sign * (to.world[axis] - at);
+        reachesIn = reachesIn || a > 0;
+        reachesOut = reachesOut || a < 0;
+        if (a >= 0) inside.push_back(from);
+        if (a <= 0) outside.push_back(from);
         if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
             const double t = a / (a - b);
             Corner between{glm::mix(from.weights, to.weights, t), glm::mix(from.world, to.world, t)};
             between.world[axis] = at;
-            below.push_back(between);
-            above.push_back(between);
+            inside.push_back(between);
+            outside.push_back(between);
         }
     }
-    return {below, above};
+    if (!reachesOut) return {polygon, {}};
+    if (!reachesIn) return {{}, polygon};
+    return {inside, outside};
 }
 
 /// The parts of a triangle, each inside or outside of a box.
 std::vector<Polygon> parts(const Polygon& triangle, const Box& box) {
     std::vector<Polygon> found;
     Polygon rest = triangle;
-    for (int axis = 0; axis < 3; ++axis) {
-        auto [outside, inside] = cut(rest, axis, double(box.min[axis]));
-        auto [kept, beyond] = cut(inside, axis, double(box.max[axis]));
-        found.push_back(std::move(outside));
-        found.push_back(std::move(beyond));
-        rest = std::move(kept);
-    }
+    for (int axis = 0; axis < 3; ++axis)
+        for (const auto& [at, sign] : {std::pair(box.min[axis], 1.0), std::pair(box.max[axis], -1.0)}) {
+            auto [inside, outside] = cut(rest, axis, double(at), sign);
+            found.push_back(std::move(outside));
+            rest = std::move(inside);
+        }
     found.push_back(std::move(rest));
     std::erase_if(found, [](const Polygon& polygon) { return polygon.size() < 3; });
     return found;
