@@ -145,11 +145,11 @@ def make(seed, path):
                 at = min(at, on_border(rng, low, high, resolution, axis), 0.3 * size[2])
             if abs(at) >= size[axis] or (axis != 2 and abs(at - camera[axis]) < 0.1 * size[axis]):
                 continue
-            middle, half = uniform(-0.5, 0.3, 3) * size, uniform(0.2, 0.5, 3) * size
+            center, half = uniform(-0.5, 0.3, 3) * size, uniform(0.2, 0.5, 3) * size
             corners = []
             for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
                 p = np.zeros(3)
-                p[axis], p[u], p[v] = at, middle[u] + x * half[u], middle[v] + y * half[v]
+                p[axis], p[u], p[v] = at, center[u] + x * half[u], center[v] + y * half[v]
                 corners.append(np.clip(p, low, high))
             b.quad(corners, gray())
     if rng.random() < 0.3:
