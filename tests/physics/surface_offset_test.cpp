@@ -7,7 +7,7 @@
 namespace voxray::test {
 namespace {
 
-/// A sheet `gap` above ground of half that width, in the sun, which leaves its shadow beside it.
+/// A sheet `gap` above ground of half that width, in the sun, which leaves its shadow next to it.
 std::shared_ptr<SceneState> sheetOverGround(float groundHalf, float gap, float strayAt = 0) {
     SceneBuilder builder("sheet over ground");
     const uint32_t gray = builder.lambert("gray", glm::vec3(0.5f));

@@ -53,11 +53,11 @@ def run_batch(program, seeds, folder):
                               text=True, check=False)
         for seed in (int(name[1:]) for name in scenes):
             found[seed][1] = f"exit {done.returncode}: {done.stderr.strip()[-600:]}" if done.returncode else None
-        judge(out, scenes, found)
+        compare(out, scenes, found)
     return found
 
 
-def judge(out, scenes, found):
+def compare(out, scenes, found):
     table = os.path.join(out, "results.csv")
     if not os.path.exists(table):
         return
