@@ -89,8 +89,7 @@ void addInside(const Box& box, std::vector<CameraSettings>& cameras) {
         for (const float z : {0.0f, 0.8f, -0.8f, 0.4f, -0.4f})
             for (const float x : {0.0f, 0.8f, -0.8f, 0.4f, -0.4f}) {
                 const glm::vec3 position = center + half * glm::vec3(x, y, z);
-                if (x != 0 || z != 0)
-                    cameras.push_back(lookingFrom(position, {center.x, position.y, center.z}));
+                cameras.push_back(lookingFrom(position, {center.x, position.y, center.z}));
                 for (int i = 0; i < 8; ++i) {
                     const float angle = float(i) * glm::quarter_pi<float>();
                     const glm::vec3 along(std::cos(angle), -0.2f, std::sin(angle));
@@ -169,6 +168,8 @@ std::vector<CameraSettings> cameraCandidates(const SceneState& state, const Embr
             }
         addInside(box, cameras);
     }
+    // Of a flat box, or of one that is small for its coordinates, some positions are one
+    std::erase_if(cameras, [](const CameraSettings& camera) { return camera.position == camera.target; });
     return cameras;
 }
 

@@ -134,9 +134,10 @@ void main() {
 #if PROBED
         if (open.weights > 0.0 && covered.weights > 0.0) {
             // The ray starts on the surface, where the mean of its texels need not lie.
+            const float offset = texelFetch(position, pixel * SAMPLES + ivec2(own % SAMPLES, own / SAMPLES), 0).w;
             const uint at = atomicAdd(count.value, 1u);
             surfaces.data[at] = Undecided(reflected * open.sum / open.weights, reflected * covered.sum / covered.weights, undecided);
-            probes.data[at] = openSpaceRay(from, ng, push.grid.voxelSize);
+            probes.data[at] = openSpaceRay(from + offset * ng, ng, push.grid.voxelSize);
             undecided = at;
             continue;
         }

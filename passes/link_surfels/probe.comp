@@ -22,5 +22,5 @@ void main() {
     if (hits.data[i].triangle == NO_HIT) return;
     const SurfacePoint p = surfacePoint(hits.data[i].triangle, vec2(hits.data[i].u, hits.data[i].v));
     const vec3 n = dot(p.geometricNormal, rays.data[i].direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
-    probes.data[i] = openSpaceRay(p.position, n, push.voxelSize);
+    probes.data[i] = openSpaceRay(p.position + p.offset * n, n, push.voxelSize);
 }

@@ -84,6 +84,7 @@ inline SceneState triangleSoup(uint32_t count, float size, uint32_t seed) {
     }
     state.geometry.boundsMin = glm::vec3(-1 - size);
     state.geometry.boundsMax = glm::vec3(1 + size);
+    state.geometry.region = {state.geometry.boundsMin, state.geometry.boundsMax};
     return state;
 }
 
@@ -98,6 +99,7 @@ inline SceneState oneTriangle() {
     state.geometry.triangles = {{0, 1, 2}};
     state.geometry.triangleMaterials = {0};
     state.geometry.boundsMax = {1, 1, 0};
+    state.geometry.region = {state.geometry.boundsMin, state.geometry.boundsMax};
     return state;
 }
 
@@ -125,6 +127,7 @@ inline SceneState alphaAtCutoff(uint8_t code, double factor, double vertex) {
     state.geometry.triangles.emplace_back(1, 3, 2);
     state.geometry.triangleMaterials.push_back(0);
     state.geometry.boundsMax = {1, 1, 0};
+    state.geometry.region = {state.geometry.boundsMin, state.geometry.boundsMax};
     return state;
 }
 

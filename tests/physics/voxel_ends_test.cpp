@@ -96,6 +96,7 @@ TEST(VoxelEnds, FlatSurfacesDoNotHideThemselvesAtAnyTilt) {
             p = rotation * p;
             g.boundsMin = glm::min(g.boundsMin, p), g.boundsMax = glm::max(g.boundsMax, p);
         }
+        g.region = {g.boundsMin, g.boundsMax};
         Chain chain(state, graphYaml({"voxelize, resolution: 32"}), 8, 8, 1);
         std::vector<SurfaceSample> samples = surfaceSamples(g, 20000, random);
         for (size_t i = 0; i < samples.size(); i += 2) samples[i].normal = -samples[i].normal;

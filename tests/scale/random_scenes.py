@@ -89,7 +89,7 @@ def main():
     for first in range(arguments.first, arguments.first + arguments.runs, BATCH):
         seeds = range(first, min(first + BATCH, arguments.first + arguments.runs))
         with tempfile.TemporaryDirectory() as scratch:
-            folder = os.path.join(arguments.keep, str(first)) if arguments.keep else scratch
+            folder = os.path.abspath(os.path.join(arguments.keep, str(first))) if arguments.keep else scratch
             os.makedirs(folder, exist_ok=True)
             for seed, (tags, what) in run_batch(program, seeds, folder).items():
                 if what:
