@@ -139,7 +139,7 @@ TEST(ViewCheck, WarnsOfVoxelsOverMoreThanIsSeen) {
     EXPECT_EQ(saidOf("builtin: cornell", 0, graph), "");
     EXPECT_EQ(saidOf(stray), "") << "nothing is voxelized";
     const std::string said = saidOf(stray, 0, graph);
-    EXPECT_CONTAINS(said, "x.yaml:2: scene: it is 1e+03 m across");
+    EXPECT_CONTAINS(said, "x.yaml:2: scene: it is 1.01e+03 m across");
     // What is proposed is a region of a config
     const std::string region = said.substr(said.find("region: {"));
     EXPECT_EQ(saidOf(stray + ", " + region, 0, graph), "");
