@@ -21,7 +21,7 @@ TEST(MutualVisibility, IsThatOfShadowRaysButForAFewVoxels) {
     const ImageF seen = chain.image("seen");
     const glm::vec4 from =
         chain.readImage<glm::vec4>(chain.graph().resource<GBuffer>("gbuffer")->position)[y * kSide + x];
-    ASSERT_EQ(from.w, 1.0f);
+    ASSERT_GT(from.w, 0.0f);
     ASSERT_NEAR(from.y, 0, 1e-4);
 
     // A point light there lights what the pixel sees.
