@@ -78,8 +78,9 @@ void visitVoxels(glm::uvec3 resolution, const std::array<glm::dvec3, 3>& corners
             if (outside) continue;
             const double center =
                 corners[0][w] + slopeU * (x + 0.5 - corners[0][u]) + slopeV * (y + 0.5 - corners[0][v]);
-            const int from = int(std::max(std::floor(center - reach), double(first[w])));
-            const int to = int(std::min(std::floor(center + reach), double(last[w])));
+            // Of a sliver these may be NaN: then its whole depth counts.
+            const int from = int(std::max(double(first[w]), std::floor(center - reach)));
+            const int to = int(std::min(double(last[w]), std::floor(center + reach)));
             glm::ivec3 voxel;
             voxel[u] = x;
             voxel[v] = y;
