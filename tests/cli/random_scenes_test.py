@@ -19,14 +19,9 @@ graph: [{{pass: path_trace, spp: 8}}]
 """
 
 
-# Seeds whose indirect light is off by more than 3 %.
-OPEN = {18: "3 %, with voxels of half the size, too: not known why",
-        20: "6 %: a stray triangle makes voxels large; none with voxels of half the size"}
-
-
 class RandomScenes(CommandTest):
-    def test_eighteen_match_the_reference(self):
-        found = random_scenes.run_batch(PROGRAM, [seed for seed in range(1, 21) if seed not in OPEN], self.folder)
+    def test_twenty_match_the_reference(self):
+        found = random_scenes.run_batch(PROGRAM, range(1, 21), self.folder)
         self.assertEqual({seed: miss for seed, (tags, miss) in found.items() if miss}, {})
 
 
