@@ -91,10 +91,11 @@ auto readAt(const TextLocation& where, const Read& read) {
 /// From this distance on, in sizes of the scene, two of the seven digits of floats are lost.
 constexpr float kFarAway = 100;
 
-/// Where the scene's coordinates best count from.
+/// Where the scene's coordinates best count from: along an axis that loses no digits, from where they do.
 glm::vec3 nearestOrigin(const Geometry& g) {
     const glm::vec3 center = 0.5f * (g.boundsMin + g.boundsMax);
-    return glm::length(center) > kFarAway * glm::length(g.boundsMax - g.boundsMin) ? center : glm::vec3(0.0f);
+    const float near = kFarAway * glm::length(g.boundsMax - g.boundsMin);
+    return center * glm::vec3(glm::greaterThan(glm::abs(center), glm::vec3(near)));
 }
 
 /// @param origin which the camera's coordinates count from, those of the state too.

@@ -8,11 +8,22 @@
 #include "shaders/scene/scene.glsl"
 #include "shaders/trace/ray_types.h"
 
-// A point before all surfaces on the disc that the scene's region fits behind, seen along a direction.
-vec3 discPoint(EmittingSource e, vec2 u, vec3 direction) {
+// Of the ring round a region, in radii of the sphere round it: what lies farther away adds little light to that of the ring.
+const float RING_RADII = 4.0;
+
+// A point before all surfaces on the disc that the scene's region fits behind, seen along a direction. Where there are surfaces around the
+// region, which send light into it, a quarter of the points lie on a ring round that disc. `area`: m², that the point stands for, as if
+// it were the only one.
+vec3 discPoint(EmittingSource e, vec2 u, vec3 direction, out float area) {
+    const float inner = e.sceneRadius * e.sceneRadius, ring = pow(min(RING_RADII * e.sceneRadius, e.reach), 2.0) - inner;
+    const float onRing = ring > 0.0 ? 0.25 : 0.0;
+    const bool isOnRing = u.x < onRing;
+    const float part = isOnRing ? u.x / onRing : (u.x - onRing) / (1.0 - onRing);
+    area = PI * (isOnRing ? ring / onRing : inner / (1.0 - onRing));
+
     vec3 t, b;
     frame(direction, t, b);
-    const float r = e.sceneRadius * sqrt(u.x), phi = 2.0 * PI * u.y;
+    const float r = sqrt(isOnRing ? inner + ring * part : inner * part), phi = 2.0 * PI * u.y;
     return e.sceneCenter - direction * e.reach + t * (r * cos(phi)) + b * (r * sin(phi));
 }
 
@@ -31,10 +42,9 @@ void emitPunctual(EmittingSource e, vec2 u, inout Ray ray, inout LightPath path)
         path.solidAngle = 2.0 * PI * (1.0 - light.cosOuter);
         path.power = light.intensity * spotFalloff(light, dot(ray.direction, light.direction)) * path.solidAngle;
     } else {
-        // Uniform over the disc: flux = E * its area.
+        // Flux = E * area.
         ray.direction = light.direction;
-        ray.origin = discPoint(e, u, light.direction);
-        path.area = PI * e.sceneRadius * e.sceneRadius;
+        ray.origin = discPoint(e, u, light.direction, path.area);
         path.power = light.intensity * path.area;
     }
 }
@@ -53,11 +63,12 @@ void emitFromSurface(EmittingSource e, uint index, vec2 u, vec2 onTriangle, inou
     path.power = emittedRadiance(m, s) * PI * emitter.area * sides / emitter.probability;
 }
 
-// Uniform over directions and over the disc: flux = L * 4 pi * its area.
+// Uniform over directions: flux = L * 4 pi * area.
 void emitFromEnvironment(EmittingSource e, vec2 u, vec2 onDisc, inout Ray ray, inout LightPath path) {
     ray.direction = -sphereDirection(u);
-    ray.origin = discPoint(e, onDisc, ray.direction);
-    path.power = environmentRadiance(-ray.direction) * 4.0 * PI * PI * e.sceneRadius * e.sceneRadius;
+    float area;
+    ray.origin = discPoint(e, onDisc, ray.direction, area);
+    path.power = environmentRadiance(-ray.direction) * 4.0 * PI * area;
 }
 
 // Ray `index` of the rays that a source sends, and what it carries: its part of all that the source sends. A ray that carries nothing

@@ -14,4 +14,8 @@ float pointOffset(vec3 position) { return COORDINATE_ERROR * max(largestCoordina
 // far it reaches.
 float planeOffset(vec3 a, vec3 b, vec3 c, vec3 normal) { return COORDINATE_ERROR * dot(abs(normal), max(abs(a), max(abs(b), abs(c)))); }
 
+// How far a ray from one point is traced towards another, `distance_` away, m, so that it does not meet the surface there. `offset`: of
+// that point. Where the ray meets that surface is as uncertain as the coordinates of both ends are.
+float reachOf(float distance_, float offset, vec3 from) { return distance_ - 2.0 * max(offset, pointOffset(from)); }
+
 #endif

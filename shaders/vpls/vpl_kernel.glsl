@@ -3,6 +3,7 @@
 #define VOXRAY_VPL_KERNEL_GLSL
 
 #include "shaders/scene/sampling.glsl"
+#include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/vpls/vpl_types.h"
 
@@ -19,7 +20,10 @@ float vplKernel(Vpl vpl, vec3 position, vec3 normal, vec3 faceNormal, float minD
     return cosine * vplCosine / (PI * max(squared, minDistanceSquared));
 }
 
-// From a point off a surface to a virtual light, in the unit direction that vplKernel() finds.
-Ray vplRay(Vpl vpl, vec3 position, vec3 direction) { return Ray(position, 0.0, direction, distance(vpl.position, position)); }
+// From a point off a surface to a virtual light, in the unit direction that vplKernel() finds. None where it is so near that nothing
+// can be in the way.
+Ray vplRay(Vpl vpl, vec3 position, vec3 direction) {
+    return Ray(position, 0.0, direction, reachOf(distance(vpl.position, position), pointOffset(vpl.position), position));
+}
 
 #endif

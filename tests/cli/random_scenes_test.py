@@ -20,9 +20,12 @@ graph: [{{pass: path_trace, spp: 8}}]
 
 
 class RandomScenes(CommandTest):
-    def test_twenty_match_the_reference(self):
+    def test_twenty_match_the_reference_or_name_what_is_too_coarse(self):
         found = random_scenes.run_batch(PROGRAM, range(1, 21), self.folder)
-        self.assertEqual({seed: miss for seed, (tags, miss) in found.items() if miss}, {})
+        self.assertEqual({seed: what for seed, (tags, what, is_miss) in found.items() if is_miss}, {})
+        named = [f"seed {seed}: {what}" for seed, (tags, what, is_miss) in found.items() if what]
+        print(*named, sep="\n")
+        self.assertLess(len(named), 4, "most scenes are right as they are")
 
 
 class ProposedViews(CommandTest):

@@ -129,7 +129,7 @@ def make(seed, path):
     # The camera keeps a quarter of the room to itself
     camera = np.array([uniform(-0.3, 0.3), uniform(-0.2, 0.2), 0.85]) * size
     target = np.array([uniform(-0.5, 0.5), uniform(-0.6, 0), -0.5]) * size
-    place = lambda: np.array([*uniform(-0.8, 0.8, 2), uniform(-0.9, 0.3)])[[0, 2, 1]][[0, 2, 1]] * size * [1, 1, 1]
+    place = lambda: np.array([*uniform(-0.8, 0.8, 2), uniform(-0.9, 0.3)]) * size
     for _ in range(rng.integers(0, 6)):
         center, half = place(), uniform(0.05, 0.3, 3) * size
         center[2] = min(center[2], 0.3 * size[2])
