@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <tuple>
@@ -26,16 +25,19 @@ namespace voxray {
 template <typename E>
 struct EnumNames;
 
+template <typename E>
+std::string enumName(E value) {
+    for (const auto& [candidate, name] : EnumNames<E>::names)
+        if (candidate == value) return name;
+    return {};
+}
+
 /// Values of another parameter: one of `values`, or none of them.
 template <typename Owner, typename T>
 struct Condition {
     T Owner::*member;
     std::vector<T> values;
     bool isOneOf;
-
-    constexpr bool holds(const T& value) const {
-        return (std::ranges::find(values, value) != values.end()) == isOneOf;
-    }
 };
 
 template <typename Owner, typename T>
@@ -105,29 +107,6 @@ constexpr std::vector<uint32_t> powersOfTwo(uint32_t min, uint32_t max) {
     std::vector<uint32_t> powers{min};
     while (powers.back() < max) powers.push_back(2 * powers.back());
     return powers;
-}
-
-template <typename P, typename Visitor>
-void forEachField(Visitor&& visit) {
-    std::apply([&](const auto&... fields) { (visit(fields), ...); }, P::schema());
-}
-
-/// The name of the parameter that a member holds.
-template <typename P, typename Member>
-std::string fieldName(Member member) {
-    std::string name;
-    forEachField<P>([&](const auto& f) {
-        if constexpr (std::is_same_v<decltype(f.member), Member>)
-            if (f.member == member) name = f.name;
-    });
-    return name;
-}
-
-template <typename P>
-std::vector<std::string> fieldNames() {
-    std::vector<std::string> names;
-    forEachField<P>([&](const auto& f) { names.emplace_back(f.name); });
-    return names;
 }
 
 }  // namespace voxray

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/suggest.h"
 #include "config/overrides.h"
 #include "config/yaml.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/suggest.h"
 #include "config/settings.h"
 #include "image/score.h"
 

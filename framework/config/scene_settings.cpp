@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/hex_color.h"
+#include "base/suggest.h"
 #include "config/settings.h"
 
 namespace voxray {

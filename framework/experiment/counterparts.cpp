@@ -1,5 +1,7 @@
 #include "experiment/counterparts.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>

@@ -162,7 +162,7 @@ std::string manifestJson(const ManifestData& data) {
     json["temporal_metrics"] = metricsJson(temporalMetrics());
 
     json["auto"] = {{"tracer", data.tracer}, {"device", data.device.name}};
-    json["requested"] = {{"tracer", schema_detail::textOf(experiment.setup.general.tracer)},
+    json["requested"] = {{"tracer", enumName(experiment.setup.general.tracer)},
                          {"device", data.requestedDevice.empty() ? "best" : data.requestedDevice}};
     // Names are unique: they are added without a look at the others
     Json::object_t graphs, inputs;

@@ -26,7 +26,7 @@ Session::Session(const DeviceOptions& device, const std::filesystem::path& sourc
 
 std::string Session::tracerName(const Setup& setup) const {
     const TracerKind kind = resolveTracer(setup.general.tracer, device_);
-    return schema_detail::textOf(kind);
+    return enumName(kind);
 }
 
 SceneOnDevice& Session::scene(const Setup& setup) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/suggest.h"
 #include "config/overrides.h"
 #include "experiment/reference.h"
 #include "graph/wiring.h"

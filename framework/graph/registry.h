@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/schema.h"
@@ -98,18 +99,16 @@ class Registry {
     static std::vector<PortDoc> portsOf() {
         using Params = typename P::Params;
         std::vector<PortsByValue> choices;
-        forEachField<Params>([&](const auto& field) {
-            using T = std::remove_cvref_t<decltype(std::declval<Params>().*(field.member))>;
-            if constexpr (std::is_enum_v<T>) {
-                PortsByValue& choice = choices.emplace_back(PortsByValue{field.name, {}, {}});
-                for (const auto& [value, name] : EnumNames<T>::names) {
-                    Params params;
-                    params.*(field.member) = value;
-                    choice.values.emplace_back(name);
-                    choice.ports.push_back(declared<P>(params));
-                }
+        for (const Parameter& parameter : schemaOf<Params>()) {
+            PortsByValue choice{parameter.name, parameter.type->choices(), {}};
+            if (std::string_view(parameter.type->name()) != "choice") continue;
+            for (const std::string& value : choice.values) {
+                Params params;
+                parameter.type->read(parameter.of(&params), Value::fromScalar(value), parameter.name);
+                choice.ports.push_back(declared<P>(params));
             }
-        });
+            choices.push_back(std::move(choice));
+        }
         return describePorts(declared<P>(Params{}), choices);
     }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "base/suggest.h"
 #include "graph/basis.h"
 
 namespace voxray {

@@ -1,5 +1,6 @@
 #include "vulkan/device.h"
 
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>

@@ -24,16 +24,10 @@ struct FollowPush {
     float scale;
 };
 
-std::string nameOf(Write write) {
-    for (const auto& [value, name] : EnumNames<Write>::names)
-        if (value == write) return name;
-    return "";
-}
-
 // Merged irradiances need beams: light whose cross-section is known at each hit.
 void checkBeams(const std::string& pass, const LightPathParams& params,
                 const std::vector<LightSource>& sources) {
-    const std::string write = nameOf(params.write);
+    const std::string write = enumName(params.write);
     const bool isDiffuse = params.secondary == Secondary::Diffuse || params.secondary == Secondary::Material;
     if (isDiffuse && params.bounces > 0)
         throw Error(

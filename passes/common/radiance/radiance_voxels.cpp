@@ -6,7 +6,7 @@ namespace voxray {
 
 Defines RadianceVoxels::defines() const {
     std::string name = "RADIANCE_";
-    for (const char letter : schema_detail::textOf(layout)) name += char(std::toupper(letter));
+    for (const char letter : enumName(layout)) name += char(std::toupper(letter));
     Defines all{{name, "1"}};
     if (euclidean) all.emplace("RADIANCE_CLIPMAP_EUCLIDEAN", "1");
     return all;

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/field.h"
+#include "base/value.h"
+
+/// The fields of a struct without its type, so that one function reads parameters of all structs: few
+/// templates are left to instantiate for each of some hundreds of fields.
+namespace voxray {
+
+/// How values of one type are read, checked and written.
+class ParameterType {
+ public:
+    virtual ~ParameterType() = default;
+    virtual const char* name() const = 0;  ///< As ParameterDoc has it.
+    /// @throws UsageError where the value is of another type, out of range or not allowed.
+    virtual void read(void* at, const Value& value, const std::string& what) const = 0;
+    virtual std::string text(const void* at) const = 0;
+    virtual Value value(const void* at) const = 0;
+    virtual std::string min() const { return {}; }  ///< "" where there is no range.
+    virtual std::string max() const { return {}; }
+    virtual std::vector<std::string> choices() const { return {}; }  ///< The only values; empty: any.
+};
+
+/// Defined for bool, the integers, float, double, glm::vec3 and std::string (parameter.cpp).
+template <typename T>
+std::shared_ptr<const ParameterType> parameterType(T min, T max, bool isRanged, std::vector<T> allowed,
+                                                   bool isVector);
+
+/// An enum of 32 bits by its names.
+std::shared_ptr<const ParameterType> choiceType(std::vector<std::pair<uint32_t, std::string>> names);
+
+/// One field of a struct.
+struct Parameter {
+    /// Values of another parameter, one of which it needs: one of `values`, or none of them.
+    struct Condition {
+        size_t offset;  ///< Of the other one.
+        std::vector<std::string> values;
+        bool isOneOf;
+    };
+
+    const char* name;
+    const char* help;
+    size_t offset;  ///< In the struct, bytes.
+    std::shared_ptr<const ParameterType> type;
+    std::vector<Condition> conditions;  ///< One of these holds where it has an effect; empty: everywhere.
+    bool isLessNoise;
+
+    const void* of(const void* params) const { return static_cast<const char*>(params) + offset; }
+    void* of(void* params) const { return static_cast<char*>(params) + offset; }
+};
+
+using Schema = std::vector<Parameter>;
+
+namespace schema_detail {
+
+template <typename T>
+std::shared_ptr<const ParameterType> typeOf(T min, T max, bool isRanged, std::vector<T> allowed,
+                                            bool isVector) {
+    if constexpr (std::is_enum_v<T>) {
+        static_assert(sizeof(T) == sizeof(uint32_t));
+        std::vector<std::pair<uint32_t, std::string>> names;
+        for (const auto& [value, name] : EnumNames<T>::names) names.emplace_back(uint32_t(value), name);
+        return choiceType(std::move(names));
+    } else {
+        return parameterType<T>(std::move(min), std::move(max), isRanged, std::move(allowed), isVector);
+    }
+}
+
+/// Defined as parameterType() is.
+template <typename T>
+std::vector<std::string> plainTexts(const std::vector<T>& values);
+
+template <typename T>
+std::vector<std::string> textsOf(const std::vector<T>& values) {
+    if constexpr (std::is_enum_v<T>) {
+        std::vector<std::string> texts;
+        for (const T value : values) texts.push_back(enumName(value));
+        return texts;
+    } else {
+        return plainTexts(values);
+    }
+}
+
+template <typename P, typename Member>
+size_t offsetOf(const P& params, Member member) {
+    return size_t(reinterpret_cast<const char*>(&(params.*member)) - reinterpret_cast<const char*>(&params));
+}
+
+template <typename P, typename F>
+void addParameter(Schema& schema, const P& params, F field) {
+    std::vector<Parameter::Condition> conditions;
+    std::apply(
+        [&](const auto&... c) {
+            (conditions.push_back({offsetOf(params, c.member), textsOf(c.values), c.isOneOf}), ...);
+        },
+        field.conditions);
+    schema.push_back({field.name, field.help, offsetOf(params, field.member),
+                      typeOf(field.min, field.max, field.ranged, std::move(field.allowed), field.isVector),
+                      std::move(conditions), field.isLessNoise});
+}
+
+}  // namespace schema_detail
+
+/// The parameters of a struct, in the order that it lists them.
+template <typename P>
+const Schema& schemaOf() {
+    static const Schema all = [] {
+        Schema schema;
+        const P params;
+        std::apply([&](auto... fields) { (schema_detail::addParameter(schema, params, std::move(fields)), ...); },
+                   P::schema());
+        return schema;
+    }();
+    return all;
+}
+
+}  // namespace voxray
