@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -61,10 +60,9 @@ int validateAll(const ValidateArguments& arguments) {
     Registry registry;
     registerPasses(registry);
     int status = 0;
-    std::map<std::filesystem::path, SceneLoader> loaders;  // By the config's folder, which is searched, too.
+    SceneLoader loader({});  // One for all: configs share scenes.
     for (const std::filesystem::path& config : arguments.configs) {
-        const auto folders = sceneFolders(arguments.scenes, sourceRoot(), config);
-        SceneLoader& loader = loaders.try_emplace(config.parent_path(), folders).first->second;
+        loader.searchIn(sceneFolders(arguments.scenes, sourceRoot(), config));
         try {
             validate(config, arguments.config, loader, registry);
         } catch (const Error& error) {

@@ -183,8 +183,8 @@ std::vector<std::string> schema_detail::plainTexts(const std::vector<T>& values)
     return texts;
 }
 
-#define VOXRAY_PARAMETER_TYPE(T)                                                                              \
-    template std::shared_ptr<const ParameterType> parameterType<T>(T, T, bool, std::vector<T>, bool);         \
+#define VOXRAY_PARAMETER_TYPE(T)                                                                      \
+    template std::shared_ptr<const ParameterType> parameterType<T>(T, T, bool, std::vector<T>, bool); \
     template std::vector<std::string> schema_detail::plainTexts<T>(const std::vector<T>&);
 VOXRAY_PARAMETER_TYPE(bool)
 VOXRAY_PARAMETER_TYPE(int32_t)

@@ -116,8 +116,9 @@ const Schema& schemaOf() {
     static const Schema all = [] {
         Schema schema;
         const P params;
-        std::apply([&](auto... fields) { (schema_detail::addParameter(schema, params, std::move(fields)), ...); },
-                   P::schema());
+        std::apply(
+            [&](auto... fields) { (schema_detail::addParameter(schema, params, std::move(fields)), ...); },
+            P::schema());
         return schema;
     }();
     return all;

@@ -212,7 +212,6 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
     std::vector<MemoryNeed> needs;
     IdleMotion motion(experiment.measure);
     std::string key;
-    PreparedScene prepared;
     std::optional<LightCost> lightCost;
     ReferencePlan reference(experiment, registry, device);
     PlanCheck found;
@@ -223,12 +222,19 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
             for (const std::string& text : texts) notices[text].push_back(variant.name);
         };
         // Variants in a row mostly share a scene
-        if (std::string own = loader.key(variant.setup.scene); own != key) {
-            prepared = loader.prepare(variant.setup.scene);
+        std::string own = loader.key(variant.setup.scene);
+        const PreparedScene& prepared = loader.prepareOnce(variant.setup.scene, own);
+        if (own != key) {
             key = std::move(own);
             lightCost.emplace(prepared.state);
             checkMaskNames(experiment.measure.masks, *prepared.state.scene);
-            say(checkView(variant.setup, prepared, registry.preview));
+            const std::string view = viewKey(variant.setup, key);
+            if (!loader.rightViews.contains(view)) {
+                const std::vector<std::string> warnings =
+                    checkView(variant.setup, prepared, registry.preview);
+                if (warnings.empty()) loader.rightViews.insert(view);
+                say(warnings);
+            }
             say(additionWarnings(variant.setup.scene, prepared, loader));
         }
         const ImageSettings& image = variant.setup.image;

@@ -57,6 +57,7 @@ PreparedExperiment::PreparedExperiment(WiredExperiment experiment, const RunOpti
         checkPlans(wired_, session_->loader(), session_->device().info(), registry_, ownVariant());
     warnings_ = std::move(check.warnings);
     session_->takeMasks(std::move(check.masks));
+    session_->loader().forgetPrepared();
 }
 
 std::optional<size_t> PreparedExperiment::ownVariant() {

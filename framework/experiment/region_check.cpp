@@ -56,13 +56,16 @@ Box seenBox(const PreparedScene& prepared, const EmbreeScene& tracer, std::span<
 
 }  // namespace
 
-std::string regionWarning(const Setup& setup, const PreparedScene& prepared, const EmbreeScene& tracer,
-                          std::span<const SeenPoint> seen) {
-    const auto voxelizes = [](const Value& entry) {
+bool isVoxelized(const Setup& setup) {
+    return std::ranges::any_of(setup.graph.items, [](const Value& entry) {
         const Value* pass = entry.find("pass");
         return pass && pass->scalar.starts_with("voxelize");
-    };
-    if (setup.scene.region || seen.empty() || std::ranges::none_of(setup.graph.items, voxelizes)) return {};
+    });
+}
+
+std::string regionWarning(const Setup& setup, const PreparedScene& prepared, const EmbreeScene& tracer,
+                          std::span<const SeenPoint> seen) {
+    if (setup.scene.region || seen.empty() || !isVoxelized(setup)) return {};
     const Box box = seenBox(prepared, tracer, seen), whole = prepared.state.geometry.region;
     if (longest(whole) < kTooLarge * longest(box)) return {};
 

@@ -9,6 +9,9 @@
 
 namespace voxray {
 
+/// Whether a pass of the graph voxelizes the scene.
+bool isVoxelized(const Setup& setup);
+
 /// What to say of a scene that is many times larger than what the camera sees of it, where voxels are spread
 /// over all of it: the region to write into the config. "" where they are not, or where there is a region.
 /// @param seen of the image, evenly.

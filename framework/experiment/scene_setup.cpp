@@ -393,8 +393,25 @@ PreparedScene SceneLoader::prepare(const SceneSettings& settings, Origin origin)
     return prepared;
 }
 
+const PreparedScene& SceneLoader::prepareOnce(const SceneSettings& settings, const std::string& key) {
+    const auto known = std::ranges::find(prepared_, key, &decltype(prepared_)::value_type::first);
+    if (known != prepared_.end())
+        prepared_.splice(prepared_.begin(), prepared_, known);
+    else
+        prepared_.emplace_front(key, prepare(settings));
+    // A triangle takes some 150 bytes
+    constexpr size_t kMaxTriangles = 8'000'000;
+    size_t triangles = 0;
+    const auto last = std::ranges::find_if(prepared_, [&](const auto& entry) {
+        triangles += entry.second.state.geometry.triangles.size();
+        return triangles > kMaxTriangles;
+    });
+    prepared_.erase(last == prepared_.begin() ? std::next(last) : last, prepared_.end());
+    return prepared_.front().second;
+}
+
 std::shared_ptr<PlanMemo> SceneLoader::memoOf(const std::string& surfaces) {
-    constexpr size_t kMemos = 8;  // What they hold may be large.
+    constexpr size_t kMemos = 64;  // What they hold may be large.
     const auto known = std::ranges::find(memos_, surfaces, &decltype(memos_)::value_type::first);
     std::pair entry =
         known == memos_.end() ? std::pair(surfaces, std::make_shared<PlanMemo>()) : std::move(*known);

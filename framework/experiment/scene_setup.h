@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <list>
 #include <map>
 #include <memory>
 #include <set>
@@ -50,6 +51,9 @@ class SceneLoader {
  public:
     explicit SceneLoader(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
 
+    /// Looks in other folders from now on, as for another config.
+    void searchIn(std::vector<std::filesystem::path> folders) { folders_ = std::move(folders); }
+
     /// A file or a built-in scene, as it is. @throws UsageError for one that isn't there or takes other
     /// parameters, Error for a broken file.
     std::shared_ptr<const Scene> load(const SceneSource& source);
@@ -62,6 +66,12 @@ class SceneLoader {
     /// @throws as key(), and UsageError for a camera that the scene lacks.
     PreparedScene prepare(const SceneSettings& settings, Origin origin = Origin::World);
 
+    /// As prepare(), or what that made before of the same scene, for the last few. Stays until another one is
+    /// prepared so. @param key that of `settings`.
+    const PreparedScene& prepareOnce(const SceneSettings& settings, const std::string& key);
+    /// Frees what prepareOnce() keeps.
+    void forgetPrepared() { prepared_.clear(); }
+
     /// Takes a prepared scene to a frame, counted from the compared one: animation, lights, and a camera on
     /// an animated node. A camera's own `move` is not applied.
     /// @return where surfaces moved, as `advance`. @throws Error for a light that is left without direction.
@@ -69,6 +79,9 @@ class SceneLoader {
 
     /// What loading left out and composing changed, a line each, of all scenes.
     std::vector<std::string> warnings() const;
+
+    /// Views that checkView() says nothing of, by viewKey(): other profiles and configs show the same ones.
+    std::set<std::string> rightViews;
 
  private:
     /// @throws UsageError for an overridden material that no scene has.
@@ -89,6 +102,7 @@ class SceneLoader {
     std::vector<std::string> mapWarnings_;  ///< Which layers were taken, where a map has several.
     std::set<std::string> changes_;         ///< What composing changed.
     std::deque<std::pair<std::string, std::shared_ptr<PlanMemo>>> memos_;  ///< Of the last few surfaces.
+    std::list<std::pair<std::string, PreparedScene>> prepared_;            ///< By key, the last one first.
 };
 
 }  // namespace voxray

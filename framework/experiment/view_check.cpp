@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <iterator>
 #include <limits>
+#include <optional>
 
 #include "experiment/exposure_check.h"
 #include "experiment/facing.h"
@@ -75,8 +76,8 @@ Seen lookThrough(const SceneState& state, const EmbreeScene& tracer, const Camer
     return seen;
 }
 
-/// What nothing shines in but one light; without textures.
-SceneState litAlone(const SceneState& state, const Light& light) {
+/// What nothing shines in; without textures.
+SceneState unlit(const SceneState& state) {
     auto scene = std::make_shared<Scene>();
     scene->materials = state.scene->materials;
     for (Material& material : scene->materials) {
@@ -84,10 +85,10 @@ SceneState litAlone(const SceneState& state, const Light& light) {
         material.baseColorTexture = material.metallicRoughnessTexture = {};
         material.normalTexture = material.emissiveTexture = {};
     }
-    SceneState alone = state;
-    alone.scene = std::move(scene);
-    alone.lights = {light};
-    return alone;
+    SceneState dark = state;
+    dark.scene = std::move(scene);
+    dark.lights.clear();
+    return dark;
 }
 
 TextLocation cameraPlace(const SceneSettings& scene) {
@@ -181,10 +182,12 @@ std::vector<std::string> checkView(const Setup& setup, const PreparedScene& prep
         const Size size = shrunk(setup.image, how.size);
         return preview(lit, tracer, camera, size.width, size.height, how.spp, how.bounces);
     };
+    std::optional<SceneState> alone;  // One copy of the geometry for all lights.
     const auto isFound = [&](const Light& light) {
         if (isEmpty) return true;  // By whoever turns the camera to it.
-        const SceneState alone = litAlone(state, light);
-        return std::ranges::any_of(kLooks, [&](const Look& how) { return !isBlack(look(alone, how)); });
+        if (!alone) alone = unlit(state);
+        alone->lights = {light};
+        return std::ranges::any_of(kLooks, [&](const Look& how) { return !isBlack(look(*alone, how)); });
     };
     std::vector<std::string> warnings = lightWarnings(scene, state, tracer, seen.points, isFound);
     if (std::string text = radians(scene); !text.empty()) warnings.push_back(std::move(text));
@@ -223,6 +226,15 @@ std::vector<std::string> checkView(const Setup& setup, const PreparedScene& prep
                                   advice(scene))
                            .what());
     return warnings;
+}
+
+std::string viewKey(const Setup& setup, const std::string& sceneKey) {
+    const ImageSettings& image = setup.image;
+    std::string key = fmt::format("{} {:.6f} {} {}", sceneKey, double(image.width) / image.height,
+                                  image.exposureStops, isVoxelized(setup));
+    for (const ConfigLight& light : setup.scene.lights)
+        key += light.move == glm::vec3(0.0f) ? " rests" : " moves";
+    return key;
 }
 
 }  // namespace voxray

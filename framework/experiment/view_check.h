@@ -20,4 +20,7 @@ namespace voxray {
 /// back: the camera stands outside of a closed room or inside of a solid.
 std::vector<std::string> checkView(const Setup& setup, const PreparedScene& prepared, const Preview& preview);
 
+/// All that checkView() finds depends on, but for places in the config. @param sceneKey SceneLoader::key().
+std::string viewKey(const Setup& setup, const std::string& sceneKey);
+
 }  // namespace voxray

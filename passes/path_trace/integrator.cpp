@@ -38,9 +38,9 @@ struct Integrator::VertexSampler {
 };
 
 Integrator::Integrator(const SceneState& state, const EmbreeScene& tracer, uint32_t bounces,
-                       Strategy strategy, PathLight light)
+                       Strategy strategy, PathLight light, RaysToCome rays)
     : tracer_(tracer),
-      surfaces_(state),
+      surfaces_(state, rays),
       lights_(state, surfaces_),
       panes_(dimsLight(state) ? std::make_unique<const Panes>(*state.panes) : nullptr),
       bounces_(bounces),
@@ -139,7 +139,7 @@ bool Integrator::Path::arrive(const Hit& hit) {
         }
         return false;
     }
-    const SurfaceTriangle& triangle = in_.surfaces_.triangle(hit.triangle);
+    const SurfaceTriangle triangle = in_.surfaces_.triangle(hit.triangle);
     if (wantsFound && triangle.light != kNoLight && in_.surfaces_.emitsTowards(triangle, -ray_.direction)) {
         const float weight =
             isMirrored_

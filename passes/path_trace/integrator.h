@@ -34,7 +34,7 @@ class Integrator {
  public:
     /// Both arguments must outlive this object.
     Integrator(const SceneState& state, const EmbreeScene& tracer, uint32_t bounces, Strategy strategy,
-               PathLight light = PathLight::All);
+               PathLight light = PathLight::All, RaysToCome rays = RaysToCome::Many);
 
     /// Follows up to kPacket paths that start along `cameraRays` (unit directions) and lie close together:
     /// they share the packets of their first rays. Pair 0 of samplers is the caller's.

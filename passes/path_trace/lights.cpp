@@ -78,19 +78,21 @@ LightTable::LightTable(const SceneState& state, SurfaceTable& surfaces)
     // Emissive triangles; halves of a quad are joined.
     const size_t firstPatch = power.size();
     for (uint32_t i = 0; i < surfaces.triangleCount(); ++i) {
-        SurfaceTriangle& t = surfaces.triangle(i);
-        const Material& m = surfaces.material(t);
+        const Material& m = state.scene->materials[state.geometry.triangleMaterials[i]];
+        if (!(maxComponent(m.emission) > 0.0f)) continue;
+        const SurfaceTriangle t = surfaces.triangle(i);
         double area = areaOf(t);
-        if (!(maxComponent(m.emission) > 0.0f) || !(area > 0.0)) continue;
+        if (!(area > 0.0)) continue;
         const double emission = meanEmission(surfaces, i) * (m.doubleSided ? 2.0 : 1.0);
         if (!(emission > 0.0) && !surfaces.emissionVaries(t)) continue;
         Patch patch{i, false, 0.0f};
-        t.light = uint32_t(patches_.size());
+        const auto light = uint32_t(patches_.size());
+        surfaces.setLight(i, light);
         if (!surfaces.emissionVaries(t) && i + 1 < surfaces.triangleCount() &&
             completesParallelogram(t, surfaces.triangle(i + 1))) {
             patch.isParallelogram = true;
             area *= 2.0;
-            surfaces.triangle(++i).light = t.light;
+            surfaces.setLight(++i, light);
         }
         patch.pdf = float(1.0 / area);
         patches_.push_back(patch);
@@ -116,7 +118,7 @@ LightSample LightTable::sample(const glm::vec3& from, float choice, glm::vec2 pl
 }
 
 LightSample LightTable::samplePatch(const Patch& patch, const glm::vec3& from, glm::vec2 place) const {
-    const SurfaceTriangle& t = surfaces_->triangle(patch.triangle);
+    const SurfaceTriangle t = surfaces_->triangle(patch.triangle);
     const glm::vec2 b = patch.isParallelogram ? place : uniformTriangle(place.x, place.y);
     const glm::vec3 side = patch.isParallelogram ? t.edge2 - t.edge1 : t.edge2;
     const glm::vec3 point = t.corner + t.edge1 * b.x + side * b.y;

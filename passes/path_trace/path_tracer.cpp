@@ -236,7 +236,7 @@ PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const
         const uint32_t block = options.momentsPixels();
         result.moments.resize(size_t((width + block - 1) / block) * ((height + block - 1) / block));
     }
-    const Integrator integrator(state, tracer, options.bounces, strategy, options.light);
+    const Integrator integrator(state, tracer, options.bounces, strategy, options.light, options.rays);
     const PinholeCamera pinhole(camera, width, height);
 
     // Divide the samples among independent batches: of two the first takes the odd numbers.

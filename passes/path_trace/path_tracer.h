@@ -25,8 +25,9 @@ struct PathTraceOptions {
     uint32_t bounces = 8;  ///< Scattering events after direct light at the first hit.
     uint64_t seed = 0;     ///< Another seed: another, independent estimate.
     PathLight light = PathLight::All;
-    SamplePart samples{};   ///< Which of the spp samples of each pixel are taken.
-    bool keepSums = false;  ///< Whether the sums over them are wanted.
+    RaysToCome rays = RaysToCome::Many;  ///< Few, for a small image of a large scene: nothing is prepared.
+    SamplePart samples{};                ///< Which of the spp samples of each pixel are taken.
+    bool keepSums = false;               ///< Whether the sums over them are wanted.
     /// Texels along a pixel's edge at which the irradiance of indirect light is estimated; 0: it is not.
     uint32_t irradianceTexels = 0;
 

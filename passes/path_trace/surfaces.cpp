@@ -29,46 +29,59 @@ glm::vec3 mapNormal(const glm::vec3& normal, const glm::vec4& tangent, const glm
 
 }  // namespace
 
-SurfaceTable::SurfaceTable(const SceneState& state) : state_(&state) {
-    const Geometry& geometry = state.geometry;
+SurfaceTable::SurfaceTable(const SceneState& state, RaysToCome rays) : state_(&state) {
     for (const Material& m : state.scene->materials)
         materials_.push_back(
             {Bsdf::make(glm::vec3(m.baseColor), m.metallic, m.roughness, m.specular, m.specularColor, m.ior),
              &m, m.emissiveTexture.texture >= 0 || m.alphaMode == AlphaMode::Mask});
+    if (rays == RaysToCome::Few) return;
 
-    triangles_.resize(geometry.triangles.size());
-    parallelRanges(triangles_.size(), 4096, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            const glm::uvec3 corners = geometry.triangles[i];
-            const glm::vec3 a = geometry.positions[corners.x];
-            const glm::vec3 b = geometry.positions[corners.y];
-            const glm::vec3 c = geometry.positions[corners.z];
-            SurfaceTriangle& t = triangles_[i];
-            t.corner = a;
-            t.edge1 = b - a;
-            t.edge2 = c - a;
-            t.material = geometry.triangleMaterials[i];
-
-            // The normal in double: slivers underflow a float.
-            const glm::dvec3 n = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
-            const double length = glm::length(n);
-            if (length > 0.0) t.normal = glm::vec3(n / length);
-            t.offset = planeOffset(a, b, c, t.normal);
-
-            // Most triangles need nothing but their material's constants.
-            bool simple = !readsTextures(*materials_[t.material].source);
-            for (const uint32_t corner : {corners.x, corners.y, corners.z}) {
-                const VertexAttributes& vertex = geometry.attributes[corner];
-                simple = simple && glm::vec3(vertex.color) == glm::vec3(1.0f) &&
-                         std::fabs(glm::dot(vertex.normal, t.normal)) > 1.0f - 1e-6f;
-            }
-            t.isSimple = simple ? 1 : 0;
-        }
+    std::vector<SurfaceTriangle> triangles(triangleCount());
+    parallelRanges(triangles.size(), 4096, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) triangles[i] = gathered(uint32_t(i));
     });
+    triangles_ = std::move(triangles);
+}
+
+SurfaceTriangle SurfaceTable::gathered(uint32_t i) const {
+    const Geometry& geometry = state_->geometry;
+    const glm::uvec3 corners = geometry.triangles[i];
+    const glm::vec3 a = geometry.positions[corners.x];
+    const glm::vec3 b = geometry.positions[corners.y];
+    const glm::vec3 c = geometry.positions[corners.z];
+    SurfaceTriangle t;
+    t.corner = a;
+    t.edge1 = b - a;
+    t.edge2 = c - a;
+    t.material = geometry.triangleMaterials[i];
+    if (const auto light = lights_.find(i); light != lights_.end()) t.light = light->second;
+
+    // The normal in double: slivers underflow a float.
+    const glm::dvec3 n = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
+    const double length = glm::length(n);
+    if (length > 0.0) t.normal = glm::vec3(n / length);
+    t.offset = planeOffset(a, b, c, t.normal);
+
+    // Most triangles need nothing but their material's constants.
+    bool simple = !readsTextures(*materials_[t.material].source);
+    for (const uint32_t corner : {corners.x, corners.y, corners.z}) {
+        const VertexAttributes& vertex = geometry.attributes[corner];
+        simple = simple && glm::vec3(vertex.color) == glm::vec3(1.0f) &&
+                 std::fabs(glm::dot(vertex.normal, t.normal)) > 1.0f - 1e-6f;
+    }
+    t.isSimple = simple ? 1 : 0;
+    return t;
+}
+
+void SurfaceTable::setLight(uint32_t triangle, uint32_t light) {
+    if (triangles_.empty())
+        lights_[triangle] = light;
+    else
+        triangles_[triangle].light = light;
 }
 
 SurfacePoint SurfaceTable::at(const Hit& hit, const glm::vec3& direction) const {
-    const SurfaceTriangle& t = triangles_[hit.triangle];
+    const SurfaceTriangle t = triangle(hit.triangle);
     SurfacePoint point;
     point.position = t.corner + t.edge1 * hit.u + t.edge2 * hit.v;
     point.offset = t.offsetAt(point.position);
@@ -92,7 +105,7 @@ void SurfaceTable::shadeInDetail(const Hit& hit, SurfacePoint& point) const {
     const VertexAttributes& a = geometry.attributes[corners.x];
     const VertexAttributes& b = geometry.attributes[corners.y];
     const VertexAttributes& c = geometry.attributes[corners.z];
-    const Material& m = *materials_[triangles_[hit.triangle].material].source;
+    const Material& m = *materials_[geometry.triangleMaterials[hit.triangle]].source;
     const glm::vec4 texCoords = interpolate(a.texCoords, b.texCoords, c.texCoords, hit.u, hit.v);
 
     // Normal: interpolated, mapped, flipped to the side of the ray.
@@ -121,7 +134,7 @@ void SurfaceTable::shadeInDetail(const Hit& hit, SurfacePoint& point) const {
 glm::vec3 SurfaceTable::varyingEmission(uint32_t triangle, float u, float v) const {
     const Geometry& geometry = state_->geometry;
     const glm::uvec3 corners = geometry.triangles[triangle];
-    const Material& m = *materials_[triangles_[triangle].material].source;
+    const Material& m = *materials_[geometry.triangleMaterials[triangle]].source;
     if (m.alphaMode == AlphaMode::Mask && isCutAway(*state_, triangle, u, v)) return glm::vec3(0.0f);
     if (m.emissiveTexture.texture < 0) return m.emission;
     const glm::vec4 texCoords =

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <unordered_map>
 #include <vector>
 
 #include "passes/path_trace/bsdf.h"
 #include "scene/geometry.h"
 #include "scene/surface_offset.h"
+#include "trace/embree_scene.h"
 #include "trace/ray.h"
 
 namespace voxray::path_trace {
@@ -43,12 +45,14 @@ struct SurfacePoint {
 /// Every triangle's and material's shading data. Thread-safe after construction.
 class SurfaceTable {
  public:
-    /// `state` must outlive this object.
-    explicit SurfaceTable(const SceneState& state);
+    /// `state` must outlive this object. For few rays nothing is prepared: triangles are gathered as they are
+    /// met.
+    explicit SurfaceTable(const SceneState& state, RaysToCome rays = RaysToCome::Many);
 
-    const SurfaceTriangle& triangle(uint32_t i) const { return triangles_[i]; }
-    SurfaceTriangle& triangle(uint32_t i) { return triangles_[i]; }
-    size_t triangleCount() const { return triangles_.size(); }
+    SurfaceTriangle triangle(uint32_t i) const { return triangles_.empty() ? gathered(i) : triangles_[i]; }
+    size_t triangleCount() const { return state_->geometry.triangles.size(); }
+    /// Makes a triangle part of a patch among the lights. Not thread-safe.
+    void setLight(uint32_t triangle, uint32_t light);
 
     /// Geometry and material where a ray of unit `direction` hits.
     SurfacePoint at(const Hit& hit, const glm::vec3& direction) const;
@@ -56,7 +60,7 @@ class SurfaceTable {
     /// Radiance that leaves a triangle's emitting sides at barycentrics (u, v): none where the alpha mask
     /// cuts the surface away.
     glm::vec3 emission(uint32_t triangle, float u, float v) const {
-        const MaterialData& m = materials_[triangles_[triangle].material];
+        const MaterialData& m = materials_[state_->geometry.triangleMaterials[triangle]];
         return m.emissionVaries ? varyingEmission(triangle, u, v) : m.source->emission;
     }
     /// Whether a triangle's emission may differ from point to point.
@@ -79,12 +83,14 @@ class SurfaceTable {
         bool emissionVaries = false;
     };
 
+    SurfaceTriangle gathered(uint32_t i) const;
     glm::vec3 varyingEmission(uint32_t triangle, float u, float v) const;
     void shadeInDetail(const Hit& hit, SurfacePoint& point) const;
     glm::vec4 lookUp(const TextureRef& ref, const glm::vec4& texCoords) const;
 
     const SceneState* state_;
-    std::vector<SurfaceTriangle> triangles_;
+    std::vector<SurfaceTriangle> triangles_;         ///< Empty for few rays.
+    std::unordered_map<uint32_t, uint32_t> lights_;  ///< By triangle, for few rays.
     std::vector<MaterialData> materials_;
 };
 
