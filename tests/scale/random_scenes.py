@@ -59,8 +59,8 @@ def run_batch(program, seeds, folder):
     return found
 
 
-def run(program, folder, name, resolution, scene, **sweep):
-    config = {"name": name, "scene": scene, "image": {"width": 32, "height": 32}, "seed": 1,
+def run(program, folder, name, resolution, first, **sweep):
+    config = {"name": name, "scene": first, "image": {"width": 32, "height": 32}, "seed": 1,
               "graph": list(passes(resolution)), "reference": {"pass": "path_trace", "spp": 1024, "bounces": 8},
               "measure": {"frames": 1, "warmup": 0, "second_seed": False, "metrics": ["nrmse", "mean_ratio"]},
               "sweep": {axis: values for axis, values in sweep.items() if len(values) > 1}}
