@@ -26,6 +26,17 @@ layout(push_constant, scalar) uniform Push {
     uint batchRays;
 } push;
 
+// A point of a triangle, moved off its edges by the four roundings that interpolation takes: on the edge between a floor and a wall
+// they would decide which side of the wall it lies on, and where it lies outside no light comes to it.
+vec2 offEdges(uint triangle, vec2 barycentrics) {
+    const uvec3 v = triangleVertices(triangle);
+    const vec3 a = vertexPosition(v.x), b = vertexPosition(v.y), c = vertexPosition(v.z);
+    const float uncertain = 4.8e-7 * largestCoordinate(max(abs(a), max(abs(b), abs(c))));
+    const float size = sqrt(max(length(cross(b - a, c - a)), 1.0e-37));
+    const vec3 w = max(vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics), min(uncertain / size, 0.25));
+    return w.yz / (w.x + w.y + w.z);
+}
+
 void main() {
     const uint i = linearIndex();
     if (i >= push.batchRays) return;
@@ -40,11 +51,12 @@ void main() {
     if (hit.triangle == NO_HIT) {
         visible.emission = environmentRadiance(viewDirection(push.view, uvec2(texel)));
     } else {
-        const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
+        const vec2 seen = offEdges(hit.triangle, vec2(hit.u, hit.v));
+        const SurfacePoint s = surfacePoint(hit.triangle, seen);
         point = vec4(s.position, s.offset);
         visible = visibleSurface(push.view, s);
 #ifdef MOTION
-        before = vec4(previousPosition(hit.triangle, vec2(hit.u, hit.v)), instanceOf(hit.triangle));
+        before = vec4(previousPosition(hit.triangle, seen), instanceOf(hit.triangle));
 #endif
     }
     imageStore(position, texel, point);

@@ -49,27 +49,17 @@ struct SurfacePoint {
     float offset;          // m, along the geometric normal: there rays begin that leave the surface.
 };
 
-// A point of a triangle, moved off its edges by the four roundings that interpolation takes: on the edge between a floor and a wall
-// they would decide which side of the wall it lies on.
-vec2 offEdges(vec2 barycentrics, vec3 a, vec3 b, vec3 c, float twiceArea) {
-    const float uncertain = 4.8e-7 * largestCoordinate(max(abs(a), max(abs(b), abs(c))));
-    const float least = min(uncertain * inversesqrt(max(twiceArea, 1.0e-37)), 0.25);
-    const vec3 w = max(vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics), least);
-    return w.yz / (w.x + w.y + w.z);
-}
-
 SurfacePoint surfacePoint(uint triangle, vec2 barycentrics) {
     const uvec3 v = triangleVertices(triangle);
+    const vec3 w = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
     const vec3 p0 = vertexPosition(v.x), p1 = vertexPosition(v.y), p2 = vertexPosition(v.z);
-    const vec3 cross_ = cross(p1 - p0, p2 - p0);
-    const float length_ = length(cross_);
-    const vec2 inside = offEdges(barycentrics, p0, p1, p2, length_);
-    const vec3 w = vec3(1.0 - inside.x - inside.y, inside);
     const GpuVertexAttributes a0 = vertexAttributes(v.x);
     const GpuVertexAttributes a1 = vertexAttributes(v.y);
     const GpuVertexAttributes a2 = vertexAttributes(v.z);
     SurfacePoint s;
     s.position = w.x * p0 + w.y * p1 + w.z * p2;
+    const vec3 cross_ = cross(p1 - p0, p2 - p0);
+    const float length_ = length(cross_);
     s.geometricNormal = length_ > 0.0 ? cross_ / length_ : vec3(0.0);
     const vec3 n = w.x * a0.normal + w.y * a1.normal + w.z * a2.normal;
     s.normal = dot(n, n) > 0.0 ? normalize(n) : s.geometricNormal;
