@@ -11,6 +11,7 @@
 #include "passes/path_trace/path_tracer.h"
 #include "scene/camera_rays.h"
 #include "scene/outliers.h"
+#include "scene/surface_offset.h"
 
 namespace voxray {
 namespace {
@@ -134,6 +135,8 @@ Sight lookAround(const SceneState& state, const EmbreeScene& tracer, const Camer
     sight.fronts /= seen;
     sight.near = float(std::ranges::lower_bound(distances, far / 20) - distances.begin()) / seen;
     sight.distance = distances[distances.size() / 2];
+    // Of a camera that stands in a surface rounding decides what it sees
+    if (sight.distance < 10 * pointOffset(settings.position)) sight.filled = 0;
     return sight;
 }
 

@@ -73,7 +73,7 @@ void GatherClusters::record(PassContext& context) {
         all.voxelCount = voxels.voxelCount;
         all.sidesWithin.assign(filterSteps() + 1, patches.sideCount);
         gather(context, all);
-        requireLight(context.stream, voxels, result);
+        requireLight(context.stream, voxels, result, *context.frame.scene);
         return;
     }
     if (isNew) {

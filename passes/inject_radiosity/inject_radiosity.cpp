@@ -74,7 +74,7 @@ void InjectRadiosity::record(PassContext& context) {
     if (context.get(surfelIrradiance_).isRead) keep(context, light);
     injection_.finish(context, scene.voxels, irradiance);
     radiosity_[0] = {}, radiosity_[1] = {};
-    requireLight(context.stream, scene.voxels, irradiance);
+    requireLight(context.stream, scene.voxels, irradiance, *context.frame.scene);
     injection_.fillUnknown(context, scene.voxels, irradiance);
 }
 

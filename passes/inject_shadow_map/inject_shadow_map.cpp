@@ -77,7 +77,7 @@ void InjectShadowMap::record(PassContext& context) {
         injection_.lightIndirect(context, scene, surfels.chunks[c].surfels, surfels.chunks[c].count, params_,
                                  seed, direct[c]);
     injection_.finish(context, scene.voxels, irradiance);
-    requireLight(stream, scene.voxels, irradiance);
+    requireLight(stream, scene.voxels, irradiance, *context.frame.scene);
     injection_.fillUnknown(context, scene.voxels, irradiance);
 }
 

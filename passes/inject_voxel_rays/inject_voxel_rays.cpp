@@ -29,7 +29,7 @@ void InjectVoxelRays::record(PassContext& context) {
     for (const Surfels::Chunk& chunk : context.get(surfels_).chunks)
         injection_.light(context, scene, chunk.surfels, chunk.count, params_, seed);
     injection_.finish(context, scene.voxels, irradiance);
-    requireLight(context.stream, scene.voxels, irradiance);
+    requireLight(context.stream, scene.voxels, irradiance, *context.frame.scene);
     injection_.fillUnknown(context, scene.voxels, irradiance);
 }
 

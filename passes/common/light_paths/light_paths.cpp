@@ -158,7 +158,7 @@ void LightPaths::finish(PassContext& context, const SurfaceVoxels& voxels, Voxel
     for (FluxAccumulator& sums : fluxes_) sums.end();
     for (VoxelAccumulator& writes : irradiances_) writes.end();
 
-    requireLight(stream, voxels, irradiance);
+    requireLight(stream, voxels, irradiance, *context.frame.scene);
 }
 
 }  // namespace voxray

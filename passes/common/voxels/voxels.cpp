@@ -24,7 +24,13 @@ void VoxelIrradiance::allocate(Device& device, uint32_t voxelCount) {
     area = Buffer(device, "voxel area", uint64_t(voxelCount) * kAreaWords * sizeof(uint32_t));
 }
 
-void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance) {
+void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
+                  const SceneState& scene) {
+    const auto emits = [&](uint32_t material) {
+        const glm::vec3 emission = scene.scene->materials[material].emission;
+        return std::max({emission.x, emission.y, emission.z}) > 0;
+    };
+    if (std::ranges::all_of(scene.geometry.triangleMaterials, emits)) return;
     // No flux at all packs to words of 0, and nothing else does.
     const std::vector<uint32_t> direct =
         stream.readAs<uint32_t>(irradiance.direct, irradiance.direct.bytes() / sizeof(uint32_t));

@@ -79,9 +79,10 @@ struct VoxelIrradiance : Resource {
     std::vector<const Buffer*> checkedBuffers() const override { return {&direct, &indirect, &area}; }
 };
 
-/// Darkness everywhere is a mistake in the set-up, not a picture. @throws Error where no direct light arrives
-/// at any voxel. Waits for the device.
-void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance);
+/// Darkness everywhere is a mistake in the set-up, not a picture, but where all surfaces emit light: they may
+/// light none. @throws Error where no direct light arrives at any voxel. Waits for the device.
+void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
+                  const SceneState& scene);
 
 /// The smallest grid of cubic voxels round a box, `resolution` voxels along its longest side, with an eighth
 /// of a voxel to spare, so that no surface lies on its border.
