@@ -7,9 +7,11 @@
 namespace voxray::test {
 namespace {
 
+// One sample in the center of each of 24 x 24 pixels is off by 3 % of the mean: it lies on the room's edges.
 std::string graphOf(const Injection& injection) {
-    return graphYaml({"gbuffer", "voxelize", "place_surfels, points_per_voxel: 8", "link_surfels",
-                      "trace_gather_rays, rays_per_block: 32", injection.withBounces(3), "gather_rays"});
+    return graphYaml({"gbuffer, samples_per_pixel_edge: 4", "voxelize", "place_surfels, points_per_voxel: 8",
+                      "link_surfels", "trace_gather_rays, rays_per_block: 32", injection.withBounces(3),
+                      "gather_rays"});
 }
 
 /// The Cornell box, lit by a point light of 1 W/sr.
@@ -28,7 +30,7 @@ TEST(AwkwardViews, LightOutsideTheGridShinesIntoIt) {
     const double expected = meanIndirect(state, graphYaml({"path_trace, spp: 256, bounces: 4"}));
     ASSERT_GT(expected, 0);
     for (const Injection& injection : kInjections)
-        EXPECT_NEAR(meanIndirect(state, graphOf(injection)) / expected, 1, 0.04) << injection.pass;
+        EXPECT_NEAR(meanIndirect(state, graphOf(injection)) / expected, 1, 0.03) << injection.pass;
 }
 
 TEST(AwkwardViews, CameraInsideABoxSeesNoLight) {
@@ -52,7 +54,7 @@ TEST(AwkwardViews, CameraInAVoxelizedWall) {
     camera.forward = {0, 0, 1};
     const double expected = meanIndirect(state, graphYaml({"path_trace, spp: 256, bounces: 4"}));
     for (const Injection& injection : kInjections)
-        EXPECT_NEAR(meanIndirect(state, graphOf(injection)) / expected, 1, 0.04) << injection.pass;
+        EXPECT_NEAR(meanIndirect(state, graphOf(injection)) / expected, 1, 0.03) << injection.pass;
 }
 
 }  // namespace
