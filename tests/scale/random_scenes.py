@@ -45,10 +45,12 @@ def run_batch(program, seeds, folder):
         by_resolution.setdefault(resolution, {})[f"s{seed}"] = scene
     for resolution, scenes in by_resolution.items():
         done, rows = run(program, folder, f"r{resolution}", resolution, next(iter(scenes.values())), scene=scenes)
+        # A failed variant tells why itself; where none does, the run failed for all
+        is_broken = done.returncode and all(row["status"] == "ok" for row in rows)
         for name, scene in scenes.items():
             seed, tags = int(name[1:]), found[int(name[1:])][0]
             row = next((r for r in rows if len(scenes) == 1 or r["scene"] == name), None)
-            if done.returncode and (row is None or row["status"] == "ok"):
+            if is_broken:
                 found[seed] = (tags, f"exit {done.returncode}: {done.stderr.strip()[-600:]}", True)
             elif row is not None and row["status"] != "ok":
                 found[seed] = (tags, f"failed: {row['error']}", True)
@@ -60,6 +62,7 @@ def run_batch(program, seeds, folder):
 
 
 def run(program, folder, name, resolution, first, **sweep):
+    """Runs the chain over a sweep, in `folder`. @return the ended process and the rows of its results."""
     config = {"name": name, "scene": first, "image": {"width": 32, "height": 32}, "seed": 1,
               "graph": list(passes(resolution)), "reference": {"pass": "path_trace", "spp": 1024, "bounces": 8},
               "measure": {"frames": 1, "warmup": 0, "second_seed": False, "metrics": ["nrmse", "mean_ratio"]},
