@@ -22,6 +22,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.dont_write_bytecode = True
 sys.path.append(str(ROOT / "framework"))
 from bench import page, processes, tables  # noqa: E402
+from bench.clocks import ClockWatch  # noqa: E402
 from bench.parts import PARTS, Bench, Ending, PartError  # noqa: E402
 from bench.processes import Clock  # noqa: E402
 from bench.runs import SHORTEST, Program  # noqa: E402
@@ -109,10 +110,11 @@ def main():
         if part.name not in options.only:
             continue
         clock = whole.part(part.fraction * options.limit)
-        limit = clock.left
+        limit, watch = clock.left, ClockWatch()
         ending = Ending(processes.FAILED, missing) if missing else run_part(bench, part, clock)
         bench.data["parts"].append({"name": part.name, "what": part.what, "status": ending.status, "why": ending.why,
-                                    "seconds": round(clock.spent, 1), "limit": round(limit, 1), "ran": ending.ran})
+                                    "seconds": round(clock.spent, 1), "limit": round(limit, 1), "clock_mhz": watch.ended(),
+                                    "ran": ending.ran})
         print(f"{part.name}: {ending.status}{': ' + ending.why if ending.why else ''} ({clock.spent:.1f} s)", flush=True)
         prune(bench)
         write(bench)

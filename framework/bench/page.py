@@ -55,12 +55,14 @@ def _status(status: str) -> Cell:
 
 
 def parts_table(data: dict) -> Table:
-    table = Table("Parts", ["part", "outcome", "s", "of at most", "runs: done, of", "what it measures, and what went wrong"],
-                  words=(0, 1, 5))
+    table = Table("Parts", ["part", "outcome", "s", "of at most", "runs: done, of", "clock MHz while busy: median, p05",
+                            "what it measures, and what went wrong"], words=(0, 1, 6))
     for part in data["parts"]:
         ran = part["ran"]
         done = f"{sum(run['status'] == processes.DONE for run in ran)}, {len(ran)}" if ran else ""
+        clock = part["clock_mhz"]
         table.add(part["name"], _status(part["status"]), number(part["seconds"]), number(part["limit"]), done,
+                  f"{number(clock['median'])}, {number(clock['p05'])}" if clock else "",
                   "; ".join(filter(None, (part["what"], part["why"]))))
     return table
 

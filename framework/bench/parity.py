@@ -19,10 +19,11 @@ _SOFTWARE = "software device"
 
 
 def measure(program: Program, found: list[devices.Device], device: devices.Device, tracers: list[str], out: Path,
-            clock: Clock) -> tuple[list[Run], list[dict]]:
+            clock: Clock, warming: tuple[str, ...]) -> tuple[list[Run], list[dict]]:
     """@return the runs, and how images differ: a row for each method and pair of runs.
 
     @param tracers Those of the device to compare with Embree; none: Embree alone, against itself and another device.
+    @param warming What is set in runs by the device's own tracers, which are timed, too.
     """
     first = tracers[0] if tracers else "embree"
     again, software = f"{first} again", devices.software(found, device)
@@ -38,7 +39,8 @@ def measure(program: Program, found: list[devices.Device], device: devices.Devic
     rows: list[dict] = []
     for i, (name, tracer, on) in enumerate(plan):
         own = clock.part(clock.left * (1 if i + 1 == len(plan) else _LARGEST_PART))
-        done[name] = runs.run_config(program, CONFIG, f"parity.{name.replace(' ', '.')}", out, own, tracer=tracer, device=on.name)
+        done[name] = runs.run_config(program, CONFIG, f"parity.{name.replace(' ', '.')}", out, own, tracer=tracer, device=on.name,
+                                     assignments=() if tracer == "embree" else warming)
         for test, reference in pairs:
             if test != reference and name in (test, reference) and test in done and reference in done:
                 rows += _compare(program, f"{test} against {reference}", done[test], done[reference], clock)

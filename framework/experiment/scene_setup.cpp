@@ -135,11 +135,14 @@ Camera chooseCamera(const SceneSettings& settings, const SceneState& state, cons
                      didYouMean(settings.cameraName, names));
 }
 
+/// Surfaces in the region's border are in it, so far as the digits of files and floats tell.
 /// @throws UsageError for a region that holds nothing.
 void putRegion(PreparedScene& prepared, const SceneSettings& settings) {
     const Geometry& g = prepared.state.geometry;
-    const Box region{glm::max(settings.region->min - prepared.origin, g.boundsMin),
-                     glm::min(settings.region->max - prepared.origin, g.boundsMax)};
+    const auto& [low, high] = *settings.region;
+    const glm::vec3 rounding = 1e-6f * glm::max(glm::abs(low), glm::abs(high));
+    const Box region{glm::max(low - prepared.origin - rounding, g.boundsMin),
+                     glm::min(high - prepared.origin + rounding, g.boundsMax)};
     if (!glm::all(glm::lessThanEqual(region.min, region.max)))
         throw UsageError(settings.regionWhere, "scene.region: none of the scene lies in it");
     prepared.state = inRegion(prepared.state, region, settings.options.time);

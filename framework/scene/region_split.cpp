@@ -143,7 +143,10 @@ bool isInRegion(const Geometry& g, uint32_t triangle) {
     const auto& [low, high] = g.region;
     if (low == g.boundsMin && high == g.boundsMax) return true;
     const glm::uvec3 t = g.triangles[triangle];
-    const glm::vec3 center = g.positions[t.x] / 3.0f + g.positions[t.y] / 3.0f + g.positions[t.z] / 3.0f;
+    const glm::vec3 &a = g.positions[t.x], &b = g.positions[t.y], &c = g.positions[t.z];
+    // The mean of three equal floats can be another one: a triangle in the border would lie outside of it
+    const glm::vec3 center =
+        glm::clamp(a / 3.0f + b / 3.0f + c / 3.0f, glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)));
     return glm::all(glm::greaterThanEqual(center, low)) && glm::all(glm::lessThanEqual(center, high));
 }
 

@@ -23,9 +23,9 @@ void addFaces(VoxelGrid g, ivec3 voxel, vec3 normal, inout vec3 sum, inout float
     }
 }
 
-// Irradiance at a point of a surface with unit normal `normal`. Where its voxel has too little surface that faces the
-// same way (SMALL_FACE_AREA), the
-// voxels around it are taken together. Where they know nothing either, it is black and `known` is false.
+// Irradiance at a point of a surface with unit normal `normal`. Where its voxel has too little surface that faces the same way
+// (SMALL_FACE_AREA), the voxels around it are taken together. Where they know nothing either (MIN_FACE_AREA), it is black and
+// `known` is false.
 vec3 irradianceAt(VoxelGrid g, vec3 position, vec3 normal, out bool known) {
     const ivec3 voxel = voxelAt(g, position);
     vec3 sum = vec3(0.0);
@@ -35,7 +35,7 @@ vec3 irradianceAt(VoxelGrid g, vec3 position, vec3 normal, out bool known) {
         if (i == 13) continue;
         addFaces(g, voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, normal, sum, area);
     }
-    known = area > 0.0;
+    known = area > MIN_FACE_AREA;
     return known ? sum / area : vec3(0.0);
 }
 

@@ -19,6 +19,8 @@ VoxelMaterial voxelMaterial(uint voxel) { return unpackMaterial(voxelMaterials.d
 
 // Areas and flux are sampled: below this part of a voxel's face their ratio is noise, and surfaces around it are taken, too.
 #define SMALL_FACE_AREA 0.05
+// Below this part nothing is known: what few rays brought to a sliver's tip would count for all that looks the same way.
+#define MIN_FACE_AREA 0.001
 
 // Area of a voxel's surfaces that open space lies in front of, at a face +x -x +y -y +z -z, in units of a voxel's face.
 float unoccluded(VoxelMaterial m, uint face) {

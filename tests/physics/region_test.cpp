@@ -53,6 +53,22 @@ TEST(Region, CutsTrianglesAtItsBorderAndKeepsTheirSurface) {
               whole.geometry.triangles.size());
 }
 
+TEST(Region, HoldsTrianglesThatLieInItsBorder) {
+    // A third of this, added up three times, is a larger float
+    const float wall = 0.43491772f;
+    ASSERT_GT(wall / 3.0f + wall / 3.0f + wall / 3.0f, wall);
+    SceneBuilder builder("wall");
+    builder.quad("wall", {wall, 0, 0}, {0, 1, 0}, {0, 0, 1}, builder.lambert("gray", glm::vec3(0.5f)));
+    builder.quad("far", {-9, 0, 0}, {0, 1, 0}, {0, 0, 1}, builder.lambert("white", glm::vec3(0.8f)));
+    builder.directionalLight({1, 0, 0}, glm::vec3(1));
+    builder.camera({0, 0.5f, 0.5f}, {wall, 0.5f, 0.5f}, 60);
+    const SceneState cut = inRegion(evaluate(builder.finish(), 0), {glm::vec3(0), {wall, 1, 1}}, 0);
+    std::vector<bool> inside;
+    for (uint32_t t = 0; t < cut.geometry.triangles.size(); ++t)
+        inside.push_back(isInRegion(cut.geometry, t));
+    EXPECT_EQ(inside, (std::vector<bool>{true, true, false, false}));
+}
+
 TEST(Region, GatherRaysInARoomOnALargeGroundMatchTheReference) {
     const auto state = std::make_shared<SceneState>(inRegion(roomOnGround(), kRoom, 0));
     Chain chain(state,

@@ -41,6 +41,17 @@ class Builder:
         points = np.concatenate([np.reshape(t, (-1, 3)) for t in self.triangles.values()])
         return points.min(axis=0), points.max(axis=0)
 
+    def typical_radiance(self):
+        """What all surfaces would send out if the lights' power fell on them evenly and none was lost: power / (pi area), W/(m² sr)."""
+        area_of = lambda t: np.linalg.norm(np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]), axis=1).sum() / 2
+        areas = {material: area_of(np.array(triangles)) for material, triangles in self.triangles.items()}
+        area, power = sum(areas.values()), 0.0
+        for kind, _, strength in self.lights:
+            solid_angle = {"point": 4 * np.pi, "spot": 2 * np.pi * (1 - np.cos(0.6))}.get(kind)
+            power += strength * (solid_angle if solid_angle else area / 6)  # A sun falls on a sixth of a box
+        power += sum(np.pi * self.materials[m][1] * a for m, a in areas.items())
+        return power / (np.pi * area)
+
     def write(self, path, scale, origin):
         place = lambda p: (np.asarray(p, float) * scale + origin)
         data, views, accessors, meshes, nodes = b"", [], [], [], []
@@ -108,7 +119,7 @@ def on_border(rng, low, high, resolution, axis):
 
 
 def make(seed, path):
-    """Writes a scene. @return the config's map `scene`, its resolution, and what is awkward about it."""
+    """Writes a scene. @return the config's map `scene`, its resolution, what is awkward about it, and its typical radiance."""
     rng = np.random.default_rng(seed)
     uniform = rng.uniform
     b, tags = Builder(), []
@@ -190,7 +201,7 @@ def make(seed, path):
     origin = uniform(-1, 1, 3) * scale * rng.choice([0, 0, 1, 20])
     if scale * size.max() > 1e5 or np.abs(origin).max() > 5e5:
         scale, origin = 1e4, np.zeros(3)
-    scene = {"file": path}
+    scene, typical = {"file": path}, b.typical_radiance()
     if rng.random() < 0.25:
         tags.append("stray triangle")
         box = b.bounds()
@@ -202,4 +213,4 @@ def make(seed, path):
     scene["camera"] = {"position": (camera * scale + origin).tolist(), "target": (target * scale + origin).tolist(),
                        "fov_deg": 70}
     scene["materials"] = "lambert"
-    return scene, resolution, tags
+    return scene, resolution, tags, typical
