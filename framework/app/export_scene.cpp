@@ -8,6 +8,7 @@
 #include "app/source_root.h"
 #include "base/error.h"
 #include "config/overrides.h"
+#include "experiment/scene_files.h"
 #include "experiment/scene_setup.h"
 #include "scene/load.h"
 

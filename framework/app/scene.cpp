@@ -16,6 +16,7 @@
 #include "app/view_search.h"
 #include "base/suggest.h"
 #include "experiment/pixel_masks.h"
+#include "experiment/scene_files.h"
 #include "experiment/scene_setup.h"
 #include "passes/common/lights/light_sources.h"
 #include "passes/path_trace/path_tracer.h"

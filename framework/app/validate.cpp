@@ -10,6 +10,7 @@
 #include "app/config_options.h"
 #include "app/source_root.h"
 #include "experiment/plan_checks.h"
+#include "experiment/scene_files.h"
 #include "passes/register_passes.h"
 
 namespace voxray {

@@ -7,7 +7,7 @@
 
 #include "base/suggest.h"
 
-namespace voxray::schema_detail {
+namespace voxray {
 namespace {
 
 const Parameter& parameterAt(const Schema& schema, size_t offset) {
@@ -48,8 +48,8 @@ std::string exampleOf(const Schema& schema, const void* defaults) {
 
 }  // namespace
 
-void read(const Schema& schema, void* params, const Value& map, const std::string& owner,
-          const std::vector<std::string>& alsoAllowed) {
+void readParams(const Schema& schema, void* params, const Value& map, const std::string& owner,
+                const std::vector<std::string>& alsoAllowed) {
     if (map.isNull()) return;
     if (!map.isMap())
         throw UsageError(map.where, "{}: expected a map of parameters{}", owner, exampleOf(schema, params));
@@ -64,14 +64,14 @@ void read(const Schema& schema, void* params, const Value& map, const std::strin
     }
 }
 
-Value write(const Schema& schema, const void* params) {
+Value writeParams(const Schema& schema, const void* params) {
     Value map = Value::map();
     for (const Parameter& parameter : schema)
         map.set(parameter.name, parameter.type->value(parameter.of(params)));
     return map;
 }
 
-std::vector<IdleParameter> idle(const Schema& schema, const void* params, const Value& map) {
+std::vector<IdleParameter> idleParams(const Schema& schema, const void* params, const Value& map) {
     std::vector<IdleParameter> all;
     for (const Parameter& parameter : schema) {
         const Value* written = map.find(parameter.name);
@@ -92,7 +92,7 @@ std::vector<IdleParameter> idle(const Schema& schema, const void* params, const 
     return all;
 }
 
-std::vector<ParameterDoc> describe(const Schema& schema, const void* defaults) {
+std::vector<ParameterDoc> describeParams(const Schema& schema, const void* defaults) {
     std::vector<ParameterDoc> docs;
     for (const Parameter& parameter : schema) {
         ParameterDoc doc{parameter.name,
@@ -111,4 +111,4 @@ std::vector<ParameterDoc> describe(const Schema& schema, const void* defaults) {
     return docs;
 }
 
-}  // namespace voxray::schema_detail
+}  // namespace voxray

@@ -27,13 +27,12 @@ struct IdleParameter {
     std::string why;  ///< "no effect with method: exact; only with method: three_axis"
 };
 
-namespace schema_detail {
-void read(const Schema& schema, void* params, const Value& map, const std::string& owner,
-          const std::vector<std::string>& alsoAllowed);
-Value write(const Schema& schema, const void* params);
-std::vector<IdleParameter> idle(const Schema& schema, const void* params, const Value& map);
-std::vector<ParameterDoc> describe(const Schema& schema, const void* defaults);
-}  // namespace schema_detail
+/// What the functions below do, of a struct without its type.
+void readParams(const Schema& schema, void* params, const Value& map, const std::string& owner,
+                const std::vector<std::string>& alsoAllowed);
+Value writeParams(const Schema& schema, const void* params);
+std::vector<IdleParameter> idleParams(const Schema& schema, const void* params, const Value& map);
+std::vector<ParameterDoc> describeParams(const Schema& schema, const void* defaults);
 
 template <typename P>
 std::vector<std::string> fieldNames() {
@@ -48,7 +47,7 @@ std::vector<std::string> fieldNames() {
 template <typename P>
 P readParams(const Value& map, const std::string& owner, const std::vector<std::string>& alsoAllowed = {}) {
     P params;
-    schema_detail::read(schemaOf<P>(), &params, map, owner, alsoAllowed);
+    readParams(schemaOf<P>(), &params, map, owner, alsoAllowed);
     return params;
 }
 
@@ -63,20 +62,20 @@ void readParam(P& params, T P::*member, const Value& value, const std::string& w
 /// The parameters that a map names although others leave them without effect.
 template <typename P>
 std::vector<IdleParameter> idleParams(const P& params, const Value& map) {
-    return schema_detail::idle(schemaOf<P>(), &params, map);
+    return idleParams(schemaOf<P>(), &params, map);
 }
 
 /// Every parameter with its value, defaults filled in: what the manifest records.
 template <typename P>
 Value writeParams(const P& params) {
-    return schema_detail::write(schemaOf<P>(), &params);
+    return writeParams(schemaOf<P>(), &params);
 }
 
 /// Help of every parameter, in the order of the schema.
 template <typename P>
 std::vector<ParameterDoc> describeParams() {
     const P defaults;
-    return schema_detail::describe(schemaOf<P>(), &defaults);
+    return describeParams(schemaOf<P>(), &defaults);
 }
 
 }  // namespace voxray

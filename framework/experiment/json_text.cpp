@@ -1,6 +1,9 @@
 #include "experiment/json_text.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "experiment/results.h"
 
 namespace voxray {
 namespace {
@@ -55,6 +58,17 @@ std::string jsonTextAt(std::string_view json, const std::vector<std::string>& pa
     TextSearch search(path);
     PlainJson::sax_parse(json, &search);
     return search.found();
+}
+
+nlohmann::ordered_json numberJson(double value) {
+    using Json = nlohmann::ordered_json;
+    return std::isfinite(value) ? Json(value) : Json(numberText(value));
+}
+
+nlohmann::ordered_json scoresJson(const Scores& scores, const std::string& suffix) {
+    auto json = nlohmann::ordered_json::object();
+    for (const auto& [column, value] : scores) json[column + suffix] = numberJson(value);
+    return json;
 }
 
 }  // namespace voxray

@@ -17,11 +17,6 @@ namespace {
 /// Surfaces that are looked through on the way to a light, at most.
 constexpr int kSurfaces = 64;
 
-uint32_t instanceOf(const Geometry& g, uint32_t triangle) {
-    const auto next = std::ranges::upper_bound(g.instances, triangle, {}, &InstanceRange::firstTriangle);
-    return uint32_t(next - g.instances.begin()) - 1;
-}
-
 /// The instance that all surfaces on a way belong to, if they do.
 std::optional<uint32_t> onlyBlocker(Ray way, const SceneState& state, const EmbreeScene& tracer) {
     std::optional<uint32_t> only;

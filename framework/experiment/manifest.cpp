@@ -25,14 +25,6 @@ constexpr const char* kIdentity = "identity";
 /// Of the keys under which a reference's noise floors stand, behind the metric's column.
 constexpr const char* kNoiseSuffix = "_noise";
 
-// JSON has no infinity: it is written as text.
-Json scoresJson(const Scores& scores, const std::string& suffix = "") {
-    Json json = Json::object();
-    for (const auto& [column, value] : scores)
-        json[column + suffix] = std::isfinite(value) ? Json(value) : Json(numberText(value));
-    return json;
-}
-
 template <typename Infos>
 Json metricsJson(const Infos& infos) {
     Json list = Json::array();

@@ -48,12 +48,6 @@ MaskCondition conditionOf(const MaskSettings& mask, const Scene& scene) {
     return condition;
 }
 
-uint32_t instanceOf(const Geometry& geometry, uint32_t triangle) {
-    const auto after =
-        std::ranges::upper_bound(geometry.instances, triangle, {}, &InstanceRange::firstTriangle);
-    return uint32_t(after - geometry.instances.begin()) - 1;
-}
-
 bool isMet(const MaskCondition& condition, const SceneState& state, const Hit& hit) {
     if (hit.triangle == Hit::kMiss) return false;
     const Geometry& geometry = state.geometry;

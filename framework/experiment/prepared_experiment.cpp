@@ -4,6 +4,7 @@
 
 #include "experiment/parts.h"
 #include "experiment/plan_checks.h"
+#include "experiment/scene_files.h"
 
 namespace voxray {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "experiment/json_text.h"
 #include "image/seed_error.h"
 #include "image/temporal.h"
 
@@ -15,20 +16,10 @@ using Json = nlohmann::ordered_json;
 const std::vector<std::string> kCostColumns{"build_ms",     "frame_ms_median", "frame_ms_p05", "frame_ms_p95",
                                             "memory_bytes", "peak_bytes",      "rays"};
 
-// JSON has no infinity: PSNR of equal images is written as text.
-Json numberJson(double value) {
-    return std::isfinite(value) ? Json(value) : Json(numberText(value));
-}
 double numberFrom(const Json& json) {
     if (!json.is_string()) return json.get<double>();
     const std::string text = json.get<std::string>();
     return text == "inf" ? HUGE_VAL : text == "-inf" ? -HUGE_VAL : std::nan("");
-}
-
-Json scoresJson(const Scores& scores) {
-    Json json = Json::object();
-    for (const auto& [column, value] : scores) json[column] = numberJson(value);
-    return json;
 }
 
 Scores scoresFrom(const Json& json) {

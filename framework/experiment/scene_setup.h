@@ -2,9 +2,9 @@
 
 #include <deque>
 #include <filesystem>
-#include <list>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -16,18 +16,6 @@
 #include "scene/scene.h"
 
 namespace voxray {
-
-/// Where scene files and environment maps are looked for, in this order: `scenesOption` (--scenes),
-/// $VOXRAY_SCENES, shared/scenes next to the source root, the config's folder. Empty paths are left out.
-std::vector<std::filesystem::path> sceneFolders(const std::filesystem::path& scenesOption,
-                                                const std::filesystem::path& sourceRoot,
-                                                const std::filesystem::path& configFile);
-
-/// The first folder's file of that name; an absolute name stands for itself.
-/// @throws UsageError at `where` that lists where it looked.
-std::filesystem::path findSceneFile(const std::string& name,
-                                    const std::vector<std::filesystem::path>& folders,
-                                    const TextLocation& where);
 
 /// Where coordinates count from. Floats are dense near 0 alone: a room of 2 m at 10 km has 2000 of them along
 /// an edge.
@@ -66,11 +54,12 @@ class SceneLoader {
     /// @throws as key(), and UsageError for a camera that the scene lacks.
     PreparedScene prepare(const SceneSettings& settings, Origin origin = Origin::World);
 
-    /// As prepare(), or what that made before of the same scene, for the last few. Stays until another one is
-    /// prepared so. @param key that of `settings`.
+    /// As prepare(), or what that made last where it is the same scene. Stays until another one is prepared
+    /// so.
+    /// @param key that of `settings`.
     const PreparedScene& prepareOnce(const SceneSettings& settings, const std::string& key);
     /// Frees what prepareOnce() keeps.
-    void forgetPrepared() { prepared_.clear(); }
+    void forgetPrepared() { prepared_.reset(); }
 
     /// Takes a prepared scene to a frame, counted from the compared one: animation, lights, and a camera on
     /// an animated node. A camera's own `move` is not applied.
@@ -102,7 +91,7 @@ class SceneLoader {
     std::vector<std::string> mapWarnings_;  ///< Which layers were taken, where a map has several.
     std::set<std::string> changes_;         ///< What composing changed.
     std::deque<std::pair<std::string, std::shared_ptr<PlanMemo>>> memos_;  ///< Of the last few surfaces.
-    std::list<std::pair<std::string, PreparedScene>> prepared_;            ///< By key, the last one first.
+    std::optional<std::pair<std::string, PreparedScene>> prepared_;        ///< By key.
 };
 
 }  // namespace voxray

@@ -14,6 +14,34 @@ bool contains(const std::vector<PortInfo>& ports, const PortInfo& port) {
         ports, [&](const PortInfo& other) { return other.name == port.name && other.output == port.output; });
 }
 
+std::vector<PortInfo> declared(const PassType& type, const void* params) {
+    PassBuilder builder;
+    type.make(params)->declare(builder);
+    return builder.ports();
+}
+
+std::vector<PortDoc> portsOf(const PassType& type) {
+    std::vector<PortsByValue> choices;
+    for (const Parameter& parameter : *type.schema) {
+        PortsByValue choice{parameter.name, parameter.type->choices(), {}};
+        if (std::string_view(parameter.type->name()) != "choice") continue;
+        for (const std::string& value : choice.values) {
+            const PassType::Params params = type.defaults();
+            parameter.type->read(parameter.of(params.get()), Value::fromScalar(value), parameter.name);
+            choice.ports.push_back(declared(type, params.get()));
+        }
+        choices.push_back(std::move(choice));
+    }
+    return describePorts(declared(type, type.defaults().get()), choices);
+}
+
+PassType::Params read(const PassType& type, const Value& map, const std::string& id,
+                      const std::vector<std::string>& reserved) {
+    PassType::Params params = type.defaults();
+    readParams(*type.schema, params.get(), map, id, reserved);
+    return params;
+}
+
 }  // namespace
 
 std::vector<PortDoc> describePorts(const std::vector<PortInfo>& ofDefaults,
@@ -38,6 +66,26 @@ std::vector<PortDoc> describePorts(const std::vector<PortInfo>& ofDefaults,
         }
     }
     return docs;
+}
+
+std::unique_ptr<Pass> PassKind::create(const Value& map, const std::string& id,
+                                       const std::vector<std::string>& reserved) const {
+    return type.make(read(type, map, id, reserved).get());
+}
+
+Value PassKind::resolve(const Value& map, const std::string& id,
+                        const std::vector<std::string>& reserved) const {
+    return writeParams(*type.schema, read(type, map, id, reserved).get());
+}
+
+std::vector<IdleParameter> PassKind::idle(const Value& map, const std::string& id,
+                                          const std::vector<std::string>& reserved) const {
+    return idleParams(*type.schema, read(type, map, id, reserved).get(), map);
+}
+
+void Registry::add(const char* name, const char* help, bool needsDevice, const PassType& type) {
+    kinds_.push_back(
+        {name, help, describeParams(*type.schema, type.defaults().get()), portsOf(type), needsDevice, type});
 }
 
 const PassKind* Registry::find(const std::string& name) const {

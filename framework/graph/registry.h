@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -19,6 +18,14 @@ struct PortDoc : PortInfo {
     std::string with;
 };
 
+/// A kind of pass without its types, so that one function reads parameters of all kinds.
+struct PassType {
+    using Params = std::unique_ptr<void, void (*)(void*)>;
+    const Schema* schema;
+    Params (*defaults)();
+    std::unique_ptr<Pass> (*make)(const void* params);
+};
+
 /// What the registry knows of one kind of pass.
 struct PassKind {
     std::string name;
@@ -26,18 +33,17 @@ struct PassKind {
     std::vector<ParameterDoc> parameters;
     std::vector<PortDoc> ports;  ///< With any values of its parameters.
     bool needsDevice = true;     ///< False: it runs where there is no Vulkan, too (Device::isHost()).
+    PassType type;
+
     /// Makes a pass from its map in the config. @param reserved keys that the graph itself reads.
     /// @throws UsageError for an unknown or invalid parameter.
-    std::function<std::unique_ptr<Pass>(const Value& map, const std::string& id,
-                                        const std::vector<std::string>& reserved)>
-        create;
+    std::unique_ptr<Pass> create(const Value& map, const std::string& id,
+                                 const std::vector<std::string>& reserved) const;
     /// The map with every default filled in, reserved keys left out.
-    std::function<Value(const Value& map, const std::string& id, const std::vector<std::string>& reserved)>
-        resolve;
+    Value resolve(const Value& map, const std::string& id, const std::vector<std::string>& reserved) const;
     /// Parameters that the map names although they have no effect there.
-    std::function<std::vector<IdleParameter>(const Value& map, const std::string& id,
-                                             const std::vector<std::string>& reserved)>
-        idle;
+    std::vector<IdleParameter> idle(const Value& map, const std::string& id,
+                                    const std::vector<std::string>& reserved) const;
 };
 
 /// The ports that a pass has with each value of one parameter, in the order of its values.
@@ -57,22 +63,13 @@ class Registry {
     /// P: see Pass.
     template <typename P>
     void add() {
-        PassKind kind;
-        kind.name = P::kName;
-        kind.help = P::kHelp;
-        kind.parameters = describeParams<typename P::Params>();
-        kind.ports = portsOf<P>();
-        if constexpr (requires { P::kNeedsDevice; }) kind.needsDevice = P::kNeedsDevice;
-        kind.create = [](const Value& map, const std::string& id, const std::vector<std::string>& reserved) {
-            return std::unique_ptr<Pass>(new P(readParams<typename P::Params>(map, id, reserved)));
-        };
-        kind.resolve = [](const Value& map, const std::string& id, const std::vector<std::string>& reserved) {
-            return writeParams(readParams<typename P::Params>(map, id, reserved));
-        };
-        kind.idle = [](const Value& map, const std::string& id, const std::vector<std::string>& reserved) {
-            return idleParams(readParams<typename P::Params>(map, id, reserved), map);
-        };
-        kinds_.push_back(std::move(kind));
+        using Params = typename P::Params;
+        bool needsDevice = true;
+        if constexpr (requires { P::kNeedsDevice; }) needsDevice = P::kNeedsDevice;
+        add(P::kName, P::kHelp, needsDevice,
+            {&schemaOf<Params>(),
+             [] { return PassType::Params(new Params, [](void* p) { delete static_cast<Params*>(p); }); },
+             [](const void* p) { return std::unique_ptr<Pass>(new P(*static_cast<const Params*>(p))); }});
     }
 
     const std::vector<PassKind>& kinds() const { return kinds_; }
@@ -88,29 +85,7 @@ class Registry {
     Preview preview;
 
  private:
-    template <typename P>
-    static std::vector<PortInfo> declared(const typename P::Params& params) {
-        PassBuilder builder;
-        P(params).declare(builder);
-        return builder.ports();
-    }
-
-    template <typename P>
-    static std::vector<PortDoc> portsOf() {
-        using Params = typename P::Params;
-        std::vector<PortsByValue> choices;
-        for (const Parameter& parameter : schemaOf<Params>()) {
-            PortsByValue choice{parameter.name, parameter.type->choices(), {}};
-            if (std::string_view(parameter.type->name()) != "choice") continue;
-            for (const std::string& value : choice.values) {
-                Params params;
-                parameter.type->read(parameter.of(&params), Value::fromScalar(value), parameter.name);
-                choice.ports.push_back(declared<P>(params));
-            }
-            choices.push_back(std::move(choice));
-        }
-        return describePorts(declared<P>(Params{}), choices);
-    }
+    void add(const char* name, const char* help, bool needsDevice, const PassType& type);
 
     std::vector<PassKind> kinds_;
 };

@@ -259,6 +259,12 @@ SceneState evaluate(std::shared_ptr<const Scene> scenePointer, double timeSecond
     return state;
 }
 
+uint32_t instanceOf(const Geometry& geometry, uint32_t triangle) {
+    const auto next =
+        std::ranges::upper_bound(geometry.instances, triangle, {}, &InstanceRange::firstTriangle);
+    return uint32_t(next - geometry.instances.begin()) - 1;
+}
+
 std::vector<InstanceRange> movingRuns(const Geometry& geometry) {
     std::vector<InstanceRange> runs;
     bool follows = false;

@@ -71,6 +71,9 @@ struct SceneState {
 SceneState evaluate(std::shared_ptr<const Scene> scene, double timeSeconds,
                     Playback playback = Playback::Frozen);
 
+/// The instance that a triangle belongs to.
+uint32_t instanceOf(const Geometry& geometry, uint32_t triangle);
+
 /// Instances that move, those that follow each other as one range.
 std::vector<InstanceRange> movingRuns(const Geometry& geometry);
 

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* extensionName = "KHR_draco_mesh_compression";
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
 /// More triangles or vertices than this for each byte are a hostile file's.
 constexpr uint64_t maxPerByte = 1024;
@@ -95,9 +95,8 @@ size_t addAccessor(json& root, GltfBuffers& buffers, std::vector<uint8_t> data, 
 }
 
 void expandPrimitive(json& root, json& primitive, GltfBuffers& buffers, const ReserveMemory& reserve) {
-    const json source = *extensionOf(primitive, extensionName);
-    const std::vector<uint8_t> bytes =
-        viewBytes(root, buffers, unsignedMember(source, "bufferView", extensionName));
+    const json source = *extensionOf(primitive, kDraco);
+    const std::vector<uint8_t> bytes = viewBytes(root, buffers, unsignedMember(source, "bufferView", kDraco));
     checkCounts(bytes, reserve);
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -151,11 +150,11 @@ void expandDraco(json& root, GltfBuffers& buffers, const ReserveMemory& reserve)
     for (size_t m = 0; m < objects(root, "meshes").size(); ++m)
         for (size_t p = 0; p < objects(root["meshes"][m], "primitives").size(); ++p) {
             json& primitive = root["meshes"][m]["primitives"][p];
-            if (extensionOf(primitive, extensionName) == nullptr) continue;
+            if (extensionOf(primitive, kDraco) == nullptr) continue;
             try {
                 expandPrimitive(root, primitive, buffers, reserve);
             } catch (const Error& error) {
-                throw Error("mesh {}, primitive {}: {}: {}", m, p, extensionName, error.what());
+                throw Error("mesh {}, primitive {}: {}: {}", m, p, kDraco, error.what());
             }
         }
 }

@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* extensionName = "EXT_meshopt_compression";
+constexpr const char* kMeshopt = "EXT_meshopt_compression";
 
 std::string textMember(const json& object, const char* key, const char* fallback) {
     const json value = object.value(key, json(fallback));
@@ -31,19 +31,19 @@ void unfilter(std::vector<uint8_t>& data, size_t count, size_t stride, const std
 
 std::vector<uint8_t> decoded(const json& view, const GltfBuffers& buffers, const ReserveMemory& reserve) {
     // Where the compressed bytes are, and what they hold (EXT_meshopt_compression)
-    const json& source = *extensionOf(view, extensionName);
-    const uint64_t buffer = unsignedMember(source, "buffer", extensionName);
-    const uint64_t offset = unsignedMember(source, "byteOffset", extensionName, 0);
-    const uint64_t length = unsignedMember(source, "byteLength", extensionName);
-    const uint64_t stride = unsignedMember(source, "byteStride", extensionName);
-    const uint64_t count = unsignedMember(source, "count", extensionName);
+    const json& source = *extensionOf(view, kMeshopt);
+    const uint64_t buffer = unsignedMember(source, "buffer", kMeshopt);
+    const uint64_t offset = unsignedMember(source, "byteOffset", kMeshopt, 0);
+    const uint64_t length = unsignedMember(source, "byteLength", kMeshopt);
+    const uint64_t stride = unsignedMember(source, "byteStride", kMeshopt);
+    const uint64_t count = unsignedMember(source, "count", kMeshopt);
     if (buffer >= buffers.size() || offset > buffers[buffer].size() ||
         length > buffers[buffer].size() - offset)
         throw Error("its compressed bytes end outside of buffer {}", buffer);
     const std::string mode = textMember(source, "mode", "");
     const bool vertices = mode == "ATTRIBUTES";
     if (!vertices && mode != "TRIANGLES" && mode != "INDICES")
-        throw Error("mode '{}' is not one of {}'s", mode, extensionName);
+        throw Error("mode '{}' is not one of {}'s", mode, kMeshopt);
     const bool strideFits =
         vertices ? stride > 0 && stride % 4 == 0 && stride <= 256 : stride == 2 || stride == 4;
     if (!strideFits || (mode == "TRIANGLES" && count % 3 != 0))
@@ -61,7 +61,7 @@ std::vector<uint8_t> decoded(const json& view, const GltfBuffers& buffers, const
         fault = meshopt_decodeIndexBuffer(data.data(), count, stride, bytes, length);
     else if (count > 0)
         fault = meshopt_decodeIndexSequence(data.data(), count, stride, bytes, length);
-    if (fault != 0) throw Error("its {} data is broken", extensionName);
+    if (fault != 0) throw Error("its {} data is broken", kMeshopt);
     if (vertices) unfilter(data, count, stride, textMember(source, "filter", "NONE"));
     return data;
 }
@@ -72,13 +72,13 @@ void expandMeshopt(json& root, GltfBuffers& buffers, const ReserveMemory& reserv
     const size_t count = objects(root, "bufferViews").size();
     for (size_t i = 0; i < count; ++i) {
         json& view = root["bufferViews"][i];
-        if (extensionOf(view, extensionName) == nullptr) continue;
+        if (extensionOf(view, kMeshopt) == nullptr) continue;
         try {
             std::vector<uint8_t> data = decoded(view, buffers, reserve);
             view["buffer"] = buffers.size();
             view["byteOffset"] = 0;
             view["byteLength"] = data.size();
-            view["extensions"].erase(extensionName);
+            view["extensions"].erase(kMeshopt);
             buffers.push_back(std::move(data));
         } catch (const Error& error) {
             throw Error("bufferView {}: {}", i, error.what());

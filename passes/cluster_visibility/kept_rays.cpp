@@ -13,7 +13,7 @@ namespace {
 /// to that one.
 constexpr uint32_t kChoiceReach = 2;
 
-struct RenumberPush {
+struct RenumberRaysPush {
     gpu::VoxelGrid grid;
     uint32_t sides;
 };
@@ -64,7 +64,7 @@ void KeptRays::begin(CommandStream& stream, const SurfaceVoxels& voxels, const V
                      {"firstPatches", firstPatches_},
                      {"newSides", newSides_},
                      {"beganAt", beganAt_}},
-                    RenumberPush{voxels.grid, patches.sideCount}, linearGroups(patches.sideCount));
+                    RenumberRaysPush{voxels.grid, patches.sideCount}, linearGroups(patches.sideCount));
 
     before_ = std::move(met_);
     met_.clear();

@@ -10,8 +10,8 @@ void visitFragment(TriangleFragment f) {
     const uint voxel = voxelNumber(walk.grid, f.voxel);
     if (voxel == NO_VOXEL) return;
     ClippedFragment c;
-    // What only touches the voxel is no fragment
-    if (!clipFragment(f, c) || c.area == 0.0) return;
+    // What only touches the voxel is no fragment: areas are good to the digits of grid coordinates
+    if (!clipFragment(f, c) || c.area < kMargin) return;
     const vec3 angles = acos(clamp(surfacePoint(f.triangle, c.center).normal, -1.0, 1.0));
     const uvec3 units = uvec3(round(angles * walk.visitorScale));
     for (uint k = 0u; k < 3u; ++k) atomicAdd(fragmentAngles.data[ANGLE_SUMS * voxel + k], units[k]);

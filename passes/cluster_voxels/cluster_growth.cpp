@@ -19,7 +19,7 @@ struct NormalsPush {
 };
 
 /// As in neighbourhood.glsl.
-struct Push {
+struct GrowthPush {
     gpu::VoxelGrid grid;
     uint32_t count;
     float reach;
@@ -109,12 +109,12 @@ ClusterGrowth::Result ClusterGrowth::grow(CommandStream& stream, const SurfaceVo
     const glm::vec3 widths = glm::vec3(voxels.grid.resolution) / glm::vec3(along);
     const float reach = params_.reach * std::max({widths.x, widths.y, widths.z});
     const auto push = [&](uint32_t threads) {
-        return Push{voxels.grid,
-                    threads,
-                    reach,
-                    std::cos(glm::radians(params_.maxAngle)),
-                    params_.assign == ClusterAssignment::First ? 1u : 0u,
-                    result.seeds};
+        return GrowthPush{voxels.grid,
+                          threads,
+                          reach,
+                          std::cos(glm::radians(params_.maxAngle)),
+                          params_.assign == ClusterAssignment::First ? 1u : 0u,
+                          result.seeds};
     };
     const Buffer cellsAlong(device, "cells along each axis", sizeof(glm::uvec3));
     stream.upload(cellsAlong, std::as_bytes(std::span(&along, 1)));

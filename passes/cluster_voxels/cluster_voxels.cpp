@@ -7,7 +7,7 @@
 namespace voxray {
 namespace {
 
-struct ListPush {
+struct ListVoxelsPush {
     gpu::VoxelGrid grid;
     uint32_t words;
 };
@@ -49,7 +49,7 @@ void ClusterVoxels::record(PassContext& context) {
     clusters.coordinates =
         Buffer(context.device, "coordinates of voxels", voxels.voxelCount * sizeof(glm::uvec3));
     stream.dispatch(coordinates_, voxels.bindings({{"voxelCoordinates", clusters.coordinates}}),
-                    ListPush{voxels.grid, uint32_t(voxels.words())}, linearGroups(voxels.words()));
+                    ListVoxelsPush{voxels.grid, uint32_t(voxels.words())}, linearGroups(voxels.words()));
     FragmentAngles::Sums fragments;
     if (params_.asksFragments()) fragments = fragments_.measure(context, voxels);
     const ClusterGrowth::Result growth = growth_.grow(stream, voxels, clusters.coordinates, fragments);

@@ -6,7 +6,7 @@
 namespace voxray {
 namespace {
 
-struct Push {
+struct CompositePush {
     uint32_t samples;
     float ambient;
 };
@@ -42,7 +42,7 @@ void Composite::record(PassContext& context) {
                              {"direct", direct, sampler_},
                              {"indirect", indirect, sampler_},
                              {"result", context.get(final_).image}},
-                            Push{gbuffer.samples, params_.ambient},
+                            CompositePush{gbuffer.samples, params_.ambient},
                             pixelGroups(context.frame.width, context.frame.height));
 }
 

@@ -6,7 +6,7 @@
 namespace voxray {
 namespace {
 
-struct Push {
+struct DirectPush {
     gpu::VoxelGrid grid;
     float white;
     uint32_t samples;
@@ -41,7 +41,7 @@ void DirectPackedVoxels::record(PassContext& context) {
                              {"albedo", gbuffer.albedo, sampler_},
                              {"IrradianceAt", light.irradiance.at()},
                              {"result", context.get(direct_).image}},
-                            Push{context.get(voxels_).grid, light.white, gbuffer.samples},
+                            DirectPush{context.get(voxels_).grid, light.white, gbuffer.samples},
                             pixelGroups(context.frame.width, context.frame.height));
 }
 

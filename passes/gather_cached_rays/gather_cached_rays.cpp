@@ -3,7 +3,7 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kMaxSteps = 7;  // In a cache without a cell rays become paths of eight bounces.
+constexpr uint32_t kMaxSegments = 7;  // In a cache without a cell rays become paths of eight bounces.
 
 }  // namespace
 
@@ -16,7 +16,7 @@ void GatherCachedRays::plan(PassPlan& plan) {
     FinalGather::Settings settings{kName, {{0, params_.minSamples}}};
     settings.lightSamples = params_.lightSamples;
     settings.nearFieldCells = params_.nearFieldCells;
-    settings.maxSteps = kMaxSteps;
+    settings.maxSteps = kMaxSegments;
     settings.unlit = "hits without a cell, % of rays";
     settings.storedBounces = plan.get(cache_).lightBounces;
     gather_.plan(plan, settings);

@@ -8,7 +8,7 @@
 namespace voxray {
 namespace {
 
-struct GatherPush {
+struct GatherClustersPush {
     gpu::SeenLayout lists;
     uint32_t count;
 };
@@ -107,7 +107,7 @@ void GatherClusters::gather(PassContext& context, const SeenVoxels::Found& found
         gather_,
         onList(gatherBindings(visibility, light, {{"sides", patches.sides}, {"GatheredAt", gathered_.at()}}),
                "listed", seen_.sides()),
-        GatherPush{visibility.layout, sides}, linearGroups(sides));
+        GatherClustersPush{visibility.layout, sides}, linearGroups(sides));
     for (uint32_t i = 0; i < steps; ++i) {
         const uint32_t count = found.sidesWithin[steps - 1 - i];
         stream.dispatch(filter_,

@@ -13,7 +13,7 @@ struct MarkPush {
     int32_t reach;
 };
 
-struct SpreadPush {
+struct SpreadSeenPush {
     uint32_t first;
     uint32_t count;
 };
@@ -97,7 +97,7 @@ SeenVoxels::Found SeenVoxels::find(PassContext& context, const GBuffer* gbuffer,
                          {"reached", reached_},
                          {"listed", listed_},
                          {"count", count_}},
-                        SpreadPush{first, end - first}, linearGroups(end - first));
+                        SpreadSeenPush{first, end - first}, linearGroups(end - first));
         found.sidesWithin.push_back(counted());
         first = end;
     }

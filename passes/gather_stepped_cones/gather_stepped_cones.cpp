@@ -5,7 +5,7 @@
 namespace voxray {
 namespace {
 
-struct TracePush {
+struct StepPush {
     uint32_t samples;
     float step;
     float start;
@@ -37,7 +37,7 @@ void GatherSteppedCones::record(PassContext& context) {
                                      {"normal", gbuffer.normal, sampler_},
                                      {"albedo", gbuffer.albedo, sampler_},
                                      {"result", context.get(indirect_).image}});
-    context.stream.dispatch(trace_, bindings, TracePush{gbuffer.samples, params_.step, params_.start},
+    context.stream.dispatch(trace_, bindings, StepPush{gbuffer.samples, params_.step, params_.start},
                             pixelGroups(context.frame.width, context.frame.height));
 }
 

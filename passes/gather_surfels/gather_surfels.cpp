@@ -19,7 +19,7 @@ struct GatherPush {
     float noise;
 };
 
-struct ResolvePush {
+struct ResolveProbesPush {
     glm::ivec2 extent;
     uint32_t firstRow;
 };
@@ -100,7 +100,7 @@ void GatherSurfels::record(PassContext& context) {
         context.stream.dispatch(
             resolve_,
             {{"surfaces", undecided_}, {"covered", covered_}, {"first", first_}, {"result", result}},
-            ResolvePush{push.extent, row}, pixelGroups(width, rows));
+            ResolveProbesPush{push.extent, row}, pixelGroups(width, rows));
     }
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t kBatchTexels = 1u << 17;  // Bounds the memory to 32 MiB.
 
-struct BeginPush {
+struct BeginCompensationPush {
     uint32_t first, count;
     uint32_t ray, rays;
 };
@@ -83,7 +83,7 @@ void VplCompensation::record(PassContext& context, const Vpls& vpls, const VplLi
                              {"geometricNormal", gbuffer.geometricNormal, sampler_},
                              {"surfels", from_.surfels},
                              {"faceNormals", from_.faceNormals}},
-                            BeginPush{first, count, ray, settings_.rays}, linearGroups(count));
+                            BeginCompensationPush{first, count, ray, settings_.rays}, linearGroups(count));
 
             // What surfels reflect, hit after hit: direct light, and virtual lights of all bounces but as
             // many last ones as there were hits.

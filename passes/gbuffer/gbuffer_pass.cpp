@@ -35,7 +35,7 @@ struct RaysPush {
     uint32_t batchRays;
 };
 
-struct SurfacePush {
+struct ShadePixelsPush {
     glm::mat4 viewProjection;
     View view;
 };
@@ -210,7 +210,7 @@ void GBufferPass::rasterize(PassContext& context) {
     }
     targets.depth = &depth_;
     targets.extent = {extent, 1};
-    const SurfacePush push{viewProjection(frame.camera, frame.width, frame.height, geometry), view};
+    const ShadePixelsPush push{viewProjection(frame.camera, frame.width, frame.height, geometry), view};
     context.stream.draw(surfaces_, bindings, push, targets, context.scene.triangleCount * 3);
 }
 

@@ -12,7 +12,7 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kBatchRays = 1u << 18;
-constexpr uint64_t kIrradianceBytes = 4 * sizeof(float);  // Of a surfel.
+constexpr uint64_t kPathIrradianceBytes = 4 * sizeof(float);  // Of a surfel.
 
 struct ArrivePush {
     gpu::VoxelGrid grid;
@@ -40,8 +40,8 @@ void InjectCameraRays::plan(PassPlan& plan) {
     plan.buffer(count_, "number of surfels", sizeof(uint32_t));
     for (LitSurfels* lit : {&first_, &second_}) {
         plan.buffer(lit->surfels, "surfels at hits", batch * sizeof(gpu::Surfel));
-        plan.buffer(lit->direct, "direct irradiance at hits", batch * kIrradianceBytes);
-        plan.buffer(lit->indirect, "indirect irradiance at hits", batch * kIrradianceBytes);
+        plan.buffer(lit->direct, "direct irradiance at hits", batch * kPathIrradianceBytes);
+        plan.buffer(lit->indirect, "indirect irradiance at hits", batch * kPathIrradianceBytes);
     }
 }
 
@@ -95,7 +95,7 @@ void InjectCameraRays::light(PassContext& context, const PathScene& scene) {
     second_.count = paths.count();
     if (second_.count > 0) {
         stream.copy(paths.ends(), second_.surfels, second_.count * sizeof(gpu::Surfel));
-        stream.copy(paths.direct(), second_.direct, second_.count * kIrradianceBytes);
+        stream.copy(paths.direct(), second_.direct, second_.count * kPathIrradianceBytes);
 
         // Paths on from the second ones. Their last bounce would be one too many for the first ones.
         paths.begin(context, second_.surfels, second_.count, seed + 0x2545f491u, second_.indirect);

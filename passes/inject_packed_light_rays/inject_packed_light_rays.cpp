@@ -11,8 +11,9 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kMaxBatchRays = 1u << 20;  // Bounds the memory of rays and what they carry to 60 MiB.
-constexpr float kNearest = 0.02f;             // m; no hit is nearer (listing 7.7).
+constexpr uint32_t kMaxPackedBatchRays = 1u
+                                         << 20;  // Bounds the memory of rays and what they carry to 60 MiB.
+constexpr float kNearest = 0.02f;                // m; no hit is nearer (listing 7.7).
 
 struct GridRaysPush {
     uint32_t light;
@@ -59,7 +60,7 @@ void InjectPackedLightRays::plan(PassPlan& plan) {
     light.white = params_.white;
     light.lightBounces = params_.bounces;
     plan.buffer(light.irradiance, "packed irradiance", plan.get(voxels_).bytes());
-    const uint64_t batch = std::min(params_.raysPerLight, kMaxBatchRays);
+    const uint64_t batch = std::min(params_.raysPerLight, kMaxPackedBatchRays);
     plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
     tint_.plan(plan, batch);
@@ -81,8 +82,8 @@ void InjectPackedLightRays::record(PassContext& context) {
     const PackedLight& light = context.get(light_);
     const uint32_t number = spotLight(*context.frame.scene);
     stream.fill(light.irradiance, 0);
-    for (uint32_t first = 0; first < params_.raysPerLight; first += kMaxBatchRays) {
-        const uint32_t count = std::min(kMaxBatchRays, params_.raysPerLight - first);
+    for (uint32_t first = 0; first < params_.raysPerLight; first += kMaxPackedBatchRays) {
+        const uint32_t count = std::min(kMaxPackedBatchRays, params_.raysPerLight - first);
         stream.dispatch(gridRays_, context.scene.bindings({{"rays", rays_}, {"intensities", intensities_}}),
                         GridRaysPush{number, raysPerEdge_, first, count, kNearest}, linearGroups(count));
         for (uint32_t bounce = 0; bounce <= params_.bounces; ++bounce) {

@@ -9,7 +9,7 @@
 namespace voxray {
 namespace {
 
-constexpr uint64_t kIrradianceBytes = 4 * sizeof(float), kRadiosityBytes = sizeof(uint32_t),
+constexpr uint64_t kSurfelIrradianceBytes = 4 * sizeof(float), kRadiosityBytes = sizeof(uint32_t),
                    kLitBytes = 3 * sizeof(uint32_t);
 
 struct ChunkPush {
@@ -17,7 +17,7 @@ struct ChunkPush {
     uint32_t firstNumber;
 };
 
-struct BouncePush {
+struct SurfelBouncePush {
     uint32_t count;
     uint32_t firstNumber;
     uint32_t rays;
@@ -46,7 +46,7 @@ void InjectRadiosity::plan(PassPlan& plan) {
     if (plan.get(surfelIrradiance_).isRead)
         plan.reserve("indirect irradiance of surfels (estimated)", plan.get(surfels_).maxCount * kLitBytes);
     plan.reserveScratch("light of surfels (estimated)",
-                        plan.get(surfels_).maxCount * 2 * (kIrradianceBytes + kRadiosityBytes));
+                        plan.get(surfels_).maxCount * 2 * (kSurfelIrradianceBytes + kRadiosityBytes));
 }
 
 void InjectRadiosity::prepare(PassSetup& setup) {
@@ -86,7 +86,7 @@ std::vector<InjectRadiosity::ChunkLight> InjectRadiosity::measure(PassContext& c
     std::vector<ChunkLight> light;
     uint32_t first = 0;
     for (const Surfels::Chunk& chunk : context.get(surfels_).chunks) {
-        const uint64_t bytes = chunk.count * kIrradianceBytes;
+        const uint64_t bytes = chunk.count * kSurfelIrradianceBytes;
         ChunkLight& l = light.emplace_back(Buffer(context.device, "direct irradiance of surfels", bytes),
                                            Buffer(context.device, "indirect irradiance of surfels", bytes));
         context.stream.fill(l.indirect, 0);
@@ -112,7 +112,7 @@ void InjectRadiosity::bounce(PassContext& context, uint32_t number, const std::v
                                  {"SentAt", radiosity_[0].at()},
                                  {"ReflectedAt", radiosity_[1].at()},
                                  {"indirect", light[i].indirect}},
-                                BouncePush{chunks[i].count, first, rays, links.surfelCount},
+                                SurfelBouncePush{chunks[i].count, first, rays, links.surfelCount},
                                 linearGroups(chunks[i].count));
         first += chunks[i].count;
     }

@@ -12,7 +12,7 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBatchRays = 1u << 19;  // Bounds the memory of rays to 20 MiB.
+constexpr uint32_t kBatchShadowRays = 1u << 19;  // Bounds the memory of rays to 20 MiB.
 
 struct AimPush {
     uint32_t first, count;
@@ -46,7 +46,7 @@ void SelectVpls::plan(PassPlan& plan) {
     plan.buffer(vpls.list, "list of selected virtual point lights", vpls.paths * sizeof(uint32_t));
     plan.buffer(places_, "places of selected virtual point lights", vpls.paths * sizeof(uint32_t));
     plan.buffer(weights_, "weights of selected virtual point lights", vpls.paths * sizeof(float));
-    const uint64_t batch = std::min(points, uint64_t(kBatchRays / params_.points)),
+    const uint64_t batch = std::min(points, uint64_t(kBatchShadowRays / params_.points)),
                    rays = batch * params_.points;
     plan.scratchBuffer(rays_, "shadow rays", rays * sizeof(Ray));
     plan.scratchBuffer(carried_, "kernels of shadow rays", rays * sizeof(float));

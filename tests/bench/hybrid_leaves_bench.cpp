@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "config/config.h"
+#include "experiment/scene_files.h"
 #include "experiment/scene_setup.h"
 #include "passes/common/hybrid_leaves/hybrid_tracer.h"
 #include "scene/camera_rays.h"

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "config/config.h"
+#include "experiment/scene_files.h"
 #include "experiment/scene_setup.h"
 #include "passes/common/lights/light_sources.h"
 #include "passes/common/view/gbuffer.h"

@@ -9,6 +9,7 @@
 
 #include "config/config.h"
 #include "config/sweep.h"
+#include "experiment/scene_files.h"
 #include "experiment/scene_setup.h"
 #include "passes/path_trace/path_tracer.h"
 #include "scene/load.h"

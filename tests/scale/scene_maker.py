@@ -205,7 +205,7 @@ def make(seed, path):
     if rng.random() < 0.25:
         tags.append("stray triangle")
         box = b.bounds()
-        away = rng.choice([-1, 1], 3) * 10 ** uniform(1, 5) * size.max()
+        away = rng.choice([-1, 1], 3) * min(10 ** uniform(1, 5) * size.max(), 9e8 / scale)  # Voxray reads coordinates up to 1e9 m
         b.triangle(away + uniform(-1, 1, (3, 3)) * size, gray())
         scene["region"] = {key: (corner * scale + origin).tolist() for key, corner in zip(("min", "max"), box)}
     tags.append(f"scale {scale:.1e}")

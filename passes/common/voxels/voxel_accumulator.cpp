@@ -6,7 +6,7 @@
 namespace voxray {
 namespace {
 
-struct ResolvePush {
+struct ResolveSamplesPush {
     uint32_t voxelCount;
     float voxelSize;
     float scale;
@@ -91,7 +91,7 @@ void VoxelAccumulator::resolve(CommandStream& stream, const SurfaceVoxels& voxel
     std::vector<Binding> all = bindings();
     all.insert(all.end(),
                {{"VoxelMaterialsAt", voxels.materials.at()}, {"FluxAt", flux.at()}, {"area", area}});
-    stream.dispatch(resolve_, all, ResolvePush{voxels.voxelCount, voxels.grid.voxelSize, scale_},
+    stream.dispatch(resolve_, all, ResolveSamplesPush{voxels.voxelCount, voxels.grid.voxelSize, scale_},
                     linearGroups(voxels.voxelCount));
 }
 
