@@ -57,7 +57,8 @@ SurfacePoint surfacePoint(uint triangle, vec2 barycentrics) {
     const GpuVertexAttributes a1 = vertexAttributes(v.y);
     const GpuVertexAttributes a2 = vertexAttributes(v.z);
     SurfacePoint s;
-    s.position = w.x * p0 + w.y * p1 + w.z * p2;
+    // Rounding takes no point out of the triangle's bounds: all points of a sheet in a border between voxels are in the same ones.
+    s.position = clamp(w.x * p0 + w.y * p1 + w.z * p2, min(p0, min(p1, p2)), max(p0, max(p1, p2)));
     const vec3 cross_ = cross(p1 - p0, p2 - p0);
     const float length_ = length(cross_);
     s.geometricNormal = length_ > 0.0 ? cross_ / length_ : vec3(0.0);

@@ -53,6 +53,41 @@ TEST(Injection, EmissiveFurnaceReachesItsClosedForm) {
     EXPECT_NEAR(mean(chain.image("final")), 1 / (1 - 0.6), 0.02 / (1 - 0.6));
 }
 
+TEST(Injection, SheetsInBordersCatchTheirLightInTheVoxelsThatHoldTheirArea) {
+    // Rounding may put the points of a sheet into the voxels on either side of it, most where coordinates are
+    // large. A sun of E = 3 W/m² falls straight onto seven sheets in seven borders, none behind another; two
+    // specks make the grid. Panels that the sun sees edge-on occupy the voxels on both sides of each sheet.
+    constexpr float kSun = 3;
+    const glm::vec3 low(6.97f, -0.71f, -0.57f), high(9.17f, 0.93f, 0.69f);
+    const gpu::VoxelGrid grid = makeVoxelGrid(low, high, 24);
+    const float size = grid.voxelSize;
+    SceneBuilder b("sheets");
+    const uint32_t grey = b.lambert("grey", glm::vec3(0.5f));
+    b.quad("speck", low, {0, 0, 0.003f}, {0, 0.003f, 0}, grey);
+    b.quad("speck", high, {0, 0, -0.003f}, {0, -0.003f, 0}, grey);
+    double caught = 0;
+    for (int i = 0; i < 7; ++i) {
+        const float x = grid.origin.x + size * float(3 * i + 2),
+                    y = grid.origin.y + size * (float(2 * i) + 1.1f);
+        b.quad("sheet", {x, y, -0.31f}, {0, 0, 0.7f}, {0, 0.8f * size, 0}, grey);
+        b.quad("panel", {x - size, y + 0.4f * size, -0.31f}, {0, 0, 0.7f}, {2 * size, 0, 0}, grey);
+        caught += double(kSun * 0.7f * 0.8f * size);
+    }
+    b.directionalLight({1, 0, 0}, glm::vec3(kSun));
+    b.camera({0, 0, 3}, {0, 0, 0}, 60);
+    Chain chain(
+        std::make_shared<SceneState>(evaluate(b.finish(), 0.0)),
+        graphYaml({"voxelize, resolution: 24", "inject_light_rays, rays_per_light: 1048576, bounces: 0"}), 16,
+        16, 1);
+
+    const std::vector<float> flux = readFlux(chain, irradiance(chain).direct),
+                             areas = readAreas(chain, irradiance(chain).area);
+    double known = 0;
+    for (size_t face = 0; face < areas.size(); ++face)
+        if (areas[face] > 0.001f) known += double(flux[3 * face + 1]);
+    EXPECT_NEAR(known / caught, 1.0, 0.01);
+}
+
 TEST(Injection, IsLinearInLight) {
     const std::string graph =
         graphYaml({"voxelize, resolution: 16", "inject_light_rays, rays_per_light: 16384, bounces: 2"});

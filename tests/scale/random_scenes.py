@@ -6,10 +6,10 @@
 Each scene runs through voxelize, inject_light_rays, trace_gather_rays and gather_rays at 32 x 32 pixels. A scene is off
 where anything fails, or where the mean of the indirect light is off by more than 3 % and is not negligible: by more than
 a thousandth of the scene's typical radiance (scene_maker.py), and next to the whole image's light. What is off runs again
-with 16 times the samples in the reference, with smaller voxels and with direct light measured at the hits: where the first
-alone is right, the reference was noisy; where another is, that names the cause, and the scene is no miss. Prints what is
-off and why; exit status 1 where there is a miss. The same seed is the same scene: --first 17 --runs 1 --keep DIR looks at
-one.
+with 16 times the samples in the reference: where it is right then, the reference was noisy. Else it runs with more camera
+and gather rays, with these and smaller voxels, and with direct light measured at the hits: where one of them is right, that
+names the cause, and the scene is no miss. Prints what is off and why; exit status 1 where there is a miss. The same seed is
+the same scene: --first 17 --runs 1 --keep DIR looks at one.
 """
 
 import argparse
@@ -27,22 +27,25 @@ from scene_maker import make
 sys.path.append(str(Path(__file__).resolve().parents[2] / "framework"))
 from report import exr_pixels  # noqa: E402
 
-CHAIN = [{"gbuffer": {"samples_per_pixel_edge": 3}}, "voxelize", {"inject_light_rays": {"rays_per_light": 262144, "bounces": 7}},
-         {"trace_gather_rays": {"rays_per_block": 32}}, "gather_rays", "direct_shadow_rays", "composite"]
 LARGEST_ERROR = 0.03     # Of the mean
 NEGLIGIBLE = 0.02        # Of the whole image's light
 DARK = 0.001             # Of the scene's typical radiance
 SAMPLES = 1024           # A pixel of the reference
 BATCH = 25
-# By what they change: how many times the voxels along an edge, and direct light at the hits
-REMEDIES = {(1, "shadow_rays"): "direct light at the hits is as coarse as voxels", (4, "voxels"): "voxels are too coarse",
+# Camera rays along the edge of a pixel, and gather rays by block of pixels
+SAMPLING, FINE_SAMPLING = (3, 32), (8, 1024)
+# By what they change, all with fine sampling: how many times the voxels along an edge, and direct light at the hits
+REMEDIES = {(1, "voxels"): "rays are few", (1, "shadow_rays"): "direct light at the hits is as coarse as voxels",
+            (4, "voxels"): "voxels are too coarse",
             (4, "shadow_rays"): "voxels are too coarse, and direct light at the hits with them"}
 
 
-def passes(resolution):
-    for entry in CHAIN:
-        name, parameters = (entry, {}) if isinstance(entry, str) else next(iter(entry.items()))
-        yield {"pass": name, **({"resolution": resolution} if name == "voxelize" else parameters)}
+def graph(resolution, sampling):
+    camera_rays, gather_rays = sampling
+    return [{"pass": "gbuffer", "samples_per_pixel_edge": camera_rays}, {"pass": "voxelize", "resolution": resolution},
+            {"pass": "inject_light_rays", "rays_per_light": 262144, "bounces": 7},
+            {"pass": "trace_gather_rays", "rays_per_block": gather_rays}, {"pass": "gather_rays"},
+            {"pass": "direct_shadow_rays"}, {"pass": "composite"}]
 
 
 def run_batch(program, seeds, folder):
@@ -80,12 +83,12 @@ def run_group(program, scenes, resolution, folder):
     return endings
 
 
-def run(program, folder, name, resolution, scenes, samples=SAMPLES, **sweep):
+def run(program, folder, name, resolution, scenes, samples=SAMPLES, sampling=SAMPLING, **sweep):
     """Runs the chain over scenes by name and a sweep, in `folder`. @return the ended process, and the rows of its results with the
     folders of their images."""
     sweep = {axis: values for axis, values in {"scene": scenes, **sweep}.items() if len(values) > 1}
     config = {"name": name, "scene": next(iter(scenes.values())), "image": {"width": 32, "height": 32}, "seed": 1,
-              "graph": list(passes(resolution)), "reference": {"pass": "path_trace", "spp": samples, "bounces": 8},
+              "graph": graph(resolution, sampling), "reference": {"pass": "path_trace", "spp": samples, "bounces": 8},
               "measure": {"frames": 1, "warmup": 0, "second_seed": False, "metrics": ["nrmse", "mean_ratio"]},
               **({"sweep": sweep} if sweep else {})}
     file, out = os.path.join(folder, name + ".yaml"), os.path.join(folder, name)
@@ -119,17 +122,17 @@ def off(row, typical):
 
 def cause(program, folder, seed, resolution, scene, typical, what):
     """What makes the scene right, and whether nothing does."""
-    axes = {"voxelize.resolution": [resolution, 4 * resolution], "gather_rays.direct_at_hits": ["voxels", "shadow_rays"]}
-    rows = run(program, folder, f"again{seed}", resolution, {"": scene}, 16 * SAMPLES, **axes)[1]
-    again = {(int(r["voxelize.resolution"]) // resolution, r["gather_rays.direct_at_hits"]): r
-             for r in rows if r["status"] == "ok"}
-    if (1, "voxels") in again:
-        what = off(again[(1, "voxels")], typical)
+    rows = run(program, folder, f"again{seed}", resolution, {"": scene}, 16 * SAMPLES)[1]
+    if rows and rows[0]["status"] == "ok":
+        what = off(rows[0], typical)
         if not what:
             return None, False  # The reference was noisy
+    axes = {"voxelize.resolution": [resolution, 4 * resolution], "gather_rays.direct_at_hits": ["voxels", "shadow_rays"]}
+    rows = run(program, folder, f"fine{seed}", resolution, {"": scene}, 16 * SAMPLES, FINE_SAMPLING, **axes)[1]
+    fine = {(int(r["voxelize.resolution"]) // resolution, r["gather_rays.direct_at_hits"]): r for r in rows if r["status"] == "ok"}
     for remedy, name in REMEDIES.items():
-        if remedy in again and not off(again[remedy], typical):
-            return f"{what}: {name} ({100 * float(again[remedy]['indirect_mean_ratio']) - 100:+.2f} % without)", False
+        if remedy in fine and not off(fine[remedy], typical):
+            return f"{what}: {name} ({100 * float(fine[remedy]['indirect_mean_ratio']) - 100:+.2f} % without)", False
     return f"{what}: nothing mends that", True
 
 

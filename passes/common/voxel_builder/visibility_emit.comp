@@ -25,11 +25,10 @@ void main() {
     const uvec2 point = points.data[i];
     const SurfacePoint s = surfacePoint(point.x, trianglePoint(sobol2(point.y, hashCombine(push.seed, point.x))));
     if (s.geometricNormal == vec3(0.0) || alphaCut(sceneMaterials.data[s.material], s)) return;
-    const vec3 inVoxel = s.position + s.geometricNormal * s.offset;
-    if (!isOccupied(push.grid, voxelAt(push.grid, inVoxel))) return;
+    if (!isOccupied(push.grid, voxelAt(push.grid, s.position))) return;
 
     const uint at = atomicAdd(kept.count, 1u);
-    keptPoints.data[at] = ProbePoint(inVoxel, point.x);
+    keptPoints.data[at] = ProbePoint(s.position, point.x);
     for (uint side = 0u; side < 2u; ++side) {
         const vec3 normal = side == 0u ? s.geometricNormal : -s.geometricNormal;
         Ray ray;

@@ -5,7 +5,7 @@
 #extension GL_EXT_scalar_block_layout : require
 
 struct ProbePoint {
-    vec3 position;  // A surface's offset along the triangle's normal: in the voxel that the point counts for.
+    vec3 position;  // In the voxel that the point counts for.
     uint triangle;
 };
 

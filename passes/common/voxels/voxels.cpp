@@ -7,12 +7,6 @@
 #include "base/error.h"
 
 namespace voxray {
-namespace {
-
-/// Of a voxel: 16 times what rounding does to a position in a grid of 1024.
-constexpr float kOffBorders = 1.0f / 1024.0f;
-
-}  // namespace
 
 std::vector<Binding> SurfaceVoxels::bindings(std::vector<Binding> more) const {
     more.insert(more.begin(), {ifUsed({"voxelOccupancy", occupancy}), ifUsed({"voxelRank", rank}),
@@ -58,11 +52,8 @@ gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t 
         const float voxels = std::ceil(extent[axis] / grid.voxelSize + 0.25f - 1e-4f);
         grid.resolution[axis] = std::clamp(uint32_t(std::max(voxels, 1.0f)), 1u, resolution);
     }
-    // The scene in the center of the grid, but for the part of a voxel that keeps borders off the center of
-    // the bounds and what is symmetric about it: light on a surface in a border would fall into the voxel on
-    // its other side as often
-    grid.origin =
-        0.5f * (boundsMin + boundsMax) - grid.voxelSize * (0.5f * glm::vec3(grid.resolution) + kOffBorders);
+    // The scene in the center of the grid.
+    grid.origin = 0.5f * (boundsMin + boundsMax) - 0.5f * grid.voxelSize * glm::vec3(grid.resolution);
     grid.wordsPerRow = (grid.resolution.x + 31) / 32;
     grid.side = std::bit_ceil(resolution);
     grid.directions = 6;

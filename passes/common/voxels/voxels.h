@@ -85,8 +85,7 @@ void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const Voxe
                   const SceneState& scene);
 
 /// The smallest grid of cubic voxels round a box, `resolution` voxels along its longest side, with an eighth
-/// of a voxel to spare, so that no surface lies on its border. Borders between voxels are a thousandth of a
-/// voxel off the box's center: a surface there would lie in both voxels, as rounding has it.
+/// of a voxel to spare, so that no surface lies on its border.
 gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution);
 
 }  // namespace voxray
