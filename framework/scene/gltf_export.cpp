@@ -286,8 +286,7 @@ void GltfWriter::addLight(const Light& light) {
     }
     model_.lights.push_back(std::move(out));
     tinygltf::Node node = lookingNode(light.name, light.position, light.direction, anyUp(light.direction));
-    const int index = int(model_.lights.size() - 1);
-    node.extensions["KHR_lights_punctual"] = tinygltf::Value(Object{{"light", tinygltf::Value(index)}});
+    setLight(node, int(model_.lights.size() - 1));
     addNode(std::move(node));
 }
 

@@ -3,6 +3,7 @@
 #define VOXRAY_MIRROR_SURFACE_GLSL
 
 #include "shaders/scene/footprint.glsl"
+#include "shaders/scene/off_edges.glsl"
 #include "shaders/scene/specular.glsl"
 #include "shaders/trace/ray_types.h"
 
@@ -18,7 +19,7 @@ struct MirrorSurface {
 
 // At a hit of a ray along unit `direction`, whose footprint there is `area` m² across the ray. False for a triangle without area.
 bool surfaceAtHit(Hit hit, vec3 direction, float area, out MirrorSurface at) {
-    const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
+    const SurfacePoint s = surfacePoint(hit.triangle, offEdges(hit.triangle, vec2(hit.u, hit.v)));
     if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return false;
     const GpuMaterial m = sceneMaterials.data[s.material];
     const float cosine = -dot(s.geometricNormal, direction);

@@ -3,6 +3,7 @@
 // What a batch of camera rays met, into the g-buffer's images.
 #include "passes/gbuffer/visible_surface.glsl"
 #include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/off_edges.glsl"
 #include "shaders/trace/ray_types.h"
 #ifdef MOTION
 #include "passes/gbuffer/previous.glsl"
@@ -25,17 +26,6 @@ layout(push_constant, scalar) uniform Push {
     uint firstTexel;
     uint batchRays;
 } push;
-
-// A point of a triangle, moved off its edges by the four roundings that interpolation takes: on the edge between a floor and a wall
-// they would decide which side of the wall it lies on, and where it lies outside no light comes to it.
-vec2 offEdges(uint triangle, vec2 barycentrics) {
-    const uvec3 v = triangleVertices(triangle);
-    const vec3 a = vertexPosition(v.x), b = vertexPosition(v.y), c = vertexPosition(v.z);
-    const float uncertain = 4.8e-7 * largestCoordinate(max(abs(a), max(abs(b), abs(c))));
-    const float size = sqrt(max(length(cross(b - a, c - a)), 1.0e-37));
-    const vec3 w = max(vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics), min(uncertain / size, 0.25));
-    return w.yz / (w.x + w.y + w.z);
-}
 
 void main() {
     const uint i = linearIndex();

@@ -280,7 +280,11 @@ class Resume(Run):
         self.check_whole()
 
     def interrupt_report(self, signals):
-        """Signals to the whole process group, as a terminal's Ctrl-C, while the report of a whole run is made."""
+        """Signals to the whole process group, as a terminal's Ctrl-C, while the report of a whole run is made: which takes two
+        seconds longer, so that it isn't over before."""
+        os.mkdir(self.path("slow"))
+        self.write(os.path.join("slow", "sitecustomize.py"), "import time\ntime.sleep(2)\n")
+        self.environment = {**self.environment, "PYTHONPATH": self.path("slow")}
         self.write("tiny.yaml", TINY)
         manifest = self.path("out", "manifest.json")
         process = self.start_until(lambda: os.path.exists(manifest) and self.json("out", "manifest.json")["finished"],
@@ -300,7 +304,7 @@ class Resume(Run):
 
     def test_ctrl_c_twice_while_the_report_is_made(self):
         self.assertEqual(self.interrupt_report(2), -signal.SIGINT)
-        time.sleep(2)  # The script would be done by now.
+        time.sleep(6)  # The script would be done by now.
         self.assertFalse(os.path.exists(self.path("out", "report.html")))
         before = self.times()
         self.expect(0, "run", "tiny.yaml", "--out", "out", "--resume")

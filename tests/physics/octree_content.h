@@ -10,6 +10,7 @@
 #include "passes/filter_voxels/svo_collapse.h"
 #include "tests/gpu/radiance_samples.h"
 #include "tests/physics/made_up_voxels.h"
+#include "tests/support/kept.h"
 #include "tests/support/places.h"
 
 namespace voxray::test {
@@ -249,15 +250,15 @@ class TestOctree {
         return shared;
     }
     static const OctreeBuilder& builder() {
-        static const OctreeBuilder shared(device(), compiler());
+        static const OctreeBuilder& shared = kept(std::make_shared<OctreeBuilder>(device(), compiler()));
         return shared;
     }
     static const SvoFilter& filter() {
-        static const SvoFilter shared(device(), compiler());
+        static const SvoFilter& shared = kept(std::make_shared<SvoFilter>(device(), compiler()));
         return shared;
     }
     static const SvoCollapse& collapser() {
-        static const SvoCollapse shared(device(), compiler());
+        static const SvoCollapse& shared = kept(std::make_shared<SvoCollapse>(device(), compiler()));
         return shared;
     }
 

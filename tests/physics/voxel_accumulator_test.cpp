@@ -6,6 +6,7 @@
 #include "passes/common/compute/dispatch.h"
 #include "passes/common/voxels/voxel_accumulator.h"
 #include "tests/physics/voxels_read.h"
+#include "tests/support/kept.h"
 #include "tests/support/places.h"
 
 namespace voxray::test {
@@ -24,7 +25,8 @@ struct WriterPush {
 struct Merged {
     Merged(Write write, uint32_t samples, float firstValue, float slope, bool reversed = false,
            float white = 8) {
-        static Chain room("white_room", "{}", graphYaml({"voxelize, resolution: 12"}));
+        static Chain& room =
+            kept(std::make_shared<Chain>("white_room", "{}", graphYaml({"voxelize, resolution: 12"})));
         const SurfaceVoxels& voxels = *room.graph().resource<SurfaceVoxels>("voxels");
         const ShaderCompiler compiler(test::sourceRoot(), {});
         VoxelAccumulator writes(device(), compiler, {write, white});
