@@ -10,11 +10,14 @@ namespace {
 constexpr float kCentimetres = 100;  ///< In a metre.
 constexpr float kFlat = 1e-3f;       ///< Thickness over size of what counts as flat.
 
-/// Bounds of `count` instances in the compared frame; empty, with min over max, where they have no vertex.
-Box boundsOf(const Geometry& g, size_t first, size_t count) {
+/// Bounds in the compared frame of the instances of `count` meshes; empty, with min over max, where there are
+/// none.
+Box boundsOf(const SceneState& state, size_t firstMesh, size_t count) {
+    const Geometry& g = state.geometry;
     Box box{glm::vec3(std::numeric_limits<float>::infinity()), {}};
     box.max = -box.min;
-    for (size_t i = first; i < first + count; ++i) {
+    for (size_t i = 0; i < g.instances.size(); ++i) {
+        if (state.scene->instances[i].mesh - firstMesh >= count) continue;
         const InstanceRange& range = g.instances[i];
         for (uint32_t v = range.firstVertex; v < range.firstVertex + range.vertexCount; ++v)
             box = {glm::min(box.min, g.positions[v]), glm::max(box.max, g.positions[v])};
@@ -64,14 +67,14 @@ std::string warningOf(const SceneAddition& addition, const Box& added, const Box
 
 std::vector<std::string> additionWarnings(const SceneSettings& scene, const PreparedScene& prepared,
                                           SceneLoader& loader) {
-    // Instances of what is added follow the scene's own
+    // Meshes of what is added follow the scene's own, and keep their numbers where instances are hidden
     std::vector<std::string> warnings;
-    const Geometry& g = prepared.state.geometry;
-    size_t first = loader.load(scene.source)->instances.size();
-    const Box whole = boundsOf(g, 0, first);
+    size_t first = loader.load(scene.source)->meshes.size();
+    const Box whole = boundsOf(prepared.state, 0, first);
     for (const SceneAddition& addition : scene.additions) {
-        const size_t count = loader.load(addition.source)->instances.size();
-        if (std::string text = warningOf(addition, boundsOf(g, first, count), whole); !text.empty())
+        const size_t count = loader.load(addition.source)->meshes.size();
+        if (std::string text = warningOf(addition, boundsOf(prepared.state, first, count), whole);
+            !text.empty())
             warnings.push_back(std::move(text));
         first += count;
     }

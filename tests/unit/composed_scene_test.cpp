@@ -252,6 +252,14 @@ TEST(ComposedSceneLoader, WarnsOfAdditionsInAnotherUnit) {
     EXPECT_CONTAINS(said[1], "transform: {scale: 0.99}");
     EXPECT_CONTAINS(said[2], "scene.add[3]: ");
     EXPECT_CONTAINS(said[2], "and 348 m away");
+
+    // Where objects of the scene or of what is added are hidden, the others keep their sources
+    SceneLoader loader({});
+    const SceneSettings hidden = settingsOf("  hide: [red, sphere]\n  add: [" + room("scale: 2") + ", " +
+                                            room("scale: 101") + ", {builtin: mirror_row}]\n");
+    const std::vector<std::string> rest = additionWarnings(hidden, loader.prepare(hidden), loader);
+    ASSERT_EQ(rest.size(), 1u);
+    EXPECT_CONTAINS(rest[0], "scene.add[1]: ");
 }
 
 TEST_F(SceneSize, AdviceNamesWhatTheLargestPartGrowsWith) {
