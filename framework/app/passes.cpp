@@ -14,15 +14,15 @@ namespace voxray {
 
 namespace {
 
-constexpr size_t kWidth = 100;
+constexpr size_t kTextWidth = 100;
 
-/// The text broken at spaces into lines of at most kWidth, all but the first indented.
+/// The text broken at spaces into lines of at most kTextWidth, all but the first indented.
 std::string wrapped(const std::string& text, size_t firstColumn, size_t indent) {
     std::string out;
     size_t column = firstColumn;
     std::istringstream words(text);
     for (std::string word; words >> word;) {
-        if (!out.empty() && column + word.size() + 1 > kWidth) {
+        if (!out.empty() && column + word.size() + 1 > kTextWidth) {
             out += "\n" + std::string(indent, ' ');
             column = indent;
         } else if (!out.empty()) {

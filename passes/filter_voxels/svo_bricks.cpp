@@ -12,7 +12,7 @@ namespace {
 struct CellsPush {
     gpu::VoxelGrid grid;
 };
-struct LeavesPush {
+struct SvoLeavesPush {
     gpu::VoxelGrid grid;
     float emission;
     gpu::LevelNodes nodes;
@@ -68,7 +68,7 @@ class SvoBricksStorage final : public RadianceStorage {
         const gpu::LevelNodes& leaves = octree_.levels[0];
         stream.fill(radiance.storage[0], 0);
         for (const uint32_t isMeasured : {0u, 1u})
-            stream.dispatch(leaves_, bindings, LeavesPush{voxels.grid, emission, leaves, isMeasured},
+            stream.dispatch(leaves_, bindings, SvoLeavesPush{voxels.grid, emission, leaves, isMeasured},
                             linearGroups(leaves.staticCount));
         radiance_.filter(stream, octree_, radiance);
     }

@@ -8,7 +8,7 @@ namespace voxray {
 namespace {
 
 /// Of a voxel, open or covered: what is left is on the last one.
-constexpr uint32_t kMaxSides = 8;
+constexpr uint32_t kMaxPatchSides = 8;
 
 struct AcrossPush {
     uint32_t first;
@@ -22,7 +22,7 @@ struct PivotPush {
     uint32_t isCovered;
 };
 
-struct AimPush {
+struct SideAimPush {
     uint32_t first;
     uint32_t count;
     uint32_t isCovered;
@@ -89,8 +89,8 @@ void SideSearch::splitByRays(PassContext& context, const RayBatch& batch, uint32
     CommandStream& stream = context.stream;
     const Buffer pivots(context.device, "surfels that began sides", uints(voxels));
     const Buffer left(context.device, "voxels with surfels on no side", uints(1));
-    for (uint32_t i = 0; i < kMaxSides; ++i) {
-        const uint32_t round = isCovered * kMaxSides + i;
+    for (uint32_t i = 0; i < kMaxPatchSides; ++i) {
+        const uint32_t round = isCovered * kMaxPatchSides + i;
         stream.fill(left, 0);
         stream.dispatch(pivot_,
                         {{"lists", lists.lists},
@@ -102,10 +102,10 @@ void SideSearch::splitByRays(PassContext& context, const RayBatch& batch, uint32
         RayBatch::inBatches(patches.surfelCount, [&](uint32_t first, uint32_t count) {
             stream.dispatch(
                 aim_, {{"pivots", pivots}, {"rays", batch.rays}, {"PatchSurfelsAt", patches.surfels.at()}},
-                AimPush{first, count, isCovered}, linearGroups(count));
+                SideAimPush{first, count, isCovered}, linearGroups(count));
             context.tracer.occluded(stream, batch.rays, batch.occluded, count);
             stream.dispatch(join_, {{"occluded", batch.occluded}, {"PatchSurfelsAt", patches.surfels.at()}},
-                            JoinPush{first, count, round, i + 1 == kMaxSides ? 1u : 0u, isCovered},
+                            JoinPush{first, count, round, i + 1 == kMaxPatchSides ? 1u : 0u, isCovered},
                             linearGroups(count));
         });
     }

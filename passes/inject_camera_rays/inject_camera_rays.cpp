@@ -11,7 +11,7 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBatchRays = 1u << 18;
+constexpr uint32_t kCameraBatchRays = 1u << 18;
 constexpr uint64_t kPathIrradianceBytes = 4 * sizeof(float);  // Of a surfel.
 
 struct ArrivePush {
@@ -33,7 +33,7 @@ void InjectCameraRays::declare(PassBuilder& builder) {
 void InjectCameraRays::plan(PassPlan& plan) {
     plan.get(irradiance_).lightBounces = params_.bounces;
     sources_ = requireLightSources(*plan.frame.scene, kName);
-    const uint32_t batch = std::min(params_.raysPerImage, kBatchRays);
+    const uint32_t batch = std::min(params_.raysPerImage, kCameraBatchRays);
     injection_.plan(plan, kName, params_, {batch, false, true, params_.lightSamples}, plan.get(voxels_));
     plan.buffer(rays_, "camera rays", batch * sizeof(Ray));
     plan.buffer(hits_, "camera hits", batch * sizeof(Hit));
@@ -55,8 +55,8 @@ void InjectCameraRays::prepare(PassSetup& setup) {
 void InjectCameraRays::record(PassContext& context) {
     const PathScene scene{context.get(voxels_), sources_};
     injection_.begin(context, scene, context.get(irradiance_));
-    for (uint32_t first = 0; first < params_.raysPerImage; first += kBatchRays) {
-        emit(context, first, std::min(kBatchRays, params_.raysPerImage - first));
+    for (uint32_t first = 0; first < params_.raysPerImage; first += kCameraBatchRays) {
+        emit(context, first, std::min(kCameraBatchRays, params_.raysPerImage - first));
         if (first_.count > 0) light(context, scene);
     }
     injection_.finish(context, scene.voxels, context.get(irradiance_));

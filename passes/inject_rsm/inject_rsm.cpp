@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint32_t kMaxBatchTexels = 1u << 20;  // Bounds the memory of rays and what they carry to 108 MiB.
 
-struct RaysPush {
+struct RsmRaysPush {
     gpu::LightView view;
     uint32_t light;
     uint32_t resolution;
@@ -58,7 +58,7 @@ void InjectRsm::record(PassContext& context) {
                                             {"hits", paths_.hits()},
                                             {"paths", paths_.paths()},
                                             {"seen", map_.image()}}),
-                    RaysPush{views[v], sources[s].light, params_.rsmResolution, first, batch},
+                    RsmRaysPush{views[v], sources[s].light, params_.rsmResolution, first, batch},
                     linearGroups(batch));
                 paths_.follow(context, voxels, {seed, v * texels() + first, batch, true});
             }

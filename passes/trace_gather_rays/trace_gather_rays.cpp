@@ -10,9 +10,9 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBatchRays = 1u << 18;  // Bounds what gather_rays needs for a batch to 36 MiB.
+constexpr uint32_t kGatherBatchRays = 1u << 18;  // Bounds what gather_rays needs for a batch to 36 MiB.
 
-struct EmitPush {
+struct GatherEmitPush {
     gpu::GatherLayout layout;
     uint32_t firstBlock;
     uint32_t batchBlocks;
@@ -30,7 +30,7 @@ void TraceGatherRays::plan(PassPlan& plan) {
     const glm::uvec2 texels = glm::uvec2(plan.frame.width, plan.frame.height) * plan.get(gbuffer_).samples;
     hits.layout = {texels, (texels + params_.block - 1u) / params_.block, params_.block, params_.raysPerBlock,
                    0};
-    hits.blocksPerBatch = std::clamp(kBatchRays / params_.raysPerBlock, 1u, hits.blocks());
+    hits.blocksPerBatch = std::clamp(kGatherBatchRays / params_.raysPerBlock, 1u, hits.blocks());
     hits.batches = std::vector<Buffer>((hits.blocks() + hits.blocksPerBatch - 1) / hits.blocksPerBatch);
     for (uint32_t b = 0; b < hits.batches.size(); ++b)
         plan.buffer(hits.batches[b], "gather hits",
@@ -55,7 +55,7 @@ void TraceGatherRays::record(PassContext& context) {
                                     {"normal", gbuffer.normal, sampler_},
                                     {"geometricNormal", gbuffer.geometricNormal, sampler_},
                                     {"rays", rays_}}),
-            EmitPush{hits.layout, b * hits.blocksPerBatch, blocks}, linearGroups(rays));
+            GatherEmitPush{hits.layout, b * hits.blocksPerBatch, blocks}, linearGroups(rays));
         context.tracer.closestHit(context.stream, rays_, hits.batches[b], rays);
     }
 }

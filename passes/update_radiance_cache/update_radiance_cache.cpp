@@ -29,7 +29,7 @@ struct FollowPush {
     uint32_t isWritten;
 };
 
-struct WritePush {
+struct CacheWritePush {
     uint32_t count;
     uint32_t bounces;
 };
@@ -183,7 +183,7 @@ uint32_t UpdateRadianceCache::follow(PassContext& context, const RadianceCache& 
                                          {"vertices", vertices_},
                                          {"direct", direct_},
                                          {"cellCounts", cellCounts_}});
-        stream.dispatch(write_, bindings, WritePush{written, params_.bounces}, linearGroups(written));
+        stream.dispatch(write_, bindings, CacheWritePush{written, params_.bounces}, linearGroups(written));
     }
     return vertices;
 }

@@ -8,7 +8,7 @@ namespace voxray {
 namespace {
 
 /// The buffer `octree` of shaders/octree/octree.glsl.
-struct Header {
+struct OctreeHeader {
     VkDeviceAddress table, nodes;
     gpu::OctreeShape shape;
 };
@@ -48,7 +48,7 @@ uint64_t OctreeSize::nodeBytes() const {
     return uint64_t(first().front()) * sizeof(uint32_t);
 }
 uint64_t OctreeSize::bytes() const {
-    return sizeof(Header) + tableBytes() + nodeBytes();
+    return sizeof(OctreeHeader) + tableBytes() + nodeBytes();
 }
 
 Octree allocateOctree(CommandStream& stream, const OctreeSize& size) {
@@ -63,9 +63,9 @@ Octree allocateOctree(CommandStream& stream, const OctreeSize& size) {
     octree.size = size;
     octree.table = Buffer(device, "octree table", size.tableBytes());
     octree.nodes = Buffer(device, "octree nodes", size.nodeBytes());
-    octree.header = Buffer(device, "octree header", sizeof(Header));
+    octree.header = Buffer(device, "octree header", sizeof(OctreeHeader));
 
-    Header header{
+    OctreeHeader header{
         octree.table.address(),
         octree.nodes.address(),
         {size.resolution, size.levels(), size.nodeCount(), size.first().front(), size.tableLevel(), {}}};
