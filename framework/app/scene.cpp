@@ -11,9 +11,11 @@
 
 #include "app/commands.h"
 #include "app/config_options.h"
+#include "app/first_config.h"
 #include "app/scene_view.h"
 #include "app/source_root.h"
 #include "app/view_search.h"
+#include "base/files.h"
 #include "base/suggest.h"
 #include "experiment/pixel_masks.h"
 #include "experiment/scene_files.h"
@@ -30,6 +32,7 @@ namespace {
 struct SceneArguments : ConfigArguments {
     std::filesystem::path what;
     std::filesystem::path picture;
+    std::filesystem::path newConfig;
 };
 
 bool isConfig(const std::filesystem::path& what) {
@@ -144,21 +147,45 @@ void printObjects(const Scene& scene) {
                more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// A path-traced picture of a few samples. What nothing lights is shown in even light from all sides.
-void writePicture(SceneState state, const EmbreeScene& tracer, const Camera& camera, bool shines,
-                  const std::filesystem::path& file) {
-    if (!shines) {
-        auto lit = std::make_shared<Scene>(*state.scene);
-        lit->environment.radiance = glm::vec3(1.0f);
-        state.scene = lit;
-    }
+/// The scene in even light from all sides.
+SceneState inEvenLight(SceneState state) {
+    auto lit = std::make_shared<Scene>(*state.scene);
+    lit->environment.radiance = glm::vec3(1.0f);
+    state.scene = lit;
+    return state;
+}
+
+/// A path-traced picture of a few samples. What nothing lights is shown in even light.
+void writePicture(const SceneState& scene, const EmbreeScene& tracer, const Camera& camera, bool shines,
+                  bool isLit, const std::filesystem::path& file) {
+    const SceneState state = shines ? scene : inEvenLight(scene);
     const PathTraceOptions options{.width = 320, .height = 180, .spp = 32, .bounces = 4};
     writePng(file, preview(pathTrace(state, tracer, camera, options).total, 0));
     fmt::print("{}: 320 x 180 pixels{}\n", file.string(),
-               shines ? "" : ", in even light, for the scene has none");
+               !shines ? ", in even light, for the scene has none"
+               : isLit ? ""
+                       : ", nearly all black: its camera sees none of what shines");
+}
+
+/// Writes a config of the scene. @throws UsageError where the file is there already.
+void writeConfig(const std::filesystem::path& file, const SceneSource& source, const CameraSettings& camera,
+                 const std::string& light) {
+    if (std::filesystem::exists(file))
+        throw UsageError("{}: it is there already; give another name, or remove it", file.string());
+    const bool isFile = source.builtin.empty();
+    writeFileAtomically(file, firstConfig({.name = file.stem().string(),
+                                           .source = isFile ? fmt::format("file: \"{}\"", source.file)
+                                                            : "builtin: " + source.builtin,
+                                           .camera = yamlOf(camera),
+                                           .light = light}));
+    fmt::print("{0}: a config of this scene; './voxray run {0}' renders it and makes a report\n",
+               file.string());
 }
 
 void describe(const SceneArguments& arguments) {
+    if (!arguments.newConfig.empty() && isConfig(arguments.what))
+        throw UsageError("--write-config writes a config of a scene; {} is a config",
+                         arguments.what.string());
     const auto folders = sceneFolders(arguments.scenes, sourceRoot(), arguments.what);
     SceneSettings settings = settingsOf(arguments, folders);
 
@@ -172,8 +199,9 @@ void describe(const SceneArguments& arguments) {
     const EmbreeScene tracer(scene.state);
 
     const glm::vec3 size = g.boundsMax - g.boundsMin;
-    fmt::print("{}: {} triangles in {} objects, {} textures\n", arguments.what.string(), g.triangles.size(),
-               scene.state.scene->instances.size(), scene.state.scene->textures.size());
+    const size_t objects = scene.state.scene->instances.size();
+    fmt::print("{}: {} triangles in {} object{}, {} textures\n", arguments.what.string(), g.triangles.size(),
+               objects, objects == 1 ? "" : "s", scene.state.scene->textures.size());
     fmt::print("bounds: {} to {}, {:.4g} x {:.4g} x {:.4g} m\n", triple(g.boundsMin), triple(g.boundsMax),
                size.x, size.y, size.z);
     fmt::print("cameras: {}\n", own.cameras.size());
@@ -185,23 +213,31 @@ void describe(const SceneArguments& arguments) {
 
     // A camera to paste, and light for it
     bool isSeen = false;
+    CameraSettings toBegin;
+    std::string light;
     if (hasCamera) {
-        const CameraSettings inUse = settingsOf(scene.camera, g, tracer);
-        isSeen = seesLight(scene.state, tracer, inUse);
-        fmt::print("the camera in use:\n  {}\n", yamlOf(inUse));
+        toBegin = settingsOf(scene.camera, g, tracer);
+        isSeen = seesLight(scene.state, tracer, toBegin);
+        fmt::print("the camera in use:\n  {}\n", yamlOf(toBegin));
     }
     if (!isSeen || (settings.camera && own.cameras.empty())) {
         const SuggestedView view = suggestView(scene.state, tracer);
-        fmt::print("{}:\n  {}\n", hasCamera ? "another, which sees the scene" : "a camera to begin with",
+        fmt::print("{}:\n  {}\n", hasCamera ? "another camera, which sees more" : "a camera to begin with",
                    yamlOf(view.camera));
         if (!view.light.empty())
-            fmt::print("{}: add lights, as in\n  {}\n",
-                       shines ? "it sees none of what shines" : "nothing shines", view.light);
+            fmt::print("{}; write under 'scene'\n  {}\n",
+                       shines ? "no light is seen from there" : "nothing shines", view.light);
         if (!hasCamera) scene.camera = cameraOf(view.camera);
+        const bool isSeenWithLight = hasCamera && !shines && !view.light.empty() &&
+                                     seesLight(inEvenLight(scene.state), tracer, toBegin);
+        if (!isSeen) light = view.light;
+        if (!isSeen && !isSeenWithLight) toBegin = view.camera;
     }
     for (const std::string& warning : loader.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     if (!arguments.picture.empty())
-        writePicture(scene.state, tracer, scene.camera, shines, arguments.picture);
+        writePicture(scene.state, tracer, scene.camera, shines, isSeen || (!hasCamera && light.empty()),
+                     arguments.picture);
+    if (!arguments.newConfig.empty()) writeConfig(arguments.newConfig, settings.source, toBegin, light);
 }
 
 }  // namespace
@@ -219,6 +255,13 @@ void addSceneCommand(CLI::App& app, int&) {
     command->add_option("--picture", arguments->picture, "Write a small path-traced picture.")
         ->type_name("OUT.png")
         ->check(endsWith(".png"));
+    command
+        ->add_option(
+            "--write-config", arguments->newConfig,
+            "Write a config to begin with: this scene, a camera, a light where none is seen, and methods "
+            "to compare.")
+        ->type_name("OUT.yaml")
+        ->check(endsWith(".yaml"));
     addConfigOptions(*command, *arguments);
     command->callback([arguments] { describe(*arguments); });
 }

@@ -193,10 +193,10 @@ Value readConfig(const std::filesystem::path& path) {
     const std::filesystem::path ending = path.extension();
     if (ending == ".glb" || ending == ".gltf")
         throw UsageError(
-            "{0}: a scene, not a config; a config names it, as in scene: {{file: {1}}}, see "
-            "docs/tutorial.md; "
-            "'./voxray scene {0}' tells what is in it and gives a camera",
-            path.string(), path.filename().string());
+            "{0}: a scene, not a config; './voxray scene {0} --write-config {1}' writes one that compares "
+            "methods in it, "
+            "with a camera, see docs/tutorial.md",
+            path.string(), path.stem().string() + ".yaml");
     return readYaml(path);
 }
 

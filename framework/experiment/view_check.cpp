@@ -95,10 +95,10 @@ TextLocation cameraPlace(const SceneSettings& scene) {
     return scene.cameraWhere.file.empty() ? scene.where : scene.cameraWhere;
 }
 
-/// What gives a camera that sees the scene.
+/// What gives a camera that sees the scene; a file is found from its config's folder, so by way of that.
 std::string advice(const SceneSettings& scene) {
     return fmt::format("'./voxray scene {}' gives a camera that sees the scene",
-                       scene.source.builtin.empty() ? scene.source.file : scene.source.builtin);
+                       scene.source.builtin.empty() ? scene.where.file : scene.source.builtin);
 }
 
 std::string triple(const glm::vec3& v) {

@@ -28,6 +28,28 @@ class Tutorial(CommandTest):
         self.assertEqual((done.stdout, done.stderr), ("room.yaml: valid, 5 variants\n", ""))
 
 
+    def test_scene_writes_it(self):
+        with open(os.path.join(SOURCE, "docs", "tutorial.md"), encoding="utf-8") as file:
+            config = file.read().split("```yaml\n")[1].split("```")[0]
+        self.write("tiny.yaml", TINY)
+        self.expect(0, "export-scene", "tiny.yaml", "room.glb")
+        os.mkdir(self.path("elsewhere"))
+        out = os.path.join("elsewhere", "room.yaml")
+        self.expect(0, "scene", "room.glb", "--write-config", out)
+        with open(self.path(out), encoding="utf-8") as file:
+            written = file.read()
+        self.assertEqual(written.split("image: ")[1], config.split("image: ")[1])
+        done = self.expect(0, "validate", out)
+        self.assertEqual((done.stdout, done.stderr), (out + ": valid, 5 variants\n", ""))
+        self.assertIn("it is there already", self.expect(2, "scene", "room.glb", "--write-config", out).stderr)
+        self.expect(0, "scene", "plane", "--write-config", "plane.yaml")
+        self.expect(0, "validate", "plane.yaml")
+
+    def test_objects_may_be_hidden(self):
+        self.write("tiny.yaml", TINY.replace("{builtin: cornell}", "{builtin: cornell, hide: [tall box, red]}"))
+        self.expect(0, "validate", "tiny.yaml")
+
+
 class GeneratedFiles(CommandTest):
     def test_each_is_read_or_refused_with_its_cause(self):
         """A sixth of the files that gltf_chain.py renders all of."""
@@ -58,6 +80,9 @@ class ExportScene(CommandTest):
         self.assertTrue(any(abs(fov - np.radians(50)) < 1e-5 for fov in cameras), cameras)
         lights = document["extensions"]["KHR_lights_punctual"]["lights"]
         self.assertTrue(any(light["type"] == "point" for light in lights), lights)
+        placed = [node["extensions"]["KHR_lights_punctual"]["light"] for node in document["nodes"]
+                  if "KHR_lights_punctual" in node.get("extensions", {})]
+        self.assertEqual(sorted(placed), list(range(len(lights))))
 
     def test_bad_target(self):
         self.write("tiny.yaml", TINY)
