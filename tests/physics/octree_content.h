@@ -250,15 +250,15 @@ class TestOctree {
         return shared;
     }
     static const OctreeBuilder& builder() {
-        static const OctreeBuilder& shared = kept(std::make_shared<OctreeBuilder>(device(), compiler()));
+        static const OctreeBuilder& shared = *kept(std::make_shared<OctreeBuilder>(device(), compiler()));
         return shared;
     }
     static const SvoFilter& filter() {
-        static const SvoFilter& shared = kept(std::make_shared<SvoFilter>(device(), compiler()));
+        static const SvoFilter& shared = *kept(std::make_shared<SvoFilter>(device(), compiler()));
         return shared;
     }
     static const SvoCollapse& collapser() {
-        static const SvoCollapse& shared = kept(std::make_shared<SvoCollapse>(device(), compiler()));
+        static const SvoCollapse& shared = *kept(std::make_shared<SvoCollapse>(device(), compiler()));
         return shared;
     }
 

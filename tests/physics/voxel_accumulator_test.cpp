@@ -26,7 +26,7 @@ struct Merged {
     Merged(Write write, uint32_t samples, float firstValue, float slope, bool reversed = false,
            float white = 8) {
         static Chain& room =
-            kept(std::make_shared<Chain>("white_room", "{}", graphYaml({"voxelize, resolution: 12"})));
+            *kept(std::make_shared<Chain>("white_room", "{}", graphYaml({"voxelize, resolution: 12"})));
         const SurfaceVoxels& voxels = *room.graph().resource<SurfaceVoxels>("voxels");
         const ShaderCompiler compiler(test::sourceRoot(), {});
         VoxelAccumulator writes(device(), compiler, {write, white});

@@ -9,9 +9,9 @@ namespace voxray::test {
 void keep(std::shared_ptr<void> object);
 
 template <typename T>
-T& kept(const std::shared_ptr<T>& object) {
+T* kept(const std::shared_ptr<T>& object) {
     keep(object);
-    return *object;
+    return object.get();
 }
 
 }  // namespace voxray::test
