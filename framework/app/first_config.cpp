@@ -5,7 +5,7 @@
 namespace voxray {
 
 std::string firstConfig(const FirstScene& scene) {
-    return fmt::format(R"(name: "{}"
+    return fmt::format(R"(name: {}
 scene:
   {}
   {}

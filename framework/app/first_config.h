@@ -4,7 +4,7 @@
 
 namespace voxray {
 
-/// What a config to begin with says of its scene.
+/// What a config to begin with says of its scene, as YAML.
 struct FirstScene {
     std::string name;    ///< Of the experiment, and of the folder of its results.
     std::string source;  ///< "file: ..." or "builtin: ..."

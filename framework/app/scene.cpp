@@ -172,10 +172,10 @@ void writeConfig(const std::filesystem::path& file, const SceneSource& source, c
                  const std::string& light) {
     if (std::filesystem::exists(file))
         throw UsageError("{}: it is there already; give another name, or remove it", file.string());
-    const bool isFile = source.builtin.empty();
-    writeFileAtomically(file, firstConfig({.name = file.stem().string(),
-                                           .source = isFile ? fmt::format("file: \"{}\"", source.file)
-                                                            : "builtin: " + source.builtin,
+    const auto quoted = [](const std::string& text) { return Value::fromScalar(text, true).json(-1); };
+    writeFileAtomically(file, firstConfig({.name = quoted(file.stem().string()),
+                                           .source = source.builtin.empty() ? "file: " + quoted(source.file)
+                                                                            : "builtin: " + source.builtin,
                                            .camera = yamlOf(camera),
                                            .light = light}));
     fmt::print("{0}: a config of this scene; './voxray run {0}' renders it and makes a report\n",

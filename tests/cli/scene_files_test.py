@@ -33,15 +33,16 @@ class Tutorial(CommandTest):
             config = file.read().split("```yaml\n")[1].split("```")[0]
         self.write("tiny.yaml", TINY)
         self.expect(0, "export-scene", "tiny.yaml", "room.glb")
-        os.mkdir(self.path("elsewhere"))
-        out = os.path.join("elsewhere", "room.yaml")
-        self.expect(0, "scene", "room.glb", "--write-config", out)
+        os.mkdir(self.path('else"where'))
+        os.rename(self.path("room.glb"), self.path('else"where', "room.glb"))
+        out = "room.yaml"
+        self.expect(0, "scene", 'else"where/room.glb', "--write-config", out)
         with open(self.path(out), encoding="utf-8") as file:
             written = file.read()
         self.assertEqual(written.split("image: ")[1], config.split("image: ")[1])
         done = self.expect(0, "validate", out)
         self.assertEqual((done.stdout, done.stderr), (out + ": valid, 5 variants\n", ""))
-        self.assertIn("it is there already", self.expect(2, "scene", "room.glb", "--write-config", out).stderr)
+        self.assertIn("it is there already", self.expect(2, "scene", 'else"where/room.glb', "--write-config", out).stderr)
         self.expect(0, "scene", "plane", "--write-config", "plane.yaml")
         self.expect(0, "validate", "plane.yaml")
 

@@ -114,7 +114,7 @@ def on_border(rng, low, high, resolution, axis):
     """A coordinate on a border between voxels of the grid over bounds, as makeVoxelGrid() lays it."""
     size = (high - low).max() / (resolution - 0.25)
     voxels = np.clip(np.ceil((high - low)[axis] / size + 0.25 - 1e-4), 1, resolution)
-    origin = 0.5 * (low + high)[axis] - size * 0.5 * voxels
+    origin = 0.5 * (low + high)[axis] - 0.5 * size * voxels
     return origin + size * rng.integers(1, max(int(voxels), 2))
 
 
