@@ -11,7 +11,7 @@ vec3 previousPosition(uint triangle, vec2 barycentrics) {
     const uvec3 v = triangleVertices(triangle);
     const vec3 p0 = previousPositions.data[v.x], p1 = previousPositions.data[v.y], p2 = previousPositions.data[v.z];
     const vec3 w = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
-    return w.x * p0 + w.y * p1 + w.z * p2;
+    return interpolate(w, p0, p1, p2);
 }
 
 // Number of the instance that a triangle belongs to, plus 1.

@@ -49,6 +49,12 @@ struct SurfacePoint {
     float offset;          // m, along the geometric normal: there rays begin that leave the surface.
 };
 
+// A point of a triangle with the corners p0, p1, p2, of barycentrics w. Rounding takes none out of the triangle's bounds: all points of
+// a sheet in a border between voxels are in the same ones.
+vec3 interpolate(vec3 w, vec3 p0, vec3 p1, vec3 p2) {
+    return clamp(w.x * p0 + w.y * p1 + w.z * p2, min(p0, min(p1, p2)), max(p0, max(p1, p2)));
+}
+
 SurfacePoint surfacePoint(uint triangle, vec2 barycentrics) {
     const uvec3 v = triangleVertices(triangle);
     const vec3 w = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
@@ -57,8 +63,7 @@ SurfacePoint surfacePoint(uint triangle, vec2 barycentrics) {
     const GpuVertexAttributes a1 = vertexAttributes(v.y);
     const GpuVertexAttributes a2 = vertexAttributes(v.z);
     SurfacePoint s;
-    // Rounding takes no point out of the triangle's bounds: all points of a sheet in a border between voxels are in the same ones.
-    s.position = clamp(w.x * p0 + w.y * p1 + w.z * p2, min(p0, min(p1, p2)), max(p0, max(p1, p2)));
+    s.position = interpolate(w, p0, p1, p2);
     const vec3 cross_ = cross(p1 - p0, p2 - p0);
     const float length_ = length(cross_);
     s.geometricNormal = length_ > 0.0 ? cross_ / length_ : vec3(0.0);
