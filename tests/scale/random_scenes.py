@@ -8,8 +8,9 @@ where anything fails, or where the mean of the indirect light is off by more tha
 a thousandth of the scene's typical radiance (scene_maker.py), and next to the whole image's light. What is off runs again
 with 16 times the samples in the reference: where it is right then, the reference was noisy. Else it runs with more camera
 and gather rays, with these and smaller voxels, and with direct light measured at the hits: where one of them is right, that
-names the cause, and the scene is no miss. Prints what is off and why; exit status 1 where there is a miss. The same seed is
-the same scene: --first 17 --runs 1 --keep DIR looks at one.
+names the cause, and the scene is no miss. Nor is it one where the reference's halves, of lights that stand close to surfaces,
+leave its mean uncertain by as much. Prints what is off and why; exit status 1 where there is a miss. The same seed is the same
+scene: --first 17 --runs 1 --keep DIR looks at one.
 """
 
 import argparse
@@ -30,6 +31,7 @@ from report import exr_pixels  # noqa: E402
 LARGEST_ERROR = 0.03     # Of the mean
 NEGLIGIBLE = 0.02        # Of the whole image's light
 DARK = 0.001             # Of the scene's typical radiance
+NOISE = 3                # Standard errors
 SAMPLES = 1024           # A pixel of the reference
 BATCH = 25
 # Camera rays along the edge of a pixel, and gather rays by block of pixels
@@ -110,6 +112,13 @@ def means(row, image):
     return mean, mean / float(row["mean_ratio" if image == "final" else "indirect_mean_ratio"])
 
 
+def standard_error(row):
+    """Of the mean of the reference's indirect light, W/(m² sr), from its two halves."""
+    halves = [exr_pixels.read(row["images"].parent / "reference" / f"indirect_{half}.exr") for half in "ab"]
+    difference = np.mean([halves[0][c] - halves[1][c] for c in "RGB"], axis=0)
+    return float(np.sqrt(np.sum(difference ** 2)) / 2 / difference.size)
+
+
 def off(row, typical):
     """What of a variant's mean is off; None where it is right or negligible."""
     indirect, expected = means(row, "indirect")
@@ -133,6 +142,10 @@ def cause(program, folder, seed, resolution, scene, typical, what):
     for remedy, name in REMEDIES.items():
         if remedy in fine and not off(fine[remedy], typical):
             return f"{what}: {name} ({100 * float(fine[remedy]['indirect_mean_ratio']) - 100:+.2f} % without)", False
+    for row in fine.values():
+        mean, expected = means(row, "indirect")
+        if abs(mean - expected) <= NOISE * standard_error(row):
+            return f"{what}: the reference is noisy (its mean's standard error is {100 * standard_error(row) / expected:.1f} %)", False
     return f"{what}: nothing mends that", True
 
 
