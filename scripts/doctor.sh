@@ -45,8 +45,11 @@ print(spec.origin) if spec else sys.exit(1)' "$2" 2>/dev/null
   esac
 }
 
-system=unknown
-if [ -r /etc/os-release ]; then system=$(. /etc/os-release && echo "${PRETTY_NAME:-unknown}"); fi
+system=unknown id=
+if [ -r /etc/os-release ]; then
+  system=$(. /etc/os-release && echo "${PRETTY_NAME:-unknown}")
+  id=$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-}")
+fi
 echo "System: $system, $(uname -m), $(getconf _NPROCESSORS_ONLN) cores"
 echo
 echo "Packages:"
@@ -58,7 +61,9 @@ while IFS='|' read -r purpose check debian fedora arch; do
   read -ra words <<<"$check"
   if found=$(probe "${words[@]}"); then
     printf '  ok       %-28s %s\n' "$debian" "$found"
-  elif [ "$purpose" != run ]; then
+  elif [[ $debian =~ \[(.*)\] && "$id " != "${BASH_REMATCH[1]} "* ]]; then
+    printf '  other    %-28s tests that want it are skipped here\n' "$debian"
+  elif [ "$purpose" != build ] && [ "$purpose" != run ]; then
     printf '  absent   %-28s only %s wants it\n' "$debian" "${wants[$purpose]}"
   else
     printf '  MISSING  %-28s %s%s\n' "$debian" "$check" "${found:+(found: $found)}"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what Voxray needs on Debian 12 and 13 from Debian packages alone, and tries the same names on systems made
 # from Debian or Ubuntu. Does nothing where nothing is missing.
-# setup-debian.sh [run|sweep|test|slurm]: packages for every command, and those of `voxray sweep`, of the tests, or of
-# the test on Slurm as well.
+# setup-debian.sh [build|run|sweep|test|slurm]: packages of the build, those of every command, and those of `voxray
+# sweep`, of the tests, or of the test on Slurm as well.
 #
 # Lavapipe has ray tracing from Mesa 25 on. Debian 12 has that in bookworm-backports: that suite is added through the
 # mirror that this machine's own apt configuration names for bookworm.
@@ -10,8 +10,9 @@ set -euo pipefail
 
 purpose=${1:-run}
 case $purpose in
-  slurm) groups="run sweep $purpose" ;;
-  *)     groups="run $purpose" ;;
+  build) groups=build ;;
+  slurm) groups="build run sweep slurm" ;;
+  *)     groups="build run $purpose" ;;
 esac
 mesa_wanted_major=25
 
@@ -45,7 +46,7 @@ mesa_is_new_enough() {
   [[ $version =~ ^installed\ ([0-9]+:)?([0-9]+)\. ]] && [ "${BASH_REMATCH[2]}" -ge "$mesa_wanted_major" ]
 }
 
-wants_backports() { [ "$system" = "debian 12" ] && ! mesa_is_new_enough; }
+wants_backports() { [ "$purpose" != build ] && [ "$system" = "debian 12" ] && ! mesa_is_new_enough; }
 
 if [ -z "${missing// /}" ] && ! wants_backports; then
   exit 0
@@ -71,7 +72,7 @@ apt_get() {
     die "apt-get $1 failed (its own message stands above)"
 }
 
-say "installing packages (a few minutes): ${missing}"
+say "installing packages (a minute or two): ${missing}"
 apt_get update
 
 if wants_backports; then
@@ -96,5 +97,5 @@ if wants_backports; then
   apt_get install -y --no-install-recommends -t bookworm-backports mesa-vulkan-drivers
   mesa_is_new_enough || die "mesa-vulkan-drivers from bookworm-backports is older than $mesa_wanted_major"
 fi
-mesa_is_new_enough ||
+[ "$purpose" = build ] || mesa_is_new_enough ||
   say "Mesa is older than $mesa_wanted_major here, so its lavapipe traces no rays: Embree does, as with --tracer embree"

@@ -22,6 +22,11 @@ struct ExportArguments : ConfigArguments {
 };
 
 void exportScene(const ExportArguments& arguments) {
+    const std::string extension = arguments.file.extension();
+    if (extension != ".yaml" && extension != ".yml")
+        throw UsageError(
+            "{0}: export-scene takes a config; './voxray scene {0} --write-config OUT.yaml' writes one",
+            arguments.file.string());
     const Experiment experiment = loadExperiment(arguments.file, arguments.config);
     SceneLoader loader(sceneFolders(arguments.scenes, sourceRoot(), arguments.file));
     const PreparedScene scene = loader.prepare(experiment.setup.scene);

@@ -67,7 +67,12 @@ int main(int argc, char** argv) {
     CLI::App app{"Voxray: voxel global illumination, measured against a path-traced reference.", "voxray"};
     app.set_version_flag("--version", "voxray " VOXRAY_VERSION);
     app.require_subcommand(1);
-    app.footer("Also: ./voxray test [FILTER] runs the tests, ./voxray bench [FILTER] the benchmarks.");
+    app.footer(
+        "To begin: ./voxray run configs/quickstart.yaml, or with a file of your own ./voxray scene FILE "
+        "--write-config OUT.yaml.\n"
+        "Also: ./voxray test [FILTER] runs the tests, ./voxray bench [FILTER] the benchmarks, ./voxray bench "
+        "gpu "
+        "and growth those of docs/performance.md.");
 
     int status = 0;
     addRunCommand(app, status);

@@ -79,10 +79,11 @@ Camera chooseCamera(const SceneSettings& settings, const SceneState& state, cons
     if (names.empty()) {
         throw UsageError(
             settings.where,
-            "scene: it has no {}camera{}; add one, as in camera: {{position: [0, 1, 4], target: [0, 1, 0], "
-            "fov_deg: 60}}",
+            "scene: it has no {}camera{}; './voxray scene {}' gives one that sees it, to write as in camera: "
+            "{{position: [0, 1, 4], target: [0, 1, 0], fov_deg: 60}}",
             others.empty() ? "" : "perspective ",
-            others.empty() ? "" : " ('" + others[0] + "' is orthographic, which Voxray does not render)");
+            others.empty() ? "" : " ('" + others[0] + "' is orthographic, which Voxray does not render)",
+            settings.source.builtin.empty() ? settings.where.file : settings.source.builtin);
     }
     throw UsageError(settings.cameraWhere, "scene.camera: no camera '{}'{}", settings.cameraName,
                      didYouMean(settings.cameraName, names));

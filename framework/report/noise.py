@@ -34,7 +34,7 @@ def sentences(results: Results, light: str, names: Names) -> list[str]:
 
 
 def _of_bias(results: Results, biased: list[str], whose: str, names: Names) -> str:
-    filtered = [name for name in biased if any(entry.get("pass") in _FILTERS for entry in _graph(results, name))]
+    filtered = [name for name in biased if any(entry.get("pass") in _FILTERS for entry in graph_of(results, name))]
     said = f"Bias is the larger part of {whose} error"
     if not filtered:
         return f"{said}: more rays don't lower it."
@@ -70,10 +70,11 @@ def _advice(results: Results, light: str, noisy: list[str]) -> str:
 
 def _entry(results: Results, variant: str, owner: str) -> dict:
     """The pass of an id in a variant's graph, {} where the manifest does not tell."""
-    return next((entry for entry in _graph(results, variant) if entry.get("id", entry.get("pass")) == owner), {})
+    return next((entry for entry in graph_of(results, variant) if entry.get("id", entry.get("pass")) == owner), {})
 
 
-def _graph(results: Results, variant: str) -> list[dict]:
+def graph_of(results: Results, variant: str) -> list[dict]:
+    """The passes of a variant with their parameters, as the manifest lists them."""
     graph = section(results.manifest, "variants").get(variant)
     return [entry for entry in graph if isinstance(entry, dict)] if isinstance(graph, list) else []
 

@@ -115,7 +115,20 @@ def _what_tells_apart(results: Results, light: str, ties: list[str]) -> str:
         now = f", now {spp}" if spp else ""
         return f" Most variants tie: more samples in the reference tell them apart (raise reference.spp{now})."
     return (" Most variants tie, and not for the reference's noise, which is less than a tenth of their squared error: they "
-            "share an error. ./voxray explain CONFIG says which stage it comes from.")
+            f"share an error{_of_edges(results, light, ties)}. ./voxray explain CONFIG says which stage it comes from.")
+
+
+def _of_edges(results: Results, light: str, ties: list[str]) -> str:
+    """What to say where variants tie in the total and not in indirect light, and the g-buffer sees one point of a pixel."""
+    gbuffers = [entry for name in ties for entry in noise.graph_of(results, name) if entry.get("pass") == "gbuffer"]
+    sees_one = any(entry.get("samples_per_pixel_edge", 1) == 1 for entry in gbuffers)
+    metric = results.metrics[0]
+    if light != "total" or not sees_one or LIGHTS["indirect"] + metric.key not in results.ok:
+        return ""
+    if set(_ties(results, "indirect", metric)).issuperset(ties):
+        return ""
+    return (" of direct light, for their indirect light differs; of an edge within a pixel gbuffer sees one point, and with "
+            "samples_per_pixel_edge: 2 four")
 
 
 def _fastest(results: Results, light: str, names: Names) -> list[str]:

@@ -38,11 +38,12 @@ trap leave EXIT
 chmod 755 "$root"
 
 echo "fresh.sh: making $suite in $root" >&2
-debootstrap --variant=minbase "$suite" "$root" "$mirror" >"$root.log" 2>&1 || {
-  tail -n 20 "$root.log" >&2
-  die "debootstrap failed (whole log: $root.log)"
+made=$(mktemp)
+debootstrap --variant=minbase "$suite" "$root" "$mirror" >"$made" 2>&1 || {
+  tail -n 20 "$made" >&2
+  die "debootstrap failed (whole log: $made)"
 }
-rm "$root.log"
+rm "$made"
 mount -t proc proc "$root/proc"
 for place in dev sys; do
   mount --rbind "/$place" "$root/$place"

@@ -35,6 +35,13 @@ class Comparing(ReportTest):
             noise = made_up.manifest([])["reference"] | {"psnr_db_noise": floor}
             said = self.summary(self.results(rows, reference=noise))[0]
             self.assertEqual(("voxray explain" in said, "raise reference.spp" in said), (explains, not explains), said)
+        # Where indirect light does not tie, edges that the g-buffer sees one point of are named
+        apart = [dict(row, **{"indirect_nrmse": error}, **made_up.spread("indirect_nrmse", error, error))
+                 for row, error in zip(rows, (0.1, 0.2, 0.3))]
+        for samples, told in ((1, True), (2, False)):
+            graphs = {row["variant"]: [{"pass": "gbuffer", "samples_per_pixel_edge": samples}] for row in rows}
+            said = self.summary(self.results(apart, reference=noise, variants=graphs))[0]
+            self.assertEqual("of an edge within a pixel gbuffer sees one point" in said, told, said)
         # Ties that look alike have one number.
         alike = [dict(row, nrmse=0.2 + 0.0001 * i) for i, row in enumerate(rows[:2])]
         self.assertIn(": 1 (a) and 2 (b) tie at 0.200.", self.summary(self.results(alike))[0])

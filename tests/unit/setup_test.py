@@ -162,7 +162,7 @@ class SetUp(System):
             self.assertIn(words, said)
 
     def test_each_purpose_has_its_packages(self):
-        for purpose, has, lacks in (("run", "python3-numpy", "snakemake"), ("sweep", "snakemake", "git"),
+        for purpose, has, lacks in (("build", "g++", "python3-numpy"), ("run", "python3-numpy", "snakemake"), ("sweep", "snakemake", "git"),
                                     ("test", "git", "slurmd"), ("slurm", "slurmd", "git")):
             with self.subTest(purpose):
                 self.write("installed", "")
