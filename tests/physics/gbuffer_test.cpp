@@ -154,6 +154,28 @@ TEST(GBuffer, TexturesAreSeenAtTheFootprintOfAPixel) {
     }
 }
 
+// A white texture with a black last column covers the left half of the square, which goes on in black: mip
+// levels where that column is 1 in 32 do not make it grey.
+TEST(GBuffer, BesideAClampedTextureIsItsEdge) {
+    for (const std::string method : {"rays", "raster"}) {
+        const auto state = std::make_shared<SceneState>(*stripes(1024, {0, 0, 1}));
+        auto scene = std::make_shared<Scene>(*state->scene);
+        Texture& texture = scene->textures[0];
+        texture.wrapU = texture.wrapV = Wrap::ClampToEdge;
+        for (size_t i = 0; i < texture.rgba.size(); ++i)
+            texture.rgba[i] = i % 4 == 3 || i / 4 % 1024 < 1023 ? 255 : 0;
+        state->scene = scene;
+        for (VertexAttributes& vertex : state->geometry.attributes) vertex.texCoords.x *= 2;
+        Chain chain(state, graphYaml({"gbuffer, method: " + method}), 32, 32, 1);
+        const auto albedos = texels(chain, gbuffer(chain).albedo);
+        for (uint32_t i = 0; i < albedos.size(); ++i) {
+            const uint32_t column = i % 32;
+            if (column >= 14 && column <= 17) continue;
+            ASSERT_NEAR(albedos[i].x, column < 14 ? 1 : 0, 0.001) << method << " " << i;
+        }
+    }
+}
+
 TEST(GBuffer, ANearestTextureHasNoColorBetweenItsTexels) {
     for (const std::string method : {"rays", "raster"}) {
         const auto state = std::make_shared<SceneState>(*stripes(2, {0, 0, 1}));
