@@ -63,6 +63,22 @@ std::string bounceDifference(const WiredVariant& variant, const WiredExperiment&
         .what();
 }
 
+/// What to say where much of the view is metal, whose light the reference has and a variant lacks; else "".
+/// Both graphs are planned.
+std::string missingLobes(const WiredVariant& variant, const Graph& referenceGraph, double metal) {
+    constexpr double kMuch = 0.1;  // A few knobs of metal are no reason to leave a scene's gloss out.
+    const auto* own = variant.graph.resource<FrameImage>("indirect");
+    const auto* right = referenceGraph.resource<FrameImage>("indirect");
+    if (metal < kMuch || !own || !right || own->hasSpecularLobes || !right->hasSpecularLobes) return {};
+    return UsageError(
+               variant.setup.scene.where,
+               "scene: {:.0f} % of the view is metal, which reflects by specular lobes alone: the reference "
+               "has what they reflect of indirect light, and this variant lacks it; write 'materials: "
+               "lambert' for a scene without lobes, or take gather_mirror, or gather_cones with 'specular'",
+               100 * metal)
+        .what();
+}
+
 /// What to say of a variant whose image lacks a part of the light that the reference has.
 std::vector<std::string> missingLight(const WiredVariant& variant, const Registry& registry) {
     std::vector<std::string> texts;
@@ -212,6 +228,7 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
     std::vector<MemoryNeed> needs;
     IdleMotion motion(experiment.measure);
     std::string key;
+    double metal = 0;  // Part of the view.
     std::optional<LightCost> lightCost;
     ReferencePlan reference(experiment, registry, device);
     PlanCheck found;
@@ -229,11 +246,14 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
             lightCost.emplace(prepared.state);
             checkMaskNames(experiment.measure.masks, *prepared.state.scene);
             const std::string view = viewKey(variant.setup, key);
-            if (!loader.rightViews.contains(view)) {
-                const std::vector<std::string> warnings =
-                    checkView(variant.setup, prepared, registry.preview);
-                if (warnings.empty()) loader.rightViews.insert(view);
-                say(warnings);
+            const auto right = loader.rightViews.find(view);
+            if (right != loader.rightViews.end()) {
+                metal = right->second;
+            } else {
+                const ViewCheck seen = checkView(variant.setup, prepared, registry.preview);
+                metal = seen.metal;
+                if (seen.warnings.empty()) loader.rightViews.emplace(view, metal);
+                say(seen.warnings);
             }
             say(additionWarnings(variant.setup.scene, prepared, loader));
         }
@@ -259,6 +279,7 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
             say(missingLight(variant, registry));
             const Graph& planned = reference.in(frame, key);
             if (std::string text = bounceDifference(variant, wired, planned); !text.empty()) say({text});
+            if (std::string text = missingLobes(variant, planned, metal); !text.empty()) say({text});
         } catch (const Error& error) {
             throw UsageError("{}{}", error.what(),
                              wired.variants.size() > 1 ? fmt::format(" (variant {})", variant.name) : "");

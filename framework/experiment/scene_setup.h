@@ -69,8 +69,9 @@ class SceneLoader {
     /// What loading left out and composing changed, a line each, of all scenes.
     std::vector<std::string> warnings() const;
 
-    /// Views that checkView() says nothing of, by viewKey(): other profiles and configs show the same ones.
-    std::set<std::string> rightViews;
+    /// Views that checkView() says nothing of, by viewKey(), with the part of each that is metal: other
+    /// profiles and configs show the same ones.
+    std::map<std::string, double> rightViews;
 
  private:
     /// @throws UsageError for an overridden material that no scene has.

@@ -18,6 +18,7 @@
 #include "scene/camera_rays.h"
 #include "scene/view.h"
 #include "trace/embree_scene.h"
+#include "trace/texture_lookup.h"
 
 namespace voxray {
 namespace {
@@ -51,10 +52,24 @@ bool isBlack(const ImageF& image) {
 /// What the rays of a small image meet.
 struct Seen {
     size_t backs = 0, fronts = 0, nothing = 0;
+    double metal = 0;  ///< How many of them, where it is a whole one.
     std::vector<SeenPoint> points;
 
-    double part() const { return double(backs + fronts) / double(backs + fronts + nothing); }
+    size_t rays() const { return backs + fronts + nothing; }
+    double part() const { return double(backs + fronts) / double(rays()); }
 };
+
+float metallicAt(const SceneState& state, const Hit& hit) {
+    const Geometry& g = state.geometry;
+    const Material& material = state.scene->materials[g.triangleMaterials[hit.triangle]];
+    const TextureRef& ref = material.metallicRoughnessTexture;
+    if (ref.texture < 0 || material.metallic == 0) return material.metallic;
+    const glm::uvec3 corners = g.triangles[hit.triangle];
+    const glm::vec4 at = interpolate(g.attributes[corners.x].texCoords, g.attributes[corners.y].texCoords,
+                                     g.attributes[corners.z].texCoords, hit.u, hit.v);
+    const Texture& texture = state.scene->textures[size_t(ref.texture)];
+    return material.metallic * sampleTexture(texture, textureCoordinates(ref, at)).b;
+}
 
 Seen lookThrough(const SceneState& state, const EmbreeScene& tracer, const Camera& camera, Size size) {
     const CameraRays rays = cameraRays(camera, size.width, size.height);
@@ -69,6 +84,7 @@ Seen lookThrough(const SceneState& state, const EmbreeScene& tracer, const Camer
                 ++seen.nothing;
                 continue;
             }
+            seen.metal += double(metallicAt(state, hit));
             ++(showsBack(state.geometry, hit.triangle, direction) ? seen.backs : seen.fronts);
             seen.points.push_back({pointTowards(state.geometry, hit.triangle, hit.u, hit.v, direction),
                                    normalTowards(state.geometry, hit.triangle, direction)});
@@ -166,8 +182,7 @@ std::string directionsOfLights(const SceneSettings& scene) {
 
 }  // namespace
 
-std::vector<std::string> checkView(const Setup& setup, const PreparedScene& prepared,
-                                   const Preview& preview) {
+ViewCheck checkView(const Setup& setup, const PreparedScene& prepared, const Preview& preview) {
     const SceneSettings& scene = setup.scene;
     const SceneState& state = prepared.state;
     const Camera& camera = prepared.camera;
@@ -189,14 +204,16 @@ std::vector<std::string> checkView(const Setup& setup, const PreparedScene& prep
         alone->lights = {light};
         return std::ranges::any_of(kLooks, [&](const Look& how) { return !isBlack(look(*alone, how)); });
     };
-    std::vector<std::string> warnings = lightWarnings(scene, state, tracer, seen.points, isFound);
+    ViewCheck found{lightWarnings(scene, state, tracer, seen.points, isFound),
+                    seen.metal / double(seen.rays())};
+    std::vector<std::string>& warnings = found.warnings;
     if (std::string text = radians(scene); !text.empty()) warnings.push_back(std::move(text));
     if (std::string text = regionWarning(setup, prepared, tracer, seen.points); !text.empty())
         warnings.push_back(std::move(text));
     for (std::string& text : radiansOfSpots(scene)) warnings.push_back(std::move(text));
     if (isEmpty) {
         warnings.push_back(mostlyEmpty(scene, state.geometry, camera));
-        return warnings;
+        return found;
     }
 
     ImageF view;
@@ -209,7 +226,7 @@ std::vector<std::string> checkView(const Setup& setup, const PreparedScene& prep
         if (isDarkAt(setup.image.exposureStops, view, filled)) view = look(state, std::end(kLooks)[-1]);
         if (std::string text = exposureWarning(setup, view, filled); !text.empty())
             warnings.push_back(std::move(text));
-        return warnings;
+        return found;
     }
     if (seen.backs > seen.fronts)
         throw UsageError(cameraPlace(scene),
@@ -218,14 +235,14 @@ std::vector<std::string> checkView(const Setup& setup, const PreparedScene& prep
                          advice(scene));
     if (std::string text = directionsOfLights(scene); !text.empty()) {
         warnings.push_back(std::move(text));
-        return warnings;
+        return found;
     }
     warnings.push_back(UsageError(cameraPlace(scene),
                                   "scene.camera: no light was found in its view, so that the image will be "
                                   "black; {}, and tells what shines",
                                   advice(scene))
                            .what());
-    return warnings;
+    return found;
 }
 
 std::string viewKey(const Setup& setup, const std::string& sceneKey) {

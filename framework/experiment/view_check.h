@@ -9,6 +9,11 @@
 
 namespace voxray {
 
+struct ViewCheck {
+    std::vector<std::string> warnings;
+    double metal = 0;  ///< Part of the image that shows metal, 0 to 1.
+};
+
 /// Looks at a scene through a variant's camera, before anything is rendered there: a small path-traced image
 /// of few samples, and while that is black of more.
 /// @return warnings, each with its place in the config: lights of the config that light nothing that is seen
@@ -18,7 +23,7 @@ namespace voxray {
 /// config's exposure (exposureWarning()).
 /// @throws UsageError where no surface lies in view, and where what is seen is dark and mostly shows its
 /// back: the camera stands outside of a closed room or inside of a solid.
-std::vector<std::string> checkView(const Setup& setup, const PreparedScene& prepared, const Preview& preview);
+ViewCheck checkView(const Setup& setup, const PreparedScene& prepared, const Preview& preview);
 
 /// All that checkView() finds depends on, but for places in the config. @param sceneKey SceneLoader::key().
 std::string viewKey(const Setup& setup, const std::string& sceneKey);

@@ -64,6 +64,8 @@ inline std::optional<uint32_t> oneMore(std::optional<uint32_t> bounces) {
 /// A radiance image of the frame's size: RGBA32F, linear Rec.709, W/(m² sr).
 struct FrameImage : Resource {
     Image image;
+    /// Of indirect light: whether what specular lobes reflect is in it. Set in plan().
+    bool hasSpecularLobes = false;
     std::vector<const Image*> checkedImages() const override { return {&image}; }
 };
 

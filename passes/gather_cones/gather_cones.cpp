@@ -40,6 +40,7 @@ void GatherCones::declare(PassBuilder& builder) {
 void GatherCones::plan(PassPlan& plan) {
     plan.buffer(cones_, "cones", coneSet(params_.cones).size() * sizeof(gpu::Cone));
     plan.get(indirect_).lightBounces = plan.get(radiance_).lightBounces;
+    plan.get(indirect_).hasSpecularLobes = params_.specular > 0;
     plan.image(plan.get(indirect_).image, "indirect", frameImageDesc(plan.frame));
     const ImageDesc traced = tracedImage(plan.frame, plan.get(gbuffer_).samples, params_.stride);
     plan.image(irradiance_, "gathered irradiance", traced);

@@ -92,6 +92,7 @@ void GatherMirror::plan(PassPlan& plan) {
     std::optional<uint32_t> bounces = oneMore(plan.get(irradiance_).lightBounces);
     if (plan.has(otherIndirect_)) bounces = std::max(bounces, plan.get(otherIndirect_).lightBounces);
     plan.get(indirect_).lightBounces = bounces;
+    plan.get(indirect_).hasSpecularLobes = true;
 
     plan.buffer(counts_, "numbers of mirror rays", sizeof(Counts));
     plan.buffer(flags_, "flags of mirror rays", flagWords(slots) * sizeof(uint32_t));

@@ -56,7 +56,10 @@ void PathTracePass::plan(PassPlan& plan) {
                 .samples = plan.frame.samples,
                 .keepSums = plan.get(sums_).isRead && params_.light == PathLight::All && params_.spp > 1};
     uint64_t largest = 0;
-    for (const RenderedImage& image : images_) plan.get(image.port).lightBounces = params_.bounces;
+    for (const RenderedImage& image : images_) {
+        plan.get(image.port).lightBounces = params_.bounces;
+        plan.get(image.port).hasSpecularLobes = true;
+    }
     for (const RenderedImage& image : images_)
         if (FrameImage& frame = plan.get(image.port); frame.isRead && isRendered(image)) {
             plan.image(frame.image, image.name, frameImageDesc(plan.frame));
