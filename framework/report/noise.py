@@ -16,14 +16,15 @@ def sentences(results: Results, light: str, names: Names) -> list[str]:
     finished = results.ok.set_index("variant")
     if not len(finished):
         return []
-    split = [finished[LIGHTS[light] + metric.key] for metric in results.seed_metrics[:2]]
-    if len(split) < 2 or not split[0].notna().any():
+    split = _split(results, light)
+    if not split:
         scores = finished[[LIGHTS[light] + metric.key for metric in results.metrics]]
         is_noisy = scores.notna().any(axis=None) and any(
             parameters_of(results, light, name) for name in finished.index)
         return ["Bias and noise are not told apart: set measure.second_seed: true."] if is_noisy else []
     bias, noise = split
-    noisy = [name for name in bias.index if noise[name] > bias[name]]
+    own = dominated(results, light)
+    noisy = [name for name in bias.index if name in own]
     biased = [name for name in bias.index if bias[name] >= noise[name]]
     said = []
     if noisy:
@@ -33,6 +34,18 @@ def sentences(results: Results, light: str, names: Names) -> list[str]:
     return [" ".join(said)]
 
 
+def dominated(results: Results, light: str) -> set[str]:
+    """The variants whose own noise is the larger part of their error, where a second seed tells."""
+    split = _split(results, light)
+    return {name for name in split[0].index if split[1][name] > split[0][name]} if split else set()
+
+
+def _split(results: Results, light: str):
+    """Bias and noise of each finished variant; None without a second seed."""
+    split = [results.ok.set_index("variant")[LIGHTS[light] + metric.key] for metric in results.seed_metrics[:2]]
+    return split if len(split) == 2 and split[0].notna().any() else None
+
+
 def _of_bias(results: Results, biased: list[str], whose: str, names: Names) -> str:
     filtered = [name for name in biased if any(entry.get("pass") in _FILTERS for entry in graph_of(results, name))]
     said = f"Bias is the larger part of {whose} error"
@@ -40,8 +53,8 @@ def _of_bias(results: Results, biased: list[str], whose: str, names: Names) -> s
         return f"{said}: more rays don't lower it."
     if len(filtered) == len(biased):
         return f"{said}: more rays lower it only as far as a filter blurs less where there is less noise."
-    return (f"{said}: more rays don't lower it, but for what a filter blurs, in {names.listed(filtered)}: that may fall "
-            "with the noise.")
+    return (f"{said}: more rays don't lower it. Part of that of {names.listed(filtered)} is their filter's blur, which gets less "
+            "where there is less noise.")
 
 
 def parameters_of(results: Results, light: str, variant: str) -> list[str]:

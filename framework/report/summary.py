@@ -104,8 +104,11 @@ def _lowest_error(results: Results, light: str, metric, names: Names) -> list[st
 
 
 def _what_tells_apart(results: Results, light: str, ties: list[str]) -> str:
-    """More samples in the reference where its noise is over a tenth of the ties' squared error, by PSNR of the previews;
-    else nothing that the reference could bring: the ties share an error."""
+    """Less noise of their own where that is the larger part of all their errors; more samples in the reference where its
+    noise is over a tenth of the ties' squared error, by PSNR of the previews; else nothing that the reference could bring:
+    the ties share an error."""
+    if noise.dominated(results, light).issuperset(ties):
+        return " Most variants tie, within noise of their own."
     reference = results.reference_of(ties[0])
     column = LIGHTS[light] + "psnr_db"
     floor = results.noise(column, reference)

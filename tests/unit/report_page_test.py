@@ -253,9 +253,8 @@ class PartOfARun(ReportTest):
         for kind in ("filter_irradiance", "accumulate"):
             run["variants"] = {"cones": [{"pass": "gather_cones"}], "filtered": [{"pass": "gather_rays"}, {"pass": kind, "id": "f"}]}
             shown = self.make(rows, run, indirect=False).text
-            self.assertIn("Bias is the larger part of the others' error: more rays don't lower it, but for what a filter blurs, in "
-                          "2 (filtered): that may fall with the noise.", shown)
-            self.assertNotIn(never, shown)
+            self.assertIn("Bias is the larger part of the others' error: more rays don't lower it. Part of that of 2 (filtered) "
+                          "is their filter's blur, which gets less where there is less noise.", shown)
             shown = self.make(rows[1:2], run, indirect=False).text
             self.assertIn("Bias is the larger part of every variant's error: more rays lower it only as far as a filter blurs less", shown)
         self.assertIn(never, self.make(rows[:1], run, indirect=False).text)
