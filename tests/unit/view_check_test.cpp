@@ -10,9 +10,7 @@
 namespace voxray {
 namespace {
 
-/// What is said of a scene's view.
-std::string saidOf(const std::string& scene, int exposureStops = 0,
-                   const std::string& graph = "[{pass: gbuffer}]") {
+ViewCheck checkOf(const std::string& scene, int exposureStops, const std::string& graph) {
     const Experiment experiment = parseExperiment(
         fmt::format("name: x\nscene: {{{}}}\nimage: {{width: 64, height: 36, exposure_stops: {}}}\n"
                     "graph: {}\n",
@@ -21,9 +19,13 @@ std::string saidOf(const std::string& scene, int exposureStops = 0,
     SceneLoader loader({});
     Registry registry;
     registerPasses(registry);
-    const auto warnings =
-        checkView(experiment.setup, loader.prepare(experiment.setup.scene), registry.preview);
-    return fmt::format("{}", fmt::join(warnings, " | "));
+    return checkView(experiment.setup, loader.prepare(experiment.setup.scene), registry.preview);
+}
+
+/// What is said of a scene's view.
+std::string saidOf(const std::string& scene, int exposureStops = 0,
+                   const std::string& graph = "[{pass: gbuffer}]") {
+    return fmt::format("{}", fmt::join(checkOf(scene, exposureStops, graph).warnings, " | "));
 }
 
 std::string refusalOf(const std::string& scene) {
@@ -38,6 +40,19 @@ TEST(ViewCheck, SaysNothingOfBuiltInScenesButThoseThatAreDarkByIntention) {
     }
     EXPECT_EQ(saidOf("builtin: thin_wall, view: lit"), "");
     EXPECT_EQ(saidOf("builtin: shell_room, light: inside"), "");
+}
+
+TEST(ViewCheck, TellsHowMuchOfTheViewIsMetal) {
+    // Half a metal counts half; what a config says of a material stands above its mode.
+    const auto metalOf = [](const std::string& scene) {
+        return checkOf(scene, 0, "[{pass: gbuffer}]").metal;
+    };
+    const std::string plane = "builtin: plane, override: {ground: {metallic: ";
+    EXPECT_NEAR(metalOf(plane + "1}}"), 1, 1e-6);
+    EXPECT_NEAR(metalOf(plane + "0.5}}"), 0.5, 1e-6);
+    EXPECT_EQ(metalOf(plane + "1}}, materials: lambert"), 1);
+    EXPECT_EQ(metalOf("builtin: mirror_room, materials: lambert"), 0);
+    EXPECT_GT(metalOf("builtin: mirror_room"), 0.1);
 }
 
 TEST(ViewCheck, RefusesDarkBacks) {
