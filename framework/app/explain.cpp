@@ -44,8 +44,7 @@ const WiredVariant& chosen(const WiredExperiment& wired, const std::string& name
                          fmt::join(endings, ", "));
     if (!name.empty()) throw UsageError("--variant: no variant '{}'{}", name, didYouMean(name, names));
     throw UsageError(
-        "the config has {} variants, one of which can be explained: choose it with --variant, "
-        "as in --variant {}",
+        "the config has {} variants, and explain takes one: choose it with --variant, as in --variant {}",
         names.size(), names.back());
 }
 

@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/commands.h"
@@ -155,16 +156,24 @@ SceneState inEvenLight(SceneState state) {
     return state;
 }
 
-/// A path-traced picture of a few samples. What nothing lights is shown in even light.
+/// The scene with a lamp.
+SceneState withLamp(SceneState state, const Light& lamp) {
+    state.lights.push_back(lamp);
+    return state;
+}
+
+/// A path-traced picture of a few samples. What nothing lights is shown by the lamp that is proposed, else in
+/// even light.
 void writePicture(const SceneState& scene, const EmbreeScene& tracer, const Camera& camera, bool shines,
-                  bool isLit, const std::filesystem::path& file) {
-    const SceneState state = shines ? scene : inEvenLight(scene);
+                  const std::optional<Light>& lamp, bool isLit, const std::filesystem::path& file) {
+    const SceneState state = lamp ? withLamp(scene, *lamp) : shines ? scene : inEvenLight(scene);
     const PathTraceOptions options{.width = 320, .height = 180, .spp = 32, .bounces = 4};
     writePng(file, preview(pathTrace(state, tracer, camera, options).total, 0));
     fmt::print("{}: 320 x 180 pixels{}\n", file.string(),
-               !shines ? ", in even light, for the scene has none"
-               : isLit ? ""
-                       : ", nearly all black: its camera sees none of what shines");
+               lamp      ? ", by the lamp that is proposed"
+               : !shines ? ", in even light, for the scene has none"
+               : isLit   ? ""
+                         : ", nearly all black: its camera sees none of what shines");
 }
 
 /// Writes a config of the scene. @throws UsageError where the file is there already.
@@ -215,6 +224,7 @@ void describe(const SceneArguments& arguments) {
     bool isSeen = false;
     CameraSettings toBegin;
     std::string light;
+    std::optional<Light> lamp;
     if (hasCamera) {
         toBegin = settingsOf(scene.camera, g, tracer);
         isSeen = seesLight(scene.state, tracer, toBegin);
@@ -231,11 +241,12 @@ void describe(const SceneArguments& arguments) {
         const bool isSeenWithLight = hasCamera && !shines && !view.light.empty() &&
                                      seesLight(inEvenLight(scene.state), tracer, toBegin);
         if (!isSeen) light = view.light;
+        if (!isSeen && (!hasCamera || !shines)) lamp = view.lamp;
         if (!isSeen && !isSeenWithLight) toBegin = view.camera;
     }
     for (const std::string& warning : loader.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     if (!arguments.picture.empty())
-        writePicture(scene.state, tracer, scene.camera, shines, isSeen || (!hasCamera && light.empty()),
+        writePicture(scene.state, tracer, scene.camera, shines, lamp, isSeen || (!hasCamera && light.empty()),
                      arguments.picture);
     if (!arguments.newConfig.empty()) writeConfig(arguments.newConfig, settings.source, toBegin, light);
 }

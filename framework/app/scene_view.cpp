@@ -9,8 +9,10 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 #include <memory>
+#include <numeric>
 
 #include "app/view_search.h"
+#include "passes/path_trace/path_tracer.h"
 
 namespace voxray {
 namespace {
@@ -56,6 +58,26 @@ std::string triple(const glm::vec3& v, float step) {
 
 constexpr float kPlaces = 1e-3f;  ///< Of the distance to the target, by which what is printed may be off.
 
+/// A lamp at the camera by which the mean radiance of what it sees is one that pictures show well, whatever
+/// light surfaces send to each other.
+Light lampFor(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera,
+              const Sight& sight) {
+    constexpr float kWellSeen = 0.25f;
+    Light lamp;
+    lamp.type = LightType::Point;
+    lamp.position = camera.position;
+    const float distance = std::max(sight.distance, 1e-6f);
+    lamp.intensity = glm::vec3(glm::pi<float>() * distance * distance);  // Irradiance of pi at that distance.
+    SceneState lit = state;
+    lit.lights = {lamp};
+    const PathTraceOptions options{.width = 32, .height = 18, .spp = 16, .bounces = 8};
+    const ImageF image = pathTrace(lit, tracer, cameraOf(camera), options).total;
+    const double mean =
+        std::accumulate(image.data.begin(), image.data.end(), 0.0) / double(image.data.size());
+    if (mean > 0 && sight.filled > 0) lamp.intensity *= kWellSeen * sight.filled / float(mean);
+    return lamp;
+}
+
 }  // namespace
 
 SuggestedView suggestView(const SceneState& state, const EmbreeScene& tracer) {
@@ -73,11 +95,11 @@ SuggestedView suggestView(const SceneState& state, const EmbreeScene& tracer) {
     view.camera = camera;
     if (sight.lit >= kLit) return view;
 
-    // A lamp at the camera lights all that it sees: irradiance of pi at the median distance
-    const float distance = std::max(sight.distance, 1e-6f);
+    // A lamp at the camera lights all that it sees
     const float step = kPlaces * glm::length(camera.target - camera.position);
+    view.lamp = lampFor(state, tracer, camera, sight);
     view.light = fmt::format("lights: [{{point: {}, intensity: {:.3g}}}]", triple(camera.position, step),
-                             glm::pi<float>() * distance * distance);
+                             view.lamp->intensity.x);
     return view;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "config/settings.h"
@@ -11,7 +12,8 @@ namespace voxray {
 /// What to write into `scene` to see something of it.
 struct SuggestedView {
     CameraSettings camera;
-    std::string light;  ///< "environment: 1", or a lamp at the camera; "" where what shines is seen.
+    std::string light;          ///< "environment: 1", or a lamp at the camera; "" where what shines is seen.
+    std::optional<Light> lamp;  ///< What `light` says, where that is a lamp.
 };
 
 /// A view of a scene that shows lit fronts of surfaces, found by looking from many places: from outside at

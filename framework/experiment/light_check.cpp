@@ -132,6 +132,20 @@ std::vector<Ray> raysFrom(std::span<const SeenPoint> seen, const Light& light) {
     return rays;
 }
 
+/// "; it stands 298 m away from a scene that reaches from [...] to [...]" of a lamp that is farther off than
+/// the scene is large; else "".
+std::string howFar(const Light& light, const Geometry& g) {
+    if (light.type == LightType::Directional) return {};
+    const float distance =
+        glm::distance(light.position, glm::clamp(light.position, g.boundsMin, g.boundsMax));
+    if (distance <= glm::distance(g.boundsMin, g.boundsMax)) return {};
+    const auto triple = [](const glm::vec3& v) {
+        return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v.x, v.y, v.z);
+    };
+    return fmt::format("; it stands {:.3g} m away from a scene that reaches from {} to {}", distance,
+                       triple(g.boundsMin), triple(g.boundsMax));
+}
+
 bool isInSight(std::span<const Ray> ways, const EmbreeScene& tracer) {
     const auto inSight = std::ranges::count_if(
         ways, [&](const Ray& ray) { return ray.tMax > ray.tMin && !tracer.occluded(ray); });
@@ -167,7 +181,9 @@ std::vector<std::string> lightWarnings(const SceneSettings& scene, const SceneSt
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         const ConfigLight& entry = scene.lights[i];
         const auto warn = [&](const std::string& what) {
-            warnings.push_back(UsageError(entry.where, "scene.lights[{}]: {}", i, what).what());
+            warnings.push_back(UsageError(entry.where, "scene.lights[{}]: {}{}", i, what,
+                                          howFar(entry.light, state.geometry))
+                                   .what());
         };
         if (entry.light.intensity == glm::vec3(0.0f)) {
             warn("it is black and lights nothing");

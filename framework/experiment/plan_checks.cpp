@@ -72,7 +72,8 @@ std::string missingLobes(const WiredVariant& variant, const Graph& referenceGrap
     if (metal < kMuch || !own || !right || own->hasSpecularLobes || !right->hasSpecularLobes) return {};
     return UsageError(
                variant.setup.scene.where,
-               "scene: {:.0f} % of the view is metal, which reflects by specular lobes alone: the reference "
+               "scene: {:.0f} % of the surfaces in view are metal, which reflects by specular lobes alone: "
+               "the reference "
                "has what they reflect of indirect light, and this variant lacks it; write 'materials: "
                "lambert' for a scene without lobes, or take gather_mirror, or gather_cones with 'specular'",
                100 * metal)
@@ -228,7 +229,7 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
     std::vector<MemoryNeed> needs;
     IdleMotion motion(experiment.measure);
     std::string key;
-    double metal = 0;  // Part of the view.
+    double metal = 0;  // Part of the surfaces seen.
     std::optional<LightCost> lightCost;
     ReferencePlan reference(experiment, registry, device);
     PlanCheck found;

@@ -55,8 +55,7 @@ struct Seen {
     double metal = 0;  ///< How many of them, where it is a whole one.
     std::vector<SeenPoint> points;
 
-    size_t rays() const { return backs + fronts + nothing; }
-    double part() const { return double(backs + fronts) / double(rays()); }
+    double part() const { return double(backs + fronts) / double(backs + fronts + nothing); }
 };
 
 float metallicAt(const SceneState& state, const Hit& hit) {
@@ -205,7 +204,7 @@ ViewCheck checkView(const Setup& setup, const PreparedScene& prepared, const Pre
         return std::ranges::any_of(kLooks, [&](const Look& how) { return !isBlack(look(*alone, how)); });
     };
     ViewCheck found{lightWarnings(scene, state, tracer, seen.points, isFound),
-                    seen.metal / double(seen.rays())};
+                    seen.metal / double(std::max<size_t>(seen.backs + seen.fronts, 1))};
     std::vector<std::string>& warnings = found.warnings;
     if (std::string text = radians(scene); !text.empty()) warnings.push_back(std::move(text));
     if (std::string text = regionWarning(setup, prepared, tracer, seen.points); !text.empty())

@@ -11,7 +11,7 @@ namespace voxray {
 
 struct ViewCheck {
     std::vector<std::string> warnings;
-    double metal = 0;  ///< Part of the image that shows metal, 0 to 1.
+    double metal = 0;  ///< Part of the surfaces seen that is metal, 0 to 1.
 };
 
 /// Looks at a scene through a variant's camera, before anything is rendered there: a small path-traced image

@@ -121,7 +121,7 @@ Material MaterialReader::read(int index) {
     }
     const tinygltf::Material& source = file_.at(file_.model().materials, index, "material");
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
-    m.name = shortLine(source.name);
+    m.name = source.name.empty() ? fmt::format("material_{}", index) : shortLine(source.name);
     const std::string what = fmt::format("material {} '{}'", index, m.name);
 
     // Factors.

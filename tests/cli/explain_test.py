@@ -65,7 +65,7 @@ class Usage(CommandTest):
     def test_variants_are_chosen(self):
         self.write("room.yaml", CONFIG + "sweep: {voxelize.resolution: [8, 16]}\n")
         said = self.expect(2, "explain", "room.yaml", "--dry-run").stderr
-        self.assertIn("the config has 2 variants, one of which can be explained", said)
+        self.assertIn("the config has 2 variants, and explain takes one", said)
         self.assertIn("--variant resolution-16", said)
         said = self.expect(2, "explain", "room.yaml", "--dry-run", "--variant", "resolution-61").stderr
         self.assertIn("did you mean 'resolution-16'", said)

@@ -11,7 +11,7 @@ WARNINGS = {
                         "lacks direct light, which the reference has; these can: gather_mirror, direct_shadow_rays,"),
     "metal, and no pass that follows its reflections": (
         "  lights:", "  override: {grey: {metallic: 1}}\n  lights:", 2,
-        "of the view is metal, which reflects by specular lobes alone: the reference has what they reflect of indirect light"),
+        "of the surfaces in view are metal, which reflects by specular lobes alone: the reference has what they reflect of indirect light"),
     "two writers of the image": ("  - {pass: composite}", "  - {pass: composite}\n  - {pass: composite, id: again}", 17,
                                  "'composite' is never run: 'again', after it, writes 'final' too, and the last one counts"),
     "voxels that no pass reads": ("  - {pass: voxelize", "  - {pass: voxelize, id: coarse, resolution: 8}\n  - {pass: voxelize", 11,
