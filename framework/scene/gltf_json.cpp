@@ -113,7 +113,7 @@ json parse(std::string_view text) {
     if (text.empty()) throw Error("it is empty");
     const std::string_view first =
         text.substr(std::min(text.find_first_not_of("\xEF\xBB\xBF \t\r\n"), text.size()));
-    if (!first.starts_with('{'))
+    if (!first.starts_with('{') && !first.starts_with('['))
         throw Error(
             "it is no glTF: it begins neither with 'glTF', as .glb files do, nor with '{{', as JSON does");
     checkDepth(text);
