@@ -84,19 +84,19 @@ vec2 textureUv(GpuTextureRef ref, vec4 texCoords) {
     return vec2(dot(ref.rowU, uv), dot(ref.rowV, uv));
 }
 
-// Beside a clamped texture its edge texels are seen; those of coarse levels are means that reach inside. So the level falls to 0
-// where a footprint of 2^level texels lies wholly beside.
-float levelBeside(GpuTextureRef ref, vec2 uv, float level) {
+// Outside of a clamped texture its edge texels are seen; those of coarse levels are means that reach inside. So the level falls to 0
+// where a footprint of 2^level texels lies wholly outside.
+float clampedLevel(GpuTextureRef ref, vec2 uv, float level) {
     const vec2 size = vec2(textureSize(sceneTextures[nonuniformEXT(ref.texture)], 0));
-    const vec2 beside = max(abs(uv - 0.5) - 0.5, 0.0) * size * vec2(ref.wrapU == WRAP_CLAMP, ref.wrapV == WRAP_CLAMP);
-    return log2(max(exp2(level) - 2.0 * max(beside.x, beside.y), 1.0));
+    const vec2 outside = max(abs(uv - 0.5) - 0.5, 0.0) * size * vec2(ref.wrapU == WRAP_CLAMP, ref.wrapV == WRAP_CLAMP);
+    return log2(max(exp2(level) - 2.0 * max(outside.x, outside.y), 1.0));
 }
 
 // Filtered lookup at a mip level; white where the material has no such texture.
 vec4 lookup(GpuTextureRef ref, vec4 texCoords, float level) {
     if (ref.texture == NO_TEXTURE) return vec4(1.0);
     const vec2 uv = textureUv(ref, texCoords);
-    return textureLod(sceneTextures[nonuniformEXT(ref.texture)], uv, level > 0.0 ? levelBeside(ref, uv, level) : level);
+    return textureLod(sceneTextures[nonuniformEXT(ref.texture)], uv, level > 0.0 ? clampedLevel(ref, uv, level) : level);
 }
 
 vec4 baseColor(GpuMaterial m, SurfacePoint s, float level) {

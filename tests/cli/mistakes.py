@@ -155,7 +155,7 @@ MISTAKES = {
     # Paths of files
     "a file's name with a typo": ("builtin: cornell", "file: mime.yaml", 3, "did you mean 'mine.yaml'?"),
     "a file below the home folder": ("builtin: cornell", "file: ~/room.glb", 3, "write the whole path"),
-    "a scene file that holds no scene": ("builtin: cornell", "file: mine.yaml", 3, "its JSON is broken"),
+    "a scene file that holds no scene": ("builtin: cornell", "file: mine.yaml", 3, "it is no glTF: it begins neither with 'glTF'"),
     "a folder for a scene file": ("builtin: cornell", "file: .", 3, "is a folder"),
     "an environment that is no image": ("  lights:", "  environment: mine.yaml\n  lights:", 5, "is no image that Voxray reads"),
     "a file by a variable": ("builtin: cornell", "file: $HOME/room.glb", 3, "'$' stands for no variable here: write the whole path"),

@@ -156,7 +156,7 @@ TEST(GBuffer, TexturesAreSeenAtTheFootprintOfAPixel) {
 
 // A white texture with a black last column covers the left half of the square, which goes on in black: mip
 // levels where that column is 1 in 32 do not make it grey.
-TEST(GBuffer, BesideAClampedTextureIsItsEdge) {
+TEST(GBuffer, OutsideOfAClampedTextureIsItsEdge) {
     for (const std::string method : {"rays", "raster"}) {
         const auto state = std::make_shared<SceneState>(*stripes(1024, {0, 0, 1}));
         auto scene = std::make_shared<Scene>(*state->scene);
