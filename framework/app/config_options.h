@@ -32,6 +32,10 @@ inline void addConfigOptions(CLI::App& command, ConfigArguments& arguments) {
         ->check(CLI::ExistingDirectory.description(""));
 }
 
+inline bool isSceneFile(const std::filesystem::path& what) {
+    return what.extension() == ".glb" || what.extension() == ".gltf";
+}
+
 /// Refuses the name of a file to write that says another format than the file will have.
 inline CLI::Validator endsWith(const std::string& ending) {
     return CLI::Validator(

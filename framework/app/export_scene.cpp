@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/config_options.h"
@@ -10,6 +13,7 @@
 #include "config/overrides.h"
 #include "experiment/scene_files.h"
 #include "experiment/scene_setup.h"
+#include "scene/builtin.h"
 #include "scene/load.h"
 
 namespace voxray {
@@ -22,8 +26,8 @@ struct ExportArguments : ConfigArguments {
 };
 
 void exportScene(const ExportArguments& arguments) {
-    const std::string extension = arguments.file.extension();
-    if (extension != ".yaml" && extension != ".yml")
+    const std::vector<std::string> builtin = builtinSceneNames();
+    if (isSceneFile(arguments.file) || std::ranges::count(builtin, arguments.file.string()) > 0)
         throw UsageError(
             "{0}: export-scene takes a config; './voxray scene {0} --write-config OUT.yaml' writes one",
             arguments.file.string());

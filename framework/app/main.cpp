@@ -70,9 +70,8 @@ int main(int argc, char** argv) {
     app.footer(
         "To begin: ./voxray run configs/quickstart.yaml, or with a file of your own ./voxray scene FILE "
         "--write-config OUT.yaml.\n"
-        "Also: ./voxray test [FILTER] runs the tests, ./voxray bench [FILTER] the benchmarks, ./voxray bench "
-        "gpu "
-        "and growth those of docs/performance.md.");
+        "Also: ./voxray test [FILTER] runs the tests, ./voxray bench [FILTER] the benchmarks,\n"
+        "./voxray bench gpu and ./voxray bench growth those of docs/performance.md.");
 
     int status = 0;
     addRunCommand(app, status);

@@ -40,10 +40,6 @@ bool isConfig(const std::filesystem::path& what) {
     return what.extension() == ".yaml" || what.extension() == ".yml";
 }
 
-bool isSceneFile(const std::filesystem::path& what) {
-    return what.extension() == ".glb" || what.extension() == ".gltf";
-}
-
 /// @throws UsageError for a name that no built-in scene has, with the nearest one, or the nearest file of the
 /// folders of scenes.
 void checkName(const std::string& name, const std::vector<std::filesystem::path>& folders) {

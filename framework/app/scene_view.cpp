@@ -12,6 +12,7 @@
 #include <numeric>
 
 #include "app/view_search.h"
+#include "experiment/exposure_check.h"
 #include "passes/path_trace/path_tracer.h"
 
 namespace voxray {
@@ -62,7 +63,6 @@ constexpr float kPlaces = 1e-3f;  ///< Of the distance to the target, by which w
 /// light surfaces send to each other.
 Light lampFor(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera,
               const Sight& sight) {
-    constexpr float kWellSeen = 0.25f;
     Light lamp;
     lamp.type = LightType::Point;
     lamp.position = camera.position;
@@ -74,7 +74,7 @@ Light lampFor(const SceneState& state, const EmbreeScene& tracer, const CameraSe
     const ImageF image = pathTrace(lit, tracer, cameraOf(camera), options).total;
     const double mean =
         std::accumulate(image.data.begin(), image.data.end(), 0.0) / double(image.data.size());
-    if (mean > 0 && sight.filled > 0) lamp.intensity *= kWellSeen * sight.filled / float(mean);
+    if (mean > 0 && sight.filled > 0) lamp.intensity *= float(kWellSeen * double(sight.filled) / mean);
     return lamp;
 }
 

@@ -14,7 +14,6 @@ namespace {
 
 constexpr float kWhite = 4;  ///< Two stops over what previews can show, farther than a bright view goes.
 constexpr double kNearlyAll = 0.9;  ///< Of what the view shows.
-constexpr double kWellSeen = 0.2;   ///< A radiance that previews show well.
 constexpr float kMinOfBytes = 32;   ///< No color of less is meant for a sky.
 constexpr double kStepsOfBlack = 0.5;
 constexpr double kSlopeAtBlack = 12.92;  ///< Of the sRGB curve.

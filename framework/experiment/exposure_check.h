@@ -7,6 +7,9 @@
 
 namespace voxray {
 
+/// A radiance that previews show well, W/(m² sr).
+inline constexpr double kWellSeen = 0.2;
+
 /// Whether previews show what a camera sees black at an exposure: on average it is less than half a step of
 /// their 8 bits.
 /// @param view 3 channels, W/(m² sr). @param filled the part of it that shows surfaces or a sky, above 0.

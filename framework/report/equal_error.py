@@ -128,7 +128,7 @@ def sentence(found: SpeedUp, results: Results, light: str, metric: Metric, names
     if found.bound:
         who, short = "path tracing", " (all its variants have a higher error)"
     build = results.ok.set_index("variant").loc[found.variant, "build_ms"]
-    number = names.full(found.variant).split()[0]
+    number = names.numbers[found.variant]
     apart = f". Once for each scene or light, {number} is built in {text.figures(build)} ms, too" if build > 0 else ""
     return (f"{head}: a frame of {names.full(found.variant)} takes {ms} ms, {who} {found.bound}{rival_ms} ms: {found.about}{found.bound}"
             f"{text.figures(found.factor, 2)} times as long{found.span}{short}{_open(found)}{apart}.")

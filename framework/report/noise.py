@@ -23,8 +23,7 @@ def sentences(results: Results, light: str, names: Names) -> list[str]:
             parameters_of(results, light, name) for name in finished.index)
         return ["Bias and noise are not told apart: set measure.second_seed: true."] if is_noisy else []
     bias, noise = split
-    own = dominated(results, light)
-    noisy = [name for name in bias.index if name in own]
+    noisy = [name for name in bias.index if noise[name] > bias[name]]
     biased = [name for name in bias.index if bias[name] >= noise[name]]
     said = []
     if noisy:

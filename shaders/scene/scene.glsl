@@ -89,7 +89,8 @@ vec2 textureUv(GpuTextureRef ref, vec4 texCoords) {
 float clampedLevel(GpuTextureRef ref, vec2 uv, float level) {
     const vec2 size = vec2(textureSize(sceneTextures[nonuniformEXT(ref.texture)], 0));
     const vec2 outside = max(abs(uv - 0.5) - 0.5, 0.0) * size * vec2(ref.wrapU == WRAP_CLAMP, ref.wrapV == WRAP_CLAMP);
-    return log2(max(exp2(level) - 2.0 * max(outside.x, outside.y), 1.0));
+    const float distance_ = max(outside.x, outside.y);
+    return distance_ > 0.0 ? log2(max(exp2(level) - 2.0 * distance_, 1.0)) : level;
 }
 
 // Filtered lookup at a mip level; white where the material has no such texture.
