@@ -1,6 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <filesystem>
+#include <functional>
+#include <future>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -9,6 +14,7 @@
 #include "app/commands.h"
 #include "app/config_options.h"
 #include "app/source_root.h"
+#include "base/thread_limit.h"
 #include "experiment/plan_checks.h"
 #include "experiment/scene_files.h"
 #include "passes/register_passes.h"
@@ -31,15 +37,23 @@ DeviceInfo capableDevice() {
     return device;
 }
 
+/// What checking a config says.
+struct Said {
+    std::string
+        verdict;  ///< For the standard output; that it is valid is said where all of its profiles are.
+    std::string warnings;  ///< For the standard error, faults among them.
+    bool isValid = false;
+};
+
 /// Checks a config under the profile that is asked for, or as it stands and again under each of its
-/// profiles; what is warned of is said once, with the profile where it holds under one alone. That it is
-/// valid is said where all of these are. @throws UsageError for the first fault.
+/// profiles; what is warned of is said once, with the profile where it holds under one alone.
+/// @throws UsageError for the first fault.
 void validate(const std::filesystem::path& config, const ConfigOptions& options, SceneLoader& loader,
-              const Registry& registry) {
+              const Registry& registry, Said& said) {
     std::vector<std::string> profiles{options.profile};
     if (options.profile.empty())
         for (const std::string& name : profileNames(config)) profiles.push_back(name);
-    std::set<std::string> said;
+    std::set<std::string> known;
     std::string verdict;
     for (const std::string& profile : profiles) {
         const std::string under =
@@ -47,31 +61,67 @@ void validate(const std::filesystem::path& config, const ConfigOptions& options,
         WiredExperiment wired =
             wireExperiment(loadExperiment(config, {profile, options.assignments}), registry);
         for (const std::string& warning : checkPlans(wired, loader, capableDevice(), registry).warnings)
-            if (said.insert(warning).second) fmt::print(stderr, "voxray: warning: {}{}\n", warning, under);
+            if (known.insert(warning).second)
+                said.warnings += fmt::format("voxray: warning: {}{}\n", warning, under);
         const size_t variants = wired.variants.size();
         verdict +=
             fmt::format("{}{}: valid, {} variant{}\n", config.string(),
                         profile.empty() ? "" : " --profile " + profile, variants, variants == 1 ? "" : "s");
     }
-    fmt::print("{}", verdict);
+    said.verdict = std::move(verdict);
+    said.isValid = true;
 }
 
-/// Checks every config, so that one run shows the faults of all. @return the exit status.
+/// Indices of the configs by the scene that they render, those of many configs first: who checks them all
+/// loads it once.
+std::vector<std::vector<size_t>> byScene(const ValidateArguments& arguments) {
+    std::map<std::string, std::vector<size_t>> ofScene;
+    for (size_t i = 0; i < arguments.configs.size(); ++i) {
+        std::string scene;
+        try {
+            scene = loadExperiment(arguments.configs[i], arguments.config).setup.scene.source.name();
+        } catch (const Error&) {
+            scene.clear();  // The fault is told when its turn comes.
+        }
+        ofScene[scene].push_back(i);
+    }
+    std::vector<std::vector<size_t>> groups;
+    for (auto& [scene, indices] : ofScene) groups.push_back(std::move(indices));
+    std::ranges::stable_sort(groups, std::greater(), &std::vector<size_t>::size);
+    return groups;
+}
+
+/// Checks every config, so that one run shows the faults of all, several at a time. @return the exit status.
 int validateAll(const ValidateArguments& arguments) {
+    constexpr unsigned kMaxWorkers = 4;  // Each holds scenes of its own.
     Registry registry;
     registerPasses(registry);
-    int status = 0;
-    SceneLoader loader({});  // One for all: configs share scenes.
-    for (const std::filesystem::path& config : arguments.configs) {
-        loader.searchIn(sceneFolders(arguments.scenes, sourceRoot(), config));
-        try {
-            validate(config, arguments.config, loader, registry);
-        } catch (const Error& error) {
-            fmt::print(stderr, "voxray: error: {}\n", error.what());
-            status = 2;
-        }
+    std::vector<Said> said(arguments.configs.size());
+    const std::vector<std::vector<size_t>> groups = byScene(arguments);
+    std::atomic<size_t> next = 0;
+    const auto work = [&] {
+        SceneLoader loader({});
+        for (size_t group = next++; group < groups.size(); group = next++)
+            for (const size_t i : groups[group]) {
+                const std::filesystem::path& config = arguments.configs[i];
+                loader.searchIn(sceneFolders(arguments.scenes, sourceRoot(), config));
+                try {
+                    validate(config, arguments.config, loader, registry, said[i]);
+                } catch (const Error& error) {
+                    said[i].warnings += fmt::format("voxray: error: {}\n", error.what());
+                }
+            }
+    };
+    std::vector<std::future<void>> workers;
+    for (size_t i = 0; i < std::min<size_t>({kMaxWorkers, workerThreads(), groups.size()}); ++i)
+        workers.push_back(std::async(std::launch::async, work));
+    for (std::future<void>& worker : workers) worker.get();
+
+    for (const Said& one : said) {
+        fmt::print(stderr, "{}", one.warnings);
+        fmt::print("{}", one.verdict);
     }
-    return status;
+    return std::ranges::all_of(said, &Said::isValid) ? 0 : 2;
 }
 
 }  // namespace

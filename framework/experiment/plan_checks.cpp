@@ -220,6 +220,16 @@ std::vector<std::string> neverRun(const WiredExperiment& wired, const Registry& 
     return texts;
 }
 
+/// As checkView(), or what that found before. Warnings hold for one config alone, since they name its lines.
+const ViewCheck& checkViewOnce(const Setup& setup, const std::string& sceneKey, const PreparedScene& prepared,
+                               SceneLoader& loader, const Registry& registry) {
+    const std::string anywhere = viewKey(setup, sceneKey), here = setup.scene.where.file + " " + anywhere;
+    for (const std::string& key : {anywhere, here})
+        if (const auto known = loader.views.find(key); known != loader.views.end()) return known->second;
+    ViewCheck found = checkView(setup, prepared, registry.preview);
+    return loader.views.emplace(found.warnings.empty() ? anywhere : here, std::move(found)).first->second;
+}
+
 }  // namespace
 
 PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceInfo& device,
@@ -246,16 +256,9 @@ PlanCheck checkPlans(WiredExperiment& wired, SceneLoader& loader, const DeviceIn
             key = std::move(own);
             lightCost.emplace(prepared.state);
             checkMaskNames(experiment.measure.masks, *prepared.state.scene);
-            const std::string view = viewKey(variant.setup, key);
-            const auto right = loader.rightViews.find(view);
-            if (right != loader.rightViews.end()) {
-                metal = right->second;
-            } else {
-                const ViewCheck seen = checkView(variant.setup, prepared, registry.preview);
-                metal = seen.metal;
-                if (seen.warnings.empty()) loader.rightViews.emplace(view, metal);
-                say(seen.warnings);
-            }
+            const ViewCheck& view = checkViewOnce(variant.setup, key, prepared, loader, registry);
+            metal = view.metal;
+            say(view.warnings);
             say(additionWarnings(variant.setup.scene, prepared, loader));
         }
         const ImageSettings& image = variant.setup.image;

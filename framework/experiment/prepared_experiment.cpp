@@ -1,5 +1,7 @@
 #include "experiment/prepared_experiment.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "experiment/parts.h"
@@ -74,11 +76,14 @@ void PreparedExperiment::recordInputs() {
         manifest_.sceneKeys[variant.name] = session_->loader().key(variant.setup.scene);
         manifest_.referenceHashes[variant.name] = session_->referenceHashOf(wired_, variant.setup);
     }
+    std::vector<std::string> leftOut;
     for (const auto& [id, count] : variantsWithout(wired_))
-        if (runsSomewhere(wired_, id))
-            manifest_.notes.push_back(fmt::format(
-                "'{}' is left out of {} of {} variants: no image that is compared depends on it there", id,
-                count, wired_.variants.size()));
+        if (runsSomewhere(wired_, id)) leftOut.push_back(fmt::format("'{}' in {}", id, count));
+    if (!leftOut.empty())
+        manifest_.notes.push_back(
+            fmt::format("passes without a use are left out: {} of {} variants: no image that is compared "
+                        "depends on them there",
+                        fmt::join(leftOut, ", "), wired_.variants.size()));
     if (!wired_.reference.isNull()) manifest_.referencePass = wired_.reference.items[0];
     manifest_.device = session_->device().info();
     manifest_.requestedDevice = options_.deviceName;

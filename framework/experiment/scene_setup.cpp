@@ -308,11 +308,18 @@ PreparedScene SceneLoader::prepare(const SceneSettings& settings, Origin origin)
 }
 
 const PreparedScene& SceneLoader::prepareOnce(const SceneSettings& settings, const std::string& key) {
-    if (!prepared_ || prepared_->first != key) {
-        prepared_.reset();  // The previous one goes first
-        prepared_.emplace(key, prepare(settings));
+    constexpr size_t kScenes = 16, kTriangles = 2'000'000;
+    const auto known = std::ranges::find(prepared_, key, &decltype(prepared_)::value_type::first);
+    if (known != prepared_.end()) {
+        prepared_.splice(prepared_.begin(), prepared_, known);
+        return known->second;
     }
-    return prepared_->second;
+    size_t scenes = 0, triangles = 0;
+    std::erase_if(prepared_, [&](const auto& entry) {
+        triangles += entry.second.state.geometry.triangles.size();
+        return ++scenes >= kScenes || triangles > kTriangles;
+    });
+    return prepared_.emplace_front(key, prepare(settings)).second;
 }
 
 std::shared_ptr<PlanMemo> SceneLoader::memoOf(const std::string& surfaces) {

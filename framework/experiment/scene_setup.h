@@ -2,9 +2,9 @@
 
 #include <deque>
 #include <filesystem>
+#include <list>
 #include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -33,6 +33,12 @@ struct PreparedScene {
     std::shared_ptr<PlanMemo> memo = std::make_shared<PlanMemo>();
 };
 
+/// What a camera sees of a scene: checkView().
+struct ViewCheck {
+    std::vector<std::string> warnings;
+    double metal = 0;  ///< Part of the surfaces seen that is metal, 0 to 1.
+};
+
 /// Loads scenes, composes what a config adds and overrides, and puts its camera, lights, environment and
 /// material mode on them. Keeps every scene it loaded, as it was loaded.
 class SceneLoader {
@@ -54,12 +60,11 @@ class SceneLoader {
     /// @throws as key(), and UsageError for a camera that the scene lacks.
     PreparedScene prepare(const SceneSettings& settings, Origin origin = Origin::World);
 
-    /// As prepare(), or what that made last where it is the same scene. Stays until another one is prepared
-    /// so.
-    /// @param key that of `settings`.
+    /// As prepare(), or what that made before: the last few scenes are kept, fewer where they are large.
+    /// @param key that of `settings`. @return what stays as long as no other scene is prepared so.
     const PreparedScene& prepareOnce(const SceneSettings& settings, const std::string& key);
     /// Frees what prepareOnce() keeps.
-    void forgetPrepared() { prepared_.reset(); }
+    void forgetPrepared() { prepared_.clear(); }
 
     /// Takes a prepared scene to a frame, counted from the compared one: animation, lights, and a camera on
     /// an animated node. A camera's own `move` is not applied.
@@ -69,9 +74,8 @@ class SceneLoader {
     /// What loading left out and composing changed, a line each, of all scenes.
     std::vector<std::string> warnings() const;
 
-    /// Views that checkView() says nothing of, by viewKey(), with the part of each that is metal: other
-    /// profiles and configs show the same ones.
-    std::map<std::string, double> rightViews;
+    /// What checkView() found: other variants, profiles and configs show the same views.
+    std::map<std::string, ViewCheck> views;
 
  private:
     /// @throws UsageError for an overridden material that no scene has.
@@ -92,7 +96,7 @@ class SceneLoader {
     std::vector<std::string> mapWarnings_;  ///< Which layers were taken, where a map has several.
     std::set<std::string> changes_;         ///< What composing changed.
     std::deque<std::pair<std::string, std::shared_ptr<PlanMemo>>> memos_;  ///< Of the last few surfaces.
-    std::optional<std::pair<std::string, PreparedScene>> prepared_;        ///< By key.
+    std::list<std::pair<std::string, PreparedScene>> prepared_;            ///< By key, the last one first.
 };
 
 }  // namespace voxray

@@ -215,14 +215,13 @@ ViewCheck checkView(const Setup& setup, const PreparedScene& prepared, const Pre
         return found;
     }
 
+    // Few paths may miss what is bright
+    const bool hasSky = state.scene->environment.radiance != glm::vec3(0.0f);
+    const double filled = hasSky ? 1 : seen.part();
     ImageF view;
     for (const Look& how : kLooks)
-        if (view = look(state, how); !isBlack(view)) break;
+        if (view = look(state, how); !isDarkAt(setup.image.exposureStops, view, filled)) break;
     if (!isBlack(view)) {
-        const bool hasSky = state.scene->environment.radiance != glm::vec3(0.0f);
-        const double filled = hasSky ? 1 : seen.part();
-        // Few paths may miss what is bright
-        if (isDarkAt(setup.image.exposureStops, view, filled)) view = look(state, std::end(kLooks)[-1]);
         if (std::string text = exposureWarning(setup, view, filled); !text.empty())
             warnings.push_back(std::move(text));
         return found;

@@ -9,11 +9,6 @@
 
 namespace voxray {
 
-struct ViewCheck {
-    std::vector<std::string> warnings;
-    double metal = 0;  ///< Part of the surfaces seen that is metal, 0 to 1.
-};
-
 /// Looks at a scene through a variant's camera, before anything is rendered there: a small path-traced image
 /// of few samples, and while that is black of more.
 /// @return warnings, each with its place in the config: lights of the config that light nothing that is seen

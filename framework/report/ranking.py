@@ -20,7 +20,7 @@ def score_marks(results: Results, metric: Metric, column: str) -> dict[str, str]
 
     Scores with confidence intervals tie where no other's interval lies wholly below theirs; the best is then one of
     the ties. Others tie where both reach their reference's noise floor: a perfect image would score no better.
-    Scores that are equal to the last digit are all the best.
+    Scores that are equal to the last digit are all the best, but for those of images that are all black.
     """
     return {name: mark for _, compared in comparisons(results)
             for name, mark in _score_marks(compared, metric, column).items()}
@@ -42,6 +42,9 @@ def _score_marks(results: Results, metric: Metric, column: str) -> dict[str, str
         ties = ties if best in ties else set()
     if ties - equal:
         return dict.fromkeys(ties | equal, "tie")
+    black = results.baseline_scores("black", results.reference_of(best)).get(column, math.nan)
+    if len(equal) == len(ranks) and rows[column][best] == black:
+        return {}
     return dict.fromkeys(equal, "best")
 
 

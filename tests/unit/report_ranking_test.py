@@ -54,6 +54,13 @@ class Comparing(ReportTest):
         rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.2001))]
         self.assertEqual(ranking.score_marks(self.results(rows), NRMSE, "nrmse"), {"a": "best"})
 
+    def test_images_that_are_all_black_are_not_the_best(self):
+        rows = [made_up.variant(name, 10, 1) for name in ("a", "b")]
+        for black, marks in ((1, {}), (2, {"a": "best", "b": "best"})):
+            reference = made_up.manifest([])["reference"] | {"baselines": {"black": {"nrmse": black}}}
+            results = self.results(rows, reference=reference)
+            self.assertEqual(ranking.score_marks(results, NRMSE, "nrmse"), marks)
+
     def test_scores_at_the_noise_floor_tie(self):
         # HDR-FLIP is 0.005, 0.009 and 0.011; a perfect image would score 0.01.
         rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.01), ("b", 0.018), ("c", 0.022))]
