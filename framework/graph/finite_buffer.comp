@@ -1,7 +1,4 @@
-#version 460
 // Counts NaN and infinite floats of a buffer of any size.
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 layout(local_size_x = 64) in;
 
 layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Words { uint data[]; };

@@ -1,4 +1,3 @@
-#version 460
 // Counts texels with a NaN or infinite component.
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -19,7 +19,7 @@ RayPipelineTracer::Pipeline RayPipelineTracer::makePipeline(Device& device,
                                                             std::span<const ShaderModule> modules,
                                                             bool occluded) {
     Pipeline pipeline;
-    pipeline.program = makeRayTracingProgram(device, modules, {{0, occluded ? 1u : 0u}});
+    pipeline.program = makeRayTracingProgram(device, modules, {{"kOccluded", occluded ? 1u : 0u}});
 
     // The groups' handles, packed by the driver, laid out one to an aligned record.
     constexpr uint32_t kGroups = 3;

@@ -6,8 +6,8 @@ RayQueryTracer::RayQueryTracer(Device& device, ShaderCompiler& compiler, const S
                                uint32_t trianglesPerChunk)
     : GpuTracer(device, state, trianglesPerChunk) {
     const ShaderModule module = compiler.compile("shaders/trace/ray_query.comp");
-    closestHit_ = makeComputeProgram(device, module, {{0, 0}});
-    occluded_ = makeComputeProgram(device, module, {{0, 1}});
+    closestHit_ = makeComputeProgram(device, module, {{"kOccluded", 0}});
+    occluded_ = makeComputeProgram(device, module, {{"kOccluded", 1}});
 }
 
 void RayQueryTracer::launch(CommandStream& stream, bool occluded, const gpu::TraceCall& call) {

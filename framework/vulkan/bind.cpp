@@ -14,32 +14,89 @@ const char* kindName(VkDescriptorType type) {
         case VK_DESCRIPTOR_TYPE_STORAGE_BUFFER:
             return "a buffer";
         case VK_DESCRIPTOR_TYPE_STORAGE_IMAGE:
-            return "an image without a sampler";
+            return "an image";
         case VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER:
-            return "an image with a sampler (a texture array in set 1)";
+            return "an image or, in set 1, a texture array";
         default:
             return "an acceleration structure";
     }
 }
 
-/// Every binding of a program with the resource given for it; both ways round complete.
-std::vector<const Binding*> matchBindings(const Program& program, std::span<const Binding> given) {
-    std::vector<const Binding*> matched;
-    std::vector<std::string> names;
-    for (const ShaderBinding& wanted : program.bindings()) {
-        const auto found = std::ranges::find(given, wanted.name, &Binding::name);
-        if (found == given.end()) throw Error("{}: binding '{}' is not given", program.name(), wanted.name);
-        matched.push_back(&*found);
-        names.push_back(wanted.name);
+const char* kindName(NumberKind kind) {
+    switch (kind) {
+        case NumberKind::Integer:
+            return "an integer";
+        case NumberKind::Float:
+            return "a float";
+        case NumberKind::Address:
+            return "a 64-bit integer";
+        default:
+            return "a struct";
     }
+}
+
+/// What is given under a name; what a resource brings along comes last. Null where there is none.
+const Binding* find(std::span<const Binding> given, std::string_view name) {
+    const Binding* found = nullptr;
+    for (const Binding& binding : given)
+        if (binding.name == name && (!found || (found->optional && !binding.optional))) found = &binding;
+    return found;
+}
+
+bool isNumber(const Binding& binding) {
+    return std::holds_alternative<Number>(binding.value);
+}
+
+/// In GLSL a trailing underscore tells a name from a keyword.
+std::string_view withoutUnderscore(std::string_view name) {
+    return name.substr(0, name.find_last_not_of('_') + 1);
+}
+
+/// @throws Error for what is given and not declared, and for what is given twice.
+void checkUses(const Program& program, std::span<const Binding> given, bool hasNumbers) {
+    std::vector<std::string> names, numbers;
+    for (const ShaderBinding& wanted : program.bindings()) names.push_back(wanted.name);
+    for (const ShaderPushMember& wanted : program.pushMembers())
+        if (hasNumbers) numbers.emplace_back(withoutUnderscore(wanted.name));
     for (const Binding& binding : given) {
-        if (!binding.optional && std::ranges::find(names, binding.name) == names.end())
-            throw Error("{}: there is no binding '{}'{}", program.name(), binding.name,
-                        didYouMean(binding.name, names));
-        if (std::ranges::count(given, binding.name, &Binding::name) > 1)
+        const std::vector<std::string>& known = isNumber(binding) ? numbers : names;
+        if (!binding.optional && std::ranges::find(known, binding.name) == known.end())
+            throw Error("{}: there is no {} '{}'{}", program.name(),
+                        isNumber(binding) ? "push constant" : "binding", binding.name,
+                        didYouMean(binding.name, known));
+        const auto isSame = [&](const Binding& other) {
+            return other.name == binding.name && other.optional == binding.optional;
+        };
+        if (std::ranges::count_if(given, isSame) > 1)
             throw Error("{}: binding '{}' is given twice", program.name(), binding.name);
     }
+}
+
+/// Every binding of a program with what is given for it.
+std::vector<const Binding*> matchBindings(const Program& program, std::span<const Binding> given) {
+    std::vector<const Binding*> matched;
+    for (const ShaderBinding& wanted : program.bindings()) {
+        const Binding* found = find(given, wanted.name);
+        if (!found) throw Error("{}: binding '{}' is not given", program.name(), wanted.name);
+        matched.push_back(found);
+    }
     return matched;
+}
+
+/// The block of push constants out of the numbers among the bindings.
+std::vector<std::byte> pushBlock(const Program& program, std::span<const Binding> given) {
+    std::vector<std::byte> block(program.pushConstantBytes());
+    for (const ShaderPushMember& member : program.pushMembers()) {
+        const Binding* found = find(given, withoutUnderscore(member.name));
+        const Number* number = found ? std::get_if<Number>(&found->value) : nullptr;
+        if (!number) throw Error("{}: push constant '{}' is not given", program.name(), member.name);
+        if (number->kind() != member.kind || number->bytes() != member.bytes)
+            throw Error("{}: push constant '{}' is {} of {} bytes, given is {} of {}", program.name(),
+                        member.name, kindName(member.kind), member.bytes, kindName(number->kind()),
+                        number->bytes());
+        std::copy_n(number->data(), number->bytes(), block.begin() + member.offset);
+    }
+    return block;
 }
 
 /// Descriptor writes of one call, with the structures that they point to.
@@ -56,16 +113,19 @@ class Writes {
         write.dstBinding = wanted.binding;
         write.descriptorCount = 1;
         write.descriptorType = wanted.type;
-        if (const auto* buffer = std::get_if<const Buffer*>(&given.resource)) {
+        if (const auto* buffer = std::get_if<const Buffer*>(&given.value)) {
             expect(wanted, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
             write.pBufferInfo = &buffers_.emplace_back(bufferInfo(wanted, **buffer));
-        } else if (const auto* image = std::get_if<const Image*>(&given.resource)) {
-            expect(wanted, given.sampler ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-                                         : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
-            const VkImageView view = given.sampler ? (*image)->view() : (*image)->levelView(given.level);
-            const VkSampler sampler = given.sampler ? given.sampler->handle() : VK_NULL_HANDLE;
+        } else if (const auto* image = std::get_if<const Image*>(&given.value)) {
+            const bool isSampled = wanted.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+            expect(wanted, isSampled || given.sampler ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+                                                      : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+            const VkImageView view = isSampled ? (*image)->view() : (*image)->levelView(given.level);
+            const VkSampler sampler = !isSampled      ? VK_NULL_HANDLE
+                                      : given.sampler ? given.sampler->handle()
+                                                      : device_.texelSampler();
             write.pImageInfo = &images_.emplace_back(sampler, view, VK_IMAGE_LAYOUT_GENERAL);
-        } else if (const auto* structure = std::get_if<VkAccelerationStructureKHR>(&given.resource)) {
+        } else if (const auto* structure = std::get_if<VkAccelerationStructureKHR>(&given.value)) {
             expect(wanted, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
             write.pNext = &structures_.emplace_back(
                 VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, nullptr, 1u, structure);
@@ -128,17 +188,24 @@ void checkPushConstants(const Program& program, const PushConstants& push) {
 
 void CommandStream::Impl::bind(VkCommandBuffer buffer, const Program& program, std::span<const Binding> given,
                                PushConstants push) {
-    checkPushConstants(program, push);
+    checkUses(program, given, push.bytes == 0);
+    std::vector<std::byte> block;
+    if (push.bytes == 0) {
+        block = pushBlock(program, given);
+    } else {
+        checkPushConstants(program, push);
+    }
     vkCmdBindPipeline(buffer, program.bindPoint(), program.pipeline());
-    if (push.bytes > 0)
-        vkCmdPushConstants(buffer, program.layout(), program.stages(), 0, push.bytes, push.data);
+    if (program.pushConstantBytes() > 0)
+        vkCmdPushConstants(buffer, program.layout(), program.stages(), 0, program.pushConstantBytes(),
+                           push.bytes > 0 ? push.data : block.data());
 
     // Set 0 is pushed, the texture array is bound as a set of its own.
     const std::vector<const Binding*> matched = matchBindings(program, given);
     Writes writes(device, program, matched.size());
     for (size_t i = 0; i < matched.size(); ++i) {
         const ShaderBinding& wanted = program.bindings()[i];
-        const auto* textures = std::get_if<const TextureArray*>(&matched[i]->resource);
+        const auto* textures = std::get_if<const TextureArray*>(&matched[i]->value);
         if (wanted.set == 0 || !textures) {
             writes.add(wanted, *matched[i]);
             continue;

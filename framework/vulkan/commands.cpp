@@ -131,6 +131,11 @@ void CommandStream::discard() {
     impl_->discard();
 }
 
+void CommandStream::dispatch(const Program& program, const Invocations& invocations,
+                             const Bindings& bindings) {
+    dispatch(program, bindings.all(), PushConstants(), invocations.groups(program.localSize()));
+}
+
 void CommandStream::dispatch(const Program& program, std::initializer_list<Binding> bindings,
                              PushConstants push, glm::uvec3 groups) {
     dispatch(program, std::span(bindings.begin(), bindings.size()), push, groups);
@@ -195,7 +200,7 @@ void CommandStream::draw(const Program& program, std::span<const Binding> bindin
     if (targets.depth) {
         depth = attach(*targets.depth);
         depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-        depth.clearValue.depthStencil.depth = 1.0f;
+        depth.clearValue.depthStencil.depth = targets.depthClear;
     }
 
     const VkRect2D area{{0, 0}, {targets.extent.x, targets.extent.y}};

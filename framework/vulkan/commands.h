@@ -13,9 +13,9 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
+#include "vulkan/binding.h"
 #include "vulkan/device.h"
 #include "vulkan/memory.h"
 #include "vulkan/program.h"
@@ -23,31 +23,7 @@
 
 namespace voxray {
 
-/// A resource bound to a shader's name. An Image binds as storage image (level 0, or `level`); give a sampler
-/// to bind it as sampled image.
-struct Binding {
-    std::string_view name;
-    std::variant<const Buffer*, const Image*, const TextureArray*, VkAccelerationStructureKHR> resource;
-    const Sampler* sampler = nullptr;
-    uint32_t level = 0;
-    bool optional =
-        false;  ///< A program that does not use it may leave it out (bindings of shader libraries).
-
-    Binding(std::string_view n, const Buffer& b) : name(n), resource(&b) {}
-    Binding(std::string_view n, const Image& i, uint32_t mipLevel = 0)
-        : name(n), resource(&i), level(mipLevel) {}
-    Binding(std::string_view n, const Image& i, const Sampler& s) : name(n), resource(&i), sampler(&s) {}
-    Binding(std::string_view n, const TextureArray& t) : name(n), resource(&t) {}
-    Binding(std::string_view n, VkAccelerationStructureKHR a) : name(n), resource(a) {}
-};
-
-/// A binding that shaders/*.glsl declares for whoever includes it, used or not.
-inline Binding ifUsed(Binding binding) {
-    binding.optional = true;
-    return binding;
-}
-
-/// Push constants of one call.
+/// Push constants of one call, as a struct; numbers among the bindings else.
 struct PushConstants {
     const void* data = nullptr;
     uint32_t bytes = 0;
@@ -66,7 +42,8 @@ struct RasterTargets {
         std::optional<VkClearColorValue> clear;  ///< Empty: keep the content.
     };
     std::vector<Color> colors;
-    const Image* depth = nullptr;  ///< Cleared to 1.
+    const Image* depth = nullptr;
+    float depthClear = 1;
     glm::uvec3 extent{0, 0, 1};  ///< Viewport, from (0, 0); also what is rendered where there are no targets.
 };
 
@@ -95,6 +72,10 @@ class CommandStream {
 
     Device& device();
 
+    /// Runs a compute program. No invocations record nothing.
+    /// @throws Error naming program and member for a push constant that is not given, or of another type or
+    /// size; and naming what is given without a use.
+    void dispatch(const Program& program, const Invocations& invocations, const Bindings& bindings);
     /// Runs a compute program over `groups` work groups. A group count of 0 in any axis records nothing.
     void dispatch(const Program& program, std::initializer_list<Binding> bindings, PushConstants push,
                   glm::uvec3 groups);

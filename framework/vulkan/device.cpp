@@ -68,12 +68,14 @@ struct Device::Impl {
         if (device) vkDeviceWaitIdle(device);
         spare.reset();
         if (textureSetLayout) vkDestroyDescriptorSetLayout(device, textureSetLayout, nullptr);
+        if (texelSampler) vkDestroySampler(device, texelSampler, nullptr);
         if (commandPool) vkDestroyCommandPool(device, commandPool, nullptr);
         if (device) vkDestroyDevice(device, nullptr);
     }
 
     void createDevice();
     void createTextureSetLayout();
+    void createTexelSampler();
     void readProperties();
     void describeHost();
 
@@ -85,6 +87,7 @@ struct Device::Impl {
     VkQueue queue = VK_NULL_HANDLE;
     VkCommandPool commandPool = VK_NULL_HANDLE;
     VkDescriptorSetLayout textureSetLayout = VK_NULL_HANDLE;
+    VkSampler texelSampler = VK_NULL_HANDLE;
     uint32_t maxTextures = kMaxTextures;
     VkPhysicalDeviceProperties properties{};
     VkPhysicalDeviceMemoryProperties memoryProperties{};
@@ -146,6 +149,13 @@ void Device::Impl::createTextureSetLayout() {
           "vkCreateDescriptorSetLayout");
 }
 
+void Device::Impl::createTexelSampler() {
+    auto create = structure<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
+    create.addressModeU = create.addressModeV = create.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    create.maxLod = VK_LOD_CLAMP_NONE;
+    check(vkCreateSampler(device, &create, nullptr, &texelSampler), "vkCreateSampler");
+}
+
 void Device::Impl::readProperties() {
     auto all =
         structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, nullptr);
@@ -187,6 +197,7 @@ Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>(opti
     impl_->spare = std::make_unique<SpareMemory>(impl_->device, kLargestSpareBytes);
     impl_->readProperties();
     impl_->createTextureSetLayout();
+    impl_->createTexelSampler();
 }
 
 Device::~Device() = default;
@@ -226,6 +237,9 @@ const VkPhysicalDeviceAccelerationStructurePropertiesKHR& Device::accelerationSt
 }
 VkDescriptorSetLayout Device::textureSetLayout() const {
     return impl_->textureSetLayout;
+}
+VkSampler Device::texelSampler() const {
+    return impl_->texelSampler;
 }
 uint32_t Device::maxTextures() const {
     return impl_->maxTextures;

@@ -81,6 +81,8 @@ class Device {
     /// length.
     VkDescriptorSetLayout textureSetLayout() const;
     uint32_t maxTextures() const;  ///< Upper bound of that length.
+    /// What sampled images are bound with where no other sampler is given: nearest texels, clamped.
+    VkSampler texelSampler() const;
 
     /// Whether VK_EXT_debug_utils is there, so that labels can be recorded.
     bool hasDebugLabels() const;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec3.hpp>
 #include <map>
 #include <memory>
 #include <span>
@@ -28,12 +29,22 @@ struct ShaderBinding {
     uint32_t bindingWord = 0;  ///< Index of the SPIR-V word that holds the number.
 };
 
+/// What a push constant or a specialization constant is: integers are 32 bits, signed or not.
+enum class NumberKind { Integer, Float, Address, Struct };
+
 /// A member of a shader's block of push constants.
 struct ShaderPushMember {
     std::string name;
     uint32_t offset = 0;  ///< Bytes from the block's start.
     uint32_t bytes = 0;
+    NumberKind kind = NumberKind::Integer;  ///< Of a vector or matrix: of its components.
     bool operator==(const ShaderPushMember&) const = default;
+};
+
+/// A specialization constant.
+struct ShaderConstant {
+    std::string name;
+    uint32_t id = 0;
 };
 
 /// A compiled shader stage with what reflection found in it. Only what the code uses is listed.
@@ -44,12 +55,14 @@ struct ShaderModule {
     std::vector<ShaderBinding> bindings;
     uint32_t pushConstantBytes = 0;  ///< Of the block as C++ lays it out: padded to its largest scalar.
     std::vector<ShaderPushMember> pushMembers;
-    std::vector<uint32_t> specializationIds;
+    std::vector<ShaderConstant> constants;
+    glm::uvec3 localSize{1, 1, 1};  ///< Of a compute shader: invocations of a work group.
 };
 
-/// GLSL to SPIR-V with glslang, at run time. Includes are searched relative to the including file, then in
-/// the source root (so that "shaders/..." and "passes/..." work). SPIR-V is cached on disk by the content of
-/// all its sources, the defines and the compiler's version.
+/// GLSL 4.60 to SPIR-V with glslang, at run time. The compiler gives version and extensions, so that a shader
+/// begins with what it does; lines of messages are the file's own. Includes are searched relative to the
+/// including file, then in the source root (so that "shaders/..." and "passes/..." work). SPIR-V is cached on
+/// disk by the content of all its sources, the defines and the compiler's version.
 class ShaderCompiler {
  public:
     /// @param sourceRoot folder that holds shaders/ and passes/; cacheFolder may be empty: no disk cache.
@@ -82,6 +95,7 @@ class Program {
     const std::vector<ShaderBinding>& bindings() const { return bindings_; }
     uint32_t pushConstantBytes() const { return pushConstantBytes_; }
     const std::vector<ShaderPushMember>& pushMembers() const { return pushMembers_; }
+    const glm::uvec3& localSize() const { return localSize_; }
     const std::string& name() const { return name_; }
 
  private:
@@ -96,10 +110,11 @@ class Program {
     std::vector<ShaderBinding> bindings_;
     uint32_t pushConstantBytes_ = 0;
     std::vector<ShaderPushMember> pushMembers_;
+    glm::uvec3 localSize_{1, 1, 1};
 };
 
-/// Specialization constants by constant_id.
-using SpecializationConstants = std::map<uint32_t, uint32_t>;
+/// Values of specialization constants by name.
+using SpecializationConstants = std::map<std::string, uint32_t>;
 
 /// @throws Error where the shader uses a feature or a binding kind that is not supported.
 Program makeComputeProgram(Device& device, const ShaderModule& module,

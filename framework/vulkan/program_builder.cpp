@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "vulkan/structure.h"
 
 namespace voxray {
@@ -30,6 +31,7 @@ Program& Program::operator=(Program&& other) noexcept {
     std::swap(bindings_, other.bindings_);
     std::swap(pushConstantBytes_, other.pushConstantBytes_);
     std::swap(pushMembers_, other.pushMembers_);
+    std::swap(localSize_, other.localSize_);
     return *this;
 }
 
@@ -44,13 +46,13 @@ ProgramBuilder::ProgramBuilder(Device& device, std::span<const ShaderModule> mod
         program_.pushConstantBytes_ = std::max(program_.pushConstantBytes_, module.pushConstantBytes);
         if (module.pushMembers.size() > program_.pushMembers_.size())
             program_.pushMembers_ = module.pushMembers;
+        if (module.stage == VK_SHADER_STAGE_COMPUTE_BIT) program_.localSize_ = module.localSize;
         mergeBindings(module);
     }
     for (const ShaderModule& module : modules)
         if (!std::ranges::equal(module.pushMembers,
                                 std::span(program_.pushMembers_).first(module.pushMembers.size())))
             throw Error("{}: stages declare different push constants", program_.name_);
-    checkConstants(modules, constants);
     makeLayout();
     makeStages(modules, constants);
 }
@@ -80,16 +82,6 @@ std::vector<uint32_t> ProgramBuilder::numbered(const ShaderModule& module) const
         spirv[binding.bindingWord] = merged->binding;
     }
     return spirv;
-}
-
-void ProgramBuilder::checkConstants(std::span<const ShaderModule> modules,
-                                    const SpecializationConstants& constants) const {
-    for (const auto& [id, value] : constants) {
-        const bool known = std::ranges::any_of(modules, [id = id](const ShaderModule& module) {
-            return std::ranges::find(module.specializationIds, id) != module.specializationIds.end();
-        });
-        if (!known) throw Error("{}: there is no specialization constant {}", program_.name_, id);
-    }
 }
 
 void ProgramBuilder::makeLayout() {
@@ -134,10 +126,22 @@ void ProgramBuilder::makeLayout() {
           "vkCreatePipelineLayout");
 }
 
+uint32_t ProgramBuilder::constantId(std::span<const ShaderModule> modules, const std::string& name) const {
+    std::vector<std::string> names;
+    for (const ShaderModule& module : modules)
+        for (const ShaderConstant& constant : module.constants) {
+            if (constant.name == name) return constant.id;
+            names.push_back(constant.name);
+        }
+    throw Error("{}: there is no specialization constant '{}'{}", program_.name_, name,
+                didYouMean(name, names));
+}
+
 void ProgramBuilder::makeStages(std::span<const ShaderModule> modules,
                                 const SpecializationConstants& constants) {
-    for (const auto& [id, value] : constants) {
-        entries_.push_back({id, uint32_t(values_.size() * sizeof(uint32_t)), sizeof(uint32_t)});
+    for (const auto& [name, value] : constants) {
+        entries_.push_back(
+            {constantId(modules, name), uint32_t(values_.size() * sizeof(uint32_t)), sizeof(uint32_t)});
         values_.push_back(value);
     }
     specialization_ = {uint32_t(entries_.size()), entries_.data(), values_.size() * sizeof(uint32_t),

@@ -30,8 +30,8 @@ class ProgramBuilder {
     void mergeBindings(const ShaderModule& module);
     /// The module's SPIR-V with the program's binding numbers.
     std::vector<uint32_t> numbered(const ShaderModule& module) const;
-    void checkConstants(std::span<const ShaderModule> modules,
-                        const SpecializationConstants& constants) const;
+    /// @throws Error where no stage has a constant of that name.
+    uint32_t constantId(std::span<const ShaderModule> modules, const std::string& name) const;
     void makeLayout();
     void makeStages(std::span<const ShaderModule> modules, const SpecializationConstants& constants);
 

@@ -87,17 +87,28 @@ class Reflection {
             check(spvc_compiler_type_struct_member_offset(compiler_, type, i, &members[i].offset));
             check(spvc_compiler_get_declared_struct_member_size(compiler_, type, i, &bytes));
             members[i].bytes = uint32_t(bytes);
+            members[i].kind =
+                kindOf(spvc_compiler_get_type_handle(compiler_, spvc_type_get_member_type(type, i)));
         }
         return members;
     }
 
-    std::vector<uint32_t> specializationIds() const {
+    std::vector<ShaderConstant> constants() const {
         const spvc_specialization_constant* constants = nullptr;
         size_t count = 0;
         check(spvc_compiler_get_specialization_constants(compiler_, &constants, &count));
-        std::vector<uint32_t> ids;
-        for (size_t i = 0; i < count; ++i) ids.push_back(constants[i].constant_id);
-        return ids;
+        std::vector<ShaderConstant> found;
+        for (size_t i = 0; i < count; ++i)
+            found.push_back({spvc_compiler_get_name(compiler_, constants[i].id), constants[i].constant_id});
+        return found;
+    }
+
+    glm::uvec3 localSize() const {
+        glm::uvec3 size;
+        for (unsigned axis = 0; axis < 3; ++axis)
+            size[int(axis)] = spvc_compiler_get_execution_mode_argument_by_index(
+                compiler_, SpvExecutionModeLocalSize, axis);
+        return size;
     }
 
  private:
@@ -116,6 +127,22 @@ class Reflection {
 
     uint32_t decoration(const spvc_reflected_resource& resource, SpvDecoration what) const {
         return spvc_compiler_get_decoration(compiler_, resource.id, what);
+    }
+
+    static NumberKind kindOf(spvc_type type) {
+        if (spvc_type_get_storage_class(type) == SpvStorageClassPhysicalStorageBuffer)
+            return NumberKind::Address;
+        switch (spvc_type_get_basetype(type)) {
+            case SPVC_BASETYPE_FP32:
+                return NumberKind::Float;
+            case SPVC_BASETYPE_INT64:
+            case SPVC_BASETYPE_UINT64:
+                return NumberKind::Address;
+            case SPVC_BASETYPE_STRUCT:
+                return NumberKind::Struct;
+            default:
+                return NumberKind::Integer;
+        }
     }
 
     bool has64BitMember(spvc_type type) const {
@@ -152,7 +179,8 @@ void reflect(ShaderModule& module) {
     reflection.refuse(SPVC_RESOURCE_TYPE_SUBPASS_INPUT, "a subpass input");
     module.pushConstantBytes = reflection.pushConstantBytes();
     module.pushMembers = reflection.pushMembers();
-    module.specializationIds = reflection.specializationIds();
+    module.constants = reflection.constants();
+    if (module.stage == VK_SHADER_STAGE_COMPUTE_BIT) module.localSize = reflection.localSize();
 }
 
 }  // namespace voxray

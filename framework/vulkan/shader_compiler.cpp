@@ -34,6 +34,19 @@ constexpr std::array kStages{
     Stage{".rahit", EShLangAnyHit, VK_SHADER_STAGE_ANY_HIT_BIT_KHR},
 };
 
+constexpr int kGlslVersion = 460;
+/// What shaders may use without asking for it.
+constexpr std::array kExtensions{
+    "GL_GOOGLE_include_directive",
+    "GL_EXT_scalar_block_layout",
+    "GL_EXT_buffer_reference",
+    "GL_EXT_shader_explicit_arithmetic_types_int64",
+    "GL_EXT_shader_atomic_int64",
+    "GL_EXT_nonuniform_qualifier",
+    "GL_EXT_ray_query",
+    "GL_EXT_ray_tracing",
+};
+
 const Stage& stageOf(const std::string& file) {
     const std::string extension = std::filesystem::path(file).extension().string();
     for (const Stage& stage : kStages)
@@ -85,7 +98,8 @@ std::vector<uint32_t> compileGlsl(const std::string& file, const Stage& stage, c
     initialiseCompiler();
     const std::string name = std::filesystem::path(file).lexically_normal().generic_string();
     const std::string& text = sources.files().at(name);
-    std::string preamble = "#extension GL_GOOGLE_include_directive : require\n";
+    std::string preamble;
+    for (const char* extension : kExtensions) preamble += fmt::format("#extension {} : require\n", extension);
     for (const auto& [key, value] : defines) preamble += fmt::format("#define {} {}\n", key, value);
 
     glslang::TShader shader(stage.language);
@@ -102,7 +116,7 @@ std::vector<uint32_t> compileGlsl(const std::string& file, const Stage& stage, c
     // One stage a program: stages meet only in the pipeline.
     const auto messages = EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
     Includer includer(sources);
-    if (!shader.parse(GetDefaultResources(), 460, false, messages, includer))
+    if (!shader.parse(GetDefaultResources(), kGlslVersion, false, messages, includer))
         throw Error("{}", formatLog(name, shader.getInfoLog()));
     glslang::TProgram program;
     program.addShader(&shader);
@@ -117,7 +131,7 @@ std::vector<uint32_t> compileGlsl(const std::string& file, const Stage& stage, c
 /// Key of a compiled shader: everything that the SPIR-V depends on.
 std::string cacheKey(const std::string& file, const ShaderSources& sources, const Defines& defines) {
     Hasher hash;
-    hash.add("voxray SPIR-V 1.6, bindings assigned")
+    hash.add("voxray SPIR-V 1.6, bindings assigned, extensions given")
         .addPlain(GLSLANG_VERSION_MAJOR)
         .addPlain(GLSLANG_VERSION_MINOR);
     hash.addPlain(GLSLANG_VERSION_PATCH).addPlain(glslang::GetSpirvGeneratorVersion()).add(file);

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Adds this frame's irradiance to that of the frames before it. Rays count alike, whichever frame they are of, as long as there are
 // no more frames than `history`: then what was kept counts as history - 1 of them.
 #include "passes/accumulate/same_surface.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The light of each cell, an aligned square of texels that has a ray: that of its first texel with one, and of all others that show
 // the same surface.
 #include "passes/accumulate/same_surface.glsl"

@@ -1,4 +1,3 @@
-#version 460
 // What the next frame needs to know of this one.
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Adds the material of each clipped fragment to the sums of its cell, weighted by area, in fixed point, so that the order of additions
 // does not matter. walk.visitorScale: units of area for a cell's face.
 #include "passes/build_hybrid_leaves/cell_sums.h"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Cells of all levels but the finest: averages of the finest cells in them, weighted by area. A thread takes a cell of one grid.
 #include "passes/build_hybrid_leaves/cell_means.glsl"
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Copies the positions of a triangle's corners to one place, where a ray's test finds them. A thread takes a triangle.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/hybrid_leaves/hybrid_leaves.glsl"

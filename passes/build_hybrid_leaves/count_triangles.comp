@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // A walk's visitor: counts the triangles of each leaf, those too of which an alpha mask leaves little: a ray may meet what it leaves.
 #include "passes/build_hybrid_leaves/listed.glsl"
 #include "shaders/voxels/voxels.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // How far from the plane of its cell each triangle's part in the cell lies, at all levels: what encloses all surfaces of a cell is the
 // largest.
 #include "passes/build_hybrid_leaves/cell_surface.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // A walk's visitor: adds a triangle to the list of its leaf, from the last place to the first; or the pair of both to those that are
 // voxelized further, where the leaf has a grid.
 #include "passes/build_hybrid_leaves/listed.glsl"

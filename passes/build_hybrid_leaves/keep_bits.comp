@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Copies the bits of kept grids. A thread takes a word.
 #include "passes/build_hybrid_leaves/kept_arrays.glsl"
 

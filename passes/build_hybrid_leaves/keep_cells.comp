@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Copies the cells of kept grids to their new places. A thread takes a word of grids' bits.
 #include "passes/build_hybrid_leaves/kept_arrays.glsl"
 

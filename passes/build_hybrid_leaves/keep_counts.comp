@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Which leaves an update keeps, all beyond the region that is built again, and how many triangles each leaf has. A thread takes a word of
 // the voxels' occupancy.
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Copies the lists of kept leaves to their new places, and tells which grid each kept grid was. A thread takes a leaf.
 #include "passes/build_hybrid_leaves/kept_arrays.glsl"
 

@@ -1,7 +1,4 @@
 // Where the arrays of the last build are, and which leaves an update keeps of it. A thread takes one of `count` items.
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/hybrid_leaves/hybrid_leaves.glsl"
 layout(local_size_x = 64) in;

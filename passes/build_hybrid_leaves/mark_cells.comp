@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Sets the bit of each cell that a triangle overlaps, at all levels.
 #include "passes/build_hybrid_leaves/grid_cells.glsl"
 

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // A walk's visitor: sets the occupancy bit of each voxel that a triangle meets, whatever its alpha mask leaves there.
 #include "passes/common/triangle_walk/exact.glsl"
 #include "shaders/voxels/voxels.glsl"

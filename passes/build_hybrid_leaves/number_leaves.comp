@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // What kind each leaf is of (Seok 2021, section 3.2). A thread takes a leaf.
 #include "passes/build_hybrid_leaves/leaves_push.glsl"
 #include "shaders/hybrid_leaves/hybrid_types.h"

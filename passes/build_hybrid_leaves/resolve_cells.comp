@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Turns the sums of each cell into averages weighted by area. A thread takes a cell.
 #include "passes/build_hybrid_leaves/cell_means.glsl"
 #include "shaders/compute/linear_index.glsl"

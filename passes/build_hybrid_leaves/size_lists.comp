@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // How long each leaf's list is, and whether it has a grid instead: where it has more triangles than the capacity. A thread takes a leaf.
 #include "passes/build_hybrid_leaves/leaves_push.glsl"
 #include "shaders/hybrid_leaves/hybrid_types.h"

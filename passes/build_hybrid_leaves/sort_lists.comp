@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Sorts each list in place, in ascending order, marks its end, and makes groups of a long one: heap sort (Williams 1964), since lists are
 // short and some are long. A thread takes a leaf.
 #include "passes/build_hybrid_leaves/leaves_push.glsl"

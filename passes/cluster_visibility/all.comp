@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Lists all rays. A thread takes a ray.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

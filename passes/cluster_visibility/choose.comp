@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Which side a ray hit: that of the nearest surfel that nothing hides from the open space before the hit. Each round proposes one and
 // the ray that asks whether something does; the next one takes it or looks for another. A thread takes a listed ray.
 #include "passes/cluster_visibility/face_ray.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Moves what patches see together: a thread takes a patch.
 #include "shaders/clusters/seen_types.h"
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The listed rays from patches. A thread takes a ray.
 #include "passes/cluster_visibility/patch_ray.glsl"
 layout(local_size_x = 64) in;

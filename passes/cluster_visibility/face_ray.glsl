@@ -1,6 +1,5 @@
 // Rays from the patches of voxels' sides, numbered from the first patch in hand on: those of a patch come one after another. Materials
 // of shaders/voxels/voxels.glsl are those of sides.
-#extension GL_EXT_scalar_block_layout : require
 #include "passes/cluster_visibility/met.glsl"
 #include "shaders/clusters/patches.glsl"
 #include "shaders/clusters/seen_types.h"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Which side and face each patch is of. A thread takes a side.
 #include "shaders/clusters/side_patches.glsl"
 #include "shaders/compute/linear_index.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // The first patch of each side, for when patches are numbered otherwise. A thread takes a side.
 #include "shaders/clusters/patch_types.h"
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // What rays met before surfaces changed, where that still holds; flags those that are to be traced again: of patches in voxels that have
 // changed, that met something there, or that pass a changed box on their way. A thread takes a ray.
 #include "passes/cluster_visibility/patch_ray.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // What rays from patches see of the voxels: a thread walks one ray. BRESENHAM: along the voxels of a line in three dimensions, one for
 // each step along the axis that it is longest in, so that it passes corners of others by (Cosin and Patow 2022, section 4.3).
 #include "passes/cluster_visibility/face_ray.glsl"

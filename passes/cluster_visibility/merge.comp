@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Sorts the targets of each patch's rays and merges equal ones: a thread takes a patch.
 #include "shaders/clusters/seen_types.h"
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The new numbers of sides whose voxels have not changed, and where the patches of each of these began. A thread takes a side.
 #include "shaders/clusters/patch_types.h"
 #include "shaders/compute/linear_index.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // The targets of rays, out of what they met: a face of a cluster's part or, near by, the patch itself. None where there is no patch, and
 // for a side without a cluster, which sends nothing. A thread takes a ray.
 #include "passes/cluster_visibility/met.glsl"

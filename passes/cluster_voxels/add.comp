@@ -1,8 +1,4 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Adds each voxel's place and normal to its cluster's sums, in whole numbers: the same in any order. A thread takes a voxel.
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_shader_atomic_int64 : require
 #include "passes/cluster_voxels/sums.glsl"
 layout(local_size_x = 64) in;
 

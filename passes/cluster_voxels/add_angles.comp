@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // A walk's visitor: adds the angles between a fragment's normal and the axes to its voxel's sums (Cosin and Patow 2022, figure 7). A
 // fragment is the part of a triangle in a voxel. In whole numbers: the same in any order.
 #include "passes/cluster_voxels/fragment_angles.glsl"

@@ -1,13 +1,9 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Each cluster asks for the voxels in its reach (Cosin and Patow 2022, algorithm 1, lines 4 to 12). A voxel goes to the least distance,
 // then to the first seed: a total order, so threads may run in any.
 // - nearest: by place and normal, of the clusters whose normals are within the angle limit.
 // - first: by equation 1, which is 1 within the limit though line 7 minimizes: it is read as 0 within the limit and 1 beyond. Of equal
 //   ones whoever comes first in a random order has the voxel. So a voxel that no cluster within the limit reaches goes to another one
 //   (section 4.2: a cluster takes what it tests for the first time, whatever the angle).
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_shader_atomic_int64 : require
 #include "passes/cluster_voxels/neighbourhood.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 64) in;

@@ -1,7 +1,4 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Clusters that have voxels: where their members begin, and the normal that these were compared with. A thread takes a cluster.
-#extension GL_EXT_scalar_block_layout : require
 #include "shaders/clusters/cluster_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

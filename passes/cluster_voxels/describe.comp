@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // What a cluster's voxels are on average: place, normal, reflectance, and their box (Cosin and Patow 2022, algorithm 1, line 15). A
 // thread takes a cluster.
 #include "shaders/clusters/cluster_types.h"

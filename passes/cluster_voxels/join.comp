@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Voxels without a cluster join the nearest of those that begin one in this round; counts who is left. A thread takes a voxel.
 #include "passes/cluster_voxels/owners.glsl"
 layout(local_size_x = 64) in;

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Of the voxels that no cluster asked for: those that begin a cluster of their own in this round. A voxel does where no other one in
 // reach and within the angle limit comes before it in a random order (a maximal independent set, Luby 1986). A thread takes a voxel.
 #include "passes/cluster_voxels/owners.glsl"

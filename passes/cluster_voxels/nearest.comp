@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Voxels that no cluster asked for join that of the nearest voxel that has one, whatever their normals (Cosin and Patow 2022, figure
 // 9). A thread takes a voxel.
 #include "passes/cluster_voxels/owners.glsl"

@@ -1,5 +1,4 @@
 // The occupied voxels of a box, row by row, and what a voxel's distance from a cluster is.
-#extension GL_EXT_scalar_block_layout : require
 #include "shaders/clusters/cluster_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"

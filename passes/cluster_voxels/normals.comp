@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The way that each surface voxel looks, by the area that open space lies before. OPEN_SPACE: by where space is open around it
 // (Cosin and Patow 2022, section 4.2, figure 7). A thread takes a voxel.
 #include "shaders/compute/linear_index.glsl"

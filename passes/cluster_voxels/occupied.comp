@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // A bit for each number of a cluster that has voxels. A thread takes a word of 32.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

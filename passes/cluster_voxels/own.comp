@@ -1,8 +1,4 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Each voxel's cluster out of what the last iteration found; counts the voxels that no cluster asked for.
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "shaders/clusters/cluster_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

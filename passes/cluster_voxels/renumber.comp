@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Each voxel's cluster by its final number, and pairs of both for sorting: voxels without a cluster come last. A thread takes a voxel.
 #include "shaders/clusters/cluster_types.h"
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Seeds of clusters in a uniform grid of cells: each takes place and normal of the surface voxel in its cell that is nearest to the
 // cell's center. A thread takes a cell.
 #include "passes/cluster_voxels/neighbourhood.glsl"

@@ -1,5 +1,4 @@
 // What a cluster's voxels add up to: places (3), normals (3), their number.
-#extension GL_EXT_scalar_block_layout : require
 #include "shaders/compute/linear_index.glsl"
 
 #define SUMS 7u

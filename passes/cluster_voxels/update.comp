@@ -1,7 +1,4 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // New centers and mean normals of clusters (Cosin and Patow 2022, algorithm 1, line 13). A thread takes a cluster.
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "passes/cluster_voxels/sums.glsl"
 #include "shaders/clusters/cluster_types.h"
 layout(local_size_x = 64) in;

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_EXT_scalar_block_layout : require
 // final = emission + direct + indirect, and the ambient light that surfaces reflect. A part that no pass writes is bound as one black
 // texel.
 layout(local_size_x = 8, local_size_y = 8) in;

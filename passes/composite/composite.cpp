@@ -27,7 +27,7 @@ void Composite::plan(PassPlan& plan) {
 
 void Composite::prepare(PassSetup& setup) {
     program_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/composite/composite.comp"),
-                                  SpecializationConstants{{0, params_.ambient > 0}});
+                                  SpecializationConstants{{"kHasAmbient", params_.ambient > 0}});
     sampler_ = texelSampler(setup.device);
     setup.stream.clear(black_, {});
 }

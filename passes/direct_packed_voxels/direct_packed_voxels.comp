@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Radiance that each pixel's surface reflects of the irradiance in packed voxels, filtered between their centers with empty ones as
 // black.
 #include "shaders/packed_voxels/packed_voxels.glsl"

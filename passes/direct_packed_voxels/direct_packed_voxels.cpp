@@ -29,7 +29,7 @@ void DirectPackedVoxels::plan(PassPlan& plan) {
 void DirectPackedVoxels::prepare(PassSetup& setup) {
     program_ = makeComputeProgram(
         setup.device, setup.compiler.compile("passes/direct_packed_voxels/direct_packed_voxels.comp"),
-        SpecializationConstants{{0, params_.lookup == PackedLookup::SevenTap}});
+        SpecializationConstants{{"kSevenTap", params_.lookup == PackedLookup::SevenTap}});
     sampler_ = texelSampler(setup.device);
 }
 

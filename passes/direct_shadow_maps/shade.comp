@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // What each pixel reflects of the lights that its texels are seen by, by the fraction of the four nearest texels of the light's map,
 // weighted bilinearly, that see it.
 #include "shaders/lights/lights.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Adds what the shadow rays of a batch of pixels carry where nothing was in their way, averaged over each pixel.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // One shadow ray for each g-buffer texel of a batch of pixels towards a light, with the radiance that the texel reflects
 // if nothing is in the way. A pixel's rays follow each other.
 #include "shaders/lights/lights.glsl"

@@ -62,7 +62,7 @@ void DirectShadowRays::plan(PassPlan& plan) {
 
 void DirectShadowRays::prepare(PassSetup& setup) {
     aim_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/direct_shadow_rays/aim.comp"),
-                              {{0, params_.visibility == Visibility::Voxels}});
+                              {{"kMeetVoxels", params_.visibility == Visibility::Voxels}});
     add_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/direct_shadow_rays/add.comp"));
     sampler_ = texelSampler(setup.device);
     tint_.prepare(setup);

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // What is known of the light around each element: the mean of its surroundings, and the statistics of the rays there, interpolated
 // between the centers of blocks.
 #include "passes/filter_irradiance/filter_types.h"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_GOOGLE_include_directive : require
 // One level of a plain edge-avoiding à-trous wavelet (Dammertz et al. 2010), stopped by geometry alone: the mean light of an
 // element's surroundings on the same surface. Means are compared to tell whether light differs between elements (wavelet.comp).
 #include "passes/filter_irradiance/elements.glsl"

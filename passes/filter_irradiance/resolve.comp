@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Radiance that each pixel reflects, by Lambert's law.
 layout(local_size_x = 8, local_size_y = 8) in;
 

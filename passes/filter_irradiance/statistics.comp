@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // From sums over rays to the two numbers that steer the filter: how noisy a single ray is, and how fast irradiance can change
 // along a surface. Blocks have few rays, so each takes its 3 x 3 neighbourhood, weighted 1 2 1 along rows and columns.
 //

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Finds the surfaces that each pixel shows, two at most (elements.glsl), and takes the texels of each together. The first one is
 // that which most of the pixel's rays start from, of those that tie the one that most texels show; the second one is found alike
 // among the texels that are left, and stands for all of them.

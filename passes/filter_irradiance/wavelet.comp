@@ -1,6 +1,3 @@
-#version 460
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_GOOGLE_include_directive : require
 // One level of the edge-avoiding à-trous wavelet filter (Dammertz et al. 2010) over irradiance: 3 x 3 taps, 2^level pixels apart.
 // In place of their edge-stopping functions, and of SVGF's (Schied et al. 2017), each tap's weight balances noise against bias:
 //

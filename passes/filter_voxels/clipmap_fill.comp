@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // A box of a clipmap level's voxels. A thread takes a voxel and goes through all that it encloses on the source level, filtering on
 // the way up: what is stored doesn't depend on where the finer levels' windows are.
 #include "shaders/compute/linear_index.glsl"

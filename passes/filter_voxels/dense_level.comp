@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // One level of radiance voxels in full grids from the level below.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance/radiance_voxels.glsl"

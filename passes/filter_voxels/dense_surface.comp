@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Level 0 of radiance voxels in full grids: the surfaces' own radiance and opacity; nothing where there are none.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance/radiance_voxels.glsl"

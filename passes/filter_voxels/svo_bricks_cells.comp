@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The voxels that surfaces pass through, listed by their numbers: the fragments of the octree. A thread takes a word of occupancy.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/octree_cells.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Light into the bricks of leaves: first the brightest of all, then the values. A thread takes a leaf. What surfaces of a voxel send
 // is one value, so all 27 of its brick are that until the neighbours' are averaged in. Neighbours that were made to exist are
 // transparent and black.

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Moves a level of an octree and its values into a smaller one without what lies below uniform nodes: first the masks of the
 // level's nodes (MASKS), then their words, their values and a list of their children (WORDS). A thread takes four nodes of the
 // new octree; `nodes` tells for each its number in the old one and its voxel.

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The voxels of a table's level that lie in a uniform node of a coarser one take its word. A thread takes a voxel.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/octree.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The values of a level's nodes from their children's, where any of those has changed. A thread takes a node.
 #include "passes/filter_voxels/svo_change.glsl"
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The values of an octree's leaves: the surfaces' own radiance and opacity. A thread takes a leaf.
 #include "passes/filter_voxels/svo_change.glsl"
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Marks and counts the uniform nodes of a level: all eight children are there, are uniform or leaves, and hold the same bits as
 // the node in each direction, so that it can stand for them. A thread takes a node.
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // From above each surfel that is on no side yet to above the one that began its voxel's new side. A thread takes a surfel.
 #include "shaders/clusters/patches.glsl"
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // From each covered surfel on no side yet across the gap that it is in. A thread takes a surfel.
 #include "shaders/clusters/patches.glsl"
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // From the open space before each side to that before a side next to it. KEEP: not where it is known what lies between. A thread takes
 // such a pair.
 #include "shaders/clusters/patches.glsl"

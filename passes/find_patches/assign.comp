@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The part of each side, and what it is sorted by: sides without one come last. A thread takes a side.
 #include "shaders/clusters/patch_types.h"
 #include "shaders/compute/linear_index.glsl"

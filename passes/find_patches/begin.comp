@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The surfels of all voxels, on no side yet. KEEP: where voxels have not changed, on the side that they were on. A thread takes one of
 // a chunk.
 #include "shaders/clusters/patches.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // What the surfaces of a side are: of each face's area in the voxel the part that its surfels have; where it has any, it has a patch.
 // Surfels of covered sides stand for what each point has of the surfaces' area, for then both sides of all points are surfels. A thread
 // takes a voxel.

@@ -1,10 +1,7 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // A bit for each side that leads a part: whose label is its own, in a cluster. A thread takes a word.
 #include "shaders/clusters/cluster_types.h"
 #include "shaders/clusters/patch_types.h"
 #include "shaders/compute/linear_index.glsl"
-#extension GL_EXT_scalar_block_layout : require
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Sides { SurfaceSide data[]; } sides;

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Surfels that nothing hides from the one that began their voxel's new side are on it, too. A thread takes a surfel.
 #include "shaders/clusters/patches.glsl"
 #include "shaders/compute/linear_index.glsl"

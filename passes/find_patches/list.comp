@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The sides in each voxel, and where each surfel is. A thread takes a voxel.
 #include "shaders/clusters/patches.glsl"
 #include "shaders/compute/large_buffer.glsl"

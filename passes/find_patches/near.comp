@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Sides of the 26 voxels round each side that look some way that it looks: counts them. LIST: lists them, with whose they are. A thread
 // takes a side.
 #include "shaders/clusters/patches.glsl"

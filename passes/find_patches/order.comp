@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Orders each voxel's surfels by side, and counts its sides. A thread takes a voxel.
 #include "shaders/clusters/patches.glsl"
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Sides that something hides are no neighbours. KEEP: of some it is known from the last build, whose lists they have, by other numbers.
 // A thread takes a pair.
 #include "shaders/clusters/patch_types.h"

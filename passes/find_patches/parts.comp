@@ -1,9 +1,6 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Where each part's members begin. A thread takes a part.
 #include "shaders/clusters/patch_types.h"
 #include "shaders/compute/linear_index.glsl"
-#extension GL_EXT_scalar_block_layout : require
 layout(local_size_x = 64) in;
 
 readonly buffer Counts { uint data[]; } counts;

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Of each voxel's open surfels that are on no side yet, or of its covered ones, the first begins one. A thread takes a voxel.
 #include "shaders/clusters/patches.glsl"
 #include "shaders/compute/linear_index.glsl"

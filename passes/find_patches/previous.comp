@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The number that each side had in the last build, where its voxel has not changed; where none next to it has either, what hid its
 // neighbours holds, too. A thread takes a side.
 #include "shaders/clusters/patch_types.h"

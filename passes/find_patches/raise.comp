@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The height of covered surfels: half of the gap that they are in. A thread takes a surfel.
 #include "shaders/clusters/patches.glsl"
 #include "shaders/compute/linear_index.glsl"

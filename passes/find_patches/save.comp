@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Saves the side that each surfel is on. A thread takes a surfel.
 #include "shaders/clusters/patches.glsl"
 #include "passes/find_patches/saved_side.h"

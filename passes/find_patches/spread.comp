@@ -1,11 +1,8 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Each side takes the least label of its neighbours in its cluster, so that in the end those that hang together have one: that of their
 // first. The order of threads has no part in that. A thread takes a side.
 #include "shaders/clusters/patch_types.h"
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
-#extension GL_EXT_scalar_block_layout : require
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Sides { SurfaceSide data[]; } sides;

@@ -13,7 +13,7 @@ void GatherCachedRays::declare(PassBuilder& builder) {
 }
 
 void GatherCachedRays::plan(PassPlan& plan) {
-    FinalGather::Settings settings{kName, {{0, params_.minSamples}}};
+    FinalGather::Settings settings{kName, {{"minSamples", params_.minSamples}}};
     settings.lightSamples = params_.lightSamples;
     settings.nearFieldCells = params_.nearFieldCells;
     settings.maxSteps = kMaxSegments;

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Rays to the camera from the points round the voxels of a batch that it has not seen yet. A thread takes a point.
 #include "passes/gather_clusters/seen_points.glsl"
 #include "shaders/trace/ray_types.h"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Irradiance of patches averaged with those at the same faces of the sides round them that look into the same space, by binomial
 // weights (Cosin and Patow 2022, section 4.4, whose filter also crosses walls). A thread takes a side; SEEN: one that is listed.
 #include "passes/gather_clusters/which_sides.glsl"

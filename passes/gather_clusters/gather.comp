@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Irradiance of the patches of all sides; SEEN: of those that are listed. A thread takes a side.
 #include "passes/gather_clusters/which_sides.glsl"
 #include "shaders/clusters/gather_patch.glsl"

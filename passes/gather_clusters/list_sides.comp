@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // The open sides in voxels. Their order is any; nothing depends on it. A thread takes a voxel.
 #include "shaders/clusters/patch_types.h"
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The voxels round what the camera sees that were not seen before. A thread takes a texel of the g-buffer.
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The voxels of a batch that the camera sees a point round and that were not seen before. A thread takes a voxel.
 #include "passes/gather_clusters/seen_points.glsl"
 #include "shaders/clusters/point_rays.glsl"

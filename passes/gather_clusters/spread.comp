@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Lists the sides round those of the last step, which a step of the filter reads. A thread takes one of those.
 #include "shaders/clusters/patch_types.h"
 #include "shaders/compute/large_buffer.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Irradiance of the faces of the open sides in a voxel (whose materials are bound) as its flux over their unoccluded area. A thread
 // takes the two faces across an axis of a voxel; SEEN: of one that is listed.
 #include "shaders/clusters/side_patches.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_GOOGLE_include_directive : require
 // What the strata of a lobe reflect, for each cosine to the viewer and each roughness: integrals by importance sampling. A thread
 // takes a stratum. Strata hold equal parts of the visible half vectors: one in the center, 6, 12 and so on round it.
 #include "passes/gather_cones/lobe_types.h"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // A ray along the axis of each cone of a batch, as long as the near field.
 #include "passes/gather_cones/near_cones.glsl"
 #include "shaders/radiance/cone_direction.glsl"

@@ -2,7 +2,6 @@
 #ifndef VOXRAY_NEAR_CONES_GLSL
 #define VOXRAY_NEAR_CONES_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
 
 #include "passes/gather_cones/texel_stride.glsl"
 #include "shaders/compute/linear_index.glsl"

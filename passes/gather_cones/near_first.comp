@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The ends of the rays through the near fields of a batch of cones, and what the cones find beyond.
 #include "passes/gather_cones/near_cones.glsl"
 #include "passes/gather_cones/near_end.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // The ends of rays that went on from near hits, and what cones find beyond.
 #include "passes/gather_cones/near_end.glsl"
 #include "shaders/compute/linear_index.glsl"

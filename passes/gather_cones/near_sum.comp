@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Irradiance of each traced texel of a batch: the weighted sum of what its cones bring.
 #include "passes/gather_cones/near_cones.glsl"
 #include "shaders/radiance/cone_types.h"

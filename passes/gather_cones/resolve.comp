@@ -1,6 +1,3 @@
-#version 460
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_GOOGLE_include_directive : require
 // Radiance that each pixel reflects: albedo / pi times the irradiance of the traced texels around it that see much the same,
 // averaged over its sub-pixels. With SPECULAR what specular lobes reflect comes on top of what they leave to the diffuse ones.
 #include "passes/gather_cones/texel_stride.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Radiance that the specular lobe of each g-buffer texel reflects, by a cone for each of its strata, and what it leaves to the
 // diffuse lobe below.
 #include "passes/gather_cones/lobe_types.h"

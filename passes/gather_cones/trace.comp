@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Irradiance from a set of cones, for every n-th texel of the G-buffer.
 #include "passes/gather_cones/texel_stride.glsl"
 #include "shaders/radiance/cone_set.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Merged voxels where a final gather reads light.
 #include "passes/common/final_gather/go_on.glsl"
 #include "passes/gather_merged_rays/tree_light.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // The first ray of each listed slot, from its g-buffer texel.
 #include "passes/gather_mirror/batch.glsl"
 #include "shaders/scene/lobe_ray.glsl"

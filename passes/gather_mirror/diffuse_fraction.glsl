@@ -2,7 +2,6 @@
 #ifndef VOXRAY_MIRROR_DIFFUSE_FRACTION_GLSL
 #define VOXRAY_MIRROR_DIFFUSE_FRACTION_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
 
 #include "passes/gather_mirror/mirror_types.h"
 #include "shaders/scene/specular.glsl"

@@ -124,11 +124,11 @@ void GatherMirror::prepare(PassSetup& setup) {
     if (hybrid_) hybrid_->prepare(setup.device, setup.compiler);
     mark_ = program("passes/gather_mirror/mark.comp", {});
     begin_ = program("passes/gather_mirror/begin.comp", {});
-    shade_ = program("passes/gather_mirror/shade.comp", {{0, shadowRays()}});
+    shade_ = program("passes/gather_mirror/shade.comp", {{"kShadowRays", shadowRays()}});
     if (widens())
         wide_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/gather_mirror/wide.comp",
                                                                         setup.get(radiance_).defines()));
-    resolve_ = program("passes/gather_mirror/resolve.comp", {{0, setup.has(lobes_)}});
+    resolve_ = program("passes/gather_mirror/resolve.comp", {{"kHasLobes", setup.has(lobes_)}});
     if (shadowRays()) {
         reflect_ = program("passes/gather_mirror/reflect.comp", {});
         hitLight_.prepare(setup);

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Flags the slots that a ray goes out from: all of a glossy texel, one of a mirror.
 #include "passes/gather_mirror/batch.glsl"
 #include "shaders/scene/specular.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Adds the direct light that surfels reflect to what their rays bring.
 #include "passes/gather_mirror/mirror_types.h"
 #include "shaders/compute/linear_index.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Joins what other passes bring to each pixel of a batch with what its mirrors show.
 #include "passes/gather_mirror/batch.glsl"
 #include "passes/gather_mirror/diffuse_fraction.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // The ends of rays: what they bring of emitted and of reflected light, and the rays that mirrors among them send on.
 #include "passes/gather_mirror/batch.glsl"
 #include "passes/gather_mirror/diffuse_fraction.glsl"

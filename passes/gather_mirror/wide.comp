@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Rays that are wider than a voxel where they come to a surface: from there on a cone through larger voxels stands for them (Seok 2021,
 // chapter 4: hybrid nodes for thin cones, mipmaps for wide ones). What the cone lets through is lost.
 #include "passes/gather_mirror/mirror_types.h"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Voxels where a final gather reads light.
 #include "passes/common/final_gather/shade.glsl"
 #include "passes/gather_rays/voxel_light.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Radiance that each pixel reflects of what six cones find, averaged over its texels (Arnebäck 2017, sections 3.1.5 and 3.2.5). What
 // the thesis leaves open: where a cone's first sample is (`start`); a cone ends a sample's width outside of the grid, where none reads
 // it any more.

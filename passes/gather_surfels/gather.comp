@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Radiance that each pixel's surfaces reflect of the irradiance that surfels around them hold.
 //
 // Each surfel of the eight voxels around a point counts by the tent weights of these voxels, times

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Adds the light of surfaces that surfels of both kinds are near, by what a ray from each has told.
 #include "passes/gather_surfels/undecided.h"
 layout(local_size_x = 8, local_size_y = 8) in;

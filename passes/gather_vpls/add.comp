@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Adds up what the virtual lights of a batch send to each of its receivers.
 #include "passes/gather_vpls/batch.glsl"
 #include "shaders/compute/linear_index.glsl"

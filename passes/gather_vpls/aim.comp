@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // A shadow ray from each receiver of a batch to each virtual light of it, with the irradiance that comes along it if nothing is in
 // the way (Sun and Agu 2015, equations 1 to 4).
 #include "passes/gather_vpls/receiver.glsl"

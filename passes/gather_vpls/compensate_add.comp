@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Adds to each texel's irradiance what its surfel reflects to it.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/gather_vpls/sums.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // A ray from each surfel to what is nearer than the bound, distributed by cosine, until Russian roulette ends it.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/octahedral.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // A surfel at each texel, for the rays that find what the bound took away.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/octahedral.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Which rays hit. A thread takes the rays of a word.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // The surfels where rays hit. From there comes the fraction of light that the bound B takes away at a distance d: 1 - d² / B
 // (Kollig and Keller 2004, section 4).
 #include "shaders/compute/linear_index.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Sums over each block for filter_irradiance. A sample is one virtual light: n times what it brings, where a texel has n.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/filter/ray_moments.h"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // A ray from each virtual light of a run through the center of each texel of its shadow map.
 #include "passes/gather_vpls/hemisphere.glsl"
 #include "shaders/compute/linear_index.glsl"

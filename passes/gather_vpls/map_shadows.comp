@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Which shadow rays of a batch their virtual lights' shadow maps block: those whose receiver's tangent plane lies behind what the
 // nearest texel sees, on that texel's own ray. So flat surfaces do not shade themselves; half a texel's width is to spare for what is
 // curved, and for rounding.

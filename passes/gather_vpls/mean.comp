@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // What a virtual light of a subset would bring to each receiver of a batch on average, were nothing in the way.
 #include "passes/gather_vpls/receiver.glsl"
 #include "shaders/compute/linear_index.glsl"

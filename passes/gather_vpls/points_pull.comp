@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // A texel of the coarse level: the mean of what is known of its four.
 #include "passes/gather_vpls/map_levels.glsl"
 #include "shaders/compute/linear_index.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // A texel of the fine level that nothing is known of: what is known of the four coarse ones round it, weighed bilinearly. Inverse depth
 // along an axis of the octahedron is linear over a flat surface, so that there the hole is filled by what it lacks.
 #include "passes/gather_vpls/map_levels.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // The disc of each point in the map of each virtual light of a run: in texels whose rays meet it, and in the point's own texel however
 // small it is there.
 #include "passes/gather_vpls/hemisphere.glsl"

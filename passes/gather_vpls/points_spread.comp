@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Points on triangles, as many on any area as on any other of its size: each run of them is spread evenly by itself.
 #include "passes/gather_vpls/map_point_types.h"
 #include "shaders/compute/linear_index.glsl"

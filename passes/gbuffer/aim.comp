@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // One camera ray for each of a batch of texels.
 #include "passes/gbuffer/view.glsl"
 #include "shaders/compute/linear_index.glsl"

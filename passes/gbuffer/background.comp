@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Fills the emission target with the environment's radiance; surfaces are drawn over it.
 #include "passes/gbuffer/view.glsl"
 #include "shaders/scene/scene.glsl"

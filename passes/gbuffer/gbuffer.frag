@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 #include "passes/gbuffer/visible_surface.glsl"
 
 layout(push_constant, scalar) uniform Push {

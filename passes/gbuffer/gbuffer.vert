@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 #include "passes/gbuffer/view.glsl"
 #include "shaders/scene/scene.glsl"
 #ifdef MOTION
@@ -45,7 +43,7 @@ void main() {
     material = s.material;
     gl_Position = push.viewProjection * vec4(s.position, 1.0);
 
-    // A face that looks away meets the face in front of it at the silhouette, at the same depth: it loses by a few
-    // steps of the depth buffer, so that no pixel sees a closed body from inside.
-    if (dot(s.geometricNormal, push.view.origin - s.position) < 0.0) gl_Position.z += 1e-6 * gl_Position.w;
+    // A face that looks away meets the face in front of it at the silhouette, at the same depth: it loses by a ten-thousandth of its
+    // distance (depth is reversed), more than a pixel's rounding makes, so that no pixel sees a closed body from inside.
+    if (dot(s.geometricNormal, push.view.origin - s.position) < 0.0) gl_Position.z *= 1.0 - 1e-4;
 }

@@ -123,6 +123,7 @@ void GBufferPass::prepare(PassSetup& setup) {
     for (const Target& t : kTargets) state.colorFormats.push_back(t.format);
     if (hasMotion(setup)) state.colorFormats.push_back(kWide);
     state.depthFormat = VK_FORMAT_D32_SFLOAT;
+    state.depthCompare = VK_COMPARE_OP_GREATER;
     surfaces_ = makeRasterProgram(setup.device, stages, state);
 }
 
@@ -209,6 +210,7 @@ void GBufferPass::rasterize(PassContext& context) {
         bindings.emplace_back("instanceStarts", instanceStarts_);
     }
     targets.depth = &depth_;
+    targets.depthClear = 0;
     targets.extent = {extent, 1};
     const ShadePixelsPush push{viewProjection(frame.camera, frame.width, frame.height, geometry), view};
     context.stream.draw(surfaces_, bindings, push, targets, context.scene.triangleCount * 3);

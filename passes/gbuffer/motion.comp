@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // How far in the image the point that each texel shows has moved since the frame before.
 #include "passes/gbuffer/view.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;

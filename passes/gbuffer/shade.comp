@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // What a batch of camera rays met, into the g-buffer's images.
 #include "passes/gbuffer/visible_surface.glsl"
 #include "shaders/compute/linear_index.glsl"

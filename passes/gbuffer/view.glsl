@@ -2,7 +2,6 @@
 #ifndef VOXRAY_GBUFFER_VIEW_GLSL
 #define VOXRAY_GBUFFER_VIEW_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
 
 // Half the image plane at unit distance is `right` wide and `up` high. C++: View in gbuffer_pass.cpp.
 struct View {

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Makes a surfel of each hit of a camera ray, on the side that the ray came from. Surfels are appended in any order; nothing that
 // follows depends on it.
 //

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Adds the irradiance of a punctual light, as if nothing hid it, to the surfels of the voxels of a batch that are lit: the light sees a
 // point round the voxel, and nothing in the next voxel towards the light turns its back to it (Cosin and Patow 2022, figure 10). A
 // thread takes a voxel.

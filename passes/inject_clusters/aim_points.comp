@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Rays from the points round the voxels of a batch to a punctual light. A thread takes a point.
 #include "passes/inject_clusters/lit_points.glsl"
 #include "shaders/trace/ray_types.h"

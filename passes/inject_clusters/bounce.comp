@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // One bounce between the faces of clusters' parts (Cosin and Patow 2022, section 4.4): what a face sends is what it sent of the light
 // that the bounces began with, and what some of its patches reflect of what they see. These are picked by area, in equal steps along
 // the sum of all; where there are no more than are to be picked, all are taken, by area. A thread takes a face that sends.

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Irradiance of each patch: what was injected into its voxel. None where the injection did not look. Where that has less than
 // SMALL_FACE_AREA, no more than its flux over so much: the ratio of two small samples could outshine a scene. A thread takes a side.
 #include "shaders/clusters/side_patches.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Irradiance of each patch: the mean of its side's surfels', by the area that its face has of them. A thread takes a side.
 #include "shaders/clusters/patches.glsl"
 #include "shaders/clusters/side_patches.glsl"

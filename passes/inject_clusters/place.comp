@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Moves the irradiance of surfels to their places among those of their sides. A thread takes a surfel of a chunk.
 #include "shaders/clusters/patch_types.h"
 #include "shaders/compute/large_buffer.glsl"

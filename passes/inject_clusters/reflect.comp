@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Radiosity of each patch: reflectance of its side (whose materials are bound) times irradiance. A thread takes a side.
 #include "shaders/clusters/side_patches.glsl"
 #include "shaders/compute/linear_index.glsl"

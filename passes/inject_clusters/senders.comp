@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Which faces of parts send light: those at which the part has area. A thread takes a part.
 #include "passes/inject_clusters/part_face_types.h"
 #include "shaders/clusters/side_patches.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Radiosity of patches after bounces between parts: their own of the light that the bounces began with, and the part's bounced light.
 // A thread takes a part; no patch is in two.
 #include "shaders/clusters/side_patches.glsl"

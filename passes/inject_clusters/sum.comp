@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Radiosity of the faces of clusters' parts: the mean of their sides' (whose materials are bound), by area (Cosin and Patow 2022,
 // section 4.4: irradiance is pulled up to clusters). A thread takes a part; its sides come in their order, so sums are the same in each
 // run.

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Marks the voxel faces that the shading of gather rays will read: see irradianceAt() in shaders/voxels/face_lookup.glsl.
 #include "shaders/voxels/face.glsl"
 #include "shaders/view/gather_layout.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Marks the voxel faces that have surfels: those alone can be lit.
 #include "shaders/voxels/face.glsl"
 #include "shaders/compute/linear_index.glsl"

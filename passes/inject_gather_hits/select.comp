@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Picks the surfels whose voxel faces are asked for. Their order is any; nothing depends on it.
 #include "shaders/voxels/face.glsl"
 #include "shaders/compute/linear_index.glsl"

@@ -21,6 +21,7 @@ void InjectLightRays::plan(PassPlan& plan) {
     const std::vector<LightSource> sources = requireLightSources(*plan.frame.scene, kName);
     paths_.plan(plan, kName, params_, std::min(params_.raysPerLight, kMaxBatchRays), plan.get(voxels_),
                 sources);
+    emission_.plan(plan, std::min(params_.raysPerLight, kMaxBatchRays));
     plan.lightRays = uint64_t(params_.raysPerLight) * (params_.lastBounce() + 1) * sources.size();
 }
 

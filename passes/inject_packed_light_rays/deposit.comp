@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Leaves the irradiance of each ray in the voxel that it hit, then mirrors the ray about the voxel's mean normal.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/packed_voxels/packed_voxels.glsl"

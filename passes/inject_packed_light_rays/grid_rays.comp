@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Rays of a spot light through the points of a planar grid that spans 90 degrees about its axis, with the light's intensity there.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"

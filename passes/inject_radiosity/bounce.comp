@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // One bounce: each surfel receives the mean of what its links send, and reflects it. Links are distributed by cosine, so that
 // irradiance is the mean of radiosity over them; a link to nothing counts as dark.
 #include "shaders/compute/large_buffer.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Each texel is a ray from the light whose hit the rasteriser found; it carries the light through the texel.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/light_paths/rsm_light.glsl"

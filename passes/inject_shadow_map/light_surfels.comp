@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Adds the light of one view of a light to the surfels in it, by the fraction of the four nearest texels, weighted bilinearly,
 // that see the surfel.
 #include "shaders/lights/light_view.glsl"

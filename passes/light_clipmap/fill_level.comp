@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // A clipmap level that is held whole from the level below, which is too. A thread takes a voxel.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance/radiance_voxels.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // A box of a clipmap level's voxels from the surfaces in them. A thread takes a voxel.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance/radiance_voxels.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Direct light that arrives at the surfaces of voxels. The visitor of a walk tests each clipped fragment, the part of a triangle in a
 // voxel, against the shadow map of each punctual light:
 //

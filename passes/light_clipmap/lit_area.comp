@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The area that the flux at each face of a voxel is spread over, in units of a voxel's face: the unoccluded area. A surface that light
 // reaches is visible, whatever the visibility probes found: so the area is at least the lit one.
 #include "passes/common/voxel_builder/surface_accumulator.h"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // What a light made leaves send, added to what other lights did. A thread takes a leaf.
 #include "passes/light_octree/leaf_sums.glsl"
 #include "shaders/compute/linear_index.glsl"

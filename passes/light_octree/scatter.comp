@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Light injection (Arnebäck 2017, section 3.2.3): a texel of a reflective shadow map finds the leaf that it sees, which reflects by its
 // mean color and mean normal (equation 2). A thread takes a texel. A first pass counts a leaf's texels and finds the brightest, a
 // second one adds each texel's part of their mean.

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The bricks of leaves: first the brightest of all, then the values. A thread takes a leaf. A leaf is one voxel of light, so all 27
 // values of its brick are that until the neighbours' are averaged in. Leaves with surfaces are opaque; neighbours that were made to
 // exist are transparent and black.

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Links each ray to the surfel that stands for the place where it hit.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"

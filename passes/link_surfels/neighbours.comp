@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Lists the surfels around each surfel: those of the 27 voxels about it that lie within a radius and look to the same side.
 // COUNT tells how many there are; then, with the sums of these, they are written.
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // What lookups read of the surfels in each voxel's list.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/surfels/packed_surfel.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Packs with each surfel how near the surfaces are that are seen from its voxel: the mean inverse distance of the surfels there that look
 // to the same side, as open or covered as it is. By each surfel's own a lookup would prefer those that see far, which in a gap are the
 // brighter ones.

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // A ray from each hit that tells whether the side that was hit is open, as place_surfels' rays do for surfels.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"

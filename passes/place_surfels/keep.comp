@@ -1,10 +1,7 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Keeps the candidates that have open space before them and, where all sides are asked for, those that have not, as covered ones:
 // they stand for no area. Their order is any; nothing depends on it.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
-#extension GL_EXT_scalar_block_layout : require
 #include "shaders/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 

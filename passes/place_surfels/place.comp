@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Both sides of points that are spread evenly over the surfaces, each with a ray along its normal, as long as a voxel, which
 // tells whether open space lies before it.
 #include "shaders/compute/linear_index.glsl"

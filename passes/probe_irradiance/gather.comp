@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Irradiance by cones at every so many-th surfel, in a place that its number picks: the order of surfels is any.
 #include "shaders/radiance/cone_set.glsl"
 #include "shaders/compute/linear_index.glsl"

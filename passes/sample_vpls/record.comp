@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Leaves a virtual point light where each ray hit, then turns the ray into its next bounce. With VOXEL_HITS rays hit surface voxels, and
 // with VOXEL_NEXT those that go on will.
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The first ray of each path of a light: through a texel of its maps that a point of the square falls on when rows are as high, and
 // texels in them as wide, as their part of all weights.
 #include "shaders/compute/linear_index.glsl"

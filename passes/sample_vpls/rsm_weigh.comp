@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The flux that the point reflects which each texel of a light's maps sees, as a whole number: what it is picked by.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/light_paths/light_bounce.glsl"

@@ -85,7 +85,10 @@ void SampleVpls::plan(PassPlan& plan) {
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
     plan.scratchBuffer(paths_, "light paths", batch * sizeof(gpu::LightPath));
     tint_.plan(plan, batch);
-    if (params_.first == FirstVertices::Rsm) rsmSampling_.plan(plan, plan.get(rsm_));
+    if (params_.first == FirstVertices::Rsm)
+        rsmSampling_.plan(plan, plan.get(rsm_));
+    else
+        emission_.plan(plan, batch);
     if (voxelTracer_) voxelTracer_->plan(plan, plan.get(voxels_));
 }
 

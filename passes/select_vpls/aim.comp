@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // A shadow ray from each virtual light of a batch to each of its random texels, with the kernel that it carries.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"

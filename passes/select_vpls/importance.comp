@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // What each virtual light of a batch brings to a texel on average, estimated by its texels, and its flux.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"

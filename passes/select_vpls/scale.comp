@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // The virtual lights that are kept, each with the flux of those that it stands for.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/vpls/vpls.glsl"

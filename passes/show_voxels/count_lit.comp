@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // How many patches at each face of each part of a cluster light arrives at straight from the lights. A thread takes a part.
 #include "passes/show_voxels/lit_patch.glsl"
 #include "shaders/clusters/side_patches.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // How many lit patches each face of a voxel sees: those that its list names, and of each part's face that it names all that are lit. Of
 // several open sides in a voxel the one that sees the most counts. A thread takes a side.
 #include "passes/show_voxels/lit_patch.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // What the first prefiltered voxel of one level holds on the ray through each pixel's center, for the face that is seen.
 #include "shaders/radiance/radiance_voxels.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // What the first voxel on the ray through each pixel's center holds.
 #include "shaders/voxel_march/voxel_march.glsl"
 #ifdef SHOW_IRRADIANCE

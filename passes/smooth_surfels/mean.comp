@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Irradiance of each surfel as the mean of those around it. Each counts by
 //
 //     kernel * noise / (noise + bias²)

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Mean and variance of the light around each surfel, on the same surface.
 #include "shaders/scene/sampling.glsl"
 #include "passes/smooth_surfels/surroundings.glsl"

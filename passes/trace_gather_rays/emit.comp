@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Starts a batch of gather rays from the G-buffer's surfaces, distributed by cosine about their normals.
 #include "shaders/view/gather_layout.glsl"
 #include "shaders/compute/linear_index.glsl"

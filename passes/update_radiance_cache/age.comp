@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Hands the cells of the previous frame on to this one's table, each with a part of its samples. Cells with little left are dropped.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance_cache/radiance_cache.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Makes a vertex of each hit, on the side that the ray came from, and sends the path's next ray. Russian roulette by albedo ends paths;
 // what follows a vertex counts for those that ended there. With `samplesToEnd` paths also end in cells that had as many samples in the
 // previous frame, whose table is bound then. Vertices are appended in any order; nothing depends on it.

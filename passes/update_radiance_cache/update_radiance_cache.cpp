@@ -98,7 +98,7 @@ void UpdateRadianceCache::prepare(PassSetup& setup) {
     };
     imageRays_.prepare(setup);
     light_.prepare(setup);
-    follow_ = program("follow.comp", {{0, endsInCache() ? params_.samplesToEnd : 0}});
+    follow_ = program("follow.comp", {{"samplesToEnd", endsInCache() ? params_.samplesToEnd : 0}});
     write_ = program("write.comp");
     if (keepsHistory()) age_ = program("age.comp");
     hasHistory_ = false;

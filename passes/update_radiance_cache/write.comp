@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The irradiance of each vertex, of `bounces` bounces: its direct light, and what the vertices that follow it reflect to it, or the
 // cell in which its path ended. It goes into the vertex's own cell.
 #include "passes/update_radiance_cache/path_types.h"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Pass "Leaf Value Assignment" (Arnebäck 2017, section 3.2.2): merges the color and the normal of each fragment into its leaf's. A thread
 // takes a fragment. Leaves that surfaces pass through which stay keep theirs, whatever moves there.
 #include "shaders/compute/linear_index.glsl"

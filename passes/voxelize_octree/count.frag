@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // A walk's visitor: counts the fragments.
 #include "passes/common/triangle_walk/raster.glsl"
 

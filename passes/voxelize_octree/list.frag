@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // A walk's visitor: appends each fragment to the list. Textures are read at their finest level. The list's order is that of threads.
 #include "passes/common/triangle_walk/raster.glsl"
 #include "shaders/compute/large_buffer.glsl"

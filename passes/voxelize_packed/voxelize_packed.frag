@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // A walk's visitor: merges the normal and the albedo of each fragment into its voxel's words. Textures are read at their finest level.
 #include "passes/common/triangle_walk/raster.glsl"
 #include "shaders/packed_voxels/packed_voxels.glsl"

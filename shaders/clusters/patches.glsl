@@ -2,8 +2,6 @@
 #ifndef VOXRAY_PATCHES_GLSL
 #define VOXRAY_PATCHES_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_buffer_reference : require
 
 #include "shaders/clusters/patch_types.h"
 

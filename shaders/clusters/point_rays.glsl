@@ -2,7 +2,6 @@
 #ifndef VOXRAY_POINT_RAYS_GLSL
 #define VOXRAY_POINT_RAYS_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
 #include "shaders/trace/ray_types.h"
 
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;

@@ -3,7 +3,6 @@
 #ifndef VOXRAY_VOXEL_POINTS_GLSL
 #define VOXRAY_VOXEL_POINTS_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
 #include "shaders/voxels/voxels.glsl"
 
 #define EDGE_POINTS 12u

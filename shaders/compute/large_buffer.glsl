@@ -3,8 +3,6 @@
 #ifndef VOXRAY_LARGE_BUFFER_GLSL
 #define VOXRAY_LARGE_BUFFER_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_buffer_reference : require
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LargeFloats { float data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LargeUints { uint data[]; };

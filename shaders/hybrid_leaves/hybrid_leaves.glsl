@@ -4,8 +4,6 @@
 #ifndef VOXRAY_HYBRID_LEAVES_GLSL
 #define VOXRAY_HYBRID_LEAVES_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_buffer_reference : require
 
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/hybrid_leaves/hybrid_types.h"

@@ -2,7 +2,6 @@
 #ifndef VOXRAY_IRRADIANCE_TREE_GLSL
 #define VOXRAY_IRRADIANCE_TREE_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
 
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/irradiance_tree/irradiance_tree_types.h"

@@ -11,7 +11,8 @@
 // Of the ring round a region, in radii of the sphere round it: what lies farther away adds little light to that of the ring.
 const float RING_RADII = 4.0;
 
-// A point before all surfaces on the disc that the scene's region fits behind, seen along a direction. Where there are surfaces around the
+// A point of the disc that the scene's region fits behind, seen along a direction, before all surfaces or before those near the region
+// (EmittingSource::start). Where there are surfaces around the
 // region, which send light into it, a quarter of the points lie on a ring round that disc. `area`: m², that the point stands for, as if
 // it were the only one.
 vec3 discPoint(EmittingSource e, vec2 u, vec3 direction, out float area) {
@@ -24,7 +25,7 @@ vec3 discPoint(EmittingSource e, vec2 u, vec3 direction, out float area) {
     vec3 t, b;
     frame(direction, t, b);
     const float r = sqrt(isOnRing ? inner + ring * part : inner * part), phi = 2.0 * PI * u.y;
-    return e.sceneCenter - direction * e.reach + t * (r * cos(phi)) + b * (r * sin(phi));
+    return e.sceneCenter - direction * e.start + t * (r * cos(phi)) + b * (r * sin(phi));
 }
 
 // Sets the ray's origin and direction, and the path's power and beam as if this were the source's only ray.

@@ -32,6 +32,7 @@ struct EmittingSource {
     vec3 sceneCenter;   // m, of the sphere round the scene's region.
     float sceneRadius;  // m
     float reach;        // m: as far from the center there are surfaces.
+    float start;        // m: as far before the center parallel light and the environment begin.
 };
 
 VOXRAY_SHARED_END

@@ -2,7 +2,6 @@
 #ifndef VOXRAY_LIGHT_VIEW_GLSL
 #define VOXRAY_LIGHT_VIEW_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
 
 #include "shaders/lights/light_view_types.h"
 

@@ -2,8 +2,6 @@
 #ifndef VOXRAY_RSM_GLSL
 #define VOXRAY_RSM_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_buffer_reference : require
 
 #include "shaders/lights/light_view.glsl"
 #include "shaders/lights/rsm_types.h"

@@ -9,8 +9,6 @@
 #ifndef VOXRAY_BRICK_OCTREE_GLSL
 #define VOXRAY_BRICK_OCTREE_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_buffer_reference : require
 
 #include "shaders/octree/brick_octree_types.h"
 #include "shaders/octree/octree_cells.glsl"

@@ -16,8 +16,6 @@
 #ifndef VOXRAY_OCTREE_GLSL
 #define VOXRAY_OCTREE_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_buffer_reference : require
 
 #include "shaders/octree/octree_cells.glsl"
 #include "shaders/octree/octree_types.h"

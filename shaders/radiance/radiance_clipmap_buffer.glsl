@@ -2,7 +2,6 @@
 #ifndef VOXRAY_RADIANCE_CLIPMAP_BUFFER_GLSL
 #define VOXRAY_RADIANCE_CLIPMAP_BUFFER_GLSL
 
-#extension GL_EXT_buffer_reference : require
 
 #include "shaders/radiance/radiance_texel.glsl"
 

@@ -2,7 +2,6 @@
 #ifndef VOXRAY_RADIANCE_DENSE_GLSL
 #define VOXRAY_RADIANCE_DENSE_GLSL
 
-#extension GL_EXT_buffer_reference : require
 
 #include "shaders/radiance/radiance_dense_types.h"
 

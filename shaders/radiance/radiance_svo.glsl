@@ -2,7 +2,6 @@
 #ifndef VOXRAY_RADIANCE_SVO_GLSL
 #define VOXRAY_RADIANCE_SVO_GLSL
 
-#extension GL_EXT_buffer_reference : require
 
 #include "shaders/octree/octree.glsl"
 #include "shaders/radiance/radiance_texel.glsl"

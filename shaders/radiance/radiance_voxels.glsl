@@ -8,7 +8,6 @@
 #ifndef VOXRAY_RADIANCE_VOXELS_GLSL
 #define VOXRAY_RADIANCE_VOXELS_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
 
 #include "shaders/radiance/radiance_types.h"
 

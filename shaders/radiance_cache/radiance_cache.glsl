@@ -3,9 +3,6 @@
 #ifndef VOXRAY_RADIANCE_CACHE_GLSL
 #define VOXRAY_RADIANCE_CACHE_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_shader_atomic_int64 : require
 
 #include "shaders/radiance_cache/radiance_cache_types.h"
 #include "shaders/scene/sampling.glsl"

@@ -2,9 +2,6 @@
 #ifndef VOXRAY_SCENE_GLSL
 #define VOXRAY_SCENE_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_nonuniform_qualifier : require
-#extension GL_EXT_buffer_reference : require
 
 #include "shaders/scene/scene_types.h"
 #include "shaders/scene/surface_offset.glsl"

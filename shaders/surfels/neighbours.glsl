@@ -2,8 +2,6 @@
 #ifndef VOXRAY_NEIGHBOURS_GLSL
 #define VOXRAY_NEIGHBOURS_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_buffer_reference : require
 
 // x: the neighbour's slot; y: two half floats, bias² and kernel. A vector is one load for software Vulkan.
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer NeighbourPairs { uvec2 data[]; };

@@ -2,8 +2,6 @@
 #ifndef VOXRAY_PACKED_SURFEL_GLSL
 #define VOXRAY_PACKED_SURFEL_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_buffer_reference : require
 #include "shaders/scene/octahedral.glsl"
 
 // x: place in the surfel's voxel, 10 bits an axis, and whether the surfel is covered; y: normal, octahedral, in 24 bits, and mean inverse

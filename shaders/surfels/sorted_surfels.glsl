@@ -2,8 +2,6 @@
 #ifndef VOXRAY_SORTED_SURFELS_GLSL
 #define VOXRAY_SORTED_SURFELS_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_buffer_reference : require
 #include "shaders/surfels/sorted_surfels.h"
 
 // gpu::SortedSurfel, in two vectors each: software Vulkan takes as long for a vector as for a number.

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_EXT_ray_tracing : require
 
 #include "shaders/trace/trace.glsl"
 

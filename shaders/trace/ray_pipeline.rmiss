@@ -1,6 +1,3 @@
-#version 460
-#extension GL_EXT_ray_tracing : require
-#extension GL_EXT_scalar_block_layout : require
 
 #include "shaders/trace/ray_types.h"
 

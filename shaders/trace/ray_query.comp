@@ -1,5 +1,3 @@
-#version 460
-#extension GL_EXT_ray_query : require
 
 // Traces a stream with ray queries: one invocation a ray.
 #include "shaders/trace/trace.glsl"

@@ -2,9 +2,6 @@
 #ifndef VOXRAY_TRACE_GLSL
 #define VOXRAY_TRACE_GLSL
 
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
 #include "shaders/scene/texel_filter.glsl"
 #include "shaders/trace/ray_types.h"

@@ -4,7 +4,6 @@
 #ifndef VOXRAY_VOXEL_MARCH_GLSL
 #define VOXRAY_VOXEL_MARCH_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
 
 #include "shaders/voxel_march/segment.glsl"
 #include "shaders/voxel_march/surface_segment.glsl"

@@ -3,8 +3,6 @@
 #ifndef VOXRAY_FACE_IRRADIANCE_GLSL
 #define VOXRAY_FACE_IRRADIANCE_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_buffer_reference : require
 
 // By voxel and face: as faceLight() of face_lookup.glsl.
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer FaceIrradiance { vec4 data[]; };

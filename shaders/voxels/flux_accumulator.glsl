@@ -2,9 +2,6 @@
 #ifndef VOXRAY_FLUX_ACCUMULATOR_GLSL
 #define VOXRAY_FLUX_ACCUMULATOR_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_shader_atomic_int64 : require
 
 #include "shaders/voxels/face.glsl"
 #include "shaders/compute/large_buffer.glsl"

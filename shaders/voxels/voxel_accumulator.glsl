@@ -3,7 +3,6 @@
 #ifndef VOXRAY_VOXEL_ACCUMULATOR_GLSL
 #define VOXRAY_VOXEL_ACCUMULATOR_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
 
 #include "shaders/voxels/face.glsl"
 
@@ -13,8 +12,6 @@
 #define WRITE_NONE 3
 
 #if WRITE == WRITE_AVERAGE
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_shader_atomic_int64 : require
 #define WEIGHT_UNITS 16777216.0
 #define LARGEST_SAMPLE 1099511627776.0  // 2^40 units: 2^16 times the typical irradiance.
 layout(scalar) buffer VoxelSums { uint64_t data[]; } voxelSums;        // 3 a face

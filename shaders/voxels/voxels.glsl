@@ -3,7 +3,6 @@
 #ifndef VOXRAY_VOXELS_GLSL
 #define VOXRAY_VOXELS_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
 
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/voxels/voxel_packing.h"

@@ -2,8 +2,6 @@
 #ifndef VOXRAY_VPLS_GLSL
 #define VOXRAY_VPLS_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_buffer_reference : require
 #include "shaders/vpls/vpl_types.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VplArray { Vpl data[]; };

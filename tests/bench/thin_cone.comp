@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Cones through radiance voxels in steps of half a footprint, as in the thesis's comparison of layouts (Arnebäck 2017, section
 // 5.3.5): from one place in all directions, of a fixed length.
 #include "shaders/compute/linear_index.glsl"

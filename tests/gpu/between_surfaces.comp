@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Whether voxels hide pairs of points of surfaces from each other, and the part of the way in which they can.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxel_march/voxel_march.glsl"

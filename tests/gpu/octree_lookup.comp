@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Where a list of voxels stands in an octree: each one's leaf, and the level at which a cone from its center would start.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance/radiance_voxels.glsl"

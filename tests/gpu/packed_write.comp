@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Each word takes colors from `threads` threads, of each the same two colors one after the other.
 #include "shaders/packed_voxels/packed_write.glsl"
 layout(local_size_x = 64) in;

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Samples of radiance voxels, whatever their layout.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/radiance/sample_radiance.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Writes the first word of each member of an array's first element, then of the second element: its stride.
 #include "shaders/light_paths/light_path_types.h"
 #include "shaders/trace/ray_types.h"

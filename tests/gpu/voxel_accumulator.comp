@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Many samples for every second voxel at once: irradiance firstValue + slope * (number of the sample), channels 1 : 2 : 4.
 #include "shaders/voxels/voxel_accumulator.glsl"
 layout(local_size_x = 64) in;

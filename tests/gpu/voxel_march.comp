@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Walks of rays, with the segments that they walk along; with SEGMENTS occlusion both ways between the ends of segments.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"

@@ -1,4 +1,3 @@
-#version 460
 
 layout(location = 0) out vec4 color;
 layout(push_constant) uniform Push {

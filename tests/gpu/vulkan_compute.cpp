@@ -79,6 +79,41 @@ TEST_F(VulkanCompute, PushConstantsOfOtherNamesOrPlacesAreRefused) {
     stream.dispatch(program, {{"source", source}, {"Target", target}}, Push{1, 0}, {1, 1, 1});
 }
 
+TEST_F(VulkanCompute, NumbersGoByNameAndInvocationsMakeGroups) {
+    const Program program = computeProgram("vulkan_scale.comp");
+    const Buffer source(device(), "source", kCount * 4), target(device(), "target", kCount * 4);
+    CommandStream stream(device());
+    stream.upload(source, std::vector<uint32_t>(kCount, 2));
+    stream.dispatch(program, kCount,
+                    {{"source", source}, {"Target", target}, {"bias", 3u}, {"count", kCount}});
+    EXPECT_EQ(stream.readAs<uint32_t>(target, kCount), std::vector<uint32_t>(kCount, 5));
+
+    const auto errorWith = [&](const Bindings::Entry& more, const Bindings::Entry& count) {
+        return errorOf([&] {
+            stream.dispatch(program, 1, {{"source", source}, {"Target", target}, more, count});
+        });
+    };
+    const Bindings::Entry one{"count", 1u};
+    EXPECT_CONTAINS(errorWith({"bias", 1.0f}, one),
+                    "push constant 'bias' is an integer of 4 bytes, given is a float of 4");
+    EXPECT_CONTAINS(errorWith({"bias", uint64_t(1)}, one), "of 8");
+    EXPECT_CONTAINS(errorWith({"base", 1u}, one), "there is no push constant 'base'");
+    EXPECT_CONTAINS(errorWith({"count", 2u}, one), "'count' is given twice");
+    EXPECT_CONTAINS(errorWith(ifUsed({"base", 1u}), one), "push constant 'bias' is not given");
+    // What is given by name stands above what a resource brings along.
+    const Bindings::Entry brought = std::vector{ifUsed({"count", 9.0f}), Binding("bias", 1u)};
+    stream.dispatch(program, 1, {{"source", source}, {"Target", target}, brought, one});
+}
+
+TEST_F(VulkanCompute, InvocationsAreFoldedIntoRows) {
+    const glm::uvec3 line(64, 1, 1), square(8, 8, 1);
+    EXPECT_EQ(Invocations(0).groups(line).y, 0u);
+    EXPECT_EQ(Invocations(65).groups(line), glm::uvec3(2, 1, 1));
+    EXPECT_EQ(Invocations(uint64_t(64) * 32768 + 1).groups(line), glm::uvec3(32768, 2, 1));
+    EXPECT_EQ(Invocations(glm::uvec2(17, 8)).groups(square), glm::uvec3(3, 1, 1));
+    EXPECT_EQ(Invocations::ofGroups(40000).groups(line), glm::uvec3(32768, 2, 1));
+}
+
 TEST_F(VulkanCompute, DiscardedCommandsLeaveNoTrace) {
     const Program program = computeProgram("vulkan_scale.comp");
     const Buffer source(device(), "source", kCount * 4), target(device(), "target", kCount * 4);
@@ -105,20 +140,25 @@ TEST_F(VulkanCompute, DiscardedCommandsLeaveNoTrace) {
 }
 
 TEST_F(VulkanCompute, DefinesAndSpecializationConstantsReachTheShader) {
-    const Program program = computeProgram("vulkan_scale.comp", {{"OFFSET", "100"}}, {{0, 3}});
+    const Program program = computeProgram("vulkan_scale.comp", {{"OFFSET", "100"}}, {{"kFactor", 3}});
     const std::vector<uint32_t> result = run(program, {kCount, 0});
     for (uint32_t i = 0; i < kCount; ++i) ASSERT_EQ(result[i], 3 * i + 100);
 }
 
 TEST_F(VulkanCompute, UnknownSpecializationConstantIsNamed) {
-    EXPECT_CONTAINS(errorOf([] { computeProgram("vulkan_scale.comp", {}, {{9, 1}}); }), "constant 9");
+    EXPECT_CONTAINS(errorOf([] {
+                        computeProgram("vulkan_scale.comp", {}, {{"kFaktor", 1}});
+                    }),
+                    "constant 'kFaktor'; did you mean 'kFactor'");
 }
 
 TEST_F(VulkanCompute, ReflectsWhatTheCodeUses) {
     const ShaderModule module = compiler().compile("tests/gpu/vulkan_scale.comp");
     ASSERT_EQ(module.bindings.size(), 2u);  // `unused` is declared only.
     EXPECT_EQ(module.pushConstantBytes, sizeof(Push));
-    EXPECT_EQ(module.specializationIds, std::vector<uint32_t>{0});
+    ASSERT_EQ(module.constants.size(), 1u);
+    EXPECT_EQ(module.constants[0].name, "kFactor");
+    EXPECT_EQ(module.localSize, glm::uvec3(64, 1, 1));
 }
 
 TEST_F(VulkanCompute, WrongBindingsAreNamed) {

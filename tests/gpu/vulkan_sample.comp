@@ -1,5 +1,3 @@
-#version 460
-#extension GL_EXT_nonuniform_qualifier : require
 
 layout(local_size_x = 1) in;
 uniform sampler2D picture;

@@ -1,4 +1,3 @@
-#version 460
 
 // The triangle (-1,-1) (1,-1) (-1,1): half of the viewport.
 void main() {

@@ -1,4 +1,3 @@
-#version 460
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 layout(rgba32f) uniform writeonly image3D volume;

@@ -9,6 +9,7 @@
 #include "experiment/pixel_masks.h"
 #include "image/metrics.h"
 #include "passes/common/view/gbuffer.h"
+#include "scene/region_split.h"
 #include "scene/shapes.h"
 #include "tests/gpu/chain.h"
 
@@ -136,6 +137,21 @@ std::shared_ptr<const SceneState> stripes(uint32_t columns, const glm::vec3& eye
     scene.materials.back().baseColorTexture.texture = 0;
     builder.camera(eye, {0, 0, 0}, 30);
     return std::make_shared<SceneState>(evaluate(builder.finish(), 0.0));
+}
+
+TEST(GBuffer, TheNearerOfTwoSheetsIsSeenHoweverFarOtherSurfacesLie) {
+    SceneBuilder builder("sheets");
+    builder.quad("front", {-3, -3, 0}, {6, 0, 0}, {0, 6, 0}, builder.lambert("front", glm::vec3(0.8f)));
+    builder.quad("back", {-3, -3, -1e-4f}, {6, 0, 0}, {0, 6, 0}, builder.lambert("back", glm::vec3(0.2f)));
+    builder.quad("stray", {1e6f, 0, 0}, {1, 0, 0}, {0, 1, 0}, builder.lambert("stray", glm::vec3(0.5f)));
+    builder.camera({0, 0, 4}, {0, 0, 0}, 60);
+    const auto state =
+        std::make_shared<SceneState>(inRegion(evaluate(builder.finish(), 0), {{-3, -3, -1}, {3, 3, 4}}, 0));
+    for (const std::string method : {"rays", "raster"}) {
+        Chain chain(state, graphYaml({"gbuffer, method: " + method}), 16, 16, 1);
+        for (const glm::vec4& albedo : texels(chain, gbuffer(chain).albedo))
+            EXPECT_NEAR(albedo.x, 0.8f, 0.01f) << method;
+    }
 }
 
 TEST(GBuffer, TexturesAreSeenAtTheFootprintOfAPixel) {

@@ -12,7 +12,7 @@ namespace voxray::test {
 namespace {
 
 /// A room of 4 m, open to the front, on ground of 1 km, in the sun.
-SceneState roomOnGround() {
+SceneState roomOnGround(const std::function<void(SceneBuilder&)>& addMore = [](SceneBuilder&) {}) {
     SceneBuilder builder("room on ground");
     const uint32_t gray = builder.lambert("gray", glm::vec3(0.6f)),
                    ground = builder.lambert("ground", glm::vec3(0.3f));
@@ -20,6 +20,7 @@ SceneState roomOnGround() {
     builder.room({-2, 0.01f, -2}, {2, 3, 2}, {gray, gray, gray, gray, gray, SceneBuilder::none});
     builder.directionalLight({0.3f, -0.7f, -1}, glm::vec3(5));
     builder.camera({0, 1.5f, 3.5f}, {0, 1.4f, 0}, 60);
+    addMore(builder);
     return evaluate(builder.finish(), 0);
 }
 
@@ -69,8 +70,10 @@ TEST(Region, HoldsTrianglesThatLieInItsBorder) {
     EXPECT_EQ(inside, (std::vector<bool>{true, true, false, false}));
 }
 
-TEST(Region, GatherRaysInARoomOnALargeGroundMatchTheReference) {
-    const auto state = std::make_shared<SceneState>(inRegion(roomOnGround(), kRoom, 0));
+/// Expects the mean indirect light of gather rays in kRoom to be the reference's. @return the voxels' edge,
+/// m.
+float expectTheReference(const SceneState& whole) {
+    const auto state = std::make_shared<SceneState>(inRegion(whole, kRoom, 0));
     Chain chain(state,
                 graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 64",
                            "inject_light_rays, rays_per_light: 1048576, bounces: 6",
@@ -78,10 +81,29 @@ TEST(Region, GatherRaysInARoomOnALargeGroundMatchTheReference) {
                 32, 32, 1);
     Chain reference(state, graphYaml({"gbuffer", "path_trace, spp: 1024, bounces: 7"}), 32, 32, 1);
     const double expected = mean(reference.image("indirect")), found = mean(chain.image("indirect"));
-    RecordProperty("ratio", fmt::format("{:.4f}", found / expected));
     EXPECT_NEAR(found, expected, 0.03 * expected);
+    return chain.graph().resource<SurfaceVoxels>("voxels")->grid.voxelSize;
+}
+
+TEST(Region, GatherRaysInARoomOnALargeGroundMatchTheReference) {
     // 64 voxels along the region's longest side
-    EXPECT_NEAR(chain.graph().resource<SurfaceVoxels>("voxels")->grid.voxelSize, 5.5f / 63.75f, 1e-4f);
+    EXPECT_NEAR(expectTheReference(roomOnGround()), 5.5f / 63.75f, 1e-4f);
+}
+
+TEST(Region, LightRaysHitSurfacesHoweverFarOthersLie) {
+    // Out there floats are half a metre and more apart
+    expectTheReference(roomOnGround([](SceneBuilder& builder) {
+        builder.quad("stray", {1e7f, 0, 0}, {1, 0, 0}, {0, 1, 0}, builder.lambert("stray", glm::vec3(0.5f)));
+    }));
+}
+
+TEST(Region, SurfacesFarAwayOccludeLightRays) {
+    // A screen 5 km towards the sun, whose shadow's edge halves the room
+    expectTheReference(roomOnGround([](SceneBuilder& builder) {
+        const glm::vec3 towardsSun = glm::normalize(glm::vec3(-0.3f, 0.7f, 1)), center = 5000.0f * towardsSun;
+        builder.quad("screen", center + glm::vec3(0, -50, 0), {100, 0, 0}, {0, 100, 0},
+                     builder.lambert("screen", glm::vec3(0.5f)));
+    }));
 }
 
 }  // namespace

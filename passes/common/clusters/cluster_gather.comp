@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Irradiance of all patches out of what they see. A thread takes a patch.
 #include "shaders/clusters/gather_patch.glsl"
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The indices of the bits that are set, in ascending order. A thread takes a word.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // How often each value occurs. A thread takes a value.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

@@ -1,4 +1,3 @@
-#version 460
 // One pass of a least-significant-digit radix sort, by a digit of 4 bits. A work group takes a block of 4096 pairs of key and
 // value, a thread 16 consecutive ones. COUNT_DIGITS: how often each digit occurs in each block. SCATTER: after an exclusive prefix
 // sum over these counts, by digit and then by block, each pair goes to its place. Pairs of equal digit keep their order (the sort is

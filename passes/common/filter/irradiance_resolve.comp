@@ -1,4 +1,3 @@
-#version 460
 // Radiance that each pixel reflects: albedo / pi times irradiance, averaged over its sub-pixels.
 layout(local_size_x = 8, local_size_y = 8) in;
 

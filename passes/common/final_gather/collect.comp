@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Irradiance of each G-buffer texel: the mean of what its rays bring.
 #include "shaders/view/gather_layout.glsl"
 #include "shaders/compute/linear_index.glsl"

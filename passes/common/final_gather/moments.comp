@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Sums over the rays of each block, for filter_irradiance: how noisy rays are and how fast irradiance can change there.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"

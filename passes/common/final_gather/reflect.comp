@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Adds the direct light that surfels reflect to what their rays bring, and sends a ray on from those where one goes on.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/octahedral.glsl"

@@ -1,8 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 // A stream of rays through hybrid leaves: one thread a ray.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/hybrid_leaves/hybrid_walk.glsl"

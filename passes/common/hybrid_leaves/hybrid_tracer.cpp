@@ -31,8 +31,8 @@ void HybridTracer::prepare(Device& device, const ShaderCompiler& compiler) {
     march_.prepare(device, compiler);
     const ShaderModule module =
         compiler.compile("passes/common/hybrid_leaves/hybrid_tracer.comp", march_.defines());
-    closestHit_ = makeComputeProgram(device, module, {{0, 0}});
-    occluded_ = makeComputeProgram(device, module, {{0, 1}});
+    closestHit_ = makeComputeProgram(device, module, {{"kOccluded", 0}});
+    occluded_ = makeComputeProgram(device, module, {{"kOccluded", 1}});
 }
 
 void HybridTracer::begin(CommandStream& stream, const GpuScene& scene, const SurfaceVoxels& voxels,

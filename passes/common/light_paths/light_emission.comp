@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Starts a batch of rays from one source of light.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/light_paths/light_emission.glsl"

@@ -5,9 +5,13 @@
 
 namespace voxray {
 
-/// Starts rays at the lights, by shaders/light_paths/light_emission.glsl.
+/// Starts rays at the lights, by shaders/light_paths/light_emission.glsl. The sun's and the environment's
+/// begin outside of all surfaces; where these reach far beyond the scene's region, outside of those near it,
+/// and a ray back tells whether one farther out is in the way.
 class LightEmission {
  public:
+    /// @param rays the most of one batch.
+    void plan(PassPlan& plan, uint64_t rays);
     void prepare(PassSetup& setup);
 
     /// Rays [first, first + count) of the `rays` that a source sends; those of one `seed` complement each
@@ -24,7 +28,13 @@ class LightEmission {
               const Buffer& paths) const;
 
  private:
-    Program emit_;
+    /// Drops rays that surfaces beyond where they begin are in the way of.
+    void dropOccluded(PassContext& context, float reach, uint32_t count, const Buffer& rays,
+                      const Buffer& paths) const;
+
+    bool reachesFar_ = false;  ///< Whether surfaces reach far beyond the region.
+    Program emit_, turn_, drop_;
+    Buffer backRays_, occluded_;  ///< Scratch, where they do.
 };
 
 }  // namespace voxray

@@ -81,7 +81,7 @@ void LightPaths::prepare(PassSetup& setup) {
         setup.device,
         compile("passes/common/light_paths/light_paths_follow.comp",
                 sumsFlux_ ? Defines{{"FLUX", "1"}} : VoxelAccumulator::defines(params_.write)),
-        {{0, uint32_t(params_.secondary)}, {1, params_.caustics}});
+        {{"kSecondary", uint32_t(params_.secondary)}, {"kCaustics", params_.caustics}});
     unoccludedArea_ = makeComputeProgram(setup.device, compile("passes/common/voxels/unoccluded_area.comp"));
     for (int i = 0; i < 2; ++i) {
         if (sumsFlux_)

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Leaves what each ray carries in the voxel that it hit, then turns it into its next bounce.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/light_paths/material_bounce.glsl"

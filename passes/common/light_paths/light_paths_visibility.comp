@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // For each hit a ray off the surface along its normal, as long as a voxel: what it meets hides the surface from open space.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"

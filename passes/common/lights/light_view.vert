@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The scene's triangles as a light sees them.
 #include "shaders/lights/light_view.glsl"
 #include "shaders/scene/scene.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Rays as they look for panes: up to their ends.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"

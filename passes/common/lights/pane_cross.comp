@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Takes rays through the pane that they met, and from what they carry what its colour keeps. The scene is that of the panes.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Which point of which triangle a texel sees.
 #include "shaders/scene/scene.glsl"
 

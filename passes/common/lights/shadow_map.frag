@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Depth along the view's axis, linear, so that its precision is the same everywhere.
 #include "shaders/scene/scene.glsl"
 

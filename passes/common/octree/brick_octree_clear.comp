@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Forgets the dynamic section (Arnebäck 2017, section 3.2.2, "Dynamic Geometry"): no node of the static one points there any more, and
 // leaves without surfaces that stay are empty. A thread takes a node of the static section.
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Pass "Flag Nodes" (Arnebäck 2017, section 3.2.2): flags the nodes of a level that fragments fall into and, where they have none yet,
 // are to get a brick, and with them the 26 round each. A thread takes a fragment. The first one in a node does that for all of it.
 #include "shaders/compute/large_buffer.glsl"

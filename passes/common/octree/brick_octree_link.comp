@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Pass "Find Neighbors" (Arnebäck 2017, section 3.2.2): the six neighbours of each node of a level, by descent. A thread takes a node.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/brick_octree.glsl"

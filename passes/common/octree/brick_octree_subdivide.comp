@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Pass "Subdivision" (Arnebäck 2017, section 3.2.2): a brick for each flagged node and, above the leaves, eight children. A thread takes
 // a node. Numbers are counts of flags before it, where the thesis has atomic counters: the same voxels give the same pool.
 #include "shaders/compute/linear_index.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Flags the cells of a level that hold an occupied cell of the finer level, and counts them: a bit a cell, rows along x padded
 // to whole words, as in SurfaceVoxels. A thread makes a word.
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Numbers the children of a level's nodes: they follow each other in the order of the masks' bits. Writes the nodes' words, in the
 // table too, and the voxels of the children. A thread takes four nodes.
 #include "shaders/compute/linear_index.glsl"

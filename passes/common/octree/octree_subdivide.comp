@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // The masks of the children of a level's nodes, from the flags of the finer level. A thread makes the masks of four nodes.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/octree_cells.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Bricks of a level from those of their children (Arnebäck 2017, section 3.2.4, figures 30 and 31). A thread takes a node. One pass
 // for the value in the brick's center, which is whole, one for those on its sides and edges and one for its corners, which are a half,
 // a quarter and an eighth of it: the neighbours hold the rest, and transfers add them up.

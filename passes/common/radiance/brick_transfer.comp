@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Values that two bricks share across an axis made equal (Arnebäck 2017, section 3.2.3, figure 27). A thread takes a node of the level:
 // in the first pass it writes the mean (of leaves) or the sum (of partial results of the filter) to its neighbour up the axis, in
 // the second back to its neighbour down the axis.

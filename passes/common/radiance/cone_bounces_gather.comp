@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Flux that arrives at the faces of surface voxels from what radiance voxels hold, by a set of cones from the voxel's center. A
 // thread takes the two faces across an axis.
 #include "shaders/radiance/cone_set.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // A path begins at each surfel: its first ray, and nothing reflected so far.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/surfels/path_ray.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Moves the end of each path to the hit of its ray, on the side that the ray came from. Russian roulette by albedo ends paths early;
 // survivors' reflectance and area make up for those. New ends are appended in any order; nothing that follows depends on it.
 #include "shaders/compute/linear_index.glsl"

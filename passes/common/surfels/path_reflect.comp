@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Adds what arrives at the ends of paths, and is reflected along them, to the irradiance where they began: one path each.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/surfels/surfel_types.h"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Adds what shadow rays carry to the surfels that they reach.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

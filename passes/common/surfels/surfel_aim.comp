@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // One shadow ray from each surfel towards a source of light, with the irradiance that arrives if nothing is in the way.
 #include "shaders/lights/lights.glsl"
 #include "shaders/compute/linear_index.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Counts the surfels of each voxel.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/surfels/surfel_types.h"

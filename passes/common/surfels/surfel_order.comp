@@ -1,7 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_buffer_reference : require
 // Orders each voxel's surfels by id, so that sums over them come out alike in every run, and tells each surfel its
 // slot.
 #include "shaders/compute/large_buffer.glsl"

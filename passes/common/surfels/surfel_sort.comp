@@ -1,11 +1,7 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Puts each surfel into its voxel's list. The order within a list is any; order.comp makes it one.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/surfels/sorted_surfels.h"
 #include "shaders/surfels/surfel_types.h"
-#extension GL_EXT_buffer_reference : require
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Leaves the irradiance of surfels in their voxels, each by the area that it stands for where the way of merging knows weights.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/surfels/surfel_types.h"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Looks at each triangle along the axis that it faces most and draws the box round it, grown by more than half a pixel: every
 // pixel that the grown triangle touches has its center inside. The fragment shader drops the box's other pixels.
 #include "passes/common/triangle_walk/grid_triangle.glsl"

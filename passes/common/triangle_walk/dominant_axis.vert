@@ -1,4 +1,3 @@
-#version 460
 // Numbers the triangles' corners; the geometry shader reads what belongs to them.
 readonly buffer DrawnTriangles { uint data[]; } drawnTriangles;
 

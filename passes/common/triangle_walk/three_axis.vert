@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Draws the triangles as seen along one axis; the next two axes in cyclic order span the image.
 #include "passes/common/triangle_walk/grid_triangle.glsl"
 #include "passes/common/triangle_walk/walk_push.glsl"

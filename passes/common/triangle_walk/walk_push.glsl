@@ -2,7 +2,6 @@
 #ifndef VOXRAY_WALK_PUSH_GLSL
 #define VOXRAY_WALK_PUSH_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
 
 #include "passes/common/triangle_walk/walk_types.h"
 

@@ -14,7 +14,8 @@ glm::mat4 viewProjection(const Camera& camera, uint32_t width, uint32_t height, 
     const float far = reach(geometry.boundsMin, geometry.boundsMax);
     const float near = reach(geometry.region.min, geometry.region.max) * 1e-4f;
     const float aspect = float(width) / float(height);
-    glm::mat4 projection = glm::perspective(camera.verticalFovRadians, aspect, near, far);
+    // Near and far change places: floats are dense where depth is 0, and dense depths are needed far away
+    glm::mat4 projection = glm::perspective(camera.verticalFovRadians, aspect, far, near);
     projection[1][1] = -projection[1][1];
     return projection * glm::lookAt(camera.position, camera.position + camera.forward, camera.up);
 }

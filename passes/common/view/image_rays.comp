@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Rays from the camera through low-discrepancy points of the image.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"

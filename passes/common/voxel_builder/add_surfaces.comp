@@ -1,4 +1,2 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 #include "passes/common/triangle_walk/exact.glsl"
 #include "passes/common/voxel_builder/add_surfaces.glsl"

@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // A bit for each voxel of a region that is made of boxes of slots. A work group's z is a box, a thread takes a word in it.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Materials under the numbers that voxels have once a rebuilt region is merged: of rebuilt voxels the rebuilt ones, of all others the
 // previous ones. A thread takes a word.
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Occupancy of a grid in which a region was built again: within the region the rebuilt voxels, elsewhere the previous ones. Rebuilt
 // voxels beyond the region are dropped. A thread takes a word.
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Turns the fixed-point sums of the surface accumulator into area-weighted averages. A thread takes a voxel.
 #include "passes/common/voxel_builder/surface_accumulator.h"
 #include "shaders/compute/linear_index.glsl"

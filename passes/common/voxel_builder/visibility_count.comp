@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Adds probe points to the counts of their voxels, nine each: visible points by face +x -x +y -y +z -z, then all points by axis. A
 // point on a surface with unit normal n counts n_a² along axis a, in fixed point; 16 bits leave room for 65536 points.
 #include "passes/common/voxel_builder/visibility_point.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Two rays to each probe point that lies in one of the voxels, one to each of its sides, from a voxel's length away.
 #include "passes/common/voxel_builder/visibility_point.glsl"
 #include "shaders/compute/linear_index.glsl"

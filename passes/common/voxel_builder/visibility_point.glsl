@@ -2,7 +2,6 @@
 #ifndef VOXRAY_VISIBILITY_POINT_GLSL
 #define VOXRAY_VISIBILITY_POINT_GLSL
 
-#extension GL_EXT_scalar_block_layout : require
 
 struct ProbePoint {
     vec3 position;  // In the voxel that the point counts for.

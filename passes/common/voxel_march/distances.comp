@@ -1,6 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 // Distances between cells that are not empty (shaders/voxel_march/distances.glsl): first which ones are, of voxels or of an octree's
 // nodes; then along one axis after the other, each time from the distances along those before. A thread takes a cell.
 #include "shaders/compute/linear_index.glsl"

@@ -1,7 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_scalar_block_layout : require
 // A stream of rays through voxels: one thread a ray.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"

@@ -21,8 +21,8 @@ void VoxelTracer::prepare(Device& device, const ShaderCompiler& compiler) {
     march_.prepare(device, compiler);
     const ShaderModule module =
         compiler.compile("passes/common/voxel_march/voxel_tracer.comp", march_.defines());
-    closestHit_ = makeComputeProgram(device, module, {{0, 0}});
-    occluded_ = makeComputeProgram(device, module, {{0, 1}});
+    closestHit_ = makeComputeProgram(device, module, {{"kOccluded", 0}});
+    occluded_ = makeComputeProgram(device, module, {{"kOccluded", 1}});
 }
 
 void VoxelTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,

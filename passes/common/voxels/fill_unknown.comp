@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Gives a face on which nothing was measured the mean irradiance of the same face of the voxels around it, over its own
 // unoccluded area. Where those know nothing either it stays unknown. A thread takes a word of the occupancy bits.
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Fixed-point sums to watts. A thread takes the two faces across an axis of a voxel.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/flux_accumulator.glsl"

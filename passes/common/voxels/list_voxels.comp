@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // The coordinates of each surface voxel, by the voxel's number. A thread takes a word of the occupancy bits.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Merged irradiance to flux over the unoccluded area of each face, and that area where a sample fell. A thread takes a voxel.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/packed_flux.glsl"

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Radiance that each pixel's surface reflects of the irradiance that the voxels hold there.
 #include "shaders/voxels/voxel_irradiance.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;

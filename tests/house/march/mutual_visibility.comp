@@ -1,5 +1,3 @@
-#version 460
-#extension GL_EXT_scalar_block_layout : require
 // Whether the surface at each pixel and that at one of them see each other.
 #include "shaders/voxel_march/voxel_march.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;

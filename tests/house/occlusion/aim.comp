@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Ambient rays of a batch of pixels, by cosine about the normals of the g-buffer's texels.
 #include "shaders/scene/sampling.glsl"
 #include "tests/house/occlusion/batch.glsl"

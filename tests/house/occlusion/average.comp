@@ -1,5 +1,3 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
 // Radiance that each pixel of a batch reflects of the ambient light that its rays let through.
 #include "tests/house/occlusion/batch.glsl"
 layout(local_size_x = 64) in;

@@ -1,5 +1,4 @@
 // A batch of ambient rays: those of its pixels one after another, of a pixel those of its texels.
-#extension GL_EXT_scalar_block_layout : require
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
 

@@ -1,5 +1,3 @@
-#version 460
-#extension GL_EXT_scalar_block_layout : require
 // Multiplies each pixel by a colour.
 layout(local_size_x = 8, local_size_y = 8) in;
 
