@@ -7,6 +7,7 @@
 #include <future>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
@@ -37,23 +38,22 @@ DeviceInfo capableDevice() {
     return device;
 }
 
-/// What checking a config says.
-struct Said {
-    std::string
-        verdict;  ///< For the standard output; that it is valid is said where all of its profiles are.
-    std::string warnings;  ///< For the standard error, faults among them.
-    bool isValid = false;
+/// What is found of a config.
+struct ConfigCheck {
+    std::string verdict;   ///< For the standard output; empty where it is not valid under all profiles.
+    std::string messages;  ///< For the standard error: warnings, and the first fault.
+    bool isDone = false;
 };
 
 /// Checks a config under the profile that is asked for, or as it stands and again under each of its
 /// profiles; what is warned of is said once, with the profile where it holds under one alone.
 /// @throws UsageError for the first fault.
 void validate(const std::filesystem::path& config, const ConfigOptions& options, SceneLoader& loader,
-              const Registry& registry, Said& said) {
+              const Registry& registry, ConfigCheck& outcome) {
     std::vector<std::string> profiles{options.profile};
     if (options.profile.empty())
         for (const std::string& name : profileNames(config)) profiles.push_back(name);
-    std::set<std::string> known;
+    std::set<std::string> said;
     std::string verdict;
     for (const std::string& profile : profiles) {
         const std::string under =
@@ -61,15 +61,14 @@ void validate(const std::filesystem::path& config, const ConfigOptions& options,
         WiredExperiment wired =
             wireExperiment(loadExperiment(config, {profile, options.assignments}), registry);
         for (const std::string& warning : checkPlans(wired, loader, capableDevice(), registry).warnings)
-            if (known.insert(warning).second)
-                said.warnings += fmt::format("voxray: warning: {}{}\n", warning, under);
+            if (said.insert(warning).second)
+                outcome.messages += fmt::format("voxray: warning: {}{}\n", warning, under);
         const size_t variants = wired.variants.size();
         verdict +=
             fmt::format("{}{}: valid, {} variant{}\n", config.string(),
                         profile.empty() ? "" : " --profile " + profile, variants, variants == 1 ? "" : "s");
     }
-    said.verdict = std::move(verdict);
-    said.isValid = true;
+    outcome.verdict = std::move(verdict);
 }
 
 /// Indices of the configs by the scene that they render, those of many configs first: who checks them all
@@ -96,7 +95,18 @@ int validateAll(const ValidateArguments& arguments) {
     constexpr unsigned kMaxWorkers = 4;  // Each holds scenes of its own.
     Registry registry;
     registerPasses(registry);
-    std::vector<Said> said(arguments.configs.size());
+    std::vector<ConfigCheck> outcomes(arguments.configs.size());
+    std::mutex printing;
+    size_t printed =
+        0;  // Outcomes are told in the order of the configs, each as soon as those before it are.
+    const auto end = [&](ConfigCheck& outcome) {
+        const std::lock_guard lock(printing);
+        outcome.isDone = true;
+        for (; printed < outcomes.size() && outcomes[printed].isDone; ++printed) {
+            fmt::print(stderr, "{}", outcomes[printed].messages);
+            fmt::print("{}", outcomes[printed].verdict);
+        }
+    };
     const std::vector<std::vector<size_t>> groups = byScene(arguments);
     std::atomic<size_t> next = 0;
     const auto work = [&] {
@@ -106,22 +116,19 @@ int validateAll(const ValidateArguments& arguments) {
                 const std::filesystem::path& config = arguments.configs[i];
                 loader.searchIn(sceneFolders(arguments.scenes, sourceRoot(), config));
                 try {
-                    validate(config, arguments.config, loader, registry, said[i]);
+                    validate(config, arguments.config, loader, registry, outcomes[i]);
                 } catch (const Error& error) {
-                    said[i].warnings += fmt::format("voxray: error: {}\n", error.what());
+                    outcomes[i].messages += fmt::format("voxray: error: {}\n", error.what());
                 }
+                end(outcomes[i]);
             }
     };
     std::vector<std::future<void>> workers;
     for (size_t i = 0; i < std::min<size_t>({kMaxWorkers, workerThreads(), groups.size()}); ++i)
         workers.push_back(std::async(std::launch::async, work));
     for (std::future<void>& worker : workers) worker.get();
-
-    for (const Said& one : said) {
-        fmt::print(stderr, "{}", one.warnings);
-        fmt::print("{}", one.verdict);
-    }
-    return std::ranges::all_of(said, &Said::isValid) ? 0 : 2;
+    const auto isValid = [](const ConfigCheck& outcome) { return !outcome.verdict.empty(); };
+    return std::ranges::all_of(outcomes, isValid) ? 0 : 2;
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ def _score_marks(results: Results, metric: Metric, column: str) -> dict[str, str
     if ties - equal:
         return dict.fromkeys(ties | equal, "tie")
     black = results.baseline_scores("black", results.reference_of(best)).get(column, math.nan)
-    if len(equal) == len(ranks) and rows[column][best] == black:
+    if len(equal) == len(ranks) and math.isclose(rows[column][best], black, rel_tol=1e-6):  # Tables round to 9 digits
         return {}
     return dict.fromkeys(equal, "best")
 

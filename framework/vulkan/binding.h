@@ -132,27 +132,20 @@ class Invocations {
     /// axis); GLSL counterpart: linearIndex() in shaders/compute/linear_index.glsl.
     Invocations(uint64_t count) : count_(count) {}
     /// One for each pixel.
-    Invocations(glm::uvec2 pixels) : axes_(pixels, 1), isLinear_(false) {}
-    Invocations(glm::uvec3 texels) : axes_(texels), isLinear_(false) {}
-    /// So many work groups, folded likewise.
-    static Invocations ofGroups(uint64_t groups) {
-        Invocations all(groups);
-        all.areGroups_ = true;
-        return all;
-    }
+    Invocations(glm::uvec2 pixels) : pixels_(pixels), isLinear_(false) {}
 
     glm::uvec3 groups(const glm::uvec3& localSize) const {
-        if (!isLinear_) return (axes_ + localSize - 1u) / localSize;
+        if (!isLinear_) return (glm::uvec3(pixels_, 1) + localSize - 1u) / localSize;
         constexpr uint64_t kRow = 32768;
-        const uint64_t groups = areGroups_ ? count_ : (count_ + localSize.x - 1) / localSize.x;
+        const uint64_t groups = (count_ + localSize.x - 1) / localSize.x;
         if (groups <= kRow) return {uint32_t(groups), groups > 0 ? 1 : 0, 1};
         return {uint32_t(kRow), uint32_t((groups + kRow - 1) / kRow), 1};
     }
 
  private:
     uint64_t count_ = 0;
-    glm::uvec3 axes_{0};
-    bool isLinear_ = true, areGroups_ = false;
+    glm::uvec2 pixels_{0};
+    bool isLinear_ = true;
 };
 
 }  // namespace voxray

@@ -1,17 +1,8 @@
 #include "passes/composite/composite.h"
 
-#include "passes/common/compute/dispatch.h"
 #include "passes/common/view/frame_image.h"
 
 namespace voxray {
-namespace {
-
-struct CompositePush {
-    uint32_t samples;
-    float ambient;
-};
-
-}  // namespace
 
 void Composite::declare(PassBuilder& builder) {
     gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
@@ -28,7 +19,6 @@ void Composite::plan(PassPlan& plan) {
 void Composite::prepare(PassSetup& setup) {
     program_ = makeComputeProgram(setup.device, setup.compiler.compile("passes/composite/composite.comp"),
                                   SpecializationConstants{{"kHasAmbient", params_.ambient > 0}});
-    sampler_ = texelSampler(setup.device);
     setup.stream.clear(black_, {});
 }
 
@@ -36,14 +26,14 @@ void Composite::record(PassContext& context) {
     const Image& direct = context.has(direct_) ? context.get(direct_).image : black_;
     const Image& indirect = context.has(indirect_) ? context.get(indirect_).image : black_;
     const GBuffer& gbuffer = context.get(gbuffer_);
-    context.stream.dispatch(program_,
-                            {{"emission", gbuffer.emission, sampler_},
-                             {"albedo", gbuffer.albedo, sampler_},
-                             {"direct", direct, sampler_},
-                             {"indirect", indirect, sampler_},
-                             {"result", context.get(final_).image}},
-                            CompositePush{gbuffer.samples, params_.ambient},
-                            pixelGroups(context.frame.width, context.frame.height));
+    context.stream.dispatch(program_, glm::uvec2(context.frame.width, context.frame.height),
+                            {{"emission", gbuffer.emission},
+                             {"albedo", gbuffer.albedo},
+                             {"direct", direct},
+                             {"indirect", indirect},
+                             {"result", context.get(final_).image},
+                             {"samples", gbuffer.samples},
+                             {"ambient", params_.ambient}});
 }
 
 }  // namespace voxray

@@ -36,7 +36,6 @@ class Composite final : public Pass {
     Port<const FrameImage> direct_, indirect_;
     Port<FrameImage> final_;
     Program program_;
-    Sampler sampler_;
     Image black_;
 };
 

@@ -8,9 +8,6 @@
 #include "shaders/scene/scene.glsl"
 #include "shaders/trace/ray_types.h"
 
-// Of the ring round a region, in radii of the sphere round it: what lies farther away adds little light to that of the ring.
-const float RING_RADII = 4.0;
-
 // A point of the disc that the scene's region fits behind, seen along a direction, before all surfaces or before those near the region
 // (EmittingSource::start). Where there are surfaces around the
 // region, which send light into it, a quarter of the points lie on a ring round that disc. `area`: m², that the point stands for, as if

@@ -11,6 +11,9 @@
 #define SECONDARY_DIFFUSE 2u
 #define SECONDARY_MATERIAL 3u
 
+// Of the ring round a region, in radii of the sphere round it: what lies farther away adds little light to that of the ring.
+#define RING_RADII 4.0f
+
 VOXRAY_SHARED_BEGIN
 
 // The ray stands for a beam whose cross-section after d metres is area + solidAngle * d². Light from surfaces, from the

@@ -55,8 +55,8 @@ class Comparing(ReportTest):
         self.assertEqual(ranking.score_marks(self.results(rows), NRMSE, "nrmse"), {"a": "best"})
 
     def test_images_that_are_all_black_are_not_the_best(self):
-        rows = [made_up.variant(name, 10, 1) for name in ("a", "b")]
-        for black, marks in ((1, {}), (2, {"a": "best", "b": "best"})):
+        rows = [made_up.variant(name, 10, 0.123456789) for name in ("a", "b")]
+        for black, marks in ((0.12345678912345, {}), (2, {"a": "best", "b": "best"})):
             reference = made_up.manifest([])["reference"] | {"baselines": {"black": {"nrmse": black}}}
             results = self.results(rows, reference=reference)
             self.assertEqual(ranking.score_marks(results, NRMSE, "nrmse"), marks)

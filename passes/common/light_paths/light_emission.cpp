@@ -12,16 +12,9 @@ struct EmitPush {
     uint32_t batchRays;
 };
 
-struct TurnPush {
-    uint32_t count;
-    float length;
-};
-
 /// In radii of the region's sphere: where surfaces reach farther, the floats out there are more than 10⁻⁵ of
 /// a radius apart.
 constexpr float kFar = 256;
-/// Where rays begin then: before the ring of RING_RADII.
-constexpr float kNear = 4;
 
 bool isParallel(const LightSource& source, const SceneState& scene) {
     return source.kind == LightSource::Environment ||
@@ -58,7 +51,7 @@ void LightEmission::emit(PassContext& context, const LightSource& source, const 
     const gpu::EmittingSource emitting{
         source.kind,   source.light, context.scene.emitterCount,
         batch.rays,    batch.seed,   sphere.center,
-        sphere.radius, sphere.reach, startsNear ? kNear * sphere.radius : sphere.reach};
+        sphere.radius, sphere.reach, startsNear ? RING_RADII * sphere.radius : sphere.reach};
     context.stream.dispatch(emit_, context.scene.bindings({{"rays", rays}, {"paths", paths}}),
                             EmitPush{emitting, batch.first, batch.count}, linearGroups(batch.count));
     if (startsNear) dropOccluded(context, sphere.reach, batch.count, rays, paths);
@@ -66,11 +59,11 @@ void LightEmission::emit(PassContext& context, const LightSource& source, const 
 
 void LightEmission::dropOccluded(PassContext& context, float reach, uint32_t count, const Buffer& rays,
                                  const Buffer& paths) const {
-    context.stream.dispatch(turn_, {{"rays", rays}, {"backRays", backRays_}}, TurnPush{count, 2 * reach},
-                            linearGroups(count));
+    context.stream.dispatch(
+        turn_, count, {{"rays", rays}, {"backRays", backRays_}, {"count", count}, {"length", 2 * reach}});
     context.tracer.occluded(context.stream, backRays_, occluded_, count);
-    context.stream.dispatch(drop_, {{"occluded", occluded_}, {"rays", rays}, {"paths", paths}}, count,
-                            linearGroups(count));
+    context.stream.dispatch(drop_, count,
+                            {{"occluded", occluded_}, {"rays", rays}, {"paths", paths}, {"count", count}});
 }
 
 }  // namespace voxray
