@@ -2,8 +2,7 @@
 voxray_tests(embree
   SOURCES unit/embree_scene_test.cpp
   DEPENDS voxray_embree)
-voxray_tests(path_trace
-  SOURCES physics/path_trace_closed_form_test.cpp physics/path_trace_masked_lamp_test.cpp physics/path_trace_parts_test.cpp physics/path_trace_reflection_test.cpp
-          physics/path_trace_sampling_test.cpp physics/sealed_rooms_test.cpp
-  DEPENDS voxray_path_trace)
+file(GLOB PATH_TRACE_TESTS CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}
+  physics/path_trace_*_test.cpp physics/sealed_rooms_test.cpp)
+voxray_tests(path_trace SOURCES ${PATH_TRACE_TESTS} DEPENDS voxray_path_trace)
 add_subdirectory(${CMAKE_SOURCE_DIR}/tests/bench ${CMAKE_BINARY_DIR}/tests/bench)

@@ -15,7 +15,7 @@
 #include "experiment/counterparts.h"
 #include "experiment/report_process.h"
 #include "experiment/runner.h"
-#include "passes/register_passes.h"
+#include "passes/common/families.h"
 
 namespace voxray {
 

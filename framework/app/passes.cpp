@@ -8,7 +8,7 @@
 
 #include "app/commands.h"
 #include "graph/registry.h"
-#include "passes/register_passes.h"
+#include "passes/common/families.h"
 
 namespace voxray {
 
@@ -38,9 +38,13 @@ std::string wrapped(const std::string& text, size_t firstColumn, size_t indent) 
 void printList(const Registry& registry) {
     size_t widest = 0;
     for (const PassKind& kind : registry.kinds()) widest = std::max(widest, kind.name.size());
-    for (const PassKind& kind : registry.kinds()) {
-        const std::string firstSentence = kind.help.substr(0, kind.help.find(". "));
-        fmt::print("{:{}}  {}\n", kind.name, widest, wrapped(firstSentence, widest + 2, widest + 2));
+    for (const Family& family : kFamilies) {
+        fmt::print("{}: {}\n", family.folder, family.title);
+        for (const PassKind& kind : registry.kinds()) {
+            if (kind.family != family.folder) continue;
+            const std::string firstSentence = kind.help.substr(0, kind.help.find(". "));
+            fmt::print("  {:{}}  {}\n", kind.name, widest, firstSentence);
+        }
     }
     fmt::print("\nvoxray passes NAME tells a pass's ports and parameters.\n");
 }

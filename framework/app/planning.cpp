@@ -6,7 +6,7 @@
 
 #include "app/source_root.h"
 #include "experiment/validate.h"
-#include "passes/register_passes.h"
+#include "passes/common/families.h"
 
 namespace voxray {
 

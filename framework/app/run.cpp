@@ -14,7 +14,7 @@
 #include "base/thread_limit.h"
 #include "experiment/runner.h"
 #include "experiment/validate.h"
-#include "passes/register_passes.h"
+#include "passes/common/families.h"
 
 namespace voxray {
 

@@ -2,7 +2,7 @@
 
 #include "app/commands.h"
 #include "experiment/config_schema.h"
-#include "passes/register_passes.h"
+#include "passes/common/families.h"
 
 namespace voxray {
 

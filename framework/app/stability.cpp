@@ -19,7 +19,7 @@
 #include "config/yaml.h"
 #include "experiment/report_process.h"
 #include "experiment/runner.h"
-#include "passes/register_passes.h"
+#include "passes/common/families.h"
 
 namespace voxray {
 

@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "experiment/trials.h"
-#include "passes/register_passes.h"
+#include "passes/common/families.h"
 
 namespace voxray {
 

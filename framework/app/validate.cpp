@@ -18,7 +18,7 @@
 #include "base/thread_limit.h"
 #include "experiment/plan_checks.h"
 #include "experiment/scene_files.h"
-#include "passes/register_passes.h"
+#include "passes/common/families.h"
 
 namespace voxray {
 

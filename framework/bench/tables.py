@@ -79,7 +79,7 @@ def variant_rows(run: Run) -> list[dict]:
 def pass_names(program: Program, limit: float) -> list[str]:
     """All passes that the program has."""
     listing = program.call("passes", limit=limit).output
-    return [match[1] for line in listing.splitlines() if (match := re.match(r"([a-z]\w*)  ", line)) and line.strip()]
+    return [match[1] for line in listing.splitlines() if (match := re.match(r"  ([a-z]\w*)  ", line))]
 
 
 def benchmark(path: Path, pattern: str, clock: Clock) -> tuple[processes.Outcome, list[dict]]:

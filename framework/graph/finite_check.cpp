@@ -8,13 +8,7 @@
 namespace voxray {
 namespace {
 
-struct BufferPush {
-    uint64_t words;  ///< Address.
-    uint64_t floatCount;
-};
-
-constexpr uint32_t kGroupSize = 64;
-constexpr uint32_t kGroupsPerDispatch = 65535;
+constexpr uint64_t kFloatsPerDispatch = 32768 * 64;  // A row of work groups.
 
 /// Of floats that lie in host memory.
 uint32_t badFloatsOf(CommandStream& stream, const Buffer& buffer) {
@@ -24,50 +18,37 @@ uint32_t badFloatsOf(CommandStream& stream, const Buffer& buffer) {
 
 }  // namespace
 
-FiniteCheck::Programs::Programs(Device& device, const ShaderCompiler& compiler)
-    : image2d(makeComputeProgram(device, compiler.compile("framework/graph/finite_image.comp"))),
-      image3d(makeComputeProgram(device,
-                                 compiler.compile("framework/graph/finite_image.comp", {{"IMAGE_3D", "1"}}))),
-      buffer(makeComputeProgram(device, compiler.compile("framework/graph/finite_buffer.comp"))),
-      sampler(device, Filter::Nearest, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-              VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE),
-      count(device, "finite check", sizeof(uint32_t), MemoryKind::Device) {}
-
-FiniteCheck::FiniteCheck(Device& device, const ShaderCompiler& compiler) {
-    if (!device.isHost()) programs_.emplace(device, compiler);
-}
+FiniteCheck::FiniteCheck(Device& device) : count_(device, "finite check", sizeof(uint32_t)) {}
 
 uint32_t FiniteCheck::badTexels(CommandStream& stream, const Image& image) {
     const glm::uvec3 extent = image.desc().extent;
-    if (!programs_) {
+    if (stream.device().isHost()) {
         if (image.desc().format != VK_FORMAT_R32G32B32A32_SFLOAT)
             throw Error("image '{}' is not RGBA32F and can't be checked on the host", image.name());
         const Buffer texels(stream.device(), "finite check", imageBytes(image.desc()));
         stream.copy(image, texels);
         return badFloatsOf(stream, texels);
     }
-    stream.fill(programs_->count, 0);
-    stream.dispatch(extent.z > 1 ? programs_->image3d : programs_->image2d,
-                    {{"image", image, programs_->sampler}, {"count", programs_->count}}, {},
-                    {(extent.x + 7) / 8, (extent.y + 7) / 8, extent.z});
+    stream.fill(count_, 0);
+    stream.dispatch(extent.z > 1 ? image3d_ : image2d_, extent, {{"image", image}, {"count", count_}});
     return readCount(stream);
 }
 
 uint32_t FiniteCheck::badFloats(CommandStream& stream, const Buffer& buffer) {
-    if (!programs_) return badFloatsOf(stream, buffer);
+    if (stream.device().isHost()) return badFloatsOf(stream, buffer);
     const uint64_t total = buffer.bytes() / sizeof(float);
-    stream.fill(programs_->count, 0);
-    for (uint64_t first = 0; first < total; first += uint64_t(kGroupSize) * kGroupsPerDispatch) {
-        const uint64_t count = std::min<uint64_t>(total - first, uint64_t(kGroupSize) * kGroupsPerDispatch);
-        stream.dispatch(programs_->buffer, {{"count", programs_->count}},
-                        BufferPush{buffer.address() + first * sizeof(float), count},
-                        {uint32_t((count + kGroupSize - 1) / kGroupSize), 1, 1});
+    stream.fill(count_, 0);
+    for (uint64_t first = 0; first < total; first += kFloatsPerDispatch) {
+        const uint64_t floats = std::min(total - first, kFloatsPerDispatch);
+        stream.dispatch(
+            buffer_, floats,
+            {{"words", buffer.address() + first * sizeof(float)}, {"floatCount", floats}, {"count", count_}});
     }
     return readCount(stream);
 }
 
 uint32_t FiniteCheck::readCount(CommandStream& stream) {
-    return stream.readAs<uint32_t>(programs_->count, 1)[0];
+    return stream.readAs<uint32_t>(count_, 1)[0];
 }
 
 }  // namespace voxray

@@ -1,17 +1,16 @@
 #pragma once
 
-#include <optional>
-
 #include "vulkan/commands.h"
+#include "vulkan/kernel.h"
 #include "vulkan/memory.h"
-#include "vulkan/program.h"
 
 namespace voxray {
 
 /// Counts NaN and infinite values: on the device, or on the host where that is all there is.
-class FiniteCheck {
+class FiniteCheck : public ProgramOwner {
  public:
-    FiniteCheck(Device& device, const ShaderCompiler& compiler);
+    /// Programs are compiled by the user.
+    explicit FiniteCheck(Device& device);
 
     /// Number of texels (level 0) with a NaN or infinite component. The image must have a float format.
     uint32_t badTexels(CommandStream& stream, const Image& image);
@@ -19,14 +18,12 @@ class FiniteCheck {
     uint32_t badFloats(CommandStream& stream, const Buffer& buffer);
 
  private:
-    struct Programs {
-        Programs(Device& device, const ShaderCompiler& compiler);
-        Program image2d, image3d, buffer;
-        Sampler sampler;
-        Buffer count;
-    };
     uint32_t readCount(CommandStream& stream);
-    std::optional<Programs> programs_;  ///< None where there is no Vulkan.
+
+    Kernel image2d_{*this, "finite_image.comp"};
+    Kernel image3d_{*this, "finite_image.comp", {{"IMAGE_3D", "1"}}};
+    Kernel buffer_{*this, "finite_buffer.comp"};
+    Buffer count_;
 };
 
 }  // namespace voxray

@@ -20,6 +20,7 @@ struct Graph::Impl {
     std::vector<MemoryBook> books;  ///< By node.
     std::optional<FiniteCheck> finiteCheck;
     uint64_t memoryLimitBytes = 0;
+    Image black;  ///< A texel, for inputs that nothing writes.
 
     /// Does a part of a pass's work. @throws Error that says what to lower where something is too large.
     void work(const GraphNode& node, const std::function<void()>& part) const;
@@ -210,10 +211,18 @@ std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device
 
 void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler,
                     CommandStream& stream) {
-    impl_->finiteCheck.emplace(device, compiler);
+    impl_->finiteCheck.emplace(device);
+    if (!device.isHost()) {
+        impl_->black = Image(device, "black", ImageDesc{});
+        stream.clear(impl_->black, {});
+        std::vector<PassProgram*> programs = impl_->finiteCheck->programs();
+        for (const GraphNode& node : impl_->nodes)
+            programs.insert(programs.end(), node.pass->programs().begin(), node.pass->programs().end());
+        compile(programs, device, compiler);
+    }
     for (size_t n = 0; n < impl_->nodes.size(); ++n) {
         GraphNode& node = impl_->nodes[n];
-        PassSetup setup(node.resources, frame, device, compiler, stream);
+        PassSetup setup(node.resources, frame, device, stream);
         impl_->work(node, [&] { impl_->books[n].prepare(stream, [&] { node.pass->prepare(setup); }); });
     }
 }
@@ -237,6 +246,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
 
         // Time the pass on the device; the Embree backend's host work falls between the stamps.
         PassContext context(node.resources, frame, device, stream, tracer, scene, frameIndex);
+        context.black = &impl_->black;
         context.spareBytes = impl_->spareBytes(n);
         const StreamCounts before = stream.counts();
         uint32_t begin = 0, end = 0;

@@ -3,11 +3,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 
 #include "base/suggest.h"
 
 namespace voxray {
 namespace {
+
+/// By the file that registers it. The one thing that outlives all: linking a pass is all that adds it.
+std::multimap<std::string, PassRegistration::Add>& registrations() {
+    static std::multimap<std::string, PassRegistration::Add> all;
+    return all;
+}
 
 bool contains(const std::vector<PortInfo>& ports, const PortInfo& port) {
     return std::ranges::any_of(
@@ -15,9 +22,7 @@ bool contains(const std::vector<PortInfo>& ports, const PortInfo& port) {
 }
 
 std::vector<PortInfo> declared(const PassType& type, const void* params) {
-    PassBuilder builder;
-    type.make(params)->declare(builder);
-    return builder.ports();
+    return type.make(params)->ports();
 }
 
 std::vector<PortDoc> portsOf(const PassType& type) {
@@ -83,9 +88,21 @@ std::vector<IdleParameter> PassKind::idle(const Value& map, const std::string& i
     return idleParams(*type.schema, read(type, map, id, reserved).get(), map);
 }
 
-void Registry::add(const char* name, const char* help, bool needsDevice, const PassType& type) {
-    kinds_.push_back(
-        {name, help, describeParams(*type.schema, type.defaults().get()), portsOf(type), needsDevice, type});
+PassRegistration::PassRegistration(const char* file, Add add) {
+    registrations().emplace(file, add);
+}
+
+size_t addRegistered(Registry& registry, std::string_view folder, const std::string& family) {
+    size_t count = 0;
+    for (const auto& [file, add] : registrations())
+        if (file.find(folder) != std::string::npos) add(registry, family), ++count;
+    return count;
+}
+
+void Registry::add(const char* name, const std::string& family, const char* help, bool needsDevice,
+                   const PassType& type) {
+    kinds_.push_back({name, family, help, describeParams(*type.schema, type.defaults().get()), portsOf(type),
+                      needsDevice, type});
 }
 
 const PassKind* Registry::find(const std::string& name) const {

@@ -29,6 +29,7 @@ struct PassType {
 /// What the registry knows of one kind of pass.
 struct PassKind {
     std::string name;
+    std::string family;  ///< Folder under passes/; empty of a pass from elsewhere.
     std::string help;
     std::vector<ParameterDoc> parameters;
     std::vector<PortDoc> ports;  ///< With any values of its parameters.
@@ -57,19 +58,26 @@ struct PortsByValue {
 std::vector<PortDoc> describePorts(const std::vector<PortInfo>& ofDefaults,
                                    const std::vector<PortsByValue>& ofChoices);
 
-/// All kinds of passes, filled by registerPasses (passes/register_passes.h).
+/// Parameters of a pass that has none.
+struct NoParams {
+    static constexpr auto schema() { return std::tuple{}; }
+};
+
+/// All kinds of passes, filled by registerPasses (passes/common/families.h).
 class Registry {
  public:
     /// P: see Pass.
     template <typename P>
-    void add() {
-        using Params = typename P::Params;
+    void add(const std::string& family = "") {
         bool needsDevice = true;
         if constexpr (requires { P::kNeedsDevice; }) needsDevice = P::kNeedsDevice;
-        add(P::kName, P::kHelp, needsDevice,
-            {&schemaOf<Params>(),
-             [] { return PassType::Params(new Params, [](void* p) { delete static_cast<Params*>(p); }); },
-             [](const void* p) { return std::unique_ptr<Pass>(new P(*static_cast<const Params*>(p))); }});
+        if constexpr (requires { typename P::Params; })
+            add(P::kName, family, P::kHelp, needsDevice, typeOf<typename P::Params>([](const void* p) {
+                    return make<P>(*static_cast<const typename P::Params*>(p));
+                }));
+        else
+            add(P::kName, family, P::kHelp, needsDevice,
+                typeOf<NoParams>([](const void*) { return make<P>(); }));
     }
 
     const std::vector<PassKind>& kinds() const { return kinds_; }
@@ -85,9 +93,34 @@ class Registry {
     Preview preview;
 
  private:
-    void add(const char* name, const char* help, bool needsDevice, const PassType& type);
+    template <typename Params>
+    static PassType typeOf(std::unique_ptr<Pass> (*make)(const void*)) {
+        return {&schemaOf<Params>(),
+                [] { return PassType::Params(new Params, [](void* p) { delete static_cast<Params*>(p); }); },
+                make};
+    }
+    template <typename P, typename... Params>
+    static std::unique_ptr<Pass> make(const Params&... params) {
+        return std::make_unique<P>(params...);
+    }
+    void add(const char* name, const std::string& family, const char* help, bool needsDevice,
+             const PassType& type);
 
     std::vector<PassKind> kinds_;
 };
+
+/// Makes a pass known, at the end of its file: VOXRAY_REGISTER_PASS(Composite).
+class PassRegistration {
+ public:
+    using Add = void (*)(Registry&, const std::string& family);
+    PassRegistration(const char* file, Add add);
+};
+#define VOXRAY_REGISTER_PASS(P)                  \
+    static const PassRegistration registered##P( \
+        __FILE__, [](Registry& registry, const std::string& family) { registry.add<P>(family); })
+
+/// Adds the passes that are registered in files of a folder, by their path. @param folder relative to the
+/// source root, such as "passes/view/". @param family PassKind's. @return how many.
+size_t addRegistered(Registry& registry, std::string_view folder, const std::string& family = "");
 
 }  // namespace voxray

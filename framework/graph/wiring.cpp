@@ -64,9 +64,7 @@ GraphNode readNode(const Registry& registry, const Value& entry, const std::vect
     node.kind = kind.name;
     checkParameters(registry, kind, entry, node.id, reservedKeys, passList);
     node.pass = kind.create(entry, node.id, reservedKeys);
-    PassBuilder builder;
-    node.pass->declare(builder);
-    node.ports = builder.ports();
+    node.ports = node.pass->ports();
 
     // What the manifest records: the reserved keys as they are, then every parameter.
     node.resolved = Value::map();

@@ -35,7 +35,7 @@ struct GpuScene {
     std::vector<Sampler> samplers;
 
     /// The bindings that a shader including files of shaders/scene may use, followed by `more`.
-    std::vector<Binding> bindings(std::vector<Binding> more) const;
+    std::vector<Binding> bindings(std::vector<Binding> more = {}) const;
     std::vector<Binding> bindings(std::initializer_list<Binding> more) const {
         return bindings(std::vector<Binding>(more));
     }

@@ -5,8 +5,8 @@
 namespace voxray {
 namespace {
 
-/// Rays of one launch: every device takes that many, in work groups of 64 too.
-constexpr uint32_t kRaysPerLaunch = 65535u * 64u;
+/// Rays of one launch: a row of work groups of 64.
+constexpr uint32_t kRaysPerLaunch = 32768u * 64u;
 
 }  // namespace
 
@@ -30,21 +30,22 @@ void GpuTracer::updateStructure(CommandStream& stream) {
 
 void GpuTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
                       uint32_t count, Coherence) {
-    gpu::TraceCall call{};
-    call.rays = rays.address();
-    call.results = results.address();
-    call.chunkFirst = structure_.chunkFirst.address();
-    call.triangleIds = structure_.triangleIds.address();
-    call.corners = structure_.corners.address();
-    call.positions = structure_.positions.address();
-    call.maskedTriangles = mask_.triangles.address();
-    call.alphaMaterials = mask_.materials.address();
-    call.alphaTexels = mask_.texels.address();
-    call.opaqueCount = structure_.opaqueCount;
-    for (uint32_t first = 0; first < count; first = call.endRay) {
-        call.firstRay = first;
-        call.endRay = first + std::min(kRaysPerLaunch, count - first);
-        launch(stream, query == Query::Occluded, call);
+    for (uint32_t first = 0; first < count; first += kRaysPerLaunch) {
+        const uint32_t launched = std::min(kRaysPerLaunch, count - first);
+        launch(stream, query == Query::Occluded, launched,
+               {{"structure", structure_.top.handle()},
+                {"rays", rays.address()},
+                {"results", results.address()},
+                {"chunkFirst", structure_.chunkFirst.address()},
+                {"triangleIds", structure_.triangleIds.address()},
+                {"corners", structure_.corners.address()},
+                {"positions", structure_.positions.address()},
+                {"maskedTriangles", mask_.triangles.address()},
+                {"alphaMaterials", mask_.materials.address()},
+                {"alphaTexels", mask_.texels.address()},
+                {"firstRay", first},
+                {"endRay", first + launched},
+                {"opaqueCount", structure_.opaqueCount}});
     }
 }
 

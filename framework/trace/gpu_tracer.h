@@ -16,10 +16,9 @@ class GpuTracer : public RayTracer {
  protected:
     GpuTracer(Device& device, const SceneState& state, uint32_t trianglesPerChunk);
 
-    /// Traces rays [call.firstRay, call.endRay).
-    virtual void launch(CommandStream& stream, bool occluded, const gpu::TraceCall& call) = 0;
-
-    VkAccelerationStructureKHR structure() const { return structure_.top.handle(); }
+    /// Traces `count` rays of a stream. @param call what shaders/trace/trace.glsl declares, and the
+    /// structure.
+    virtual void launch(CommandStream& stream, bool occluded, uint32_t count, const Bindings& call) = 0;
 
  private:
     void updateStructure(CommandStream& stream) final;

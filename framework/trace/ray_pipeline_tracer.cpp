@@ -45,13 +45,11 @@ RayPipelineTracer::Pipeline RayPipelineTracer::makePipeline(Device& device,
     return pipeline;
 }
 
-void RayPipelineTracer::launch(CommandStream& stream, bool occluded, const gpu::TraceCall& call) {
+void RayPipelineTracer::launch(CommandStream& stream, bool occluded, uint32_t count, const Bindings& call) {
     const Pipeline& pipeline = occluded ? occluded_ : closestHit_;
-    const Binding bindings[] = {{"structure", structure()}};
-    stream.record(pipeline.program, bindings, call, [&](VkCommandBuffer commands) {
+    stream.record(pipeline.program, call, [&](VkCommandBuffer commands) {
         const VkStridedDeviceAddressRegionKHR callable{};
-        traceRays_(commands, &pipeline.rayGeneration, &pipeline.miss, &pipeline.hit, &callable,
-                   call.endRay - call.firstRay, 1, 1);
+        traceRays_(commands, &pipeline.rayGeneration, &pipeline.miss, &pipeline.hit, &callable, count, 1, 1);
     });
 }
 

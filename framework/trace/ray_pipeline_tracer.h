@@ -19,7 +19,7 @@ class RayPipelineTracer final : public GpuTracer {
         VkStridedDeviceAddressRegionKHR rayGeneration{}, miss{}, hit{};
     };
     static Pipeline makePipeline(Device& device, std::span<const ShaderModule> modules, bool occluded);
-    void launch(CommandStream& stream, bool occluded, const gpu::TraceCall& call) override;
+    void launch(CommandStream& stream, bool occluded, uint32_t count, const Bindings& call) override;
 
     Pipeline closestHit_;
     Pipeline occluded_;

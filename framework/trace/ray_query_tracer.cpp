@@ -10,9 +10,8 @@ RayQueryTracer::RayQueryTracer(Device& device, ShaderCompiler& compiler, const S
     occluded_ = makeComputeProgram(device, module, {{"kOccluded", 1}});
 }
 
-void RayQueryTracer::launch(CommandStream& stream, bool occluded, const gpu::TraceCall& call) {
-    const uint32_t groups = (call.endRay - call.firstRay + 63) / 64;
-    stream.dispatch(occluded ? occluded_ : closestHit_, {{"structure", structure()}}, call, {groups, 1, 1});
+void RayQueryTracer::launch(CommandStream& stream, bool occluded, uint32_t count, const Bindings& call) {
+    stream.dispatch(occluded ? occluded_ : closestHit_, count, call);
 }
 
 }  // namespace voxray

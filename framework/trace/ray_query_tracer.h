@@ -12,7 +12,7 @@ class RayQueryTracer final : public GpuTracer {
     std::string_view name() const override { return "ray_query"; }
 
  private:
-    void launch(CommandStream& stream, bool occluded, const gpu::TraceCall& call) override;
+    void launch(CommandStream& stream, bool occluded, uint32_t count, const Bindings& call) override;
 
     Program closestHit_;
     Program occluded_;

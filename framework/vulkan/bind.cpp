@@ -35,16 +35,19 @@ const char* kindName(NumberKind kind) {
     }
 }
 
-/// What is given under a name; what a resource brings along comes last. Null where there is none.
-const Binding* find(std::span<const Binding> given, std::string_view name) {
-    const Binding* found = nullptr;
-    for (const Binding& binding : given)
-        if (binding.name == name && (!found || (found->optional && !binding.optional))) found = &binding;
-    return found;
-}
-
 bool isNumber(const Binding& binding) {
     return std::holds_alternative<Number>(binding.value);
+}
+
+/// What is given under a name, as a resource or as a number; what a resource brings along comes last. Null
+/// where there is none.
+const Binding* find(std::span<const Binding> given, std::string_view name, bool asNumber) {
+    const Binding* found = nullptr;
+    for (const Binding& binding : given)
+        if (binding.name == name && isNumber(binding) == asNumber &&
+            (!found || (found->optional && !binding.optional)))
+            found = &binding;
+    return found;
 }
 
 /// In GLSL a trailing underscore tells a name from a keyword.
@@ -53,11 +56,11 @@ std::string_view withoutUnderscore(std::string_view name) {
 }
 
 /// @throws Error for what is given and not declared, and for what is given twice.
-void checkUses(const Program& program, std::span<const Binding> given, bool hasNumbers) {
+void checkUses(const Program& program, std::span<const Binding> given) {
     std::vector<std::string> names, numbers;
     for (const ShaderBinding& wanted : program.bindings()) names.push_back(wanted.name);
     for (const ShaderPushMember& wanted : program.pushMembers())
-        if (hasNumbers) numbers.emplace_back(withoutUnderscore(wanted.name));
+        numbers.emplace_back(withoutUnderscore(wanted.name));
     for (const Binding& binding : given) {
         const std::vector<std::string>& known = isNumber(binding) ? numbers : names;
         if (!binding.optional && std::ranges::find(known, binding.name) == known.end())
@@ -65,7 +68,8 @@ void checkUses(const Program& program, std::span<const Binding> given, bool hasN
                         isNumber(binding) ? "push constant" : "binding", binding.name,
                         didYouMean(binding.name, known));
         const auto isSame = [&](const Binding& other) {
-            return other.name == binding.name && other.optional == binding.optional;
+            return other.name == binding.name && other.optional == binding.optional &&
+                   isNumber(other) == isNumber(binding);
         };
         if (std::ranges::count_if(given, isSame) > 1)
             throw Error("{}: binding '{}' is given twice", program.name(), binding.name);
@@ -76,7 +80,7 @@ void checkUses(const Program& program, std::span<const Binding> given, bool hasN
 std::vector<const Binding*> matchBindings(const Program& program, std::span<const Binding> given) {
     std::vector<const Binding*> matched;
     for (const ShaderBinding& wanted : program.bindings()) {
-        const Binding* found = find(given, wanted.name);
+        const Binding* found = find(given, wanted.name, false);
         if (!found) throw Error("{}: binding '{}' is not given", program.name(), wanted.name);
         matched.push_back(found);
     }
@@ -87,9 +91,9 @@ std::vector<const Binding*> matchBindings(const Program& program, std::span<cons
 std::vector<std::byte> pushBlock(const Program& program, std::span<const Binding> given) {
     std::vector<std::byte> block(program.pushConstantBytes());
     for (const ShaderPushMember& member : program.pushMembers()) {
-        const Binding* found = find(given, withoutUnderscore(member.name));
-        const Number* number = found ? std::get_if<Number>(&found->value) : nullptr;
-        if (!number) throw Error("{}: push constant '{}' is not given", program.name(), member.name);
+        const Binding* found = find(given, withoutUnderscore(member.name), true);
+        if (!found) throw Error("{}: push constant '{}' is not given", program.name(), member.name);
+        const Number* number = std::get_if<Number>(&found->value);
         if (number->kind() != member.kind || number->bytes() != member.bytes)
             throw Error("{}: push constant '{}' is {} of {} bytes, given is {} of {}", program.name(),
                         member.name, kindName(member.kind), member.bytes, kindName(number->kind()),
@@ -164,41 +168,15 @@ class Writes {
     std::vector<VkWriteDescriptorSet> writes_;
 };
 
-/// Names and places of members in C++ and GLSL agree. A single value given is the block's only member. A
-/// trailing underscore does not count: in GLSL it tells a name from a keyword.
-void checkPushConstants(const Program& program, const PushConstants& push) {
-    if (push.bytes != program.pushConstantBytes())
-        throw Error("{}: {} bytes of push constants given, the shader declares {}", program.name(),
-                    push.bytes, program.pushConstantBytes());
-    const std::vector<ShaderPushMember>& declared = program.pushMembers();
-    if (declared.size() == 1) return;
-    const auto plain = [](std::string_view name) { return name.substr(0, name.find_last_not_of('_') + 1); };
-    for (size_t i = 0; i < std::max(declared.size(), push.members.size()); ++i) {
-        const PushMember given = i < push.members.size() ? push.members[i] : PushMember{"nothing"};
-        const ShaderPushMember wanted = i < declared.size() ? declared[i] : ShaderPushMember{"nothing"};
-        if (given.name != plain(wanted.name) || given.offset != wanted.offset || given.bytes != wanted.bytes)
-            throw Error(
-                "{}: push constant {} is '{}' ({} bytes at {}), the shader declares '{}' ({} bytes at {})",
-                program.name(), i, given.name, given.bytes, given.offset, wanted.name, wanted.bytes,
-                wanted.offset);
-    }
-}
-
 }  // namespace
 
-void CommandStream::Impl::bind(VkCommandBuffer buffer, const Program& program, std::span<const Binding> given,
-                               PushConstants push) {
-    checkUses(program, given, push.bytes == 0);
-    std::vector<std::byte> block;
-    if (push.bytes == 0) {
-        block = pushBlock(program, given);
-    } else {
-        checkPushConstants(program, push);
-    }
+void CommandStream::Impl::bind(VkCommandBuffer buffer, const Program& program,
+                               std::span<const Binding> given) {
+    checkUses(program, given);
     vkCmdBindPipeline(buffer, program.bindPoint(), program.pipeline());
-    if (program.pushConstantBytes() > 0)
-        vkCmdPushConstants(buffer, program.layout(), program.stages(), 0, program.pushConstantBytes(),
-                           push.bytes > 0 ? push.data : block.data());
+    if (const std::vector<std::byte> block = pushBlock(program, given); !block.empty())
+        vkCmdPushConstants(buffer, program.layout(), program.stages(), 0, uint32_t(block.size()),
+                           block.data());
 
     // Set 0 is pushed, the texture array is bound as a set of its own.
     const std::vector<const Binding*> matched = matchBindings(program, given);

@@ -131,11 +131,12 @@ class Invocations {
     /// One each for so many elements. Work groups are folded into rows of 32768 (devices allow 65535 along an
     /// axis); GLSL counterpart: linearIndex() in shaders/compute/linear_index.glsl.
     Invocations(uint64_t count) : count_(count) {}
-    /// One for each pixel.
-    Invocations(glm::uvec2 pixels) : pixels_(pixels), isLinear_(false) {}
+    /// One for each pixel, or for each texel of a volume.
+    Invocations(glm::uvec2 pixels) : Invocations(glm::uvec3(pixels, 1)) {}
+    Invocations(glm::uvec3 texels) : texels_(texels), isLinear_(false) {}
 
     glm::uvec3 groups(const glm::uvec3& localSize) const {
-        if (!isLinear_) return (glm::uvec3(pixels_, 1) + localSize - 1u) / localSize;
+        if (!isLinear_) return (texels_ + localSize - 1u) / localSize;
         constexpr uint64_t kRow = 32768;
         const uint64_t groups = (count_ + localSize.x - 1) / localSize.x;
         if (groups <= kRow) return {uint32_t(groups), groups > 0 ? 1 : 0, 1};
@@ -144,7 +145,7 @@ class Invocations {
 
  private:
     uint64_t count_ = 0;
-    glm::uvec2 pixels_{0};
+    glm::uvec3 texels_{0};
     bool isLinear_ = true;
 };
 

@@ -133,23 +133,14 @@ void CommandStream::discard() {
 
 void CommandStream::dispatch(const Program& program, const Invocations& invocations,
                              const Bindings& bindings) {
-    dispatch(program, bindings.all(), PushConstants(), invocations.groups(program.localSize()));
-}
-
-void CommandStream::dispatch(const Program& program, std::initializer_list<Binding> bindings,
-                             PushConstants push, glm::uvec3 groups) {
-    dispatch(program, std::span(bindings.begin(), bindings.size()), push, groups);
-}
-
-void CommandStream::dispatch(const Program& program, std::span<const Binding> bindings, PushConstants push,
-                             glm::uvec3 groups) {
+    const glm::uvec3 groups = invocations.groups(program.localSize());
     if (groups.x == 0 || groups.y == 0 || groups.z == 0) return;
     const uint32_t* limit = impl_->device.properties().limits.maxComputeWorkGroupCount;
     if (groups.x > limit[0] || groups.y > limit[1] || groups.z > limit[2])
         throw Error("{}: {}x{}x{} work groups; device '{}' allows {}x{}x{} in one dispatch", program.name(),
                     groups.x, groups.y, groups.z, impl_->device.info().name, limit[0], limit[1], limit[2]);
     const VkCommandBuffer commands = impl_->next();
-    impl_->bind(commands, program, bindings, push);
+    impl_->bind(commands, program, bindings.all());
     vkCmdDispatch(commands, groups.x, groups.y, groups.z);
     ++impl_->counts.dispatches;
 }
@@ -159,23 +150,18 @@ void CommandStream::record(const std::function<void(VkCommandBuffer)>& commands)
     ++impl_->counts.dispatches;
 }
 
-void CommandStream::record(const Program& program, std::span<const Binding> bindings, PushConstants push,
+void CommandStream::record(const Program& program, const Bindings& bindings,
                            const std::function<void(VkCommandBuffer)>& commands) {
     const VkCommandBuffer buffer = impl_->next();
-    impl_->bind(buffer, program, bindings, push);
+    impl_->bind(buffer, program, bindings.all());
     commands(buffer);
     ++impl_->counts.dispatches;
 }
 
-void CommandStream::draw(const Program& program, std::initializer_list<Binding> bindings, PushConstants push,
-                         const RasterTargets& targets, uint32_t vertexCount, uint32_t instanceCount) {
-    draw(program, std::span(bindings.begin(), bindings.size()), push, targets, vertexCount, instanceCount);
-}
-
-void CommandStream::draw(const Program& program, std::span<const Binding> bindings, PushConstants push,
-                         const RasterTargets& targets, uint32_t vertexCount, uint32_t instanceCount) {
+void CommandStream::draw(const Program& program, const RasterTargets& targets, uint32_t vertexCount,
+                         const Bindings& bindings, uint32_t instanceCount) {
     const VkCommandBuffer commands = impl_->next();
-    impl_->bind(commands, program, bindings, push);
+    impl_->bind(commands, program, bindings.all());
 
     // Attachments: cleared or kept, always stored.
     const auto attach = [&](const Image& image) {

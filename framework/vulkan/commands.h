@@ -19,21 +19,8 @@
 #include "vulkan/device.h"
 #include "vulkan/memory.h"
 #include "vulkan/program.h"
-#include "vulkan/push_layout.h"
 
 namespace voxray {
-
-/// Push constants of one call, as a struct; numbers among the bindings else.
-struct PushConstants {
-    const void* data = nullptr;
-    uint32_t bytes = 0;
-    std::span<const PushMember> members;  ///< Of a struct; none for a single number or vector.
-    PushConstants() = default;
-    template <typename T>
-    PushConstants(const T& value) : data(&value), bytes(sizeof(T)), members(pushMembers<T>()) {
-        static_assert(std::is_trivially_copyable_v<T>);
-    }
-};
 
 /// Targets of a raster pass. All have at least the extent of the viewport.
 struct RasterTargets {
@@ -76,16 +63,9 @@ class CommandStream {
     /// @throws Error naming program and member for a push constant that is not given, or of another type or
     /// size; and naming what is given without a use.
     void dispatch(const Program& program, const Invocations& invocations, const Bindings& bindings);
-    /// Runs a compute program over `groups` work groups. A group count of 0 in any axis records nothing.
-    void dispatch(const Program& program, std::initializer_list<Binding> bindings, PushConstants push,
-                  glm::uvec3 groups);
-    void dispatch(const Program& program, std::span<const Binding> bindings, PushConstants push,
-                  glm::uvec3 groups);
     /// Draws `vertexCount` vertices, `instanceCount` times.
-    void draw(const Program& program, std::initializer_list<Binding> bindings, PushConstants push,
-              const RasterTargets& targets, uint32_t vertexCount, uint32_t instanceCount = 1);
-    void draw(const Program& program, std::span<const Binding> bindings, PushConstants push,
-              const RasterTargets& targets, uint32_t vertexCount, uint32_t instanceCount = 1);
+    void draw(const Program& program, const RasterTargets& targets, uint32_t vertexCount,
+              const Bindings& bindings, uint32_t instanceCount = 1);
 
     void fill(const Buffer& buffer, uint32_t word);           ///< The whole buffer.
     void clear(const Image& image, VkClearColorValue value);  ///< All levels.
@@ -110,8 +90,8 @@ class CommandStream {
 
     /// Records raw commands (acceleration structures) between barriers.
     void record(const std::function<void(VkCommandBuffer)>& commands);
-    /// The same with a program, its bindings and push constants bound first (vkCmdTraceRaysKHR).
-    void record(const Program& program, std::span<const Binding> bindings, PushConstants push,
+    /// The same with a program and its bindings bound first (vkCmdTraceRaysKHR).
+    void record(const Program& program, const Bindings& bindings,
                 const std::function<void(VkCommandBuffer)>& commands);
 
     /// Names what follows in captures, until the matching end.

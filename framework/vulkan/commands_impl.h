@@ -22,8 +22,7 @@ struct CommandStream::Impl {
 
     /// Binds a program with what its shaders name.
     /// @throws Error naming program and binding where one is missing, unknown or of the wrong kind.
-    void bind(VkCommandBuffer commands, const Program& program, std::span<const Binding> bindings,
-              PushConstants push);
+    void bind(VkCommandBuffer commands, const Program& program, std::span<const Binding> bindings);
 
     /// Where data waits for its upload.
     struct Staged {

@@ -1,9 +1,14 @@
-#include "passes/path_trace/path_trace_pass.h"
-
+#include <array>
+#include <memory>
 #include <utility>
 
 #include "base/error.h"
+#include "graph/reference_sums.h"
+#include "graph/registry.h"
+#include "passes/common/filter/noisy_irradiance.h"
 #include "passes/common/view/frame_image.h"
+#include "passes/path_trace/path_tracer.h"
+#include "trace/embree_scene.h"
 
 namespace voxray {
 namespace {
@@ -19,34 +24,92 @@ void upload(CommandStream& stream, const ImageF& from, const Image& to) {
 
 }  // namespace
 
-void PathTracePass::declare(PassBuilder& builder) {
-    gbuffer_ =
-        builder.readOptional<GBuffer>("gbuffer", "whose texels 'noisy_irradiance' is for; else pixels");
-    const auto write = [&](const char* name, PathLight light, bool isHalf, const char* help,
-                           const ImageF& (*pixels)(const PathTraceResult&)) {
-        images_.push_back({builder.write<FrameImage>(name, help), name, light, pixels, isHalf});
+template <>
+struct EnumNames<PathLight> {
+    static constexpr std::array names{std::pair{PathLight::All, "all"},
+                                      std::pair{PathLight::Indirect, "indirect"}};
+};
+
+/// The reference path tracer (path_tracer.h) as a pass: many samples make it the reference of all others, few
+/// make it the baseline on the chart. It shares no shader and no stream with the methods that it is compared
+/// with.
+class PathTracePass final : public Pass {
+ public:
+    static constexpr const char* kName = "path_trace";
+    static constexpr bool kNeedsDevice = false;
+    static constexpr const char* kHelp =
+        "Computes light by path tracing on the CPU with Embree. It uses next-event estimation, multiple "
+        "importance sampling and Owen-scrambled Sobol points. Unbiased for the bounces that it is given; "
+        "noisy by: spp. Writes total and indirect light, each also as two independent halves, and irradiance "
+        "at the g-buffer's texels for filter_irradiance.";
+    struct Params {
+        uint32_t spp = 64;
+        uint32_t bounces = 8;
+        PathLight light = PathLight::All;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("spp", &Params::spp, "Samples a pixel.", 1u, 1u << 20).lessNoise(),
+                field(
+                    "bounces", &Params::bounces,
+                    "Scattering events after direct light at the first hit; 0 is emission and direct light.",
+                    0u, 1024u),
+                field("light", &Params::light,
+                      "indirect: nothing is spent on emission and direct light at the first hit; another "
+                      "pass writes 'final'.")};
+        }
     };
-    using Result = PathTraceResult;
-    write("final", PathLight::All, false, "radiance towards the camera",
-          [](const Result& r) -> const ImageF& { return r.total; });
-    write("indirect", PathLight::Indirect, false, "the part of it that was scattered more than once",
-          [](const Result& r) -> const ImageF& { return r.indirect; });
-    write("final_a", PathLight::All, true, "'final' of one half of the samples",
-          [](const Result& r) -> const ImageF& { return r.totalHalves[0]; });
-    write("final_b", PathLight::All, true, "'final' of the other half, independent of the first",
-          [](const Result& r) -> const ImageF& { return r.totalHalves[1]; });
-    write("indirect_a", PathLight::Indirect, true, "'indirect' of one half of the samples",
-          [](const Result& r) -> const ImageF& { return r.indirectHalves[0]; });
-    write("indirect_b", PathLight::Indirect, true, "'indirect' of the other half",
-          [](const Result& r) -> const ImageF& { return r.indirectHalves[1]; });
-    noisy_ = builder.write<NoisyIrradiance>("noisy_irradiance",
-                                            "irradiance of indirect light, before the first hit reflects it");
-    sums_ =
-        builder.write<ReferenceSums>("sums", "sums over its samples by half, of which references are made");
-}
+
+    explicit PathTracePass(const Params& params) : params_(params) {}
+    Phase phase() const override { return Phase::Frame; }
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    using Pixels = const ImageF& (*)(const PathTraceResult&);
+    /// An output and what is rendered for it.
+    struct RenderedImage {
+        const char* name;
+        Out<FrameImage> port;
+        PathLight light;  ///< Where paths are spent on this light alone, it is written.
+        bool isHalf;
+        Pixels pixels;
+
+        RenderedImage(PortOwner& owner, const char* portName, const char* help, PathLight of, bool half,
+                      Pixels which)
+            : name(portName), port(owner, portName, help), light(of), isHalf(half), pixels(which) {}
+    };
+    /// With `light: indirect` nothing but indirect light is; of a single sample there are no halves.
+    bool isRendered(const RenderedImage& image) const {
+        return (image.light == PathLight::Indirect || params_.light == PathLight::All) &&
+               (!image.isHalf || params_.spp > 1);
+    }
+
+    const Params params_;
+    InOptional<GBuffer> gbuffer_{*this, "gbuffer", "whose texels 'noisy_irradiance' is for; else pixels"};
+    /// 'final' is the first.
+    const RenderedImage images_[6] = {
+        {*this, "final", "radiance towards the camera", PathLight::All, false,
+         [](const PathTraceResult& r) -> const ImageF& { return r.total; }},
+        {*this, "indirect", "the part of it that was scattered more than once", PathLight::Indirect, false,
+         [](const PathTraceResult& r) -> const ImageF& { return r.indirect; }},
+        {*this, "final_a", "'final' of one half of the samples", PathLight::All, true,
+         [](const PathTraceResult& r) -> const ImageF& { return r.totalHalves[0]; }},
+        {*this, "final_b", "'final' of the other half, independent of the first", PathLight::All, true,
+         [](const PathTraceResult& r) -> const ImageF& { return r.totalHalves[1]; }},
+        {*this, "indirect_a", "'indirect' of one half of the samples", PathLight::Indirect, true,
+         [](const PathTraceResult& r) -> const ImageF& { return r.indirectHalves[0]; }},
+        {*this, "indirect_b", "'indirect' of the other half", PathLight::Indirect, true,
+         [](const PathTraceResult& r) -> const ImageF& { return r.indirectHalves[1]; }}};
+    Out<NoisyIrradiance> noisy_{*this, "noisy_irradiance",
+                                "irradiance of indirect light, before the first hit reflects it"};
+    Out<ReferenceSums> sums_{*this, "sums", "sums over its samples by half, of which references are made"};
+    PathTraceOptions options_;
+    std::unique_ptr<EmbreeScene> embree_;
+};
 
 void PathTracePass::plan(PassPlan& plan) {
-    if (params_.light == PathLight::Indirect && plan.get(images_[0].port).isRead)
+    if (params_.light == PathLight::Indirect && plan[images_[0].port].isRead)
         throw Error("path_trace: with 'light: indirect' it writes no 'final'; let composite follow");
     options_ = {.width = plan.frame.width,
                 .height = plan.frame.height,
@@ -54,19 +117,19 @@ void PathTracePass::plan(PassPlan& plan) {
                 .bounces = params_.bounces,
                 .light = params_.light,
                 .samples = plan.frame.samples,
-                .keepSums = plan.get(sums_).isRead && params_.light == PathLight::All && params_.spp > 1};
+                .keepSums = plan[sums_].isRead && params_.light == PathLight::All && params_.spp > 1};
     uint64_t largest = 0;
     for (const RenderedImage& image : images_) {
-        plan.get(image.port).lightBounces = params_.bounces;
-        plan.get(image.port).hasSpecularLobes = true;
+        plan[image.port].lightBounces = params_.bounces;
+        plan[image.port].hasSpecularLobes = true;
     }
     for (const RenderedImage& image : images_)
-        if (FrameImage& frame = plan.get(image.port); frame.isRead && isRendered(image)) {
+        if (FrameImage& frame = plan[image.port]; frame.isRead && isRendered(image)) {
             plan.image(frame.image, image.name, frameImageDesc(plan.frame));
             largest = imageBytes(frameImageDesc(plan.frame));
         }
-    if (NoisyIrradiance& noisy = plan.get(noisy_); noisy.isRead) {
-        const uint32_t texels = plan.has(gbuffer_) ? plan.get(gbuffer_).samples : 1;
+    if (NoisyIrradiance& noisy = plan[noisy_]; noisy.isRead) {
+        const uint32_t texels = plan[gbuffer_] ? plan[gbuffer_]->samples : 1;
         options_.irradianceTexels = texels;
         noisy.lightBounces = params_.bounces;
         noisy.spacing = texels;
@@ -91,15 +154,17 @@ void PathTracePass::record(PassContext& context) {
     PathTraceResult result = pathTrace(*frame.scene, *embree_, frame.camera, options_, frame.progress);
     context.extraRays = result.rays;
     for (const RenderedImage& image : images_)
-        if (const FrameImage& to = context.get(image.port); to.isRead && isRendered(image))
+        if (const FrameImage& to = context[image.port]; to.isRead && isRendered(image))
             upload(context.stream, image.pixels(result), to.image);
-    if (const NoisyIrradiance& noisy = context.get(noisy_); noisy.isRead) {
+    if (const NoisyIrradiance& noisy = context[noisy_]; noisy.isRead) {
         upload(context.stream, result.irradiance, noisy.irradiance);
         context.stream.upload(noisy.moments, result.moments);
     }
-    ReferenceSums& sums = context.get(sums_);
+    ReferenceSums& sums = context[sums_];
     sums.final = std::move(result.totalSums);
     sums.indirect = std::move(result.indirectSums);
 }
+
+VOXRAY_REGISTER_PASS(PathTracePass);
 
 }  // namespace voxray

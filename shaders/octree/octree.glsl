@@ -3,7 +3,7 @@
 // numbering. Whoever stores values has an array by number. A node above level 0 is a word: the mask of its children in 8 bits and
 // the number of the first of them in 24. So 0 is a node without anything, and number 0 is none.
 //
-// A node may also stand for all below it, where whoever stores values found them to be uniform (passes/filter_voxels/svo_collapse.h):
+// A node may also stand for all below it, where whoever stores values found them to be uniform (passes/cones/filter_voxels/svo_collapse.h):
 // then its word has no mask and its own number. An octree as it is built has none of these.
 //
 // From one level on up the words also stand in a table, by voxel: a full grid for each level with a border of one voxel, up to

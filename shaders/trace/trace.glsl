@@ -2,7 +2,6 @@
 #ifndef VOXRAY_TRACE_GLSL
 #define VOXRAY_TRACE_GLSL
 
-
 #include "shaders/scene/texel_filter.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/trace/trace_types.h"
@@ -20,7 +19,21 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Alp
     AlphaMaterial data[];
 };
 
-layout(push_constant, scalar) uniform Push { TraceCall call; };
+// One launch over a part of a stream. Buffers are given by address: a stream may be larger than a device binds.
+layout(push_constant, scalar) uniform Push {
+    uint64_t rays;             // Ray each.
+    uint64_t results;          // Hit each (closest hit), or uint each (occluded).
+    uint64_t chunkFirst;       // uint each instance: the first of its triangles in tracing order.
+    uint64_t triangleIds;      // uint each triangle in tracing order: its number in the scene.
+    uint64_t corners;          // 3 uints each triangle in tracing order: its vertices.
+    uint64_t positions;        // 3 floats each vertex.
+    uint64_t maskedTriangles;  // MaskedTriangle each; they come last in tracing order.
+    uint64_t alphaMaterials;   // AlphaMaterial each.
+    uint64_t alphaTexels;      // 8-bit alphas, four to a uint.
+    uint firstRay;
+    uint endRay;
+    uint opaqueCount;  // Triangles before the masked ones.
+} call;
 
 // Whether a ray is active and finite; other rays miss.
 bool isTraceable(Ray ray) {

@@ -6,24 +6,6 @@
 
 VOXRAY_SHARED_BEGIN
 
-// One launch over a part of a stream. Buffers are given by address: a stream may be larger than a device
-// binds.
-struct TraceCall {
-    uint64_t rays;             // Ray each.
-    uint64_t results;          // Hit each (closest hit), or uint each (occluded).
-    uint64_t chunkFirst;       // uint each instance: the first of its triangles in tracing order.
-    uint64_t triangleIds;      // uint each triangle in tracing order: its number in the scene.
-    uint64_t corners;          // 3 uints each triangle in tracing order: its vertices.
-    uint64_t positions;        // 3 floats each vertex.
-    uint64_t maskedTriangles;  // MaskedTriangle each; they come last in tracing order.
-    uint64_t alphaMaterials;   // AlphaMaterial each.
-    uint64_t alphaTexels;      // 8-bit alphas, four to a uint.
-    uint firstRay;
-    uint endRay;
-    uint opaqueCount;  // Triangles before the masked ones.
-    uint padding;
-};
-
 // What decides whether a hit on an alpha-masked triangle counts.
 struct MaskedTriangle {
     vec2 uv[3];      // The base-colour texture's coordinates at the vertices, transformed.

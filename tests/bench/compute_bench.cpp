@@ -9,7 +9,7 @@
 
 #include "passes/common/compute/compaction.h"
 #include "passes/common/compute/radix_sort.h"
-#include "tests/support/places.h"
+#include "tests/support/programs.h"
 
 namespace voxray {
 namespace {
@@ -23,10 +23,10 @@ std::vector<uint32_t> randomKeys() {
     return keys;
 }
 
-/// A device with the keys on it.
+/// The keys on the device.
 struct OnDevice {
-    Device device{DeviceOptions{}};
-    ShaderCompiler compiler{test::sourceRoot(), test::shaderCache()};
+    Device& device = test::device();
+    test::TestPrograms programs;
     CommandStream stream{device};
     std::vector<uint32_t> keys = randomKeys();
     Buffer buffer{device, "keys", uint64_t(kCount) * sizeof(uint32_t)};
@@ -54,7 +54,8 @@ size_t compactOnHost(const std::vector<uint32_t>& words, std::vector<uint32_t>& 
 
 void computeScanOnDevice(benchmark::State& state) {
     OnDevice d;
-    const PrefixSum prefixSum(d.device, d.compiler, PrefixSum::Of::SetBits);
+    const PrefixSum prefixSum(d.programs, PrefixSum::Of::SetBits);
+    d.programs.compile();
     const Buffer before(d.device, "before", d.buffer.bytes());
     prefixSum.run(d.stream, d.buffer, before, kCount);  // The driver compiles programs when they first run.
     for (auto _ : state) benchmark::DoNotOptimize(prefixSum.run(d.stream, d.buffer, before, kCount));
@@ -78,7 +79,8 @@ BENCHMARK(computeScanOnHost)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTi
 
 void computeCompactOnDevice(benchmark::State& state) {
     OnDevice d;
-    const Compaction compaction(d.device, d.compiler);
+    const Compaction compaction(d.programs);
+    d.programs.compile();
     const Buffer indices(d.device, "indices", d.buffer.bytes());
     // kCount items, half of them flagged.
     uint32_t count = compaction.run(d.stream, d.buffer, indices, kCount / 32);
@@ -100,7 +102,8 @@ BENCHMARK(computeCompactOnHost)->Unit(benchmark::kMillisecond)->MeasureProcessCP
 
 void computeSortOnDevice(benchmark::State& state) {
     OnDevice d;
-    RadixSort sort(d.device, d.compiler);
+    RadixSort sort(d.programs);
+    d.programs.compile();
     std::vector<uint32_t> order(kCount);
     std::iota(order.begin(), order.end(), 0u);
     Buffer values(d.device, "values", d.buffer.bytes());

@@ -5,7 +5,7 @@
 #include "config/config.h"
 #include "experiment/scene_files.h"
 #include "experiment/scene_setup.h"
-#include "passes/common/hybrid_leaves/hybrid_tracer.h"
+#include "passes/hybrid_leaves/hybrid_tracer.h"
 #include "scene/camera_rays.h"
 #include "tests/bench/sponza.h"
 #include "tests/gpu/prepared.h"
@@ -113,10 +113,11 @@ void hybridLeaves(benchmark::State& state, const std::string& config) {
     const double count = double(rays.size());
 
     // Once each outside of the measurement
+    test::TestPrograms programs;
     std::vector<std::pair<std::string, std::unique_ptr<RayTracer>>> tracers;
     for (const auto& [walk, name] : EnumNames<HybridWalk>::names) {
-        auto tracer = std::make_unique<HybridTracer>(walk);
-        test::prepare(*tracer, voxels, compiler);
+        auto tracer = std::make_unique<HybridTracer>(programs, walk);
+        test::prepare(programs, *tracer, voxels);
         tracer->begin(stream, scene, voxels, leaves);
         const std::vector<Hit> hits = closestHits(stream, *tracer, rays);
         const std::vector<uint64_t> walked = stream.readAs<uint64_t>(tracer->counts(), 2);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "passes/common/hybrid_leaves/hybrid_leaves.h"
+#include "passes/hybrid_leaves/hybrid_leaves.h"
 #include "tests/bench/sponza.h"
 #include "tests/physics/triangle_box.h"
 
@@ -15,7 +15,7 @@ constexpr double kEpsilon = 1e-3;
 
 using Lists = std::vector<std::vector<uint32_t>>;
 
-/// Triangles of each leaf, without the items that stand before groups (shaders/hybrid_leaves/hybrid_types.h).
+/// Triangles of each leaf, without the items that stand before groups (passes/hybrid_leaves/hybrid_types.h).
 Lists listsOf(const std::vector<uint32_t>& words, const std::vector<uint32_t>& items) {
     Lists lists(words.size());
     for (size_t leaf = 0; leaf < words.size(); ++leaf) {

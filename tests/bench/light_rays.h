@@ -9,7 +9,7 @@
 #include "experiment/scene_setup.h"
 #include "passes/common/lights/light_sources.h"
 #include "passes/common/view/gbuffer.h"
-#include "passes/common/vpls/vpls.h"
+#include "passes/vpls/vpls.h"
 #include "tests/bench/sponza.h"
 #include "tests/gpu/between_surfaces.h"
 #include "tests/support/places.h"

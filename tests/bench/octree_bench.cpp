@@ -3,12 +3,11 @@
 #include <array>
 #include <cmath>
 
-#include "passes/common/compute/dispatch.h"
 #include "passes/common/octree/octree_builder.h"
-#include "passes/filter_voxels/svo_values.h"
+#include "passes/cones/filter_voxels/svo_values.h"
 #include "scene/moving_spheres.h"
 #include "tests/bench/sponza.h"
-#include "tests/support/places.h"
+#include "tests/support/programs.h"
 
 namespace voxray {
 namespace {
@@ -16,9 +15,10 @@ namespace {
 /// Building the structure over Sponza, and filtering; memory as the octree holds it.
 void octreeBuild(benchmark::State& state) {
     const SurfaceVoxels& voxels = *sponza(uint32_t(state.range(0))).graph().resource<SurfaceVoxels>("voxels");
-    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
-    const OctreeBuilder builder(test::device(), compiler);
-    const SvoFilter filter(test::device(), compiler);
+    test::TestPrograms programs;
+    const OctreeBuilder builder(programs);
+    const SvoFilter filter(programs);
+    programs.compile();
     CommandStream stream(test::device());
     OctreeSize size;
     for (auto _ : state) {
@@ -63,9 +63,10 @@ void octreeUpdate(benchmark::State& state) {
     start->cameras.emplace_back();
     test::Chain chain(start, fmt::format("[{{pass: voxelize, resolution: {}}}]", state.range(0)), 16, 16, 1);
     const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
-    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
-    const OctreeBuilder builder(test::device(), compiler);
-    const SvoFilter filter(test::device(), compiler);
+    test::TestPrograms programs;
+    const OctreeBuilder builder(programs);
+    const SvoFilter filter(programs);
+    programs.compile();
     CommandStream stream(test::device());
     const auto octree = [&] {
         RadianceVoxels radiance;
@@ -121,22 +122,20 @@ void thinCone(benchmark::State& state) {
                             kThinConeLayouts.at(size_t(state.range(2)))))
              .graph()
              .resource<RadianceVoxels>("radiance");
-    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
-    const Program program = makeComputeProgram(
-        test::device(), compiler.compile("tests/bench/thin_cone.comp", radiance.defines()));
+    test::TestPrograms programs;
+    const Kernel kernel(programs, "thin_cone.comp", radiance.defines());
+    programs.compile();
     constexpr uint32_t kCones = 20000;
     const Buffer met(test::device(), "met", kCones * sizeof(glm::vec4));
-    std::vector<Binding> bindings = radiance.bindings();
-    bindings.emplace_back("met", met);
+    const Bindings bindings{radiance,
+                            {"met", met},
+                            {"origin", glm::vec3(0, 3, 0)},
+                            {"reach", 5.0f},
+                            {"width", 0.01f * float(state.range(3))},
+                            {"count", kCones}};
     CommandStream stream(test::device());
-    const struct {
-        glm::vec3 origin{0, 3, 0};
-        float reach = 5;
-        float width;
-        uint32_t count = kCones;
-    } push{.width = 0.01f * float(state.range(3))};
     const auto run = [&] {
-        stream.dispatch(program, bindings, push, linearGroups(kCones));
+        stream.dispatch(kernel, kCones, bindings);
         stream.finish();
     };
     run();  // The driver may compile in the first one.

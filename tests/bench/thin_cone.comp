@@ -1,7 +1,7 @@
 // Cones through radiance voxels in steps of half a footprint, as in the thesis's comparison of layouts (Arnebäck 2017, section
 // 5.3.5): from one place in all directions, of a fixed length.
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/radiance/sample_radiance.glsl"
+#include "passes/cones/radiance/sample_radiance.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) writeonly buffer Met { vec4 data[]; } met;

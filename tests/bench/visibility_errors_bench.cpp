@@ -2,8 +2,8 @@
 // rays near the ends of a shadow ray, with voxels that block in part, and with leaves that hold triangles.
 #include <benchmark/benchmark.h>
 
-#include "passes/common/hybrid_leaves/hybrid_tracer.h"
 #include "passes/common/voxel_march/voxel_tracer.h"
+#include "passes/hybrid_leaves/hybrid_tracer.h"
 #include "tests/bench/light_rays.h"
 #include "tests/physics/voxels_read.h"
 
@@ -65,10 +65,10 @@ std::vector<Hit> closestHits(RayTracer& tracer, const std::vector<Ray>& rays) {
 /// What blocks the parts of the ways that voxels look at, without the first `begin` and last `end` voxels.
 std::vector<Hit> voxelsBetween(const Disagreement& d, const std::vector<test::BetweenVoxels>& ways,
                                float begin, float end) {
-    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
     CommandStream stream(test::device());
-    VoxelTracer tracer(VoxelWalk::Bricks);
-    test::prepare(tracer, d.voxels, compiler);
+    test::TestPrograms programs;
+    VoxelTracer tracer(programs, VoxelWalk::Bricks);
+    test::prepare(programs, tracer, d.voxels);
     tracer.begin(stream, d.voxels);
     const float size = d.voxels.grid.voxelSize;
     std::vector<Ray> rays;
@@ -137,10 +137,10 @@ void voxelsWithExactEnds(benchmark::State& state, const std::string& scene) {
     const float reach = float(state.range(0)) * d.voxels.grid.voxelSize;
     const std::vector<test::BetweenVoxels> ways = test::betweenVoxels(d.voxels, d.rays.pairs);
     std::vector<uint32_t> hidden(kRays);
-    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
     CommandStream stream(test::device());
-    VoxelTracer tracer(VoxelWalk::Bricks);
-    test::prepare(tracer, d.voxels, compiler);
+    test::TestPrograms programs;
+    VoxelTracer tracer(programs, VoxelWalk::Bricks);
+    test::prepare(programs, tracer, d.voxels);
     tracer.begin(stream, d.voxels);
     for (auto _ : state) {
         // What lies farther than `reach` from both points, and between the ends that voxels want
@@ -170,11 +170,11 @@ void hybridLeafVisibility(benchmark::State& state, const std::string& scene) {
     const Disagreement d(
         scene, 256, fmt::format(", {{pass: build_hybrid_leaves, primitives: {}, grid: 16}}", state.range(0)));
     const HybridLeaves& leaves = *d.chain->graph().resource<HybridLeaves>("hybrid_leaves");
-    ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
     CommandStream stream(test::device());
     const GpuScene scene_ = makeGpuScene(test::device(), stream, d.chain->state());
-    HybridTracer tracer(HybridWalk::Hierarchical);
-    test::prepare(tracer, d.voxels, compiler);
+    test::TestPrograms programs;
+    HybridTracer tracer(programs, HybridWalk::Hierarchical);
+    test::prepare(programs, tracer, d.voxels);
     tracer.begin(stream, scene_, d.voxels, leaves);
     std::vector<Ray> rays;
     std::vector<gpu::RayStart> starts;
@@ -262,11 +262,11 @@ void voxelCascades(benchmark::State& state, const std::string& scene) {
     const float radius = 0.25f * boundingSphere(fine.chain->state().geometry).radius;
     const std::vector<test::BetweenVoxels> fineWays = test::betweenVoxels(fine.voxels, fine.rays.pairs),
                                            coarseWays = test::betweenVoxels(coarse.voxels, fine.rays.pairs);
-    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
     CommandStream stream(test::device());
     const auto hits = [&](const Disagreement& d, const std::vector<Ray>& rays) {
-        VoxelTracer tracer(VoxelWalk::Bricks);
-        test::prepare(tracer, d.voxels, compiler);
+        test::TestPrograms programs;
+        VoxelTracer tracer(programs, VoxelWalk::Bricks);
+        test::prepare(programs, tracer, d.voxels);
         tracer.begin(stream, d.voxels);
         return closestHits(tracer, rays);
     };

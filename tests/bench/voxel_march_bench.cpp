@@ -7,7 +7,6 @@
 #include "passes/common/voxel_march/voxel_tracer.h"
 #include "tests/bench/sponza.h"
 #include "tests/gpu/prepared.h"
-#include "tests/support/places.h"
 
 namespace voxray {
 namespace {
@@ -69,18 +68,18 @@ void voxelMarch(benchmark::State& state) {
     constexpr size_t kWalks = EnumNames<VoxelWalk>::names.size();
     test::Chain& chain = sponza(uint32_t(state.range(0)));
     const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
-    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
     CommandStream stream(test::device());
     const Buffer rays(test::device(), "rays", kRays * sizeof(Ray));
     stream.upload(rays, shadowRays(chain.state().geometry, voxels.grid.voxelSize, kRays));
     const Buffer results(test::device(), "results", kRays * sizeof(uint32_t));
 
     // Once each outside of the measurement: structures are built, answers compared.
+    test::TestPrograms programs;
     std::vector<std::unique_ptr<VoxelTracer>> tracers;
     std::vector<uint32_t> first;
     for (const auto& [walk, name] : EnumNames<VoxelWalk>::names) {
-        VoxelTracer& tracer = *tracers.emplace_back(std::make_unique<VoxelTracer>(walk));
-        test::prepare(tracer, voxels, compiler);
+        VoxelTracer& tracer = *tracers.emplace_back(std::make_unique<VoxelTracer>(programs, walk));
+        test::prepare(programs, tracer, voxels);
         const double begin = cpuSeconds();
         tracer.begin(stream, voxels);
         stream.finish();

@@ -100,12 +100,12 @@ void vplRayOrder(benchmark::State& state) {
                                 : Ray{way.from, 0, glm::vec3(0, 0, 1), -1});
     }
 
-    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
     CommandStream stream(test::device());
     const Buffer in(test::device(), "rays", rays.size() * sizeof(Ray));
     const Buffer out(test::device(), "answers", rays.size() * sizeof(uint32_t));
     stream.upload(in, rays);
-    VoxelTracer restart(VoxelWalk::SvoRestart), ours(VoxelWalk::Svo);
+    test::TestPrograms programs;
+    VoxelTracer restart(programs, VoxelWalk::SvoRestart), ours(programs, VoxelWalk::Svo);
     double seconds[2] = {};
     const auto trace = [&](VoxelTracer& tracer) {
         const double begin = cpuSeconds();
@@ -114,7 +114,7 @@ void vplRayOrder(benchmark::State& state) {
         return cpuSeconds() - begin;
     };
     for (VoxelTracer* tracer : {&restart, &ours}) {
-        test::prepare(*tracer, voxels, compiler);
+        test::prepare(programs, *tracer, voxels);
         tracer->begin(stream, voxels);
         trace(*tracer);
     }

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "passes/select_vpls/resample.h"
+#include "passes/vpls/select_vpls/resample.h"
 #include "tests/bench/light_rays.h"
 #include "tests/bench/light_tree.h"
 

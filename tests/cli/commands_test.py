@@ -46,7 +46,9 @@ class Passes(CommandTest):
     def test_list(self):
         out = self.expect(0, "passes").stdout
         for name in ("gbuffer", "voxelize", "inject_light_rays", "gather_irradiance", "composite", "path_trace"):
-            self.assertRegex(out, rf"(?m)^{name} ")
+            self.assertRegex(out, rf"(?m)^  {name} ")
+        families = [out.index(f"\n{name}: ") for name in ("voxels", "inject", "final_gather", "path_trace")]
+        self.assertEqual(families, sorted(families))
 
     def test_one(self):
         out = self.expect(0, "passes", "inject_light_rays").stdout

@@ -8,7 +8,7 @@ WARNINGS = {
                           "from [-1, 0, -1] to [1, 2, 1]; are its numbers metres?"),
     "radians for degrees": ("fov_deg: 50", "fov_deg: 1.05", 4, "1.05 in radians is 60.16 degrees"),
     "no direct light": ("  - {pass: direct_shadow_rays, id: direct}\n", "", 16,
-                        "lacks direct light, which the reference has; these can: gather_mirror, direct_shadow_rays,"),
+                        "lacks direct light, which the reference has; these can: direct_shadow_maps, direct_shadow_rays,"),
     "metal, and no pass that follows its reflections": (
         "  lights:", "  override: {grey: {metallic: 1}}\n  lights:", 2,
         "of the surfaces in view are metal, which reflects by specular lobes alone: the reference has what they reflect of indirect light"),

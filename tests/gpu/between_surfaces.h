@@ -2,10 +2,8 @@
 
 #include <vector>
 
-#include "passes/common/compute/dispatch.h"
 #include "passes/common/voxel_march/voxel_march.h"
 #include "tests/gpu/prepared.h"
-#include "tests/support/places.h"
 #include "trace/embree_scene.h"
 
 namespace voxray::test {
@@ -25,22 +23,17 @@ struct BetweenVoxels {
 inline std::vector<BetweenVoxels> betweenVoxels(const SurfaceVoxels& voxels,
                                                 const std::vector<SurfacePair>& pairs) {
     CommandStream stream(device());
-    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
-    VoxelMarch march(VoxelWalk::Bricks);
-    prepare(march, voxels, compiler);
+    TestPrograms programs;
+    VoxelMarch march(programs, VoxelWalk::Bricks);
+    const Kernel kernel(programs, "between_surfaces.comp", march.defines());
+    prepare(programs, march, voxels);
     march.begin(stream, voxels);
-    const Program program =
-        makeComputeProgram(device(), compiler.compile("tests/gpu/between_surfaces.comp", march.defines()));
     const Buffer in(device(), "pairs", pairs.size() * sizeof(SurfacePair)),
         out(device(), "answers", pairs.size() * sizeof(BetweenVoxels));
     stream.upload(in, pairs);
-    std::vector<Binding> bindings = march.bindings();
-    bindings.insert(bindings.end(), {{"pairs", in}, {"answers", out}});
-    const struct {
-        gpu::VoxelGrid grid;
-        uint32_t count;
-    } push{voxels.grid, uint32_t(pairs.size())};
-    stream.dispatch(program, bindings, push, linearGroups(pairs.size()));
+    stream.dispatch(
+        kernel, pairs.size(),
+        {march, {"pairs", in}, {"answers", out}, {"grid", voxels.grid}, {"count", uint32_t(pairs.size())}});
     return stream.readAs<BetweenVoxels>(out, pairs.size());
 }
 

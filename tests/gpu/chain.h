@@ -8,7 +8,7 @@
 #include "config/yaml.h"
 #include "experiment/measure.h"
 #include "graph/graph.h"
-#include "passes/register_passes.h"
+#include "passes/common/families.h"
 #include "scene/load.h"
 #include "tests/support/device.h"
 #include "tests/support/graph_yaml.h"

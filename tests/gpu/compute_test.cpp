@@ -8,6 +8,7 @@
 #include "passes/common/compute/histogram.h"
 #include "passes/common/compute/radix_sort.h"
 #include "tests/gpu/vulkan_fixture.h"
+#include "tests/support/programs.h"
 
 namespace voxray {
 namespace {
@@ -29,11 +30,13 @@ class Compute : public VulkanTest {
         stream.upload(buffer, values);
         return buffer;
     }
+
+    test::TestPrograms programs_;
 };
 
 TEST_F(Compute, PrefixSumsOfValuesAndOfSetBits) {
-    const PrefixSum ofValues(device(), compiler(), PrefixSum::Of::Values);
-    const PrefixSum ofBits(device(), compiler(), PrefixSum::Of::SetBits);
+    const PrefixSum ofValues(programs_, PrefixSum::Of::Values), ofBits(programs_, PrefixSum::Of::SetBits);
+    programs_.compile();
     for (const uint32_t count : kCounts) {
         const std::vector<uint32_t> values = randomNumbers(count, 2000, count),
                                     words = randomNumbers(count, 0, count);
@@ -54,7 +57,8 @@ TEST_F(Compute, PrefixSumsOfValuesAndOfSetBits) {
 }
 
 TEST_F(Compute, CompactionListsFlaggedItems) {
-    const Compaction compaction(device(), compiler());
+    const Compaction compaction(programs_);
+    programs_.compile();
     for (const uint32_t words : {1u, 33u, 1024u, 5000u}) {
         std::vector<uint32_t> flags = randomNumbers(words, 0, words), expected;
         flags[0] = words == 1 ? 0 : 0xffffffffu;
@@ -70,7 +74,8 @@ TEST_F(Compute, CompactionListsFlaggedItems) {
 }
 
 TEST_F(Compute, HistogramCountsWhatIsInRange) {
-    const Histogram histogram(device(), compiler());
+    const Histogram histogram(programs_);
+    programs_.compile();
     constexpr uint32_t kBins = 37;
     const std::vector<uint32_t> values = randomNumbers(100000, 50, 1);
     std::vector<uint32_t> expected(kBins);
@@ -84,7 +89,8 @@ TEST_F(Compute, HistogramCountsWhatIsInRange) {
 }
 
 TEST_F(Compute, RadixSortIsStableAndEqualsTheStandardLibrarys) {
-    RadixSort sort(device(), compiler());
+    RadixSort sort(programs_);
+    programs_.compile();
     for (const uint32_t count : kCounts)
         for (const uint32_t keyBits : {32u, 9u}) {
             // Few different keys in the second case: many are equal, and their values keep their order.

@@ -1,6 +1,6 @@
 // Where a list of voxels stands in an octree: each one's leaf, and the level at which a cone from its center would start.
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/radiance/radiance_voxels.glsl"
+#include "passes/cones/radiance/radiance_voxels.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Queries { ivec3 voxel[]; } queries;

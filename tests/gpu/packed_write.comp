@@ -1,5 +1,5 @@
 // Each word takes colors from `threads` threads, of each the same two colors one after the other.
-#include "shaders/packed_voxels/packed_write.glsl"
+#include "passes/published/packed_write.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) buffer WordsAt { LargeUints words; };

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "passes/common/clipmap/clipmap_windows.h"
+#include "passes/cones/clipmap/clipmap_windows.h"
 #include "tests/gpu/radiance_samples.h"
 
 namespace voxray::test {
@@ -84,7 +84,7 @@ inline std::vector<RadianceQuery> voxelsRound(const gpu::RadianceGrid& grid,
     return queries;
 }
 
-/// What minimumLevel() of shaders/radiance/radiance_clipmap.glsl answers.
+/// What minimumLevel() of passes/cones/radiance/radiance_clipmap.glsl answers.
 inline float minimumLevel(const ClipmapWindows& windows, const gpu::RadianceGrid& grid,
                           const glm::vec3& camera, glm::vec3 position) {
     position = glm::clamp(position, grid.origin, grid.origin + grid.voxelSize * glm::vec3(grid.resolution));

@@ -1,6 +1,6 @@
 // Samples of radiance voxels, whatever their layout.
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/radiance/sample_radiance.glsl"
+#include "passes/cones/radiance/sample_radiance.glsl"
 layout(local_size_x = 64) in;
 
 struct Query {

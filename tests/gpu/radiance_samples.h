@@ -4,15 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "passes/common/compute/dispatch.h"
-#include "passes/common/radiance/radiance_voxels.h"
+#include "passes/cones/radiance/radiance_voxels.h"
 #include "shaders/voxels/voxel_types.h"
 #include "tests/gpu/chain.h"
-#include "tests/support/places.h"
+#include "tests/support/programs.h"
 
 namespace voxray::test {
 
-/// A question to radiance voxels, as shaders/radiance/radiance_voxels.glsl takes it.
+/// A question to radiance voxels, as passes/cones/radiance/radiance_voxels.glsl takes it.
 struct RadianceQuery {
     glm::vec3 position;  ///< m
     float footprint;     ///< m
@@ -40,17 +39,15 @@ inline std::vector<RadianceQuery> randomQueries(const gpu::VoxelGrid& grid, size
 /// What sampleRadiance() answers, one by one. Works for every layout.
 inline std::vector<glm::vec4> sampleRadiance(const RadianceVoxels& radiance,
                                              const std::vector<RadianceQuery>& queries) {
-    const ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
-    const Program program =
-        makeComputeProgram(device(), compiler.compile("tests/gpu/radiance_samples.comp", radiance.defines()));
+    TestPrograms programs;
+    const Kernel kernel(programs, "radiance_samples.comp", radiance.defines());
+    programs.compile();
     CommandStream stream(device());
     const Buffer input(device(), "queries", queries.size() * sizeof(RadianceQuery));
     const Buffer output(device(), "answers", queries.size() * sizeof(glm::vec4));
     stream.upload(input, queries);
-    std::vector<Binding> bindings = radiance.bindings();
-    bindings.emplace_back("queries", input);
-    bindings.emplace_back("answers", output);
-    stream.dispatch(program, bindings, uint32_t(queries.size()), linearGroups(queries.size()));
+    stream.dispatch(kernel, queries.size(),
+                    {radiance, {"queries", input}, {"answers", output}, {"count", uint32_t(queries.size())}});
     return stream.readAs<glm::vec4>(output, queries.size());
 }
 

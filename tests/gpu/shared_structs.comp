@@ -1,5 +1,5 @@
 // Writes the first word of each member of an array's first element, then of the second element: its stride.
-#include "shaders/light_paths/light_path_types.h"
+#include "passes/inject/light_paths/light_path_types.h"
 #include "shaders/trace/ray_types.h"
 #include "shaders/scene/scene_types.h"
 #include "shaders/voxels/voxel_types.h"

@@ -3,11 +3,11 @@
 
 #include <cstddef>
 
-#include "shaders/light_paths/light_path_types.h"
+#include "passes/inject/light_paths/light_path_types.h"
 #include "shaders/scene/scene_types.h"
 #include "shaders/voxels/voxel_types.h"
 #include "tests/gpu/chain.h"
-#include "tests/support/places.h"
+#include "tests/support/programs.h"
 #include "trace/ray.h"
 
 namespace voxray::test {
@@ -18,16 +18,16 @@ constexpr uint32_t kOne = 0x3f800000u;
 // Words that count upwards from the bits of 1.0f (so that none is a denormal), read member by member in GLSL.
 template <typename T>
 std::vector<uint32_t> readByShader(const char* define) {
-    ShaderCompiler compiler(test::sourceRoot(), {});
-    const Program program =
-        makeComputeProgram(device(), compiler.compile("tests/gpu/shared_structs.comp", {{define, "1"}}));
+    TestPrograms programs;
+    const Kernel kernel(programs, "shared_structs.comp", {{define, "1"}});
+    programs.compile();
     std::vector<uint32_t> words(2 * sizeof(T) / 4);
     for (size_t i = 0; i < words.size(); ++i) words[i] = kOne + uint32_t(i);
     CommandStream stream(device());
     const Buffer input(device(), "input", words.size() * 4), output(device(), "output", 64 * 4);
     stream.upload(input, words);
     stream.fill(output, 0xffffffffu);
-    stream.dispatch(program, {{"source", input}, {"result", output}}, {}, {1, 1, 1});
+    stream.dispatch(kernel, 1, {{"source", input}, {"result", output}});
     std::vector<uint32_t> seen = stream.readAs<uint32_t>(output, 64);
     for (uint32_t& word : seen) word -= kOne;
     return seen;

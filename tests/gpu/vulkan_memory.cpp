@@ -71,23 +71,16 @@ TEST_F(VulkanMemory, LargeBufferIsReachedByItsAddressOnly) {
     const Buffer large(device(), "large", range + 1024);
     const Buffer small(device(), "small", 64);
     CommandStream stream(device());
-    struct Push {
-        uint32_t count, bias;
-    };
     const Program scale = computeProgram("vulkan_scale.comp");
     const std::string error = errorOf([&] {
-        stream.dispatch(scale, {{"source", large}, {"Target", small}}, Push{1, 0}, {1, 1, 1});
+        stream.dispatch(scale, 1, {{"source", large}, {"Target", small}, {"count", 1u}, {"bias", 0u}});
     });
     EXPECT_CONTAINS(error, "'large'");
     EXPECT_CONTAINS(error, "address");
 
-    struct AddressPush {
-        VkDeviceAddress words;
-        uint32_t index, value;
-    };
     const uint32_t last = uint32_t(large.bytes() / 4 - 1);
     const Program store = computeProgram("vulkan_address.comp");
-    stream.dispatch(store, {}, AddressPush{large.address(), last, 42}, {1, 1, 1});
+    stream.dispatch(store, 1, {{"words", large.address()}, {"index", last}, {"value", 42u}});
     const std::vector<std::byte> word = stream.read(large, 4, uint64_t(last) * 4);
     EXPECT_EQ(word[0], std::byte(42));
 }

@@ -35,9 +35,9 @@ TEST_F(VulkanRaster, DrawsATriangleIntoAnAttachment) {
     // The second draw keeps what the first left outside the triangle, and fails no depth test: depth is
     // cleared.
     CommandStream stream(device());
-    stream.draw(draw, {}, glm::vec4(9), targets, 3);
+    stream.draw(draw, targets, 3, {{"value", glm::vec4(9)}});
     targets.colors[0].clear.reset();
-    stream.draw(draw, {}, glm::vec4(5, 6, 7, 8), targets, 3);
+    stream.draw(draw, targets, 3, {{"value", glm::vec4(5, 6, 7, 8)}});
     const Buffer colors(device(), "colors", kSize * kSize * 16),
         depths(device(), "depths", kSize * kSize * 4);
     stream.copy(color, colors);
@@ -57,7 +57,7 @@ TEST_F(VulkanRaster, DrawsWithoutAttachmentsIntoABuffer) {
     targets.extent = {kSize, kSize, 1};
     CommandStream stream(device());
     stream.fill(counter, 0);
-    stream.draw(draw, {{"counter", counter}}, {}, targets, 3, 2);
+    stream.draw(draw, targets, 3, {{"counter", counter}}, 2);
 
     // The diagonal's pixel centers lie on the edge: half of the square with or without the diagonal, twice.
     const uint32_t count = stream.readAs<uint32_t>(counter, 1)[0];
@@ -73,7 +73,10 @@ TEST_F(VulkanRaster, TargetSmallerThanTheViewportIsRefused) {
     targets.colors = {{&color, std::nullopt}};
     targets.extent = {8, 4, 1};
     CommandStream stream(device());
-    EXPECT_CONTAINS(errorOf([&] { stream.draw(draw, {}, glm::vec4(1), targets, 3); }), "'color' is smaller");
+    EXPECT_CONTAINS(errorOf([&] {
+                        stream.draw(draw, targets, 3, {{"value", glm::vec4(1)}});
+                    }),
+                    "'color' is smaller");
 }
 
 TEST_F(VulkanRaster, LabelsAndTimestampsSpanSubmissions) {

@@ -3,6 +3,7 @@
 
 layers.py [ROOT]: prints "file:line: problem" for each broken rule; exit status 1 where there is one.
 """
+import functools
 import os
 import re
 import sys
@@ -20,8 +21,26 @@ LAYERS = {
     "app": {"base", "image", "scene", "vulkan", "trace", "graph", "config", "experiment"},
 }
 
-# What techniques share: passes/common/<room> and shaders/<room>. A room may use itself and what stands here.
-ROOMS = {
+# Families of techniques, passes/<family>. One may use itself, passes/common, shaders and what stands here; of other
+# families what they share, not their techniques (folders that register a pass).
+FAMILIES = {
+    "view": {"cones", "clusters", "surfels"},
+    "voxels": set(),
+    "inject": {"surfels"},
+    "surfels": set(),
+    "radiosity": {"surfels"},
+    "clusters": {"surfels"},
+    "cones": {"surfels"},
+    "final_gather": {"surfels"},
+    "cache": {"surfels", "final_gather"},
+    "vpls": {"surfels", "inject", "hybrid_leaves"},
+    "hybrid_leaves": {"surfels", "cones"},
+    "published": {"cones"},
+    "path_trace": set(),
+}
+
+# What families share: passes/common/<module> and shaders/<module>. A module may use itself and what stands here.
+MODULES = {
     "compute": set(),
     "view": {"compute"},
     "filter": {"compute", "view"},
@@ -30,22 +49,14 @@ ROOMS = {
     "voxel_builder": {"compute", "voxels", "triangle_walk"},
     "octree": {"compute", "voxels"},
     "voxel_march": {"compute", "voxels", "octree"},
-    "hybrid_leaves": {"compute", "voxels", "octree", "voxel_march"},
-    "radiance": {"compute", "voxels", "octree"},
-    "clipmap": {"compute", "voxels", "radiance"},
     "lights": {"compute", "view", "voxels"},
-    "light_paths": {"compute", "voxels", "lights"},
-    "clusters": {"compute", "voxels", "surfels"},
-    "vpls": {"compute"},
-    "surfels": {"compute", "view", "voxels", "lights"},
-    "final_gather": {"compute", "view", "filter", "lights", "surfels"},
-    "radiance_cache": {"compute"},
-    "irradiance_tree": {"compute", "voxels"},
-    "packed_voxels": {"compute", "voxels"},
 }
 
-# GLSL of the framework's own things, for every room.
+# GLSL of the framework's own things, for every module.
 SHADER_BASE = {"shared", "scene", "trace"}
+
+# The list of families, which adds them all.
+FAMILY_LIST = "passes/common/families."
 
 # What a technique may use of the framework.
 PASSES_MAY_USE = LAYERS["graph"] | {"graph"}
@@ -87,38 +98,75 @@ def resolve(root, includer, target):
     return None
 
 
-def technique(path):
-    """Folder under passes/, or None for what all techniques share."""
+def family(path):
+    """Folder under passes/, or None for what all families share."""
     parts = path.split("/")
     return parts[1] if parts[0] == "passes" and len(parts) > 2 and parts[1] != "common" else None
 
 
-def room(path):
-    """The room of a file, None where it is in none."""
+def technique(root, path):
+    """The folder of a file's pass, None where it belongs to no single one."""
+    parts = path.split("/")
+    for count in range(3, len(parts)):
+        folder = "/".join(parts[:count])
+        if family(path) and registers(root, folder):
+            return folder
+    return None
+
+
+@functools.cache
+def registers(root, folder):
+    """Whether a source of the folder itself registers a pass."""
+    place = os.path.join(root, folder)
+    for name in sorted(os.listdir(place)) if os.path.isdir(place) else []:
+        if name.endswith(".cpp"):
+            with open(os.path.join(place, name), encoding="utf-8") as file:
+                if "VOXRAY_REGISTER_PASS(" in file.read():
+                    return True
+    return False
+
+
+def module(path):
+    """The module of a file that families share, None where it is in none."""
     parts = path.split("/")
     if path.startswith("passes/common/") and len(parts) > 3:
         return parts[2]
     return parts[1] if parts[0] == "shaders" and len(parts) > 2 and parts[1] not in SHADER_BASE else None
 
 
-def problem_of_rooms(includer, included):
+def problem_of_modules(includer, included):
     for path in (includer, included):
-        if path.startswith("passes/common/") and room(path) is None:
-            return f"{path} is in no room: passes/common/<room>/"
-        if room(path) is not None and room(path) not in ROOMS:
-            return f"room {room(path)} is not known: add it to tests/house/layers.py"
-    mine, other = room(includer), room(included)
-    if mine and other and mine != other and other not in ROOMS[mine]:
-        return f"room {mine} includes {included}: it may include {', '.join(sorted(ROOMS[mine])) or 'no room'}"
+        if path.startswith("passes/common/") and module(path) is None and not path.startswith(FAMILY_LIST):
+            return f"{path} is in no module: passes/common/<module>/"
+        if module(path) is not None and module(path) not in MODULES:
+            return f"module {module(path)} is not known: add it to tests/house/layers.py"
+        if family(path) is not None and family(path) not in FAMILIES and not includer.startswith("tests/"):
+            return f"family {family(path)} is not known: add it to tests/house/layers.py"
+    mine, other = module(includer), module(included)
+    if mine and other and mine != other and other not in MODULES[mine]:
+        return f"module {mine} includes {included}: it may include {', '.join(sorted(MODULES[mine])) or 'no module'}"
     if includer.startswith("shaders/") and mine is None and other:
-        return f"{includer} includes {included}: the scene's own GLSL knows no room"
+        return f"{includer} includes {included}: the scene's own GLSL knows no module"
     return None
 
 
-def problem_of_own(includer, included):
-    rooms = problem_of_rooms(includer, included)
-    if rooms:
-        return rooms
+def problem_of_families(root, includer, included):
+    mine, other = family(includer), family(included)
+    if other is None:
+        return None
+    if mine is None:
+        return None if includer.startswith(FAMILY_LIST) else f"{includer} includes {included}: what families share knows none"
+    if mine != other and other not in FAMILIES[mine]:
+        return f"family {mine} includes {included}: it may include {', '.join(sorted(FAMILIES[mine])) or 'no family'}"
+    if technique(root, included) not in (None, technique(root, includer)):
+        return f"{includer} includes {included}: techniques meet in their family, passes/common/ and graph resources"
+    return None
+
+
+def problem_of_own(root, includer, included):
+    modules = problem_of_modules(includer, included)
+    if modules:
+        return modules
     if included.startswith("shaders/"):
         return None
     if includer.startswith("shaders/"):
@@ -136,9 +184,9 @@ def problem_of_own(includer, included):
     if includer.startswith("passes/"):
         if included.startswith("framework/") and included.split("/")[1] not in PASSES_MAY_USE:
             return f"a pass includes {included}: passes know {', '.join(sorted(PASSES_MAY_USE))}"
-        mine, other = technique(includer), technique(included)
-        if other and mine != other and not includer.startswith("passes/register_passes"):
-            return f"{includer} includes {included}: techniques meet in passes/common/, shaders/ and graph resources"
+        problem = problem_of_families(root, includer, included)
+        if problem:
+            return problem
     if included.startswith("tests/") and not includer.startswith("tests/"):
         return f"{includer} includes {included}: nothing but tests includes tests"
     return None
@@ -151,8 +199,8 @@ def problem_of_third_party(includer, header):
     return None
 
 
-# A shader that C++ names, to compile it, is used as if it were included.
-SHADER = re.compile(r'(?<!#include )"((?:framework|passes|shaders|tests)/[\w/]+\.(?:comp|vert|geom|frag|glsl))"')
+# A shader that C++ names, to compile it, is used as if it were included: next to the file or from the root.
+SHADER = re.compile(r'(?<!#include )"([\w./]+\.(?:comp|vert|geom|frag|glsl))"')
 
 
 def check(root):
@@ -161,12 +209,12 @@ def check(root):
         with open(os.path.join(root, path), encoding="utf-8", errors="replace") as file:
             for number, line in enumerate(file, 1):
                 problems += [f"{path}:{number}: {problem}" for shader in SHADER.findall(line)
-                             if (problem := problem_of_own(path, shader))]
+                             if (problem := problem_of_own(root, path, resolve(root, path, shader) or shader))]
                 match = INCLUDE.match(line)
                 if not match:
                     continue
                 own = resolve(root, path, match[2]) if match[1] == '"' else None
-                problem = problem_of_own(path, own) if own else problem_of_third_party(path, match[2])
+                problem = problem_of_own(root, path, own) if own else problem_of_third_party(path, match[2])
                 if problem:
                     problems.append(f"{path}:{number}: {problem}")
     return problems

@@ -32,13 +32,17 @@ class Layers(Tree):
         super().setUp()
         for path in ("framework/base/error.h", "framework/vulkan/device.h", "framework/image/image.h",
                      "framework/scene/scene.h", "framework/trace/ray.h", "framework/graph/pass.h",
-                     "framework/experiment/runner.h", "framework/app/commands.h", "passes/register_passes.h",
-                     "framework/config/yaml.h", "passes/one/one.h", "passes/two/two.h", "passes/two/two.glsl",
+                     "framework/experiment/runner.h", "framework/app/commands.h", "passes/common/families.h",
+                     "framework/config/yaml.h", "passes/surfels/surfels.h", "passes/surfels/surfels.glsl",
+                     "passes/view/one/one.h", "passes/view/one/one.comp", "passes/view/two/two.h",
+                     "passes/view/two/two.glsl", "passes/view/shared.h", "passes/novel_family/three.h",
                      "passes/common/compute/scan.h", "passes/common/voxels/voxels.h", "passes/common/octree/octree.h",
                      "passes/common/stray.h", "passes/common/novel/novel.h", "shaders/shared/types.h",
                      "shaders/scene/scene.glsl", "shaders/compute/scan.glsl", "shaders/voxels/grid.glsl",
                      "shaders/octree/node.glsl", "tests/unit/helper.h"):
             self.write(path, "#pragma once\n")
+        for name in ("one", "two"):
+            self.write(f"passes/view/{name}/{name}.cpp", "VOXRAY_REGISTER_PASS(Pass);\n")
 
     def refused(self, path, include):
         self.write(path, f"// A comment.\n#include {include}\n")
@@ -70,41 +74,53 @@ class Layers(Tree):
         self.allowed("framework/app/x.cpp", '"experiment/runner.h"')
 
     def test_passes(self):
-        self.refused("framework/experiment/x.cpp", '"passes/register_passes.h"')
+        self.refused("framework/experiment/x.cpp", '"passes/common/families.h"')
         self.refused("framework/graph/x.cpp", '"passes/common/voxels/voxels.h"')
-        self.refused("passes/one/x.cpp", '"passes/two/two.h"')
-        self.refused("passes/one/x.comp", '"passes/two/two.glsl"')
-        self.refused("passes/one/x.cpp", '"../two/two.h"')
-        self.refused("passes/common/voxels/x.cpp", '"passes/one/one.h"')
-        self.refused("passes/one/x.cpp", '"experiment/runner.h"')
-        self.refused("passes/one/x.cpp", '"config/yaml.h"')
-        self.refused("shaders/x.glsl", '"passes/two/two.glsl"')
-        self.refused("passes/one/x.cpp", '"tests/unit/helper.h"')
-        self.allowed("passes/one/x.cpp", '"passes/common/voxels/voxels.h"')
-        self.allowed("passes/one/x.cpp", '"one.h"')
-        self.allowed("passes/register_passes.cpp", '"passes/two/two.h"')
-        self.allowed("framework/app/x.cpp", '"passes/register_passes.h"')
+        self.refused("passes/view/one/x.cpp", '"passes/view/two/two.h"')
+        self.refused("passes/view/one/x.comp", '"passes/view/two/two.glsl"')
+        self.refused("passes/view/one/x.cpp", '"../two/two.h"')
+        self.refused("passes/common/voxels/x.cpp", '"passes/view/shared.h"')
+        self.refused("passes/view/one/x.cpp", '"experiment/runner.h"')
+        self.refused("passes/view/one/x.cpp", '"config/yaml.h"')
+        self.refused("shaders/x.glsl", '"passes/view/two/two.glsl"')
+        self.refused("passes/view/one/x.cpp", '"tests/unit/helper.h"')
+        self.allowed("passes/view/one/x.cpp", '"passes/common/voxels/voxels.h"')
+        self.allowed("passes/view/one/x.cpp", '"one.h"')
+        self.allowed("passes/common/families.cpp", '"passes/view/shared.h"')
+        self.allowed("framework/app/x.cpp", '"passes/common/families.h"')
+
+    def test_families(self):
+        self.allowed("passes/view/one/x.cpp", '"passes/view/shared.h"')
+        self.allowed("passes/view/one/x.cpp", '"passes/surfels/surfels.h"')
+        self.allowed("passes/clusters/x.comp", '"passes/surfels/surfels.glsl"')
+        self.refused("passes/surfels/x.cpp", '"passes/view/shared.h"')
+        self.refused("passes/voxels/x.cpp", '"passes/surfels/surfels.h"')
+        self.refused("passes/view/shared.cpp", '"passes/view/one/one.h"')
+        self.refused("passes/novel_family/x.cpp", '"passes/common/voxels/voxels.h"')
 
     def test_shaders_that_are_compiled(self):
-        for path, shader, is_allowed in (("passes/one/x.cpp", "passes/one/one.comp", True),
-                                         ("passes/one/x.cpp", "passes/two/two.comp", False),
-                                         ("passes/one/x.cpp", "tests/house/template/tint.comp", False)):
-            self.write(path, f'    program_ = compiler.compile("{shader}");\n')
+        self.write("passes/view/two/two.comp", "// A comment.\n")
+        for path, shader, is_allowed in (("passes/view/one/x.cpp", "passes/view/one/one.comp", True),
+                                         ("passes/view/one/x.cpp", "one.comp", True),
+                                         ("passes/view/one/x.cpp", "passes/view/two/two.comp", False),
+                                         ("passes/view/one/x.cpp", "../two/two.comp", False),
+                                         ("passes/view/one/x.cpp", "tests/house/template/tint.comp", False)):
+            self.write(path, f'    Kernel kernel_{{*this, "{shader}"}};\n')
             self.assertEqual(layers.check(self.root) == [], is_allowed, shader)
 
-    def test_rooms(self):
-        # Upwards, in circles, and what is in no room.
+    def test_modules(self):
+        # Upwards, in circles, and what is in no module.
         self.refused("passes/common/voxels/x.cpp", '"passes/common/octree/octree.h"')
         self.refused("passes/common/compute/x.cpp", '"passes/common/voxels/voxels.h"')
         self.refused("passes/common/x.cpp", '"passes/common/voxels/voxels.h"')
         self.refused("passes/common/voxels/x.cpp", '"passes/common/stray.h"')
-        self.refused("passes/one/x.cpp", '"passes/common/stray.h"')
-        self.refused("passes/one/x.cpp", '"passes/common/novel/novel.h"')
+        self.refused("passes/view/one/x.cpp", '"passes/common/stray.h"')
+        self.refused("passes/view/one/x.cpp", '"passes/common/novel/novel.h"')
         self.allowed("passes/common/octree/x.cpp", '"passes/common/voxels/voxels.h"')
         self.allowed("passes/common/octree/x.cpp", '"octree.h"')
         self.allowed("passes/common/octree/x.cpp", '"graph/pass.h"')
 
-    def test_rooms_of_shaders(self):
+    def test_modules_of_shaders(self):
         self.refused("shaders/voxels/x.glsl", '"shaders/octree/node.glsl"')
         self.refused("shaders/scene/x.glsl", '"shaders/voxels/grid.glsl"')
         self.refused("shaders/novel/x.glsl", '"shaders/voxels/grid.glsl"')
@@ -113,11 +129,12 @@ class Layers(Tree):
         self.allowed("shaders/octree/x.glsl", '"shaders/voxels/grid.glsl"')
         self.allowed("shaders/voxels/x.glsl", '"shaders/scene/scene.glsl"')
         self.allowed("passes/common/octree/x.comp", '"shaders/voxels/grid.glsl"')
-        self.allowed("passes/one/x.comp", '"shaders/octree/node.glsl"')
+        self.allowed("passes/view/one/x.comp", '"shaders/octree/node.glsl"')
 
     def test_no_circles(self):
         graphlib.TopologicalSorter(layers.LAYERS).prepare()
-        graphlib.TopologicalSorter(layers.ROOMS).prepare()
+        graphlib.TopologicalSorter(layers.MODULES).prepare()
+        graphlib.TopologicalSorter(layers.FAMILIES).prepare()
 
     def test_third_party(self):
         self.refused("framework/experiment/x.cpp", "<tiny_gltf.h>")
@@ -125,7 +142,7 @@ class Layers(Tree):
         self.refused("framework/scene/x.cpp", "<OpenImageIO/imageio.h>")
         self.refused("framework/experiment/x.cpp", "<yaml-cpp/yaml.h>")
         self.refused("framework/graph/x.cpp", "<vulkan/vulkan.h>")
-        self.refused("passes/one/x.cpp", "<vulkan/vulkan.h>")
+        self.refused("passes/view/one/x.cpp", "<vulkan/vulkan.h>")
         self.refused("framework/trace/x.cpp", "<glslang/Public/ShaderLang.h>")
         self.refused("framework/experiment/x.cpp", "<CLI/CLI.hpp>")
         self.refused("framework/trace/x.cpp", '"tiny_gltf.h"')

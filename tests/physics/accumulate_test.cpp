@@ -36,19 +36,14 @@ class FrameIrradiance final : public Pass {
     };
     explicit FrameIrradiance(const Params& params) : params_(params) {}
     Phase phase() const override { return Phase::Frame; }
-    void declare(PassBuilder& builder) override {
-        gbuffer_ = builder.read<GBuffer>("gbuffer", "for its size");
-        noisy_ = builder.write<NoisyIrradiance>("known_irradiance", "known irradiance");
-    }
     void plan(PassPlan& plan) override {
-        NoisyIrradiance& noisy = plan.get(noisy_);
+        NoisyIrradiance& noisy = plan[noisy_];
         noisy.spacing = params_.spacing;
         plan.image(noisy.irradiance, "known irradiance",
-                   NoisyIrradiance::desc(plan.frame, plan.get(gbuffer_).samples));
+                   NoisyIrradiance::desc(plan.frame, plan[gbuffer_].samples));
     }
-    void prepare(PassSetup&) override { frame_ = 0; }
     void record(PassContext& context) override {
-        const Image& image = context.get(noisy_).irradiance;
+        const Image& image = context[noisy_].irradiance;
         const glm::uvec3 texels = image.desc().extent;
         std::mt19937 random(1 + frame_);
         std::uniform_real_distribution<float> even(-1.0f, 1.0f);
@@ -64,10 +59,10 @@ class FrameIrradiance final : public Pass {
     }
 
  private:
-    Params params_;
+    const Params params_;
+    In<GBuffer> gbuffer_{*this, "gbuffer", "for its size"};
+    Out<NoisyIrradiance> noisy_{*this, "known_irradiance", "known irradiance"};
     uint32_t frame_ = 0;
-    Port<const GBuffer> gbuffer_;
-    Port<NoisyIrradiance> noisy_;
 };
 
 constexpr uint32_t kSize = 48;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "passes/common/filter/noisy_irradiance.h"
-#include "passes/common/vpls/vpls.h"
+#include "passes/vpls/vpls.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {

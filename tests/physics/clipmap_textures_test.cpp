@@ -8,7 +8,7 @@
 #include <glm/vector_relational.hpp>
 #include <iterator>
 
-#include "passes/common/clipmap/clipmap_texture.h"
+#include "passes/cones/clipmap/clipmap_texture.h"
 #include "tests/gpu/radiance_places.h"
 #include "tests/support/errors.h"
 

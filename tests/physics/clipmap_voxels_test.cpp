@@ -6,9 +6,9 @@
 #include <cstring>
 #include <numbers>
 
-#include "passes/common/clipmap/clipmap_voxels.h"
-#include "passes/common/radiance/radiance_voxels.h"
 #include "passes/common/voxels/voxel_count.h"
+#include "passes/cones/clipmap/clipmap_voxels.h"
+#include "passes/cones/radiance/radiance_voxels.h"
 #include "scene/shapes.h"
 #include "tests/gpu/radiance_samples.h"
 #include "tests/support/errors.h"
@@ -157,8 +157,8 @@ TEST(ClipmapVoxels, FollowWhatMoves) {
     }
 }
 
-/// A texel of shaders/radiance/radiance_texel.glsl: three mantissas of 14 bits, an exponent of 8 and opacity
-/// of 14.
+/// A texel of passes/cones/radiance/radiance_texel.glsl: three mantissas of 14 bits, an exponent of 8 and
+/// opacity of 14.
 glm::dvec4 unpack(glm::uvec2 t) {
     const uint64_t bits = uint64_t(t.x) | uint64_t(t.y) << 32;
     const double scale = std::ldexp(1.0, int(bits >> 42 & 255) - 126 - 1);

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "passes/common/clusters/cluster_light.h"
-#include "passes/common/clusters/cluster_visibility.h"
-#include "passes/common/clusters/voxel_patches.h"
+#include "passes/clusters/cluster_light.h"
+#include "passes/clusters/cluster_visibility.h"
+#include "passes/clusters/voxel_patches.h"
 #include "tests/physics/voxels_read.h"
 
 /// A graph whose voxels are lit through clusters, and what its tests read of it.
@@ -69,7 +69,7 @@ inline std::vector<std::vector<Seen>> readSeen(Chain& chain) {
     return lists;
 }
 
-/// Radiosity of each patch, W/m², green, as shaders/surfels/radiosity.glsl packs it.
+/// Radiosity of each patch, W/m², green, as passes/surfels/radiosity.glsl packs it.
 inline std::vector<double> readRadiosity(Chain& chain) {
     std::vector<double> radiosity;
     for (const uint32_t bits :

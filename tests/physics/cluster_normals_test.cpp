@@ -2,7 +2,7 @@
 // figure 7).
 #include <gtest/gtest.h>
 
-#include "passes/common/clusters/voxel_clusters.h"
+#include "passes/clusters/voxel_clusters.h"
 #include "tests/physics/voxels_read.h"
 
 namespace voxray::test {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "passes/common/clusters/voxel_clusters.h"
+#include "passes/clusters/voxel_clusters.h"
 #include "tests/physics/cluster_graph.h"
 #include "tests/support/errors.h"
 

@@ -41,23 +41,18 @@ class KnownIrradiance final : public Pass {
     };
     explicit KnownIrradiance(const Params& params) : params_(params) {}
     Phase phase() const override { return Phase::Frame; }
-    void declare(PassBuilder& builder) override {
-        gbuffer_ = builder.read<GBuffer>("gbuffer", "for its size");
-        noisy_ = builder.write<NoisyIrradiance>("noisy_irradiance", "known irradiance");
-    }
     void plan(PassPlan& plan) override {
-        NoisyIrradiance& noisy = plan.get(noisy_);
+        NoisyIrradiance& noisy = plan[noisy_];
         noisy.spacing = params_.spacing;
         noisy.blockSize = params_.moments ? 4 : 0;
         if (params_.moments)
             plan.buffer(noisy.moments, "known moments",
-                        noisy.momentsBytes(gbufferExtent(plan.frame, plan.get(gbuffer_).samples)));
+                        noisy.momentsBytes(gbufferExtent(plan.frame, plan[gbuffer_].samples)));
         plan.image(noisy.irradiance, "known irradiance",
-                   NoisyIrradiance::desc(plan.frame, plan.get(gbuffer_).samples));
+                   NoisyIrradiance::desc(plan.frame, plan[gbuffer_].samples));
     }
-    void prepare(PassSetup&) override {}
     void record(PassContext& context) override {
-        const NoisyIrradiance& noisy = context.get(noisy_);
+        const NoisyIrradiance& noisy = context[noisy_];
         const Image& image = noisy.irradiance;
         const glm::uvec3 texels = image.desc().extent;
         std::mt19937 random(1);
@@ -90,9 +85,9 @@ class KnownIrradiance final : public Pass {
         sum.squaredOverDistance += rays * light * light / 10;
     }
 
-    Params params_;
-    Port<const GBuffer> gbuffer_;
-    Port<NoisyIrradiance> noisy_;
+    const Params params_;
+    In<GBuffer> gbuffer_{*this, "gbuffer", "for its size"};
+    Out<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "known irradiance"};
 };
 
 ImageF filterKnown(const std::string& source, const std::string& filter, const std::string& scene,

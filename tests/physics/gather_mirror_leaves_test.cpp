@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "passes/gather_mirror/gather_mirror.h"
+#include "passes/hybrid_leaves/gather_mirror/gather_mirror.h"
 #include "tests/physics/mirror_scene.h"
 
 namespace voxray::test {

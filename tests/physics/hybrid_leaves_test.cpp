@@ -11,7 +11,7 @@
 namespace voxray::test {
 namespace {
 
-/// As in shaders/hybrid_leaves/hybrid_leaves.glsl.
+/// As in passes/hybrid_leaves/hybrid_leaves.glsl.
 struct ListItem {
     uint32_t box, triangle;
 };

@@ -8,7 +8,7 @@
 #include <optional>
 #include <random>
 
-#include "passes/common/hybrid_leaves/hybrid_tracer.h"
+#include "passes/hybrid_leaves/hybrid_tracer.h"
 #include "scene/shapes.h"
 #include "tests/gpu/chain.h"
 #include "tests/gpu/prepared.h"
@@ -45,8 +45,9 @@ class Hybrid {
     /// @param start what all rays leave behind. @param widest m, beyond which rays end.
     std::vector<Hit> closest(HybridWalk walk, const std::vector<Ray>& rays,
                              const std::optional<gpu::RayStart>& start = {}, float widest = kInfinity) {
-        HybridTracer tracer(walk);
-        prepare(tracer, voxels(), compiler_);
+        TestPrograms programs;
+        HybridTracer tracer(programs, walk);
+        prepare(programs, tracer, voxels());
         tracer.begin(stream_, scene_, voxels(), leaves(), widest);
         const std::vector<Hit> hits = start ? closestFrom(tracer, rays, *start) : closest(tracer, rays);
         counts = stream_.readAs<uint64_t>(tracer.counts(), 2);
@@ -128,7 +129,7 @@ struct CellValue {
     glm::vec3 normal, albedo;
 };
 
-/// As in shaders/hybrid_leaves/grid_cell.glsl.
+/// As in passes/hybrid_leaves/grid_cell.glsl.
 inline CellValue unpackCell(const uint32_t* words) {
     const auto snorm = [](uint32_t bits) { return std::max(float(int16_t(bits)) / 32767.0f, -1.0f); };
     glm::vec3 n(snorm(words[0] & 0xffffu), snorm(words[0] >> 16), 0);

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "passes/common/vpls/vpls.h"
+#include "passes/vpls/vpls.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/common/voxels/voxels.h"
-#include "shaders/light_paths/light_path_types.h"
+#include "passes/inject/light_paths/light_path_types.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "passes/common/irradiance_tree/irradiance_tree.h"
-#include "passes/common/irradiance_tree/tree_builder.h"
 #include "passes/common/voxels/voxels.h"
+#include "passes/final_gather/merged_voxels/irradiance_tree.h"
+#include "passes/final_gather/merged_voxels/tree_builder.h"
 #include "scene/uniform_random.h"
 #include "tests/gpu/chain.h"
 #include "tests/support/errors.h"

@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "passes/common/clusters/voxel_clusters.h"
+#include "passes/clusters/voxel_clusters.h"
 #include "scene/moving_spheres.h"
 #include "tests/physics/cluster_graph.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "passes/common/hybrid_leaves/hybrid_leaves.h"
 #include "passes/common/voxels/voxel_count.h"
+#include "passes/hybrid_leaves/hybrid_leaves.h"
 #include "tests/gpu/radiance_samples.h"
 #include "tests/physics/voxels_read.h"
 #include "tests/support/radiance_layouts.h"

@@ -7,17 +7,16 @@
 #include <vector>
 
 #include "passes/common/octree/octree_builder.h"
-#include "passes/filter_voxels/svo_collapse.h"
+#include "passes/cones/filter_voxels/svo_collapse.h"
 #include "tests/gpu/radiance_samples.h"
 #include "tests/physics/made_up_voxels.h"
 #include "tests/support/kept.h"
-#include "tests/support/places.h"
 
 namespace voxray::test {
 
 using Faces = std::array<glm::dvec4, 6>;  ///< Premultiplied radiance and opacity for +x -x +y -y +z -z.
 
-/// What shaders/radiance/radiance_texel.glsl packs and unpacks.
+/// What passes/cones/radiance/radiance_texel.glsl packs and unpacks.
 inline glm::uvec2 packRadiance(const glm::dvec4& value) {
     const double largest = std::max({value.r, value.g, value.b});
     glm::uvec3 mantissa(0);
@@ -65,7 +64,7 @@ class Content {
                 for (int x = 0; x < size.x; ++x) visit({x, y, z});
     }
 
-    /// What sampleRadiance() must answer: shaders/radiance/sample_radiance.glsl, in doubles.
+    /// What sampleRadiance() must answer: passes/cones/radiance/sample_radiance.glsl, in doubles.
     glm::dvec4 sample(glm::dvec3 position, double footprint, glm::dvec3 direction) const {
         const double voxel = grid.voxelSize;
         const double level = std::clamp(std::log2(footprint / voxel), 0.0, double(levels.size() - 1));
@@ -148,7 +147,7 @@ class TestOctree {
         const gpu::VoxelGrid& g = content.grid;
         radiance.layout = RadianceLayout::Svo;
         radiance.grid = {g.origin, g.voxelSize, g.resolution, gridLevels(g.resolution), directions, 1.0f};
-        allocateSvoValues(stream_, builder().build(stream_, content.surfaceVoxels(stream_)), radiance);
+        allocateSvoValues(stream_, tools().builder.build(stream_, content.surfaceVoxels(stream_)), radiance);
         size = radiance.octree.size;
         first = size.first();
         leaves = stream_.readAs<uint32_t>(radiance.octree.leafVoxels, size.nodes[0]);
@@ -160,7 +159,7 @@ class TestOctree {
         stream_.upload(radiance.storage[0], texels);
         changed_ = Buffer(device(), "changed", SvoFilter::changedBytes(size));
         stream_.fill(changed_, ~0u);
-        filter().run(stream_, radiance, changed_);
+        tools().filter.run(stream_, radiance, changed_);
         refresh();
     }
 
@@ -175,7 +174,7 @@ class TestOctree {
             stream_.upload(radiance.storage[0], std::as_bytes(std::span(&texel, 1)),
                            (face * size.nodeCount() + leaf) * sizeof(texel));
         }
-        filter().run(stream_, radiance, changed_);
+        tools().filter.run(stream_, radiance, changed_);
         refresh();
         uint32_t count = 0;
         for (const uint32_t word : stream_.readAs<uint32_t>(changed_, bits.size()))
@@ -185,7 +184,7 @@ class TestOctree {
 
     /// Collapses uniform nodes.
     void collapse() {
-        collapser().run(stream_, radiance);
+        tools().collapse.run(stream_, radiance);
         size = radiance.octree.size;
         first = size.first();
         refresh();
@@ -218,14 +217,14 @@ class TestOctree {
 
     /// octreeLeaf() and startLevel() on the device.
     std::vector<glm::uvec2> lookUp(const std::vector<glm::ivec3>& voxels) {
-        const Program program = makeComputeProgram(
-            device(), compiler().compile("tests/gpu/octree_lookup.comp", radiance.defines()));
+        TestPrograms programs;
+        const Kernel kernel(programs, "tests/gpu/octree_lookup.comp", radiance.defines());
+        programs.compile();
         const Buffer in(device(), "queries", voxels.size() * sizeof(glm::ivec3));
         const Buffer out(device(), "answers", voxels.size() * sizeof(glm::uvec2));
         stream_.upload(in, voxels);
-        std::vector<Binding> bindings = radiance.bindings();
-        bindings.insert(bindings.end(), {{"queries", in}, {"answers", out}});
-        stream_.dispatch(program, bindings, uint32_t(voxels.size()), linearGroups(voxels.size()));
+        stream_.dispatch(kernel, voxels.size(),
+                         {radiance, {"queries", in}, {"answers", out}, {"count", uint32_t(voxels.size())}});
         return stream_.readAs<glm::uvec2>(out, voxels.size());
     }
 
@@ -245,20 +244,14 @@ class TestOctree {
     }
 
     // Programs take longer to make than these octrees.
-    static const ShaderCompiler& compiler() {
-        static const ShaderCompiler shared(test::sourceRoot(), test::shaderCache());
-        return shared;
-    }
-    static const OctreeBuilder& builder() {
-        static const OctreeBuilder& shared = *kept(std::make_shared<OctreeBuilder>(device(), compiler()));
-        return shared;
-    }
-    static const SvoFilter& filter() {
-        static const SvoFilter& shared = *kept(std::make_shared<SvoFilter>(device(), compiler()));
-        return shared;
-    }
-    static const SvoCollapse& collapser() {
-        static const SvoCollapse& shared = *kept(std::make_shared<SvoCollapse>(device(), compiler()));
+    struct Tools : TestPrograms {
+        Tools() { compile(); }
+        const OctreeBuilder builder{*this};
+        const SvoFilter filter{*this};
+        const SvoCollapse collapse{*this};
+    };
+    static const Tools& tools() {
+        static const Tools& shared = *kept(std::make_shared<Tools>());
         return shared;
     }
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "passes/common/compute/dispatch.h"
-#include "passes/common/packed_voxels/packed_voxels.h"
 #include "passes/common/voxels/voxels.h"
+#include "passes/published/magalhaes_2020/packed_voxels.h"
 #include "scene/shapes.h"
 #include "tests/gpu/chain.h"
 #include "tests/support/errors.h"
+#include "tests/support/programs.h"
 
 namespace voxray::test {
 namespace {
@@ -23,29 +23,25 @@ glm::ivec4 bytesOf(uint32_t word) {
     return {word & 255u, (word >> 8) & 255u, (word >> 16) & 255u, word >> 24};
 }
 
-struct WritePush {
-    uint32_t wordCount;
-    uint32_t threads;
-    uint32_t firstSamples;
-    uint32_t secondSamples;
-    glm::vec3 first;
-    glm::vec3 second;
-};
-
 /// What is left in a word after each of `threads` threads has merged two colors so many times; all 8 words
 /// get the same.
 glm::ivec4 merged(PackedWrite write, uint32_t threads, uint32_t firstSamples, glm::vec3 first,
                   uint32_t secondSamples = 0, glm::vec3 second = {}) {
     constexpr uint32_t kWords = 8;
-    const ShaderCompiler compiler(sourceRoot(), shaderCache());
-    const Program program = makeComputeProgram(
-        device(), compiler.compile("tests/gpu/packed_write.comp", PackedWriteParams{write}.defines()));
+    TestPrograms programs;
+    const Kernel kernel(programs, "tests/gpu/packed_write.comp", PackedWriteParams{write}.defines());
+    programs.compile();
     CommandStream stream(device());
     const LargeBuffer words(device(), "words", kWords * sizeof(uint32_t));
     stream.fill(words, 0);
-    stream.dispatch(program, {{"WordsAt", words.at()}},
-                    WritePush{kWords, threads, firstSamples, secondSamples, first, second},
-                    linearGroups(kWords * threads));
+    stream.dispatch(kernel, uint64_t(kWords) * threads,
+                    {{"WordsAt", words.at()},
+                     {"wordCount", kWords},
+                     {"threads", threads},
+                     {"firstSamples", firstSamples},
+                     {"secondSamples", secondSamples},
+                     {"first", first},
+                     {"second", second}});
     const std::vector<uint32_t> left = stream.readAs<uint32_t>(words, kWords);
     for (const uint32_t word : left) EXPECT_EQ(word, left[0]);
     return bytesOf(left[0]);
@@ -238,16 +234,12 @@ class LitLayer final : public Pass {
         }
     };
     explicit LitLayer(const Params& params) : params_(params) {}
-    void declare(PassBuilder& builder) override {
-        voxels_ = builder.write<PackedVoxels>("packed_voxels", "Empty.");
-        light_ = builder.write<PackedLight>("packed_light", "A layer of light.");
-    }
     void plan(PassPlan& plan) override {
-        PackedVoxels& voxels = plan.get(voxels_);
+        PackedVoxels& voxels = plan[voxels_];
         voxels.grid = makeVoxelGrid(glm::vec3(-4), glm::vec3(4), 8);
         voxels.grid.voxelSize = 1;
         voxels.grid.origin = {-4, -(3.5f + params_.offset), -4};
-        PackedLight& light = plan.get(light_);
+        PackedLight& light = plan[light_];
         light.white = kPi;
         plan.buffer(light.irradiance, "light", voxels.bytes());
     }
@@ -255,14 +247,14 @@ class LitLayer final : public Pass {
         std::vector<uint32_t> words(8 * 8 * 8, 0);
         for (size_t i = 0; i < words.size(); ++i)
             if (i / 8 % 8 == 3) words[i] = 0x01ffffffu;
-        setup.stream.upload(setup.get(light_).irradiance, words);
+        setup.stream.upload(setup[light_].irradiance, words);
     }
     void record(PassContext&) override {}
 
  private:
-    Params params_;
-    Port<PackedVoxels> voxels_;
-    Port<PackedLight> light_;
+    const Params params_;
+    Out<PackedVoxels> voxels_{*this, "packed_voxels", "Empty."};
+    Out<PackedLight> light_{*this, "packed_light", "A layer of light."};
 };
 
 TEST(DirectPackedVoxels, EmptyVoxelsDarkenALitLayer) {

@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "image/metrics.h"
-#include "passes/common/surfels/surfel_links.h"
-#include "passes/common/surfels/surfel_neighbours.h"
-#include "passes/common/surfels/surfels_by_voxel.h"
 #include "passes/common/voxels/voxels.h"
+#include "passes/surfels/surfel_links.h"
+#include "passes/surfels/surfel_neighbours.h"
+#include "passes/surfels/surfels_by_voxel.h"
 #include "scene/shapes.h"
 #include "tests/physics/voxels_read.h"
 
@@ -255,7 +255,7 @@ double meanOfSurfels(int iterations) {
     double sum = 0;
     const std::vector<glm::uvec3> surfels =
         chain.read<glm::uvec3>(chain.graph().resource<SurfelIrradiance>("surfel_irradiance")->lit);
-    for (const glm::uvec3 s : surfels)  // Green; packed as shaders/surfels/radiosity.glsl has it.
+    for (const glm::uvec3 s : surfels)  // Green; packed as passes/surfels/radiosity.glsl has it.
         sum += std::ldexp(double(s.z >> 8 & 255u) / 255.0, int(s.z >> 24) - 128);
     return sum / double(surfels.size());
 }

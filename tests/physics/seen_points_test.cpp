@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "passes/common/clusters/voxel_clusters.h"
+#include "passes/clusters/voxel_clusters.h"
 #include "passes/common/view/gbuffer.h"
 #include "scene/shapes.h"
 #include "tests/physics/cluster_graph.h"

@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "passes/common/vpls/vpls.h"
-#include "passes/select_vpls/resample.h"
+#include "passes/vpls/select_vpls/resample.h"
+#include "passes/vpls/vpls.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {

@@ -16,7 +16,7 @@ namespace {
 constexpr uint32_t kSize = 32;
 constexpr const char* kEmptyBox = "{lights: point, boxes: false}";
 
-/// By patch: whether light arrives straight from the lights, as shaders/surfels/radiosity.glsl packs it.
+/// By patch: whether light arrives straight from the lights, as passes/surfels/radiosity.glsl packs it.
 std::vector<bool> litPatches(Chain& chain) {
     std::vector<bool> is;
     for (const uint32_t bits :

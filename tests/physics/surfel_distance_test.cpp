@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "image/metrics.h"
-#include "passes/common/surfels/surfels_by_voxel.h"
 #include "passes/common/voxels/voxels.h"
+#include "passes/surfels/surfels_by_voxel.h"
 #include "scene/shapes.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {
 namespace {
 
-// 1 / voxel, as shaders/surfels/packed_surfel.glsl packs it.
+// 1 / voxel, as passes/surfels/packed_surfel.glsl packs it.
 double inverseDistance(uint32_t normalWord) {
     const uint32_t steps = normalWord >> 24;
     return steps == 0 ? 0 : std::exp2((double(steps) - 1) / 20) / 64;

@@ -7,7 +7,7 @@
 
 #include "passes/common/voxels/voxel_count.h"
 #include "passes/common/voxels/voxels.h"
-#include "passes/filter_voxels/svo_values.h"
+#include "passes/cones/filter_voxels/svo_values.h"
 #include "scene/shapes.h"
 #include "tests/gpu/radiance_samples.h"
 

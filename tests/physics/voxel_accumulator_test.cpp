@@ -3,23 +3,13 @@
 
 #include <cmath>
 
-#include "passes/common/compute/dispatch.h"
 #include "passes/common/voxels/voxel_accumulator.h"
 #include "tests/physics/voxels_read.h"
 #include "tests/support/kept.h"
-#include "tests/support/places.h"
+#include "tests/support/programs.h"
 
 namespace voxray::test {
 namespace {
-
-struct WriterPush {
-    uint32_t voxelCount;
-    uint32_t samples;
-    uint32_t reversed;
-    float firstValue;
-    float slope;
-    float scale;
-};
 
 /// What `samples` samples of firstValue + slope * number leave in every second voxel of a room.
 struct Merged {
@@ -28,18 +18,23 @@ struct Merged {
         static Chain& room =
             *kept(std::make_shared<Chain>("white_room", "{}", graphYaml({"voxelize, resolution: 12"})));
         const SurfaceVoxels& voxels = *room.graph().resource<SurfaceVoxels>("voxels");
-        const ShaderCompiler compiler(test::sourceRoot(), {});
-        VoxelAccumulator writes(device(), compiler, {write, white});
-        const Program writer = makeComputeProgram(
-            device(), compiler.compile("tests/gpu/voxel_accumulator.comp", VoxelAccumulator::defines(write)));
+        TestPrograms programs;
+        VoxelAccumulator writes(programs, {write, white});
+        const Kernel writer(programs, "tests/gpu/voxel_accumulator.comp", VoxelAccumulator::defines(write));
+        programs.compile();
         CommandStream stream(device());
         const LargeBuffer fluxBuffer(device(), "flux", voxels.voxelCount * kFluxWords * sizeof(uint32_t));
         const Buffer areaBuffer(device(), "area", voxels.voxelCount * kAreaWords * sizeof(uint32_t));
         stream.fill(areaBuffer, 0);
         writes.begin(device(), stream, voxels, firstValue);
-        stream.dispatch(writer, writes.bindings(),
-                        WriterPush{voxels.voxelCount, samples, reversed, firstValue, slope, writes.scale()},
-                        linearGroups(uint64_t(voxels.voxelCount) * samples));
+        stream.dispatch(writer, uint64_t(voxels.voxelCount) * samples,
+                        {writes,
+                         {"voxelCount", voxels.voxelCount},
+                         {"samples", samples},
+                         {"reversed", reversed},
+                         {"firstValue", firstValue},
+                         {"slope", slope},
+                         {"scale", writes.scale()}});
         writes.resolve(stream, voxels, fluxBuffer, areaBuffer);
         stream.finish();
         flux = unpackFlux(stream.readAs<uint32_t>(fluxBuffer, voxels.voxelCount * kFluxWords));

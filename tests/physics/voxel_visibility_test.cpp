@@ -95,7 +95,8 @@ TEST(VoxelVisibility, StreamsHaveTheTracersInterface) {
 }
 
 TEST(VoxelVisibility, RefusesGridsThatItCantWalkThrough) {
-    VoxelMarch march(VoxelWalk::Bits);
+    TestPrograms programs;
+    VoxelMarch march(programs, VoxelWalk::Bits);
     SurfaceVoxels window;
     window.grid = madeUpGrid(glm::uvec3(64), 1);
     window.grid.side = 32;

@@ -2,7 +2,7 @@
 // shadow rays, lights that are left out since they are dim, and scenes without anything to light.
 #include <gtest/gtest.h>
 
-#include "passes/common/vpls/vpls.h"
+#include "passes/vpls/vpls.h"
 #include "tests/gpu/chain.h"
 #include "tests/support/errors.h"
 

@@ -5,12 +5,10 @@
 #include <limits>
 #include <random>
 
-#include "passes/common/compute/dispatch.h"
 #include "passes/common/voxel_march/voxel_tracer.h"
 #include "tests/gpu/chain.h"
 #include "tests/gpu/prepared.h"
 #include "tests/physics/made_up_voxels.h"
-#include "tests/support/places.h"
 
 namespace voxray::test {
 
@@ -31,7 +29,7 @@ struct WalkAnswer {
 class WalkedVoxels {
  public:
     WalkedVoxels(glm::uvec3 resolution, float voxelSize, const std::function<bool(glm::ivec3)>& occupied)
-        : stream_(device()), compiler_(test::sourceRoot(), test::shaderCache()) {
+        : stream_(device()) {
         grid = madeUpGrid(resolution, voxelSize);
         voxels_ = madeUpVoxels(stream_, grid, [&](glm::ivec3 v) {
             bits_.push_back(occupied(v));
@@ -48,31 +46,27 @@ class WalkedVoxels {
     /// closest voxel.
     std::vector<WalkAnswer> walk(VoxelWalk walk, const std::vector<Ray>& rays, float epsilon = 0,
                                  bool segments = false) {
-        VoxelMarch march(walk, epsilon);
-        prepare(march, voxels_, compiler_);
+        TestPrograms programs;
+        VoxelMarch march(programs, walk, epsilon);
+        Kernel kernel(programs, "tests/gpu/voxel_march.comp", march.defines());
+        if (segments) kernel.define({{"SEGMENTS", "1"}});
+        prepare(programs, march, voxels_);
         march.begin(stream_, voxels_);
-        Defines defines = march.defines();
-        if (segments) defines["SEGMENTS"] = "1";
-        const Program program =
-            makeComputeProgram(device(), compiler_.compile("tests/gpu/voxel_march.comp", defines));
         const Buffer in(device(), "rays", rays.size() * sizeof(Ray));
         const Buffer out(device(), "answers", rays.size() * sizeof(WalkAnswer));
         stream_.upload(in, rays);
-        std::vector<Binding> bindings = march.bindings();
-        bindings.insert(bindings.end(), {{"rays", in}, {"answers", out}});
-        const struct {
-            gpu::VoxelGrid grid;
-            uint32_t count;
-        } push{grid, uint32_t(rays.size())};
-        stream_.dispatch(program, bindings, push, linearGroups(rays.size()));
+        stream_.dispatch(
+            kernel, rays.size(),
+            {march, {"rays", in}, {"answers", out}, {"grid", grid}, {"count", uint32_t(rays.size())}});
         counts = stream_.readAs<uint64_t>(march.counts(), 2);
         return stream_.readAs<WalkAnswer>(out, rays.size());
     }
 
     /// By a stream of rays.
     std::vector<Hit> closestHits(VoxelWalk walk, const std::vector<Ray>& rays) {
-        VoxelTracer tracer(walk);
-        prepare(tracer, voxels_, compiler_);
+        TestPrograms programs;
+        VoxelTracer tracer(programs, walk);
+        prepare(programs, tracer, voxels_);
         tracer.begin(stream_, voxels_);
         const Buffer in(device(), "rays", rays.size() * sizeof(Ray)),
             out(device(), "hits", rays.size() * sizeof(Hit));
@@ -86,7 +80,6 @@ class WalkedVoxels {
 
  private:
     CommandStream stream_;
-    ShaderCompiler compiler_;
     std::vector<bool> bits_;
     SurfaceVoxels voxels_;
 };

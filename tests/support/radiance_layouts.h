@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "passes/common/radiance/radiance_voxels.h"
+#include "passes/cones/radiance/radiance_voxels.h"
 
 namespace voxray::test {
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "config/yaml.h"
-#include "passes/register_passes.h"
+#include "passes/common/families.h"
 #include "tests/support/errors.h"
 #include "tests/support/places.h"
 
@@ -64,6 +64,20 @@ TEST(Counterparts, TableKnowsEveryPassOnce) {
     std::ranges::sort(listed);
     std::ranges::sort(registered);
     EXPECT_EQ(listed, registered) << "a new pass belongs into passes/counterparts.yaml";
+}
+
+TEST(Families, HoldEveryPass) {
+    Registry linked;
+    EXPECT_EQ(addRegistered(linked, "passes/"), allPasses().kinds().size())
+        << "a new pass belongs into the folder of a family (passes/common/families.h)";
+}
+
+TEST(Families, SummariesFitALine) {
+    const Registry registry = allPasses();
+    for (const PassKind& kind : registry.kinds()) {
+        const std::string summary = kind.help.substr(0, kind.help.find(". "));
+        EXPECT_LE(summary.size(), 90u) << kind.name << ": " << summary;
+    }
 }
 
 TEST(Counterparts, GatherRays) {

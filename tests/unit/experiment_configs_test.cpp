@@ -5,7 +5,7 @@
 
 #include "experiment/scene_setup.h"
 #include "experiment/validate.h"
-#include "passes/register_passes.h"
+#include "passes/common/families.h"
 #include "tests/support/places.h"
 
 using namespace voxray;

@@ -21,10 +21,10 @@
 /// Tiny passes that write constant images, and a folder for each test.
 namespace voxray::fakes {
 
-inline void planImage(PassPlan& plan, Port<FrameImage> port, const char* name) {
+inline void planImage(PassPlan& plan, const Out<FrameImage>& port, const char* name) {
     ImageDesc desc;
     desc.extent = {plan.frame.width, plan.frame.height, 1};
-    plan.image(plan.get(port).image, name, desc);
+    plan.image(plan[port].image, name, desc);
 }
 
 /// What a Witness writes: nothing, but whoever reads it needs the witness.
@@ -73,12 +73,6 @@ class Constant : public Pass {
 
     explicit Constant(const Params& params) : params_(params) {}
     Phase phase() const override { return Phase::Frame; }
-    void declare(PassBuilder& b) override {
-        final_ = b.write<FrameImage>("final", "The image.");
-        indirect_ = b.write<FrameImage>("indirect", "Half of it.");
-        b.readOptional<Testimony>("testimony", "Of a witness.");
-        b.readOptional<LayerImages>("layers", "To look at.");
-    }
     void plan(PassPlan& plan) override {
         if (params_.interruptPlan) std::raise(SIGINT);
         planImage(plan, final_, "constant final");
@@ -88,7 +82,6 @@ class Constant : public Pass {
         if (params_.misuse) plan.image(notToBeCleared_, "not to be cleared", desc);
         plan.reserve("nothing", uint64_t(params_.megabytes) << 20);
     }
-    void prepare(PassSetup&) override {}
     void record(PassContext& context) override {
         ++runs;
         cameraX.push_back(context.frame.camera.position.x);
@@ -96,16 +89,19 @@ class Constant : public Pass {
         const float radiance = params_.value + (context.frameIndex % 2 ? -1 : 1) * params_.flicker +
                                (context.frame.seed % 2 ? -1 : 1) * params_.noise;
         const float value = params_.nan ? std::numeric_limits<float>::quiet_NaN() : radiance;
-        context.stream.clear(context.get(final_).image, {{value, value, value, 1}});
-        context.stream.clear(context.get(indirect_).image, {{value / 2, value / 2, value / 2, 1}});
+        context.stream.clear(context[final_].image, {{value, value, value, 1}});
+        context.stream.clear(context[indirect_].image, {{value / 2, value / 2, value / 2, 1}});
         if (params_.misuse) context.stream.clear(notToBeCleared_, {});
         if (params_.fail) throw Error("the pass gave up");
         context.extraRays = 10;
     }
 
  private:
-    Params params_;
-    Port<FrameImage> final_, indirect_;
+    const Params params_;
+    Out<FrameImage> final_{*this, "final", "The image."};
+    Out<FrameImage> indirect_{*this, "indirect", "Half of it."};
+    InOptional<Testimony> testimony_{*this, "testimony", "Of a witness."};
+    InOptional<LayerImages> layers_{*this, "layers", "To look at."};
     Image notToBeCleared_;
 };
 
@@ -130,9 +126,7 @@ class Truth : public Pass {
 
     explicit Truth(const Params& params) : params_(params) {}
     Phase phase() const override { return Phase::Frame; }
-    void declare(PassBuilder& b) override { sums_ = b.write<ReferenceSums>("sums", "A constant."); }
     void plan(PassPlan&) override {}
-    void prepare(PassSetup&) override {}
     void record(PassContext& context) override {
         if (params_.fail) throw Error("no truth");
         ++runs;
@@ -146,14 +140,14 @@ class Truth : public Pass {
                 sums = SampleSums(frame.width, frame.height, samples);
                 std::ranges::fill(sums.data, mean * double(samples));
             };
-            fill(context.get(sums_).final[half], value);
-            fill(context.get(sums_).indirect[half], 0.5 * value);
+            fill(context[sums_].final[half], value);
+            fill(context[sums_].indirect[half], 0.5 * value);
         }
     }
 
  private:
-    Params params_;
-    Port<ReferenceSums> sums_;
+    const Params params_;
+    Out<ReferenceSums> sums_{*this, "sums", "A constant."};
 };
 
 /// Reads final and indirect and writes them again: something to wire.
@@ -169,13 +163,12 @@ class Relay : public Pass {
     };
     explicit Relay(const Params&) {}
     Phase phase() const override { return Phase::Build; }
-    void declare(PassBuilder& b) override {
-        b.read<FrameImage>("extra", "What to read.");
-        b.write<FrameImage>("extra", "What it makes of it.");
-    }
     void plan(PassPlan&) override {}
-    void prepare(PassSetup&) override {}
     void record(PassContext&) override {}
+
+ private:
+    In<FrameImage> before_{*this, "extra", "What to read."};
+    Out<FrameImage> extra_{*this, "extra", "What it makes of it."};
 };
 
 /// Runs in the build phase and notes what it sees of the scene.
@@ -183,9 +176,6 @@ class Witness : public Pass {
  public:
     static constexpr const char* kName = "witness";
     static constexpr const char* kHelp = "Notes what it sees.";
-    struct Params {
-        static constexpr auto schema() { return std::tuple{}; }
-    };
     struct Sight {
         glm::vec3 corner;  ///< Last vertex of the scene.
         glm::vec3 light;   ///< Last light's position.
@@ -194,17 +184,17 @@ class Witness : public Pass {
     };
     static inline std::vector<Sight> sights;
 
-    explicit Witness(const Params&) {}
     Phase phase() const override { return Phase::Build; }
-    void declare(PassBuilder& b) override { b.write<Testimony>("testimony", "That it was there."); }
     void plan(PassPlan&) override {}
-    void prepare(PassSetup&) override {}
     void record(PassContext& context) override {
         const SceneState& state = *context.frame.scene;
         const auto& changed = context.frame.changed;
         sights.push_back({state.geometry.positions.back(), state.lights.back().position,
                           changed ? int(changed->size()) : -1, context.frameIndex});
     }
+
+ private:
+    Out<Testimony> testimony_{*this, "testimony", "That it was there."};
 };
 
 /// Writes images that nobody reads but to look at them.
@@ -212,29 +202,23 @@ class Layers : public Pass {
  public:
     static constexpr const char* kName = "layers";
     static constexpr const char* kHelp = "Images to look at.";
-    struct Params {
-        static constexpr auto schema() { return std::tuple{}; }
-    };
-    explicit Layers(const Params&) {}
     Phase phase() const override { return Phase::Frame; }
-    void declare(PassBuilder& b) override { layers_ = b.write<LayerImages>("layers", "To look at."); }
     void plan(PassPlan& plan) override {
-        LayerImages& layers = plan.get(layers_);
+        LayerImages& layers = plan[layers_];
         ImageDesc desc;
         desc.extent = {plan.frame.width, plan.frame.height, 1};
         plan.image(layers.wide, "wide layer", desc);
         desc.format = VK_FORMAT_R16G16B16A16_SFLOAT;
         plan.image(layers.half, "half layer", desc);
     }
-    void prepare(PassSetup&) override {}
     void record(PassContext& context) override {
-        const LayerImages& layers = context.get(layers_);
+        const LayerImages& layers = context[layers_];
         context.stream.clear(layers.wide, {{1, 2, 3, 4}});
         context.stream.clear(layers.half, {{0.5f, 0.25f, 2, 1}});
     }
 
  private:
-    Port<LayerImages> layers_;
+    Out<LayerImages> layers_{*this, "layers", "To look at."};
 };
 
 inline Registry registry() {

@@ -28,17 +28,12 @@ class Veil : public Pass {
  public:
     static constexpr const char* kName = "veil";
     static constexpr const char* kHelp = "Over an image.";
-    struct Params {
-        static constexpr auto schema() { return std::tuple{}; }
-    };
-    explicit Veil(const Params&) {}
-    void declare(PassBuilder& b) override {
-        b.read<FrameImage>("final", "The image.");
-        b.write<FrameImage>("final", "The image again.");
-    }
     void plan(PassPlan&) override {}
-    void prepare(PassSetup&) override {}
     void record(PassContext&) override {}
+
+ private:
+    In<FrameImage> before_{*this, "final", "The image."};
+    Out<FrameImage> final_{*this, "final", "The image again."};
 };
 
 }  // namespace

@@ -15,46 +15,32 @@ struct Faces : Resource {
 
 // A pass that does nothing but have ports.
 struct Idle : Pass {
-    struct Params {
-        static constexpr auto schema() { return std::tuple{}; }
-    };
     static constexpr const char* kHelp = "Has ports.";
     void plan(PassPlan&) override {}
-    void prepare(PassSetup&) override {}
     void record(PassContext&) override {}
 };
 
 struct MakeVoxels : Idle {
     static constexpr const char* kName = "make_voxels";
-    explicit MakeVoxels(const Params&) {}
-    void declare(PassBuilder& builder) override { builder.write<Voxels>("voxels", "the voxels"); }
+    Out<Voxels> voxels{*this, "voxels", "the voxels"};
 };
 
 struct LightFaces : Idle {
     static constexpr const char* kName = "light_faces";
-    explicit LightFaces(const Params&) {}
-    void declare(PassBuilder& builder) override {
-        builder.read<Voxels>("voxels", "voxels to light");
-        builder.write<Faces>("faces", "light of their faces");
-    }
+    In<Voxels> voxels{*this, "voxels", "voxels to light"};
+    Out<Faces> faces{*this, "faces", "light of their faces"};
 };
 
 struct SmoothFaces : Idle {
     static constexpr const char* kName = "smooth_faces";
-    explicit SmoothFaces(const Params&) {}
-    void declare(PassBuilder& builder) override {
-        builder.read<Faces>("faces", "light to smooth");
-        builder.write<Faces>("faces", "smooth light");
-    }
+    In<Faces> before{*this, "faces", "light to smooth"};
+    Out<Faces> faces{*this, "faces", "smooth light"};
 };
 
 struct ShowFaces : Idle {
     static constexpr const char* kName = "show_faces";
-    explicit ShowFaces(const Params&) {}
-    void declare(PassBuilder& builder) override {
-        builder.read<Voxels>("voxels", "where faces are");
-        builder.read<Faces>("faces", "their light");
-    }
+    In<Voxels> voxels{*this, "voxels", "where faces are"};
+    In<Faces> faces{*this, "faces", "their light"};
 };
 
 void wire(const std::string& yaml) {

@@ -34,10 +34,6 @@ struct Hoard final : Pass {
         }
     };
     explicit Hoard(const Params& params) : params_(params) {}
-    void declare(PassBuilder& builder) override {
-        builder.readOptional<Nothing>("nothing", "nothing");
-        builder.write<Nothing>("nothing", "nothing");
-    }
     void plan(PassPlan& plan) override {
         plan.buffer(described_, "described", 256 * kKiB);
         plan.scratchBuffer(scratch_, "described scratch", 256 * kKiB);
@@ -61,7 +57,9 @@ struct Hoard final : Pass {
     }
 
  private:
-    Params params_;
+    const Params params_;
+    InOptional<Nothing> before_{*this, "nothing", "nothing"};
+    Out<Nothing> nothing_{*this, "nothing", "nothing"};
     Buffer described_, scratch_, atPrepare_, atRecord_;
 };
 

@@ -26,7 +26,6 @@ struct Light : Resource {};
 // A pass that does nothing but have ports.
 struct Idle : Pass {
     void plan(PassPlan& plan) override { plan.reserve("results", 1u << 20); }
-    void prepare(PassSetup&) override {}
     void record(PassContext&) override {}
 };
 
@@ -42,27 +41,21 @@ struct MakeVoxels : Idle {
         }
     };
     explicit MakeVoxels(const Params&) {}
-    void declare(PassBuilder& builder) override { builder.write<Voxels>("voxels", "the voxels"); }
+    Out<Voxels> voxels{*this, "voxels", "the voxels"};
 };
 
 struct LightVoxels : Idle {
     static constexpr const char* kName = "light_voxels";
     static constexpr const char* kHelp = "Reads voxels, writes light.";
-    struct Params {
-        static constexpr auto schema() { return std::tuple{}; }
-    };
-    explicit LightVoxels(const Params&) {}
-    void declare(PassBuilder& builder) override {
-        builder.read<Voxels>("voxels", "voxels to light");
-        builder.readOptional<Light>("light", "light of before");
-        builder.write<Light>("light", "their light");
-    }
+    In<Voxels> voxels{*this, "voxels", "voxels to light"};
+    InOptional<Light> before{*this, "light", "light of before"};
+    Out<Light> light{*this, "light", "their light"};
 };
 
-struct WrongType : LightVoxels {
+struct WrongType : Idle {
     static constexpr const char* kName = "wrong_type";
-    explicit WrongType(const Params& p) : LightVoxels(p) {}
-    void declare(PassBuilder& builder) override { builder.read<Light>("voxels", "not voxels at all"); }
+    static constexpr const char* kHelp = "Reads light under the name of voxels.";
+    In<Light> voxels{*this, "voxels", "not voxels at all"};
 };
 
 // Changes light; over voxels where it is asked to.
@@ -74,12 +67,10 @@ struct ChangeLight : Idle {
         static constexpr auto schema() { return std::tuple{field("smooth", &Params::smooth, "How.")}; }
     };
     explicit ChangeLight(const Params& p) : params(p) {}
-    void declare(PassBuilder& builder) override {
-        builder.read<Light>("light", "light to change");
-        if (params.smooth == Smooth::OverVoxels) builder.read<Voxels>("voxels", "where light is");
-        builder.write<Light>("light", "changed light");
-    }
-    Params params;
+    const Params params;
+    In<Light> before{*this, "light", "light to change"};
+    In<Voxels> voxels{*this, "voxels", "where light is", params.smooth == Smooth::OverVoxels};
+    Out<Light> light{*this, "light", "changed light"};
 };
 
 // Keeps 1 MiB, and needs more for a while.
@@ -93,55 +84,40 @@ struct SumUp : Idle {
         }
     };
     explicit SumUp(const Params& p) : params(p) {}
-    void declare(PassBuilder& builder) override { builder.write<Light>("light", "the light"); }
     void plan(PassPlan& plan) override {
         plan.reserve("light", 1u << 20);
         plan.reserveScratch("sums", uint64_t(params.mib) << 20);
     }
-    Params params;
+    const Params params;
+    Out<Light> light{*this, "light", "the light"};
 };
 
 // Runs in each frame.
 struct Blink : Idle {
     static constexpr const char* kName = "blink";
     static constexpr const char* kHelp = "Writes light in each frame.";
-    struct Params {
-        static constexpr auto schema() { return std::tuple{}; }
-    };
-    explicit Blink(const Params&) {}
     Phase phase() const override { return Phase::Frame; }
-    void declare(PassBuilder& builder) override { builder.write<Light>("light", "the light"); }
+    Out<Light> light{*this, "light", "the light"};
 };
 
 // Keeps a byte for an output that is read, and two for the other.
 struct TwoOutputs : Idle {
     static constexpr const char* kName = "two_outputs";
     static constexpr const char* kHelp = "Writes light and spare light.";
-    struct Params {
-        static constexpr auto schema() { return std::tuple{}; }
-    };
-    explicit TwoOutputs(const Params&) {}
-    void declare(PassBuilder& builder) override {
-        builder.readOptional<Light>("before", "any light");
-        light = builder.write<Light>("light", "the light");
-        spare = builder.write<Light>("spare", "more light");
-    }
     void plan(PassPlan& plan) override {
-        plan.reserve("light", plan.get(light).isRead ? 1 : 0);
-        plan.reserve("spare", plan.get(spare).isRead ? 2 : 0);
+        plan.reserve("light", plan[light].isRead ? 1 : 0);
+        plan.reserve("spare", plan[spare].isRead ? 2 : 0);
     }
-    Port<Light> light, spare;
+    InOptional<Light> before{*this, "before", "any light"};
+    Out<Light> light{*this, "light", "the light"};
+    Out<Light> spare{*this, "spare", "more light"};
 };
 
 // Only reports.
 struct CountVoxels : Idle {
     static constexpr const char* kName = "count_voxels";
     static constexpr const char* kHelp = "Counts voxels.";
-    struct Params {
-        static constexpr auto schema() { return std::tuple{}; }
-    };
-    explicit CountVoxels(const Params&) {}
-    void declare(PassBuilder& builder) override { builder.read<Voxels>("voxels", "voxels to count"); }
+    In<Voxels> voxels{*this, "voxels", "voxels to count"};
 };
 
 Registry registry() {

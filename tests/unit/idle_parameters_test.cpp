@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "experiment/validate.h"
-#include "passes/register_passes.h"
+#include "passes/common/families.h"
 #include "tests/support/errors.h"
 
 using namespace voxray;

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "experiment/validate.h"
-#include "passes/register_passes.h"
+#include "passes/common/families.h"
 
 using namespace voxray;
 

@@ -3,7 +3,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include "passes/register_passes.h"
+#include "passes/common/families.h"
 #include "scene/load.h"
 #include "tests/support/errors.h"
 

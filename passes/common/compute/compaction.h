@@ -7,7 +7,7 @@ namespace voxray {
 /// Lists the items of an array that are flagged, on the device.
 class Compaction {
  public:
-    Compaction(Device& device, const ShaderCompiler& compiler);
+    explicit Compaction(ProgramOwner& owner);
 
     /// Writes the indices of the flagged items, in ascending order, to the first words of `indices`.
     /// @param flags a bit an item: of item i, bit i % 32 of word i / 32; bits after the last item are 0.
@@ -21,7 +21,7 @@ class Compaction {
 
  private:
     PrefixSum prefixSum_;
-    Program list_;
+    Kernel list_;
 };
 
 }  // namespace voxray

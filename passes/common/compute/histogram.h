@@ -1,14 +1,14 @@
 #pragma once
 
 #include "vulkan/commands.h"
-#include "vulkan/program.h"
+#include "vulkan/kernel.h"
 
 namespace voxray {
 
 /// Counts how often each number occurs, on the device.
 class Histogram {
  public:
-    Histogram(Device& device, const ShaderCompiler& compiler);
+    explicit Histogram(ProgramOwner& owner) : count_(owner, "histogram.comp") {}
 
     /// Writes to counts[b] how many of `count` uints in `values` are b, for b in [0, bins); others are not
     /// counted. `counts` holds `bins` uints.
@@ -16,7 +16,7 @@ class Histogram {
                 uint32_t bins) const;
 
  private:
-    Program count_;
+    Kernel count_;
 };
 
 }  // namespace voxray

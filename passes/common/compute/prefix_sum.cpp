@@ -5,30 +5,22 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBlockValues = 1024;  // As in prefix_sum.comp.
-constexpr uint32_t kRow = 32768;         // Work groups along x; devices allow 65535.
-
-struct ScanPush {
-    uint32_t count;
-    uint32_t blocks;
-};
+constexpr uint32_t kBlockValues = 1024, kThreads = 256;  // As in prefix_sum.comp.
 
 uint32_t scanBlocksOf(uint32_t count) {
     return count / kBlockValues + (count % kBlockValues > 0 ? 1 : 0);
 }
 
-Program stage(Device& device, const ShaderCompiler& compiler, const char* name, PrefixSum::Of of) {
-    const Defines defines =
-        of == PrefixSum::Of::SetBits ? Defines{{name, "1"}, {"SET_BITS", "1"}} : Defines{{name, "1"}};
-    return makeComputeProgram(device, compiler.compile("passes/common/compute/prefix_sum.comp", defines));
+Defines stage(const char* name, PrefixSum::Of of) {
+    return of == PrefixSum::Of::SetBits ? Defines{{name, "1"}, {"SET_BITS", "1"}} : Defines{{name, "1"}};
 }
 
 }  // namespace
 
-PrefixSum::PrefixSum(Device& device, const ShaderCompiler& compiler, Of of)
-    : sumBlocks_(stage(device, compiler, "SUM_BLOCKS", of)),
-      scanBlocks_(stage(device, compiler, "SCAN_BLOCKS", of)),
-      scanValues_(stage(device, compiler, "SCAN_VALUES", of)) {}
+PrefixSum::PrefixSum(ProgramOwner& owner, Of of)
+    : sumBlocks_(owner, "prefix_sum.comp", stage("SUM_BLOCKS", of)),
+      scanBlocks_(owner, "prefix_sum.comp", stage("SCAN_BLOCKS", of)),
+      scanValues_(owner, "prefix_sum.comp", stage("SCAN_VALUES", of)) {}
 
 uint64_t PrefixSum::scratchBytes(uint32_t count) {
     return (uint64_t(scanBlocksOf(count)) + 1) * sizeof(uint32_t);
@@ -36,14 +28,16 @@ uint64_t PrefixSum::scratchBytes(uint32_t count) {
 
 void PrefixSum::record(CommandStream& stream, const Buffer& source, const Buffer& before,
                        const Buffer& blockSums, uint32_t count) const {
-    const ScanPush push{count, scanBlocksOf(count)};
-    const glm::uvec3 groups = push.blocks <= kRow ? glm::uvec3(push.blocks, 1, 1)
-                                                  : glm::uvec3(kRow, (push.blocks + kRow - 1) / kRow, 1);
-    const auto bindings = {ifUsed({"source", source}), ifUsed({"result", before}),
-                           Binding{"blockSums", blockSums}};
-    stream.dispatch(sumBlocks_, bindings, push, groups);
-    stream.dispatch(scanBlocks_, bindings, push, {1, 1, 1});
-    stream.dispatch(scanValues_, bindings, push, groups);
+    const uint32_t blocks = scanBlocksOf(count);
+    const Bindings bindings{ifUsed({"source", source}),
+                            ifUsed({"result", before}),
+                            {"blockSums", blockSums},
+                            {"count", count},
+                            {"blocks", blocks}};
+    const uint64_t threads = uint64_t(blocks) * kThreads;
+    stream.dispatch(sumBlocks_, threads, bindings);
+    stream.dispatch(scanBlocks_, kThreads, bindings);
+    stream.dispatch(scanValues_, threads, bindings);
 }
 
 uint32_t PrefixSum::run(CommandStream& stream, const Buffer& source, const Buffer& before,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "vulkan/commands.h"
-#include "vulkan/program.h"
+#include "vulkan/kernel.h"
 
 namespace voxray {
 
@@ -9,7 +9,7 @@ namespace voxray {
 class PrefixSum {
  public:
     enum class Of { Values, SetBits };
-    PrefixSum(Device& device, const ShaderCompiler& compiler, Of of);
+    PrefixSum(ProgramOwner& owner, Of of);
 
     /// Writes to before[i] the sum over source[0 .. i). `source` and `before` hold `count` uints and may be
     /// the same buffer; the sum of all must stay below 2^32. @return the sum of all; waits for the device.
@@ -22,7 +22,7 @@ class PrefixSum {
     static uint64_t scratchBytes(uint32_t count);
 
  private:
-    Program sumBlocks_, scanBlocks_, scanValues_;
+    Kernel sumBlocks_, scanBlocks_, scanValues_;
 };
 
 }  // namespace voxray

@@ -7,14 +7,9 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBlockPairs = 4096, kDigits = 16, kDigitBits = 4;  // As in radix_sort.comp.
-constexpr uint32_t kMaxBlocks = 65535;
-
-struct SortPush {
-    uint32_t count;
-    uint32_t shift;
-    uint32_t blocks;
-};
+constexpr uint32_t kBlockPairs = 4096, kDigits = 16, kDigitBits = 4,
+                   kSortThreads = 256;  // As in radix_sort.comp.
+constexpr uint32_t kMaxBlocks = 32768;  // A row of work groups.
 
 uint32_t sortBlocksOf(uint32_t count) {
     return count / kBlockPairs + (count % kBlockPairs > 0 ? 1 : 0);
@@ -26,15 +21,10 @@ uint64_t bytesOf(uint32_t count) {
 
 }  // namespace
 
-RadixSort::RadixSort(Device& device, const ShaderCompiler& compiler)
-    : prefixSum_(device, compiler, PrefixSum::Of::Values) {
-    const auto stage = [&](const char* name) {
-        return makeComputeProgram(device,
-                                  compiler.compile("passes/common/compute/radix_sort.comp", {{name, "1"}}));
-    };
-    count_ = stage("COUNT_DIGITS");
-    scatter_ = stage("SCATTER");
-}
+RadixSort::RadixSort(ProgramOwner& owner)
+    : prefixSum_(owner, PrefixSum::Of::Values),
+      count_(owner, "radix_sort.comp", {{"COUNT_DIGITS", "1"}}),
+      scatter_(owner, "radix_sort.comp", {{"SCATTER", "1"}}) {}
 
 uint64_t RadixSort::scratchBytes(uint32_t count) {
     const uint32_t counts = sortBlocksOf(count) * kDigits;
@@ -58,16 +48,13 @@ void RadixSort::record(CommandStream& stream, Buffer& keys, Buffer& values, uint
     require(blockSums_, "radix sort sums", PrefixSum::scratchBytes(counts));
 
     for (uint32_t shift = 0; shift < keyBits; shift += kDigitBits) {
-        const SortPush push{count, shift, blocks};
-        stream.dispatch(count_, {{"keys", keys}, {"counts", counts_}}, push, {blocks, 1, 1});
+        const Bindings digit{
+            {"keys", keys}, {"counts", counts_}, {"count", count}, {"shift", shift}, {"blocks", blocks}};
+        stream.dispatch(count_, blocks * kSortThreads, digit);
         prefixSum_.record(stream, counts_, counts_, blockSums_, counts);
-        stream.dispatch(scatter_,
-                        {{"keys", keys},
-                         {"values", values},
-                         {"sortedKeys", otherKeys_},
-                         {"sortedValues", otherValues_},
-                         {"counts", counts_}},
-                        push, {blocks, 1, 1});
+        stream.dispatch(
+            scatter_, blocks * kSortThreads,
+            {digit.all(), {"values", values}, {"sortedKeys", otherKeys_}, {"sortedValues", otherValues_}});
         std::swap(keys, otherKeys_);
         std::swap(values, otherValues_);
     }

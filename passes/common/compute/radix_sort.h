@@ -8,17 +8,17 @@ namespace voxray {
 /// keep their order. The result is the same on every device.
 class RadixSort {
  public:
-    RadixSort(Device& device, const ShaderCompiler& compiler);
+    explicit RadixSort(ProgramOwner& owner);
 
     /// Sorts in place the first `count` pairs. @param keyBits bits of the keys that may be set, 1 to 32:
-    /// fewer take fewer passes. @throws Error for more pairs than 65535 blocks of 4096.
+    /// fewer take fewer passes. @throws Error for more pairs than 32768 blocks of 4096.
     void record(CommandStream& stream, Buffer& keys, Buffer& values, uint32_t count, uint32_t keyBits = 32);
     /// Bytes of device memory that record() takes and keeps for the next call with as many pairs.
     static uint64_t scratchBytes(uint32_t count);
 
  private:
     PrefixSum prefixSum_;
-    Program count_, scatter_;
+    Kernel count_, scatter_;
     Buffer otherKeys_, otherValues_, counts_, blockSums_;
 };
 

@@ -7,8 +7,7 @@ namespace voxray {
 /// From irradiance at the G-buffer's texels to the radiance that each pixel reflects, by Lambert's law.
 class IrradianceResolve {
  public:
-    IrradianceResolve() = default;
-    explicit IrradianceResolve(PassSetup& setup);
+    explicit IrradianceResolve(ProgramOwner& owner);
 
     /// Writes albedo / π times irradiance, averaged over each pixel's texels, W/(m² sr).
     /// @param irradiance RGBA32F of the G-buffer's extent, W/m². @param result a frame image.
@@ -16,8 +15,7 @@ class IrradianceResolve {
                 const Image& result) const;
 
  private:
-    Program program_;
-    Sampler sampler_;
+    Kernel program_;
 };
 
 }  // namespace voxray

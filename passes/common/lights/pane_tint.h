@@ -11,9 +11,10 @@ void requireClearPanes(const SceneState& state, const std::string& pass);
 /// has no coloured panes, and takes no memory.
 class PaneTint {
  public:
+    explicit PaneTint(ProgramOwner& owner);
+
     /// @param rays of one call of apply(), at most.
     void plan(PassPlan& plan, uint64_t rays);
-    void prepare(PassSetup& setup);
 
     /// Multiplies what rays carry by the transmittance of all panes on their way.
     /// @param carried what the i-th ray carries are the three floats from i * `stride` on
@@ -22,7 +23,7 @@ class PaneTint {
                uint32_t count, const Buffer* hits = nullptr) const;
 
  private:
-    Program begin_, beginAtHits_, cross_;
+    Kernel begin_, beginAtHits_, cross_;
     Buffer rays_, hits_, active_;
 };
 

@@ -16,7 +16,16 @@ ImageDesc targetDesc(uint32_t resolution, VkFormat format, VkImageUsageFlags usa
     return desc;
 }
 
+RasterState rsmState() {
+    RasterState state;
+    state.colorFormats = {kSeenFormat};
+    state.depthFormat = kRsmDepthFormat;
+    return state;
+}
+
 }  // namespace
+
+RsmImage::RsmImage(ProgramOwner& owner) : rasterize_(owner, {"light_view.vert", "rsm.frag"}, rsmState()) {}
 
 void RsmImage::plan(PassPlan& plan, uint32_t resolution) {
     plan.image(seen_, "reflective shadow map",
@@ -27,15 +36,6 @@ void RsmImage::plan(PassPlan& plan, uint32_t resolution) {
                targetDesc(resolution, kRsmDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT));
 }
 
-void RsmImage::prepare(PassSetup& setup) {
-    const ShaderModule stages[] = {setup.compiler.compile("passes/common/lights/light_view.vert"),
-                                   setup.compiler.compile("passes/common/lights/rsm.frag")};
-    RasterState state;
-    state.colorFormats = {kSeenFormat};
-    state.depthFormat = kRsmDepthFormat;
-    rasterize_ = makeRasterProgram(setup.device, stages, state);
-}
-
 void RsmImage::draw(PassContext& context, const gpu::LightView& view) const {
     RasterTargets targets;
     VkClearColorValue nothing{};
@@ -43,8 +43,8 @@ void RsmImage::draw(PassContext& context, const gpu::LightView& view) const {
     targets.colors = {{&seen_, nothing}};
     targets.depth = &depth_;
     targets.extent = seen_.desc().extent;
-    context.stream.draw(rasterize_, context.scene.bindings({}), view, targets,
-                        context.scene.triangleCount * 3);
+    context.stream.draw(rasterize_, targets, context.scene.triangleCount * 3,
+                        {context.scene, {"view", view}});
 }
 
 }  // namespace voxray

@@ -10,16 +10,17 @@ namespace voxray {
 /// What a light sees (Dachsbacher and Stamminger 2005), one view at a time: which point of which triangle.
 class RsmImage {
  public:
+    explicit RsmImage(ProgramOwner& owner);
+
     /// @param resolution texels a side.
     void plan(PassPlan& plan, uint32_t resolution);
-    void prepare(PassSetup& setup);
     void draw(PassContext& context, const gpu::LightView& view) const;
     /// RGBA32UI: triangle (Hit::kMiss: none), barycentrics as bits of floats, 0; as gpu::RsmTexel.
     const Image& image() const { return seen_; }
 
  private:
     Image seen_, depth_;
-    Program rasterize_;
+    RasterPipeline rasterize_;
 };
 
 /// Reflective shadow maps of all lights of a scene. GLSL: shaders/lights/rsm.glsl.

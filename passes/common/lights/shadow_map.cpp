@@ -1,7 +1,5 @@
 #include "passes/common/lights/shadow_map.h"
 
-#include "passes/common/view/frame_image.h"
-
 namespace voxray {
 namespace {
 
@@ -34,27 +32,27 @@ uint32_t viewCount(const SceneState& state, const std::vector<LightSource>& sour
     return views;
 }
 
+RasterState shadowMapState() {
+    RasterState state;
+    state.depthFormat = kShadowMapFormat;
+    return state;
+}
+
 }  // namespace
+
+ShadowMap::ShadowMap(ProgramOwner& owner)
+    : rasterize_(owner, {"light_view.vert", "shadow_map.frag"}, shadowMapState()) {}
 
 void ShadowMap::plan(PassPlan& plan, uint32_t resolution) {
     plan.image(image_, "shadow map", mapDesc(resolution));
-}
-
-void ShadowMap::prepare(PassSetup& setup) {
-    sampler_ = texelSampler(setup.device);
-    const ShaderModule stages[] = {setup.compiler.compile("passes/common/lights/light_view.vert"),
-                                   setup.compiler.compile("passes/common/lights/shadow_map.frag")};
-    RasterState state;
-    state.depthFormat = kShadowMapFormat;
-    rasterize_ = makeRasterProgram(setup.device, stages, state);
 }
 
 void ShadowMap::draw(PassContext& context, const gpu::LightView& view) const {
     RasterTargets targets;
     targets.depth = &image_;
     targets.extent = image_.desc().extent;
-    context.stream.draw(rasterize_, context.scene.bindings({}), view, targets,
-                        context.scene.triangleCount * 3);
+    context.stream.draw(rasterize_, targets, context.scene.triangleCount * 3,
+                        {context.scene, {"view", view}});
 }
 
 void ShadowMaps::plan(PassPlan& plan, const std::vector<LightSource>& sources, uint32_t resolution) {

@@ -9,27 +9,28 @@ namespace voxray {
 /// A depth view of the scene from a light.
 class ShadowMap {
  public:
+    explicit ShadowMap(ProgramOwner& owner);
+
     /// @param resolution texels a side.
     void plan(PassPlan& plan, uint32_t resolution);
-    void prepare(PassSetup& setup);
     /// Depth along the view's axis of what each texel sees, relative to view.farthest.
     void draw(PassContext& context, const gpu::LightView& view) const;
     const Image& image() const { return image_; }
     /// A sampler2D `shadowMap`.
-    Binding binding() const { return {"shadowMap", image_, sampler_}; }
+    Binding binding() const { return {"shadowMap", image_}; }
 
  private:
     Image image_;
-    Sampler sampler_;
-    Program rasterize_;
+    RasterPipeline rasterize_;
 };
 
 /// Shadow maps of all punctual lights side by side, for shaders that ask any light about any point
 /// (shaders/lights/shadow_maps.glsl).
 class ShadowMaps {
  public:
+    explicit ShadowMaps(ProgramOwner& owner) : map_(owner) {}
+
     void plan(PassPlan& plan, const std::vector<LightSource>& sources, uint32_t resolution);
-    void prepare(PassSetup& setup) { map_.prepare(setup); }
     /// Draws the maps of the lights as they stand now.
     void draw(PassContext& context, const std::vector<LightSource>& sources);
     std::vector<Binding> bindings() const;

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "passes/common/compute/dispatch.h"
 #include "passes/common/voxels/grid_levels.h"
 
 namespace voxray {
@@ -15,28 +14,6 @@ using gpu::LevelNodes;
 static_assert(sizeof(BrickNode) == kBrickNodeBytes);
 constexpr uint32_t kLongestAxis = 1024;     // A node's place takes 10 bits an axis.
 constexpr uint32_t kScratchWordsANode = 3;  // Visited, flag, flags before.
-
-struct BrickFlagPush {
-    LevelNodes nodes;
-    glm::uvec3 resolution;
-    uint32_t level;
-    uint32_t belowRoot;
-    uint32_t fragments;
-    uint32_t neighbors;
-};
-struct LinkPush {
-    LevelNodes nodes;
-    uint32_t belowRoot;
-};
-struct BrickSubdividePush {
-    LevelNodes nodes;
-    uint32_t firstBrick;
-    uint32_t firstChild;
-};
-struct ClearPush {
-    uint32_t staticNodes;
-    uint32_t staticBricks;
-};
 
 /// Room for so many nodes; those that are there stay. A pool that is outgrown gets an eighth to spare, so
 /// that what moves does not outgrow it in each frame.
@@ -53,14 +30,13 @@ void grow(CommandStream& stream, BrickOctree& octree, uint64_t nodes) {
 
 }  // namespace
 
-BrickOctreeBuilder::BrickOctreeBuilder(Device& device, const ShaderCompiler& compiler, bool neighbors)
-    : neighbors_(neighbors ? 1 : 0), prefixSum_(std::in_place, device, compiler, PrefixSum::Of::Values) {
-    const auto program = [&](const char* file) { return makeComputeProgram(device, compiler.compile(file)); };
-    flag_ = program("passes/common/octree/brick_octree_flag.comp");
-    link_ = program("passes/common/octree/brick_octree_link.comp");
-    subdivide_ = program("passes/common/octree/brick_octree_subdivide.comp");
-    clear_ = program("passes/common/octree/brick_octree_clear.comp");
-}
+BrickOctreeBuilder::BrickOctreeBuilder(ProgramOwner& owner, bool neighbors)
+    : neighbors_(neighbors ? 1 : 0),
+      flag_(owner, "brick_octree_flag.comp"),
+      link_(owner, "brick_octree_link.comp"),
+      subdivide_(owner, "brick_octree_subdivide.comp"),
+      clear_(owner, "brick_octree_clear.comp"),
+      prefixSum_(owner, PrefixSum::Of::Values) {}
 
 void BrickOctreeBuilder::build(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells,
                                uint32_t fragments) const {
@@ -83,8 +59,10 @@ void BrickOctreeBuilder::build(CommandStream& stream, BrickOctree& octree, const
 
 void BrickOctreeBuilder::rebuildDynamic(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells,
                                         uint32_t fragments) const {
-    stream.dispatch(clear_, {{"OctreeNodesAt", octree.nodes.at()}},
-                    ClearPush{octree.staticNodes, octree.staticBricks}, linearGroups(octree.staticNodes));
+    stream.dispatch(clear_, octree.staticNodes,
+                    {{"OctreeNodesAt", octree.nodes.at()},
+                     {"staticNodes", octree.staticNodes},
+                     {"staticBricks", octree.staticBricks}});
     octree.nodeCount = octree.staticNodes;
     octree.brickCount = octree.staticBricks;
     for (LevelNodes& level : octree.levels) level.dynamicFirst = level.dynamicCount = 0;
@@ -104,17 +82,20 @@ void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Se
                      before = scratch("flags before");
         stream.fill(visited, 0);
         stream.fill(flags, 0);
-        stream.dispatch(flag_,
+        stream.dispatch(flag_, fragments,
                         {{"FragmentCellsAt", cells.at()},
                          {"OctreeNodesAt", octree.nodes.at()},
                          {"visited", visited},
-                         {"flags", flags}},
-                        BrickFlagPush{nodes, levelResolution(octree.grid.resolution, level), level, belowRoot,
-                                      fragments, neighbors_},
-                        linearGroups(fragments));
-        stream.dispatch(link_, {{"OctreeNodesAt", octree.nodes.at()}}, LinkPush{nodes, belowRoot},
-                        linearGroups(count));
-        const uint32_t flagged = prefixSum_->run(stream, flags, before, count);
+                         {"flags", flags},
+                         {"nodes", nodes},
+                         {"resolution", levelResolution(octree.grid.resolution, level)},
+                         {"level", level},
+                         {"belowRoot", belowRoot},
+                         {"fragments", fragments},
+                         {"neighbors", neighbors_}});
+        stream.dispatch(link_, count,
+                        {{"OctreeNodesAt", octree.nodes.at()}, {"nodes", nodes}, {"belowRoot", belowRoot}});
+        const uint32_t flagged = prefixSum_.run(stream, flags, before, count);
         const uint32_t firstChild = level == 0 ? NO_CHILDREN : octree.nodeCount;
         if (level > 0) {
             grow(stream, octree, octree.nodeCount + 8ull * flagged);
@@ -123,9 +104,13 @@ void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Se
             (section == Section::Static ? finer.staticCount : finer.dynamicCount) = 8 * flagged;
             octree.nodeCount += 8 * flagged;
         }
-        stream.dispatch(subdivide_,
-                        {{"OctreeNodesAt", octree.nodes.at()}, {"flags", flags}, {"before", before}},
-                        BrickSubdividePush{nodes, octree.brickCount, firstChild}, linearGroups(count));
+        stream.dispatch(subdivide_, count,
+                        {{"OctreeNodesAt", octree.nodes.at()},
+                         {"flags", flags},
+                         {"before", before},
+                         {"nodes", nodes},
+                         {"firstBrick", octree.brickCount},
+                         {"firstChild", firstChild}});
         octree.brickCount += flagged;
         stream.finish();
     }

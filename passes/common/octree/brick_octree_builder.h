@@ -11,9 +11,8 @@ namespace voxray {
 /// subdivide. A node's number depends on the voxels of the fragments alone, not on their order.
 class BrickOctreeBuilder {
  public:
-    BrickOctreeBuilder() = default;
     /// @param neighbors whether the 26 are made to exist.
-    BrickOctreeBuilder(Device& device, const ShaderCompiler& compiler, bool neighbors);
+    BrickOctreeBuilder(ProgramOwner& owner, bool neighbors);
 
     /// Builds the static section in place of all that was there. Waits for the device once a level.
     /// @param cells a uint for each fragment: its voxel, 10 bits an axis. More than one may be in a voxel.
@@ -32,9 +31,9 @@ class BrickOctreeBuilder {
     void addNodes(CommandStream& stream, BrickOctree& octree, Section section, const LargeBuffer& cells,
                   uint32_t fragments) const;
 
-    uint32_t neighbors_ = 1;
-    Program flag_, link_, subdivide_, clear_;
-    std::optional<PrefixSum> prefixSum_;
+    uint32_t neighbors_;
+    Kernel flag_, link_, subdivide_, clear_;
+    PrefixSum prefixSum_;
 };
 
 }  // namespace voxray

@@ -1,27 +1,9 @@
 #include "passes/common/octree/octree_builder.h"
 
-#include "passes/common/compute/dispatch.h"
+#include <utility>
 
 namespace voxray {
 namespace {
-
-struct FlagPush {
-    glm::uvec3 finerSize;
-    glm::uvec3 coarserSize;
-    uint32_t level;
-};
-
-struct SubdividePush {
-    glm::uvec3 finerSize;
-    uint32_t count;
-};
-
-struct NumberPush {
-    uint32_t level;
-    uint32_t count;
-    uint32_t firstNode;
-    uint32_t firstChild;
-};
 
 uint64_t flagWords(glm::uvec3 cells) {
     return uint64_t((cells.x + 31) / 32) * cells.y * cells.z;
@@ -29,11 +11,11 @@ uint64_t flagWords(glm::uvec3 cells) {
 
 }  // namespace
 
-OctreeBuilder::OctreeBuilder(Device& device, const ShaderCompiler& compiler)
-    : flag_(makeComputeProgram(device, compiler.compile("passes/common/octree/octree_flag.comp"))),
-      subdivide_(makeComputeProgram(device, compiler.compile("passes/common/octree/octree_subdivide.comp"))),
-      number_(makeComputeProgram(device, compiler.compile("passes/common/octree/octree_number.comp"))),
-      prefixSum_(device, compiler, PrefixSum::Of::SetBits) {}
+OctreeBuilder::OctreeBuilder(ProgramOwner& owner)
+    : flag_(owner, "octree_flag.comp"),
+      subdivide_(owner, "octree_subdivide.comp"),
+      number_(owner, "octree_number.comp"),
+      prefixSum_(owner, PrefixSum::Of::SetBits) {}
 
 Octree OctreeBuilder::build(CommandStream& stream, const SurfaceVoxels& voxels) const {
     Device& device = stream.device();
@@ -51,17 +33,23 @@ Octree OctreeBuilder::build(CommandStream& stream, const SurfaceVoxels& voxels) 
         const Buffer before(device, "octree ranks", uint64_t(words) * sizeof(uint32_t));
         Buffer children(device, "octree cells", uint64_t(size.nodes[level - 1]) * sizeof(uint32_t));
         const Buffer& finer = level == 1 ? voxels.occupancy : flags[level - 2];
-        stream.dispatch(subdivide_, {{"flags", finer}, {"cells", cells}, {"masks", masks}},
-                        SubdividePush{levelResolution(size.resolution, level - 1), count},
-                        linearGroups(words));
+        stream.dispatch(subdivide_, words,
+                        {{"flags", finer},
+                         {"cells", cells},
+                         {"masks", masks},
+                         {"finerSize", levelResolution(size.resolution, level - 1)},
+                         {"count", count}});
         prefixSum_.run(stream, masks, before, words);
-        stream.dispatch(number_,
-                        {{"octree", octree.header},
+        stream.dispatch(number_, words,
+                        {octree,
                          {"cells", cells},
                          {"masks", masks},
                          {"before", before},
-                         {"childCells", children}},
-                        NumberPush{level, count, first[level], first[level - 1]}, linearGroups(words));
+                         {"childCells", children},
+                         {"level", level},
+                         {"count", count},
+                         {"firstNode", first[level]},
+                         {"firstChild", first[level - 1]}});
         stream.finish();
         cells = std::move(children);
     }
@@ -80,12 +68,13 @@ std::vector<Buffer> OctreeBuilder::flag(CommandStream& stream, const SurfaceVoxe
     for (uint32_t level = 1; level < levels; ++level) {
         const glm::uvec3 coarser = levelResolution(size.resolution, level);
         flags.emplace_back(stream.device(), "octree flags", flagWords(coarser) * sizeof(uint32_t));
-        stream.dispatch(flag_,
+        stream.dispatch(flag_, flagWords(coarser),
                         {{"finer", level == 1 ? voxels.occupancy : flags[level - 2]},
                          {"coarser", flags.back()},
-                         {"counts", counts}},
-                        FlagPush{levelResolution(size.resolution, level - 1), coarser, level},
-                        linearGroups(flagWords(coarser)));
+                         {"counts", counts},
+                         {"finerSize", levelResolution(size.resolution, level - 1)},
+                         {"coarserSize", coarser},
+                         {"level", level}});
     }
     size.nodes = stream.readAs<uint32_t>(counts, levels);
     size.nodes.front() = voxels.voxelCount;

@@ -12,7 +12,7 @@ namespace voxray {
 /// the same bits.
 class OctreeBuilder {
  public:
-    OctreeBuilder(Device& device, const ShaderCompiler& compiler);
+    explicit OctreeBuilder(ProgramOwner& owner);
 
     /// The octree over `voxels`, which are held whole, with the list of its leaves. Waits for the device.
     /// @throws Error over the memory limit, with the bytes needed, before it allocates the octree.
@@ -25,7 +25,7 @@ class OctreeBuilder {
     /// The flags of each level above the leaves; sets size.nodes.
     std::vector<Buffer> flag(CommandStream& stream, const SurfaceVoxels& voxels, OctreeSize& size) const;
 
-    Program flag_, subdivide_, number_;
+    Kernel flag_, subdivide_, number_;
     PrefixSum prefixSum_;
 };
 

@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "passes/common/triangle_walk/raster_walk.h"
-#include "passes/common/triangle_walk/walk_types.h"
 
 namespace voxray {
 namespace {
@@ -26,44 +25,43 @@ class DominantAxisWalk final : public RasterWalk {
         RasterWalk::plan(plan, grid);
     }
 
-    void prepare(PassSetup& setup) override {
-        vertex_ = setup.compiler.compile("passes/common/triangle_walk/dominant_axis.vert");
-        geometry_ = setup.compiler.compile("passes/common/triangle_walk/dominant_axis.geom");
-    }
-
-    Program compileVisitor(PassSetup& setup, const std::string& shader,
-                           const Defines& defines) const override {
+    std::unique_ptr<PassProgram> makeVisitor(ProgramOwner& owner, const std::string& shader,
+                                             const Defines& defines) const override {
         Defines all = defines;
         all.emplace(samples_ > 0 ? "SAMPLED_AXIS" : "DOMINANT_AXIS", "1");
-        const ShaderModule modules[] = {vertex_, geometry_, setup.compiler.compile(shader + ".frag", all)};
-        return makeRasterProgram(setup.device, modules, {});
+        const std::vector<std::string> files{"passes/common/triangle_walk/dominant_axis.vert",
+                                             "passes/common/triangle_walk/dominant_axis.geom",
+                                             shader + ".frag"};
+        return std::make_unique<RasterPipeline>(owner, files, RasterState{}, all);
     }
 
     void run(PassContext& context, const Program& visitor, const gpu::VoxelGrid& grid,
              std::span<const Binding> bindings, float visitorScale) const override {
         // One square image has room for the columns along any axis.
-        gpu::TriangleWalkPush push{};
-        push.grid = grid;
-        push.visitorScale = visitorScale;
-        push.samples = samples_;
-        push.imageSide = std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z});
+        const uint32_t side = std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z});
         RasterTargets targets;
-        targets.extent = {push.imageSide, push.imageSide, 1};
-        context.stream.draw(visitor, allBindings(context, bindings), push, targets, corners());
+        targets.extent = {side, side, 1};
+        context.stream.draw(visitor, targets, corners(),
+                            {allBindings(context, bindings),
+                             {"grid", grid},
+                             {"visitorScale", visitorScale},
+                             {"tiles", 0u},
+                             {"axis", 0u},
+                             {"samples", samples_},
+                             {"imageSide", side}});
     }
 
  private:
     uint32_t samples_;  ///< A pixel; 0: conservatively.
-    ShaderModule vertex_, geometry_;
 };
 
 }  // namespace
 
-std::unique_ptr<TriangleWalk> makeDominantAxisWalk() {
+std::unique_ptr<TriangleWalk> makeDominantAxisWalk(ProgramOwner&) {
     return std::make_unique<DominantAxisWalk>(0);
 }
 
-std::unique_ptr<TriangleWalk> makeSampledAxisWalk(uint32_t samples) {
+std::unique_ptr<TriangleWalk> makeSampledAxisWalk(ProgramOwner&, uint32_t samples) {
     return std::make_unique<DominantAxisWalk>(samples);
 }
 

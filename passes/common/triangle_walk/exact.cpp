@@ -2,10 +2,8 @@
 
 #include <string>
 
-#include "passes/common/compute/dispatch.h"
 #include "passes/common/triangle_walk/triangle_tiles.h"
 #include "passes/common/triangle_walk/triangle_walk.h"
-#include "passes/common/triangle_walk/walk_types.h"
 
 namespace voxray {
 namespace {
@@ -25,11 +23,9 @@ class ExactWalk final : public TriangleWalk {
         }));
     }
 
-    void prepare(PassSetup&) override {}
-
-    Program compileVisitor(PassSetup& setup, const std::string& shader,
-                           const Defines& defines) const override {
-        return makeComputeProgram(setup.device, setup.compiler.compile(shader + ".comp", defines));
+    std::unique_ptr<PassProgram> makeVisitor(ProgramOwner& owner, const std::string& shader,
+                                             const Defines& defines) const override {
+        return std::make_unique<Kernel>(owner, shader + ".comp", defines);
     }
 
     void select(PassContext& context, const gpu::VoxelGrid& grid, const VoxelRegion& region,
@@ -39,13 +35,16 @@ class ExactWalk final : public TriangleWalk {
 
     void run(PassContext& context, const Program& visitor, const gpu::VoxelGrid& grid,
              std::span<const Binding> bindings, float visitorScale) const override {
-        std::vector<Binding> all = context.scene.bindings({{"tiles", tiles_.buffer()}});
-        all.insert(all.end(), bindings.begin(), bindings.end());
-        gpu::TriangleWalkPush push{};
-        push.grid = grid;
-        push.visitorScale = visitorScale;
-        push.tiles = tiles_.count();
-        context.stream.dispatch(visitor, all, push, linearGroups(tiles_.count()));
+        context.dispatch(visitor, tiles_.count(),
+                         {context.scene,
+                          std::vector<Binding>(bindings.begin(), bindings.end()),
+                          {"triangleTiles", tiles_.buffer()},
+                          {"grid", grid},
+                          {"visitorScale", visitorScale},
+                          {"tiles", tiles_.count()},
+                          {"axis", 0u},
+                          {"samples", 0u},
+                          {"imageSide", 0u}});
     }
 
     void release() override { tiles_ = {}; }
@@ -56,7 +55,7 @@ class ExactWalk final : public TriangleWalk {
 
 }  // namespace
 
-std::unique_ptr<TriangleWalk> makeExactWalk() {
+std::unique_ptr<TriangleWalk> makeExactWalk(ProgramOwner&) {
     return std::make_unique<ExactWalk>();
 }
 

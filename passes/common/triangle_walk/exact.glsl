@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 
 // Triangle; its first column (10 bits each) and, from bit 20, the axis that columns run along.
-layout(scalar) readonly buffer Tiles { uvec2 data[]; } tiles;
+layout(scalar) readonly buffer TriangleTiles { uvec2 data[]; } triangleTiles;
 
 float measureFragment(GridTriangle t, ivec3 permutedVoxel, uint subSamples, out vec2 center) {
     return clippedArea(t, permutedVoxel, center);
@@ -46,7 +46,7 @@ void visitTile(GridTriangle t, ivec2 first, int side, ivec3 resolution) {
 void main() {
     const uint i = linearIndex();
     if (i >= walk.tiles) return;
-    const uvec2 tile = tiles.data[i];
+    const uvec2 tile = triangleTiles.data[i];
     const GridTriangle t = gridTriangle(walk.grid, tile.x, tile.y >> 20);
     if (t.area == 0.0) return;
     visitTile(t, ivec2(tile.y & 1023u, (tile.y >> 10) & 1023u), 8, ivec3(permutedVoxels(walk.grid.resolution, t.axis)));

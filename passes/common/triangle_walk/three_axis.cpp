@@ -1,5 +1,4 @@
 #include "passes/common/triangle_walk/raster_walk.h"
-#include "passes/common/triangle_walk/walk_types.h"
 
 namespace voxray {
 namespace {
@@ -10,40 +9,38 @@ class ThreeAxisWalk final : public RasterWalk {
  public:
     explicit ThreeAxisWalk(uint32_t samples) : samples_(samples) {}
 
-    void prepare(PassSetup& setup) override {
-        vertex_ = setup.compiler.compile("passes/common/triangle_walk/three_axis.vert");
-    }
-
-    Program compileVisitor(PassSetup& setup, const std::string& shader,
-                           const Defines& defines) const override {
-        const ShaderModule modules[] = {vertex_, setup.compiler.compile(shader + ".frag", defines)};
-        return makeRasterProgram(setup.device, modules, {});
+    std::unique_ptr<PassProgram> makeVisitor(ProgramOwner& owner, const std::string& shader,
+                                             const Defines& defines) const override {
+        const std::vector<std::string> files{"passes/common/triangle_walk/three_axis.vert", shader + ".frag"};
+        return std::make_unique<RasterPipeline>(owner, files, RasterState{}, defines);
     }
 
     void run(PassContext& context, const Program& visitor, const gpu::VoxelGrid& grid,
              std::span<const Binding> bindings, float visitorScale) const override {
         const std::vector<Binding> all = allBindings(context, bindings);
-        gpu::TriangleWalkPush push{};
-        push.grid = grid;
-        push.visitorScale = visitorScale;
-        push.samples = samples_;
-        for (push.axis = 0; push.axis < 3; ++push.axis) {
+        for (uint32_t axis = 0; axis < 3; ++axis) {
             // The image plane is spanned by the two axes that follow in cyclic order.
             RasterTargets targets;
-            targets.extent = {grid.resolution[int(push.axis + 1) % 3] * samples_,
-                              grid.resolution[int(push.axis + 2) % 3] * samples_, 1};
-            context.stream.draw(visitor, all, push, targets, corners());
+            targets.extent = {grid.resolution[int(axis + 1) % 3] * samples_,
+                              grid.resolution[int(axis + 2) % 3] * samples_, 1};
+            context.stream.draw(visitor, targets, corners(),
+                                {all,
+                                 {"grid", grid},
+                                 {"visitorScale", visitorScale},
+                                 {"tiles", 0u},
+                                 {"axis", axis},
+                                 {"samples", samples_},
+                                 {"imageSide", 0u}});
         }
     }
 
  private:
     uint32_t samples_;
-    ShaderModule vertex_;
 };
 
 }  // namespace
 
-std::unique_ptr<TriangleWalk> makeThreeAxisWalk(uint32_t samples) {
+std::unique_ptr<TriangleWalk> makeThreeAxisWalk(ProgramOwner&, uint32_t samples) {
     return std::make_unique<ThreeAxisWalk>(samples);
 }
 

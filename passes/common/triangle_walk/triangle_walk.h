@@ -23,11 +23,11 @@ class TriangleWalk {
     /// Reserves scratch memory for all triangles of the scene. @throws Error naming a feature that the device
     /// lacks.
     virtual void plan(PassPlan& plan, const gpu::VoxelGrid& grid) = 0;
-    virtual void prepare(PassSetup& setup) = 0;
-    /// Compiles a visitor for this method. @param shader its path without the extension: `shader`.comp
-    /// includes triangle_walk/exact.glsl, `shader`.frag triangle_walk/raster.glsl.
-    virtual Program compileVisitor(PassSetup& setup, const std::string& shader,
-                                   const Defines& defines = {}) const = 0;
+    /// Makes a visitor for this method, a program of the owner. @param shader its path from "passes/" on
+    /// without the extension: `shader`.comp includes triangle_walk/exact.glsl, `shader`.frag
+    /// triangle_walk/raster.glsl.
+    virtual std::unique_ptr<PassProgram> makeVisitor(ProgramOwner& owner, const std::string& shader,
+                                                     const Defines& defines = {}) const = 0;
     /// Chooses what run() visits: `triangles`, those that may have a part in the region. All pairs with
     /// voxels of the region are visited; others may be.
     virtual void select(PassContext& context, const gpu::VoxelGrid& grid, const VoxelRegion& region,
@@ -41,14 +41,14 @@ class TriangleWalk {
 };
 
 /// Tests triangles against voxels' boxes in a compute shader.
-std::unique_ptr<TriangleWalk> makeExactWalk();
+std::unique_ptr<TriangleWalk> makeExactWalk(ProgramOwner& owner);
 /// Rasterises each triangle once, conservatively, along the axis that it faces most.
-std::unique_ptr<TriangleWalk> makeDominantAxisWalk();
+std::unique_ptr<TriangleWalk> makeDominantAxisWalk(ProgramOwner& owner);
 /// Rasterises each triangle once, along the axis that it faces most, a voxel a pixel: as published in
 /// Arnebäck 2017, section 3.2.1. @param samples a pixel: 1, in its center, or 8, the standard pattern of D3D
 /// and Vulkan.
-std::unique_ptr<TriangleWalk> makeSampledAxisWalk(uint32_t samples);
+std::unique_ptr<TriangleWalk> makeSampledAxisWalk(ProgramOwner& owner, uint32_t samples);
 /// Rasterises along all three axes, `samples` squared points a voxel.
-std::unique_ptr<TriangleWalk> makeThreeAxisWalk(uint32_t samples);
+std::unique_ptr<TriangleWalk> makeThreeAxisWalk(ProgramOwner& owner, uint32_t samples);
 
 }  // namespace voxray

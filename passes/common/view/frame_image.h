@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "graph/pass.h"
 
 namespace voxray {
@@ -12,12 +10,6 @@ inline ImageDesc frameImageDesc(const Frame& frame) {
     desc.format = VK_FORMAT_R32G32B32A32_SFLOAT;
     desc.extent = {frame.width, frame.height, 1};
     return desc;
-}
-
-/// A sampler for reading images texel by texel.
-inline Sampler texelSampler(Device& device) {
-    return Sampler(device, Filter::Nearest, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                   VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
 }
 
 }  // namespace voxray

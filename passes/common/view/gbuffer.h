@@ -20,6 +20,15 @@ struct GBuffer : Resource {
     Image fresnel;   ///< RGBA8: reflectance at grazing incidence; what diffuse light loses at normal and at
                      ///< grazing incidence. Both are read by shaders/scene/specular.glsl.
 
+    /// Of shaders that declare its images by their names, and `samples`.
+    std::vector<Binding> bindings() const {
+        std::vector<Binding> all{
+            {"position", position}, {"normal", normal},     {"geometricNormal", geometricNormal},
+            {"albedo", albedo},     {"emission", emission}, {"specular", specular},
+            {"fresnel", fresnel},   {"samples", samples}};
+        for (Binding& binding : all) binding.optional = true;
+        return all;
+    }
     std::vector<Aov> aovs() const override {
         return {{&position, {"P.X", "P.Y", "P.Z"}},
                 {&normal, {"N.X", "N.Y", "N.Z"}},

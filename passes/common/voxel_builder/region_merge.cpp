@@ -2,23 +2,17 @@
 
 #include <algorithm>
 
-#include "passes/common/compute/dispatch.h"
-
 namespace voxray {
 namespace {
 
-struct BitsPush {
-    uint32_t rows;
-    uint32_t wordsPerRow;
-};
+constexpr uint32_t kBoxThreads = 64;  // As in region_bits.comp.
 
 }  // namespace
 
-RegionMerge::RegionMerge(Device& device, const ShaderCompiler& compiler)
-    : bits_(makeComputeProgram(device, compiler.compile("passes/common/voxel_builder/region_bits.comp"))),
-      merge_(makeComputeProgram(device, compiler.compile("passes/common/voxel_builder/region_merge.comp"))),
-      materials_(makeComputeProgram(device,
-                                    compiler.compile("passes/common/voxel_builder/region_materials.comp"))) {}
+RegionMerge::RegionMerge(ProgramOwner& owner)
+    : bits_(owner, "region_bits.comp"),
+      merge_(owner, "region_merge.comp"),
+      materials_(owner, "region_materials.comp") {}
 
 Buffer RegionMerge::bits(CommandStream& stream, const VoxelRegion& region,
                          const SurfaceVoxels& voxels) const {
@@ -33,10 +27,12 @@ Buffer RegionMerge::bits(CommandStream& stream, const VoxelRegion& region,
         uint64_t words = 0;  // Of the largest box, or a few more.
         for (const VoxelBox& box : list)
             words = std::max(words, (uint64_t(box.size.x) / 32 + 2) * box.size.y * box.size.z);
-        const glm::uvec3 groups = linearGroups(words);
-        stream.dispatch(bits_, {{"boxes", boxes}, {"region", bits}},
-                        BitsPush{heldVoxels(voxels.grid).size.y, voxels.grid.wordsPerRow},
-                        {groups.x, groups.y, uint32_t(list.size())});
+        const glm::uvec3 groups = Invocations(words).groups({kBoxThreads, 1, 1});
+        stream.dispatch(bits_, glm::uvec3(groups.x * kBoxThreads, groups.y, list.size()),
+                        {{"boxes", boxes},
+                         {"region", bits},
+                         {"rows", heldVoxels(voxels.grid).size.y},
+                         {"wordsPerRow", voxels.grid.wordsPerRow}});
     }
     stream.finish();
     return bits;
@@ -46,9 +42,12 @@ Buffer RegionMerge::merged(CommandStream& stream, const Buffer& bits, const Buff
                            const Buffer& rebuilt) const {
     Buffer merged(stream.device(), "voxel occupancy", previous.bytes());
     const uint32_t words = uint32_t(previous.bytes() / sizeof(uint32_t));
-    stream.dispatch(merge_,
-                    {{"region", bits}, {"rebuilt", rebuilt}, {"previous", previous}, {"merged", merged}},
-                    words, linearGroups(words));
+    stream.dispatch(merge_, words,
+                    {{"region", bits},
+                     {"rebuilt", rebuilt},
+                     {"previous", previous},
+                     {"merged", merged},
+                     {"words", words}});
     stream.finish();
     return merged;
 }
@@ -67,7 +66,7 @@ void RegionMerge::materials(CommandStream& stream, const PrefixSum& prefixSum, c
     LargeBuffer materials(device, "voxel materials",
                           std::max<uint64_t>(previous.voxelCount, 1) * sizeof(gpu::PackedVoxelMaterial));
     if (previous.voxelCount == 0) stream.fill(materials, 0);
-    stream.dispatch(materials_,
+    stream.dispatch(materials_, words,
                     {{"rebuilt", rebuilt.occupancy},
                      {"rebuiltRank", rebuilt.rank},
                      {"RebuiltMaterialsAt", rebuilt.materials.at()},
@@ -76,8 +75,8 @@ void RegionMerge::materials(CommandStream& stream, const PrefixSum& prefixSum, c
                      {"PreviousMaterialsAt", previous.materials.at()},
                      {"voxelOccupancy", merged_},
                      {"voxelRank", rank},
-                     {"VoxelMaterialsAt", materials.at()}},
-                    words, linearGroups(words));
+                     {"VoxelMaterialsAt", materials.at()},
+                     {"words", words}});
     stream.finish();
     previous.occupancy = std::move(merged_);
     previous.rank = std::move(rank);

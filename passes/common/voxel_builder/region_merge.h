@@ -10,8 +10,7 @@ namespace voxray {
 /// region keep their materials; only their numbers change.
 class RegionMerge {
  public:
-    RegionMerge() = default;
-    RegionMerge(Device& device, const ShaderCompiler& compiler);
+    explicit RegionMerge(ProgramOwner& owner);
 
     /// A bit for each voxel of a region, in words as those of `voxels`' occupancy. Waits for the device.
     Buffer bits(CommandStream& stream, const VoxelRegion& region, const SurfaceVoxels& voxels) const;
@@ -33,7 +32,7 @@ class RegionMerge {
     }
 
  private:
-    Program bits_, merge_, materials_;
+    Kernel bits_, merge_, materials_;
     Buffer merged_;  ///< Occupancy, between the two steps.
 };
 

@@ -14,7 +14,7 @@ layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 buffer Counts { uint data[]; } counts;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
-    uint points;
+    uint count;
 } push;
 
 // Of a triangle's barycentric coordinates: nearer to an edge than this, a hit may as well be the next triangle's.
@@ -34,7 +34,7 @@ bool meets(uint ray, uint triangle, vec3 normal, float offset) {
 
 void main() {
     const uint i = linearIndex();
-    if (i >= push.points) return;
+    if (i >= push.count) return;
     const ProbePoint point = keptPoints.data[i];
     const vec3 normal = -rays.data[2u * i].direction;
     const float offset = rays.data[2u * i].tMax - push.grid.voxelSize;  // visibility_emit.comp

@@ -13,13 +13,13 @@ layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 buffer Kept { uint count; } kept;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
-    uint points;
+    uint count;
     uint seed;
 } push;
 
 void main() {
     const uint i = linearIndex();
-    if (i >= push.points) return;
+    if (i >= push.count) return;
     const uvec2 point = points.data[i];
     const SurfacePoint s = surfacePoint(point.x, trianglePoint(sobol2(point.y, hashCombine(push.seed, point.x))));
     if (s.geometricNormal == vec3(0.0) || alphaCut(sceneMaterials.data[s.material], s)) return;

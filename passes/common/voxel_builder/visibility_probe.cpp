@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "passes/common/compute/dispatch.h"
 #include "passes/common/compute/random_seed.h"
 
 namespace voxray {
@@ -11,17 +10,6 @@ namespace {
 
 constexpr uint32_t kBatchPoints = 1u << 18;
 constexpr uint64_t kCounts = 9;  // Of a voxel, as in visibility_count.comp.
-
-struct EmitPush {
-    gpu::VoxelGrid grid;
-    uint32_t points;
-    uint32_t seed;
-};
-
-struct CountPush {
-    gpu::VoxelGrid grid;
-    uint32_t points;
-};
 
 struct ProbePoint {  // As in visibility_point.glsl.
     glm::vec3 position;
@@ -44,10 +32,8 @@ uint64_t pointsOn(const Geometry& g, const gpu::VoxelGrid& grid, uint32_t triang
 
 }  // namespace
 
-VisibilityProbe::VisibilityProbe(Device& device, const ShaderCompiler& compiler)
-    : emit_(makeComputeProgram(device, compiler.compile("passes/common/voxel_builder/visibility_emit.comp"))),
-      count_(makeComputeProgram(device,
-                                compiler.compile("passes/common/voxel_builder/visibility_count.comp"))) {}
+VisibilityProbe::VisibilityProbe(ProgramOwner& owner)
+    : emit_(owner, "visibility_emit.comp"), count_(owner, "visibility_count.comp") {}
 
 Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels,
                             const std::vector<uint32_t>& triangles, uint32_t pointsPerFace) const {
@@ -70,20 +56,27 @@ Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels,
         if (points.empty()) return;
         stream.upload(batch, points);
         stream.fill(kept, 0);
-        stream.dispatch(emit_,
-                        voxels.bindings(context.scene.bindings(
-                            {{"points", batch}, {"keptPoints", keptPoints}, {"rays", rays}, {"kept", kept}})),
-                        EmitPush{voxels.grid, uint32_t(points.size()), randomSeed(context.frame)},
-                        linearGroups(points.size()));
+        context.dispatch(emit_, points.size(),
+                         {context.scene,
+                          voxels,
+                          {"points", batch},
+                          {"keptPoints", keptPoints},
+                          {"rays", rays},
+                          {"kept", kept},
+                          {"count", uint32_t(points.size())},
+                          {"seed", randomSeed(context.frame)}});
         points.clear();
         const uint32_t count = stream.readAs<uint32_t>(kept, 1)[0];
         if (count == 0) return;
         context.tracer.closestHit(stream, rays, hits, 2 * count);
-        stream.dispatch(
-            count_,
-            voxels.bindings(context.scene.bindings(
-                {{"keptPoints", keptPoints}, {"rays", rays}, {"hits", hits}, {"counts", counts}})),
-            CountPush{voxels.grid, count}, linearGroups(count));
+        context.dispatch(count_, count,
+                         {context.scene,
+                          voxels,
+                          {"keptPoints", keptPoints},
+                          {"rays", rays},
+                          {"hits", hits},
+                          {"counts", counts},
+                          {"count", count}});
     };
     for (const uint32_t triangle : triangles) {
         const uint64_t count = pointsOn(context.frame.scene->geometry, voxels.grid, triangle, pointsPerFace);

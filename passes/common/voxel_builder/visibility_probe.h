@@ -32,8 +32,7 @@ namespace voxray {
 /// triangle's probes depend on that triangle alone: they stay where they are when other surfaces move.
 class VisibilityProbe {
  public:
-    VisibilityProbe() = default;
-    VisibilityProbe(Device& device, const ShaderCompiler& compiler);
+    explicit VisibilityProbe(ProgramOwner& owner);
 
     /// Probes the points of `triangles` that lie in one of `voxels`.
     /// @param pointsPerFace points for as much area as a voxel's face has.
@@ -44,7 +43,7 @@ class VisibilityProbe {
     static uint64_t bytes(uint32_t voxelCount, uint32_t pointsPerFace);
 
  private:
-    Program emit_, count_;
+    Kernel emit_, count_;
 };
 
 }  // namespace voxray

@@ -2,22 +2,26 @@
 
 #include <algorithm>
 
-#include "passes/common/compute/dispatch.h"
 #include "passes/common/voxel_builder/surface_accumulator.h"
 
 namespace voxray {
 namespace {
-
-struct ResolvePush {
-    uint32_t voxelCount;
-    float largestEmission;
-};
 
 uint64_t materialBytes(const SurfaceVoxels& voxels) {
     return voxels.voxelCount * sizeof(gpu::PackedVoxelMaterial);
 }
 
 }  // namespace
+
+VoxelBuilder::VoxelBuilder(ProgramOwner& owner, std::unique_ptr<TriangleWalk> walk, uint32_t visibilityRays)
+    : walk_(std::move(walk)),
+      visibilityRays_(visibilityRays),
+      markVoxels_(walk_->makeVisitor(owner, "passes/common/voxel_builder/mark_voxels")),
+      addSurfaces_(walk_->makeVisitor(owner, "passes/common/voxel_builder/add_surfaces")),
+      resolve_(owner, "surface_accumulator_resolve.comp"),
+      prefixSum_(owner, PrefixSum::Of::SetBits),
+      visibilityProbe_(owner),
+      merge_(owner) {}
 
 void VoxelBuilder::planVoxels(PassPlan& plan, SurfaceVoxels& voxels) {
     plan.buffer(voxels.occupancy, "voxel occupancy", voxels.words() * sizeof(uint32_t));
@@ -39,19 +43,9 @@ void VoxelBuilder::planWork(PassPlan& plan, const SurfaceVoxels& voxels, bool up
         plan.reserveScratch("update of a region (at most)",
                             RegionMerge::scratchBytes(voxels) + materialBytes(voxels));
     walk_->plan(plan, voxels.grid);
+    largestEmission_ = 0;
     for (const Material& material : plan.frame.scene->scene->materials)
         for (int c = 0; c < 3; ++c) largestEmission_ = std::max(largestEmission_, material.emission[c]);
-}
-
-void VoxelBuilder::prepare(PassSetup& setup) {
-    walk_->prepare(setup);
-    markVoxels_ = walk_->compileVisitor(setup, "passes/common/voxel_builder/mark_voxels");
-    addSurfaces_ = walk_->compileVisitor(setup, "passes/common/voxel_builder/add_surfaces");
-    resolve_ = makeComputeProgram(
-        setup.device, setup.compiler.compile("passes/common/voxel_builder/surface_accumulator_resolve.comp"));
-    prefixSum_.emplace(setup.device, setup.compiler, PrefixSum::Of::SetBits);
-    visibilityProbe_ = VisibilityProbe(setup.device, setup.compiler);
-    merge_ = RegionMerge(setup.device, setup.compiler);
 }
 
 void VoxelBuilder::build(PassContext& context, SurfaceVoxels& voxels) {
@@ -66,7 +60,7 @@ SurfaceVoxels VoxelBuilder::update(PassContext& context, const VoxelRegion& regi
     rebuilt.occupancy = Buffer(context.device, "voxel occupancy", voxels.occupancy.bytes());
     rebuilt.rank = Buffer(context.device, "voxel ranks", voxels.rank.bytes());
     voxelize(context, region, rebuilt, &voxels);
-    merge_.materials(context.stream, *prefixSum_, rebuilt, voxels);
+    merge_.materials(context.stream, prefixSum_, rebuilt, voxels);
     ++voxels.version;
     return rebuilt;
 }
@@ -79,9 +73,9 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
 
     // Mark occupied voxels, then number them.
     stream.fill(target.occupancy, 0);
-    walk_->run(context, markVoxels_, target.grid, std::vector<Binding>{{"occupancy", target.occupancy}}, 0);
+    walk_->run(context, *markVoxels_, target.grid, std::vector<Binding>{{"occupancy", target.occupancy}}, 0);
     if (previous) merge_.occupancy(stream, region, *previous, target);
-    target.voxelCount = prefixSum_->run(stream, target.occupancy, target.rank, uint32_t(target.words()));
+    target.voxelCount = prefixSum_.run(stream, target.occupancy, target.rank, uint32_t(target.words()));
     const uint64_t count = std::max(target.voxelCount, 1u);
     target.materials =
         LargeBuffer(context.device, "voxel materials", count * sizeof(gpu::PackedVoxelMaterial));
@@ -91,17 +85,18 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
     const LargeBuffer accumulator(context.device, "surface accumulator",
                                   count * ACCUMULATOR_UINTS * sizeof(uint32_t));
     stream.fill(accumulator, 0);
-    walk_->run(context, addSurfaces_, target.grid,
+    walk_->run(context, *addSurfaces_, target.grid,
                std::vector<Binding>{{"SurfaceAccumulatorAt", accumulator.at()},
                                     {"voxelOccupancy", target.occupancy},
                                     {"voxelRank", target.rank}},
                largestEmission_ > 0 ? 1.0f / largestEmission_ : 0.0f);
     const Buffer visibility = visibilityProbe_.run(context, target, triangles, visibilityRays_);
-    stream.dispatch(resolve_,
+    stream.dispatch(resolve_, target.voxelCount,
                     {{"SurfaceAccumulatorAt", accumulator.at()},
                      {"VoxelMaterialsAt", target.materials.at()},
-                     {"visibility", visibility}},
-                    ResolvePush{target.voxelCount, largestEmission_}, linearGroups(target.voxelCount));
+                     {"visibility", visibility},
+                     {"voxelCount", target.voxelCount},
+                     {"largestEmission", largestEmission_}});
     stream.finish();
     walk_->release();
 }

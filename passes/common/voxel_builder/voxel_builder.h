@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <tuple>
 
@@ -26,9 +25,8 @@ struct VoxelBuildParams {
                   {1, 6}),
             field("visibility_rays", &VoxelBuildParams::visibilityRays,
                   "Visibility probes on a surface as large as a voxel's face: points that look for open "
-                  "space in "
-                  "front of the surface and behind it. 0: all surfaces count as visible from both sides, "
-                  "which darkens thin closed walls.",
+                  "space in front of the surface and behind it. 0: all surfaces count as visible from both "
+                  "sides, which darkens thin closed walls.",
                   0u, 256u)};
     }
 };
@@ -39,8 +37,7 @@ struct VoxelBuildParams {
 class VoxelBuilder {
  public:
     /// @param visibilityRays visibility probes for as much area as a voxel's face has.
-    VoxelBuilder(std::unique_ptr<TriangleWalk> walk, uint32_t visibilityRays)
-        : walk_(std::move(walk)), visibilityRays_(visibilityRays) {}
+    VoxelBuilder(ProgramOwner& owner, std::unique_ptr<TriangleWalk> walk, uint32_t visibilityRays);
 
     /// Describes the memory of `voxels`, whose grid is known and whose number is estimated.
     static void planVoxels(PassPlan& plan, SurfaceVoxels& voxels);
@@ -49,7 +46,6 @@ class VoxelBuilder {
     /// Reserves scratch memory for building them.
     /// @param updates whether update() will be called.
     void planWork(PassPlan& plan, const SurfaceVoxels& voxels, bool updates);
-    void prepare(PassSetup& setup);
 
     /// Builds all voxels that the grid holds.
     void build(PassContext& context, SurfaceVoxels& voxels);
@@ -64,9 +60,10 @@ class VoxelBuilder {
                   const SurfaceVoxels* previous);
 
     std::unique_ptr<TriangleWalk> walk_;
-    uint32_t visibilityRays_;
-    Program markVoxels_, addSurfaces_, resolve_;
-    std::optional<PrefixSum> prefixSum_;
+    const uint32_t visibilityRays_;
+    std::unique_ptr<PassProgram> markVoxels_, addSurfaces_;
+    Kernel resolve_;
+    PrefixSum prefixSum_;
     VisibilityProbe visibilityProbe_;
     RegionMerge merge_;
     float largestEmission_ = 0;

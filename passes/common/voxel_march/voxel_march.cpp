@@ -1,7 +1,8 @@
 #include "passes/common/voxel_march/voxel_march.h"
 
+#include <algorithm>
+
 #include "base/error.h"
-#include "passes/common/compute/dispatch.h"
 
 namespace voxray {
 namespace {
@@ -32,11 +33,6 @@ uint32_t distanceLevel(const OctreeSize& size) {
     return std::min(size.tableLevel() + 1, size.levels());
 }
 
-struct DistancesPush {
-    gpu::VoxelGrid grid;
-    int32_t level;
-};
-
 bool isOctree(VoxelWalk walk) {
     return walk == VoxelWalk::SvoRestart || walk == VoxelWalk::SvoVoxels || walk == VoxelWalk::Svo;
 }
@@ -51,15 +47,28 @@ void require(const gpu::VoxelGrid& grid) {
     if (glm::any(glm::greaterThan(size, glm::uvec3(std::min(kMaxResolution, grid.side)))))
         throw Error(
             "rays walk through at most {0} voxels along an axis, all of them held; this grid has "
-            "{1}x{2}x{3}, "
-            "of which {4} are held: lower voxelize's 'resolution'",
+            "{1}x{2}x{3}, of which {4} are held: lower voxelize's 'resolution'",
             kMaxResolution, size.x, size.y, size.z, grid.side);
+}
+
+Kernel alongAxis(ProgramOwner& owner, const char* axis) {
+    return Kernel(owner, "distances.comp", {{"AXIS", axis}});
 }
 
 }  // namespace
 
+VoxelMarch::VoxelMarch(ProgramOwner& owner, VoxelWalk walk, float epsilon)
+    : walk_(walk),
+      epsilon_(epsilon),
+      cells_(owner, "distances.comp", {{isOctree(walk) ? "OF_NODES" : "OF_VOXELS", "1"}}),
+      along_{alongAxis(owner, "0"), alongAxis(owner, "1"), alongAxis(owner, "2")} {
+    if (isOctree(walk)) builder_.emplace(owner);
+}
+
 void VoxelMarch::plan(MemoryPlan& plan, const SurfaceVoxels& voxels) {
     require(voxels.grid);
+    for (Kernel* kernel : {&cells_, &along_[0], &along_[1], &along_[2]})
+        kernel->compileIf(hasDistances(walk_));
     plan.buffer(counts_, "voxel march counts", kCountBytes);
     const glm::uvec3 resolution = voxels.grid.resolution;
     if (walk_ == VoxelWalk::Bricks) {
@@ -74,17 +83,6 @@ void VoxelMarch::plan(MemoryPlan& plan, const SurfaceVoxels& voxels) {
     plan.reserve("octree (estimated)", size.bytes() - size.tableBytes() + bytes);
     plan.reserveScratch("building (estimated)",
                         size.tableBytes() + size.leafBytes() + OctreeBuilder::scratchBytes(size) + bytes);
-}
-
-void VoxelMarch::prepare(Device& device, const ShaderCompiler& compiler) {
-    version_.reset();
-    if (isOctree(walk_)) builder_.emplace(device, compiler);
-    if (!hasDistances(walk_)) return;
-    const char* file = "passes/common/voxel_march/distances.comp";
-    const char* of = isOctree(walk_) ? "OF_NODES" : "OF_VOXELS";
-    cells_ = makeComputeProgram(device, compiler.compile(file, {{of, "1"}}));
-    for (size_t axis = 0; axis < 3; ++axis)
-        along_[axis] = makeComputeProgram(device, compiler.compile(file, {{"AXIS", std::to_string(axis)}}));
 }
 
 void VoxelMarch::begin(CommandStream& stream, const SurfaceVoxels& voxels) {
@@ -104,24 +102,25 @@ void VoxelMarch::begin(CommandStream& stream, const SurfaceVoxels& voxels) {
 void VoxelMarch::measureDistances(CommandStream& stream) {
     const gpu::VoxelGrid& grid = voxels_->grid;
     const uint32_t level = isOctree(walk_) ? distanceLevel(octree_.size) : kBrickLevel;
-    const DistancesPush push{grid, int32_t(level)};
-    const glm::uvec3 groups = linearGroups(cubes(grid.resolution, 1u << level));
+    const uint64_t cells = cubes(grid.resolution, 1u << level);
+    const Bindings numbers{{"grid", grid}, {"level", level}};
     if (isOctree(walk_)) {
         const uint64_t bytes = distanceBytes(grid.resolution, level);
         distances_ = {};
         distances_ = Buffer(stream.device(), kDistances, bytes);
         fewerAxes_ = Buffer(stream.device(), kFewerAxes, bytes);
-        stream.dispatch(cells_, {{"octree", octree_.header}, {"target", fewerAxes_}}, push, groups);
+        stream.dispatch(cells_, cells, {octree_, {"target", fewerAxes_}, numbers.all()});
     } else {
-        stream.dispatch(
-            cells_,
-            {{"voxelOccupancy", voxels_->occupancy}, {"voxelBricks", bricks_}, {"target", fewerAxes_}}, push,
-            groups);
+        stream.dispatch(cells_, cells,
+                        {{"voxelOccupancy", voxels_->occupancy},
+                         {"voxelBricks", bricks_},
+                         {"target", fewerAxes_},
+                         numbers.all()});
     }
     for (size_t axis = 0; axis < 3; ++axis) {
         const Buffer& source = axis == 1 ? distances_ : fewerAxes_;
         const Buffer& target = axis == 1 ? fewerAxes_ : distances_;
-        stream.dispatch(along_[axis], {{"source", source}, {"target", target}}, push, groups);
+        stream.dispatch(along_[axis], cells, {{"source", source}, {"target", target}, numbers.all()});
     }
     stream.finish();
     if (isOctree(walk_)) fewerAxes_ = {};

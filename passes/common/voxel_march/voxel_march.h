@@ -28,17 +28,16 @@ struct EnumNames<VoxelWalk> {
 
 /// What rays walk through: surface voxels and what a walk needs besides, built of them. A shader that walks
 /// is compiled with defines(), includes shaders/voxel_march/voxel_march.glsl and is given bindings(): it is
-/// written once for all walks. A pass calls plan() and prepare() in its own. Docs: docs/voxel-march.md.
+/// written once for all walks. A pass calls plan() in its own. Docs: docs/voxel-march.md.
 class VoxelMarch {
  public:
     /// @param epsilon for SvoRestart: steps in floats, past each node by this many voxels, as in the
     /// paper, which skips what is thinner; 0 steps exactly.
-    explicit VoxelMarch(VoxelWalk walk, float epsilon = 0) : walk_(walk), epsilon_(epsilon) {}
+    VoxelMarch(ProgramOwner& owner, VoxelWalk walk, float epsilon = 0);
 
     /// Describes what a walk takes besides the voxels.
     /// @throws Error for a grid that it can't walk through.
     void plan(MemoryPlan& plan, const SurfaceVoxels& voxels);
-    void prepare(Device& device, const ShaderCompiler& compiler);
 
     /// Takes over the voxels where their content is another one, and sets the counts to 0. `voxels` must
     /// outlive the walks. Waits for the device where it builds.
@@ -58,9 +57,9 @@ class VoxelMarch {
 
     VoxelWalk walk_;
     float epsilon_;
-    std::optional<OctreeBuilder> builder_;
-    Program cells_;
-    std::array<Program, 3> along_;  ///< The axes.
+    std::optional<OctreeBuilder> builder_;  ///< Of walks through an octree.
+    Kernel cells_;
+    std::array<Kernel, 3> along_;  ///< The axes.
     const SurfaceVoxels* voxels_ = nullptr;
     std::optional<uint64_t> version_;  ///< Of the voxels that bricks or octree are built of.
     Octree octree_;

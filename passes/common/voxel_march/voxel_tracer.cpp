@@ -2,36 +2,35 @@
 
 #include <algorithm>
 
-#include "passes/common/compute/dispatch.h"
-
 namespace voxray {
 namespace {
 
 constexpr uint32_t kRaysPerLaunch = 1u << 26;
 
-struct MarchPush {
-    VkDeviceAddress rays, hits;
-    gpu::VoxelGrid grid;
-    uint32_t firstRay, endRay;
-};
-
 }  // namespace
 
-void VoxelTracer::prepare(Device& device, const ShaderCompiler& compiler) {
-    march_.prepare(device, compiler);
-    const ShaderModule module =
-        compiler.compile("passes/common/voxel_march/voxel_tracer.comp", march_.defines());
-    closestHit_ = makeComputeProgram(device, module, {{"kOccluded", 0}});
-    occluded_ = makeComputeProgram(device, module, {{"kOccluded", 1}});
+VoxelTracer::VoxelTracer(ProgramOwner& owner, VoxelWalk walk, float epsilon)
+    : march_(owner, walk, epsilon),
+      closestHit_(owner, "voxel_tracer.comp", march_.defines()),
+      occluded_(owner, "voxel_tracer.comp", march_.defines()) {}
+
+void VoxelTracer::plan(MemoryPlan& plan, const SurfaceVoxels& voxels) {
+    march_.plan(plan, voxels);
+    closestHit_.specialize({{"kOccluded", 0}});
+    occluded_.specialize({{"kOccluded", 1}});
 }
 
 void VoxelTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
                         uint32_t count, Coherence) {
     for (uint32_t first = 0; first < count;) {
         const uint32_t end = first + std::min(kRaysPerLaunch, count - first);
-        stream.dispatch(query == Query::Occluded ? occluded_ : closestHit_, march_.bindings(),
-                        MarchPush{rays.address(), results.address(), grid_, first, end},
-                        linearGroups(end - first));
+        stream.dispatch(query == Query::Occluded ? occluded_ : closestHit_, end - first,
+                        {march_,
+                         {"rays", rays.address()},
+                         {"hits", results.address()},
+                         {"grid", grid_},
+                         {"firstRay", first},
+                         {"endRay", end}});
         first = end;
     }
 }

@@ -12,11 +12,10 @@ namespace voxray {
 /// (shaders/voxel_march/surface_segment.glsl).
 class VoxelTracer final : public RayTracer {
  public:
-    explicit VoxelTracer(VoxelWalk walk, float epsilon = 0) : march_(walk, epsilon) {}
+    VoxelTracer(ProgramOwner& owner, VoxelWalk walk, float epsilon = 0);
 
     /// As VoxelMarch::plan().
-    void plan(MemoryPlan& plan, const SurfaceVoxels& voxels) { march_.plan(plan, voxels); }
-    void prepare(Device& device, const ShaderCompiler& compiler);
+    void plan(MemoryPlan& plan, const SurfaceVoxels& voxels);
     std::string_view name() const override { return "voxels"; }
     /// Takes over the voxels, as VoxelMarch::begin(); before the first rays and where the voxels have
     /// changed.
@@ -24,17 +23,17 @@ class VoxelTracer final : public RayTracer {
         march_.begin(stream, voxels);
         grid_ = voxels.grid;
     }
-    /// Nothing: begin() takes over what has moved.
     size_t memoryBytes() const override { return march_.memoryBytes(); }
     const VoxelMarch& march() const { return march_; }
 
  private:
+    /// Nothing: begin() takes over what has moved.
     void updateStructure(CommandStream&) override {}
     void trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
                Coherence coherence) override;
 
     VoxelMarch march_;
-    Program closestHit_, occluded_;
+    Kernel closestHit_, occluded_;
     gpu::VoxelGrid grid_{};
 };
 

@@ -8,8 +8,7 @@ namespace voxray {
 /// (shaders/voxels/face_irradiance.glsl). 6 x (W/m², area in voxel faces) as 24 floats a voxel.
 class FaceIrradiance {
  public:
-    FaceIrradiance() = default;
-    FaceIrradiance(Device& device, const ShaderCompiler& compiler);
+    explicit FaceIrradiance(ProgramOwner& owner);
 
     /// Bytes that update() allocates.
     static uint64_t bytes(uint32_t voxelCount) { return uint64_t(voxelCount) * 4 * kFaces * sizeof(float); }
@@ -22,7 +21,7 @@ class FaceIrradiance {
     Binding binding() const { return {"FaceIrradianceAt", faces_.at()}; }
 
  private:
-    Program program_;
+    Kernel program_;
     LargeBuffer faces_;
 };
 

@@ -3,21 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "passes/common/compute/dispatch.h"
-
 namespace voxray {
-namespace {
 
-struct FluxResolvePush {
-    uint32_t pairs;
-    float wattsPerUnit;
-};
-
-}  // namespace
-
-FluxAccumulator::FluxAccumulator(Device& device, const ShaderCompiler& compiler)
-    : resolve_(makeComputeProgram(device,
-                                  compiler.compile("passes/common/voxels/flux_accumulator_resolve.comp"))) {}
+FluxAccumulator::FluxAccumulator(ProgramOwner& owner) : resolve_(owner, "flux_accumulator_resolve.comp") {}
 
 void FluxAccumulator::begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels,
                             double power) {
@@ -33,8 +21,8 @@ std::vector<Binding> FluxAccumulator::bindings() const {
 void FluxAccumulator::resolve(CommandStream& stream, const SurfaceVoxels& voxels,
                               const LargeBuffer& flux) const {
     const uint32_t pairs = voxels.voxelCount * 3;
-    stream.dispatch(resolve_, {{"FluxAccumulatorAt", sums_.at()}, {"FluxAt", flux.at()}},
-                    FluxResolvePush{pairs, 1.0f / unitsPerWatt_}, linearGroups(pairs));
+    stream.dispatch(resolve_, pairs,
+                    {*this, {"FluxAt", flux.at()}, {"pairs", pairs}, {"wattsPerUnit", 1.0f / unitsPerWatt_}});
 }
 
 }  // namespace voxray

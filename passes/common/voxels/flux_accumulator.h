@@ -13,8 +13,7 @@ class FluxAccumulator {
  public:
     static constexpr uint64_t kBytesPerVoxel = kFaces * 3 * sizeof(uint64_t);
 
-    FluxAccumulator() = default;
-    FluxAccumulator(Device& device, const ShaderCompiler& compiler);
+    explicit FluxAccumulator(ProgramOwner& owner);
 
     /// Allocates and clears. @param power W of all light together. It makes 2^56 units, so that even all of
     /// it in one voxel, bounced up to 64 times, stays below 2^63.
@@ -28,7 +27,7 @@ class FluxAccumulator {
 
  private:
     float unitsPerWatt_ = 0;
-    Program resolve_;
+    Kernel resolve_;
     LargeBuffer sums_;
 };
 

@@ -1,16 +1,9 @@
 #include "passes/common/voxels/voxel_accumulator.h"
 
 #include "base/error.h"
-#include "passes/common/compute/dispatch.h"
 
 namespace voxray {
 namespace {
-
-struct ResolveSamplesPush {
-    uint32_t voxelCount;
-    float voxelSize;
-    float scale;
-};
 
 /// Bytes that the sums and the weights of a voxel take, as shaders/voxels/voxel_accumulator.glsl declares
 /// them.
@@ -32,11 +25,8 @@ BytesPerVoxel bytesPerVoxel(Write write) {
 
 }  // namespace
 
-VoxelAccumulator::VoxelAccumulator(Device& device, const ShaderCompiler& compiler, const WriteParams& params)
-    : params_(params),
-      resolve_(makeComputeProgram(
-          device,
-          compiler.compile("passes/common/voxels/voxel_accumulator_resolve.comp", defines(params.write)))) {}
+VoxelAccumulator::VoxelAccumulator(ProgramOwner& owner, const WriteParams& params)
+    : params_(params), resolve_(owner, "voxel_accumulator_resolve.comp", defines(params.write)) {}
 
 uint64_t VoxelAccumulator::plan(const PassPlan& plan, const std::string& pass, const WriteParams& params,
                                 const SurfaceVoxels& voxels) {
@@ -88,11 +78,14 @@ std::vector<Binding> VoxelAccumulator::bindings() const {
 
 void VoxelAccumulator::resolve(CommandStream& stream, const SurfaceVoxels& voxels, const LargeBuffer& flux,
                                const Buffer& area) const {
-    std::vector<Binding> all = bindings();
-    all.insert(all.end(),
-               {{"VoxelMaterialsAt", voxels.materials.at()}, {"FluxAt", flux.at()}, {"area", area}});
-    stream.dispatch(resolve_, all, ResolveSamplesPush{voxels.voxelCount, voxels.grid.voxelSize, scale_},
-                    linearGroups(voxels.voxelCount));
+    stream.dispatch(resolve_, voxels.voxelCount,
+                    {*this,
+                     {"VoxelMaterialsAt", voxels.materials.at()},
+                     {"FluxAt", flux.at()},
+                     {"area", area},
+                     {"voxelCount", voxels.voxelCount},
+                     {"voxelSize", voxels.grid.voxelSize},
+                     {"scale", scale_}});
 }
 
 }  // namespace voxray

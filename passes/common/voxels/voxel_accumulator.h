@@ -52,8 +52,7 @@ struct WriteParams {
 /// All but average know no weights: a face takes all of a sample, or none below 1/16 of its weight.
 class VoxelAccumulator {
  public:
-    VoxelAccumulator() = default;
-    VoxelAccumulator(Device& device, const ShaderCompiler& compiler, const WriteParams& params);
+    VoxelAccumulator(ProgramOwner& owner, const WriteParams& params);
 
     /// Bytes that begin() allocates, for the pass to reserve. @throws Error where the device lacks 64-bit
     /// atomics that `average` needs.
@@ -80,9 +79,9 @@ class VoxelAccumulator {
     void end() { sums_ = {}, weights_ = {}; }
 
  private:
-    WriteParams params_;
+    const WriteParams params_;
     float scale_ = 1;
-    Program resolve_;
+    Kernel resolve_;
     Buffer sums_, weights_;
 };
 

@@ -3,27 +3,16 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "passes/common/compute/dispatch.h"
 #include "passes/common/view/frame_image.h"
 
 namespace voxray {
-namespace {
 
-struct LookupPush {
-    gpu::VoxelGrid grid;
-    float radius;
-    uint32_t samples;
-    uint32_t lookup;
-};
-
-}  // namespace
-
-void VoxelLookupPass::declare(PassBuilder& builder) {
-    gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees");
-    voxels_ = builder.read<SurfaceVoxels>("voxels", "surface voxels");
-    irradiance_ = builder.read<VoxelIrradiance>("irradiance", "light that arrives at the voxels' surfaces");
-    reflected_ = builder.write<FrameImage>(portName_, portHelp_);
-}
+VoxelLookupPass::VoxelLookupPass(const Params& params, std::string port, std::string help,
+                                 LargeBuffer VoxelIrradiance::*flux)
+    : params_(params),
+      portName_(std::move(port)),
+      flux_(flux),
+      reflected_(*this, portName_, std::move(help)) {}
 
 uint32_t VoxelLookupPass::reach() const {
     const float radius = params_.lookup == VoxelLookup::BilinearFace ? 1.0f : params_.radius;
@@ -34,38 +23,26 @@ uint32_t VoxelLookupPass::reach() const {
 }
 
 void VoxelLookupPass::plan(PassPlan& plan) {
-    const std::optional<uint32_t> known = plan.get(irradiance_).reach;
+    const std::optional<uint32_t> known = plan[irradiance_].reach;
     if (known && *known < reach())
         throw Error(
             "the lookup reads voxels up to {} from what the camera sees, and light is gathered for those up "
-            "to "
-            "{}; set the 'reach' of gather_clusters to {}",
+            "to {}; set the 'reach' of gather_clusters to {}",
             reach(), *known, reach());
-    if (flux_ == &VoxelIrradiance::indirect)
-        plan.get(reflected_).lightBounces = plan.get(irradiance_).lightBounces;
-    plan.image(plan.get(reflected_).image, portName_, frameImageDesc(plan.frame));
-}
-
-void VoxelLookupPass::prepare(PassSetup& setup) {
-    program_ =
-        makeComputeProgram(setup.device, setup.compiler.compile("passes/common/voxels/voxel_lookup.comp"));
-    sampler_ = texelSampler(setup.device);
+    if (flux_ == &VoxelIrradiance::indirect) plan[reflected_].lightBounces = plan[irradiance_].lightBounces;
+    plan.image(plan[reflected_].image, portName_, frameImageDesc(plan.frame));
 }
 
 void VoxelLookupPass::record(PassContext& context) {
-    const GBuffer& gbuffer = context.get(gbuffer_);
-    const SurfaceVoxels& voxels = context.get(voxels_);
-    const VoxelIrradiance& irradiance = context.get(irradiance_);
-    context.stream.dispatch(
-        program_,
-        voxels.bindings({{"position", gbuffer.position, sampler_},
-                         {"normal", gbuffer.normal, sampler_},
-                         {"albedo", gbuffer.albedo, sampler_},
-                         {"VoxelFluxAt", (irradiance.*flux_).at()},
-                         {"voxelArea", irradiance.area},
-                         {"result", context.get(reflected_).image}}),
-        LookupPush{voxels.grid, params_.radius, gbuffer.samples, uint32_t(params_.lookup)},
-        pixelGroups(context.frame.width, context.frame.height));
+    const VoxelIrradiance& irradiance = context[irradiance_];
+    context.dispatch(program_, context.frame.pixels(),
+                     {context[gbuffer_],
+                      context[voxels_],
+                      {"VoxelFluxAt", (irradiance.*flux_).at()},
+                      {"voxelArea", irradiance.area},
+                      {"result", context[reflected_].image},
+                      {"radius", params_.radius},
+                      {"lookup", params_.lookup}});
 }
 
 }  // namespace voxray

@@ -38,30 +38,26 @@ class VoxelLookupPass : public Pass {
         }
     };
 
-    void declare(PassBuilder& builder) override;
     void plan(PassPlan& plan) override;
-    void prepare(PassSetup& setup) override;
     void record(PassContext& context) override;
 
  protected:
     /// @param port what the pass writes, and its help. @param flux VoxelIrradiance::direct or ::indirect.
     VoxelLookupPass(const Params& params, std::string port, std::string help,
-                    LargeBuffer VoxelIrradiance::*flux)
-        : params_(params), portName_(std::move(port)), portHelp_(std::move(help)), flux_(flux) {}
+                    LargeBuffer VoxelIrradiance::*flux);
 
  private:
     /// Voxels along each axis round that of a point that are read for it, at most.
     uint32_t reach() const;
 
-    Params params_;
-    std::string portName_, portHelp_;
-    LargeBuffer VoxelIrradiance::*flux_;
-    Port<const GBuffer> gbuffer_;
-    Port<const SurfaceVoxels> voxels_;
-    Port<const VoxelIrradiance> irradiance_;
-    Port<FrameImage> reflected_;
-    Program program_;
-    Sampler sampler_;
+    const Params params_;
+    const std::string portName_;
+    LargeBuffer VoxelIrradiance::*const flux_;
+    In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
+    In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
+    In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
+    Out<FrameImage> reflected_;
+    Kernel program_{*this, "voxel_lookup.comp"};
 };
 
 }  // namespace voxray

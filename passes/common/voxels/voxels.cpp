@@ -10,7 +10,7 @@ namespace voxray {
 
 std::vector<Binding> SurfaceVoxels::bindings(std::vector<Binding> more) const {
     more.insert(more.begin(), {ifUsed({"voxelOccupancy", occupancy}), ifUsed({"voxelRank", rank}),
-                               ifUsed({"VoxelMaterialsAt", materials.at()})});
+                               ifUsed({"VoxelMaterialsAt", materials.at()}), ifUsed({"grid", grid})});
     return more;
 }
 

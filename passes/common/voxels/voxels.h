@@ -41,8 +41,8 @@ struct SurfaceVoxels : Resource {
         const glm::uvec3 held = heldVoxels(grid).size;
         return uint64_t(grid.wordsPerRow) * held.y * held.z;
     }
-    /// The bindings that a shader including shaders/voxels/voxels.glsl may use, followed by `more`.
-    std::vector<Binding> bindings(std::vector<Binding> more) const;
+    /// The bindings that a shader including shaders/voxels/voxels.glsl may use, and `grid`; then `more`.
+    std::vector<Binding> bindings(std::vector<Binding> more = {}) const;
     std::vector<Binding> bindings(std::initializer_list<Binding> more) const {
         return bindings(std::vector<Binding>(more));
     }

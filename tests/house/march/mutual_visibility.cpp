@@ -1,44 +1,49 @@
-#include "tests/house/march/mutual_visibility.h"
+#include "graph/registry.h"
+#include "passes/common/view/frame_image.h"
+#include "passes/common/view/gbuffer.h"
+#include "passes/common/voxel_march/voxel_march.h"
 
 namespace voxray {
-namespace {
 
-struct Push {
-    gpu::VoxelGrid grid;
-    glm::uvec2 pixel;
+/// Which pixels' surfaces see the surface at one of them, through voxels.
+class MutualVisibility final : public Pass {
+ public:
+    static constexpr const char* kName = "mutual_visibility";
+    static constexpr const char* kHelp =
+        "1 where a pixel's surface sees the surface at pixel (x, y), else 0.";
+    struct Params {
+        uint32_t x = 0, y = 0;
+        static constexpr auto schema() {
+            return std::tuple{field("x", &Params::x, "Column of the pixel.", 0u, 4095u),
+                              field("y", &Params::y, "Its row.", 0u, 4095u)};
+        }
+    };
+    explicit MutualVisibility(const Params& params) : params_(params) {}
+
+    void plan(PassPlan& plan) override {
+        march_.plan(plan, plan[voxels_]);
+        plan.image(plan[seen_].image, "seen", frameImageDesc(plan.frame));
+    }
+    void record(PassContext& context) override {
+        const SurfaceVoxels& voxels = context[voxels_];
+        march_.begin(context.stream, voxels);
+        context.dispatch(kernel_, context.frame.pixels(),
+                         {context[gbuffer_],
+                          march_,
+                          {"seen", context[seen_].image},
+                          {"grid", voxels.grid},
+                          {"pixel", glm::uvec2(params_.x, params_.y)}});
+        context.voxelCounts.push_back(&march_.counts());
+    }
+
+ private:
+    const Params params_;
+    In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees, a texel a pixel"};
+    In<SurfaceVoxels> voxels_{*this, "voxels", "what hides surfaces from each other"};
+    Out<FrameImage> seen_{*this, "seen", "1 or 0"};
+    VoxelMarch march_{*this, VoxelWalk::Bricks};
+    Kernel kernel_{*this, "mutual_visibility.comp", march_.defines()};
 };
-
-}  // namespace
-
-void MutualVisibility::declare(PassBuilder& builder) {
-    gbuffer_ = builder.read<GBuffer>("gbuffer", "what the camera sees, a texel a pixel");
-    voxels_ = builder.read<SurfaceVoxels>("voxels", "what hides surfaces from each other");
-    seen_ = builder.write<FrameImage>("seen", "1 or 0");
-}
-
-void MutualVisibility::plan(PassPlan& plan) {
-    march_.plan(plan, plan.get(voxels_));
-    plan.image(plan.get(seen_).image, "seen", frameImageDesc(plan.frame));
-}
-
-void MutualVisibility::prepare(PassSetup& setup) {
-    march_.prepare(setup.device, setup.compiler);
-    program_ = makeComputeProgram(
-        setup.device, setup.compiler.compile("tests/house/march/mutual_visibility.comp", march_.defines()));
-    sampler_ = texelSampler(setup.device);
-}
-
-void MutualVisibility::record(PassContext& context) {
-    const GBuffer& gbuffer = context.get(gbuffer_);
-    const SurfaceVoxels& voxels = context.get(voxels_);
-    march_.begin(context.stream, voxels);
-    std::vector<Binding> bindings = march_.bindings();
-    bindings.insert(bindings.end(), {{"position", gbuffer.position, sampler_},
-                                     {"geometricNormal", gbuffer.geometricNormal, sampler_},
-                                     {"seen", context.get(seen_).image}});
-    context.stream.dispatch(program_, bindings, Push{voxels.grid, {params_.x, params_.y}},
-                            {(context.frame.width + 7) / 8, (context.frame.height + 7) / 8, 1});
-    context.voxelCounts.push_back(&march_.counts());
-}
+VOXRAY_REGISTER_PASS(MutualVisibility);
 
 }  // namespace voxray

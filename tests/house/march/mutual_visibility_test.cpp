@@ -1,9 +1,8 @@
 // The example of docs/voxel-march.md: what a pixel of Cornell sees, by voxels and by shadow rays through
 // triangles.
-#include "tests/house/march/mutual_visibility.h"
-
 #include <gtest/gtest.h>
 
+#include "passes/common/view/gbuffer.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {
@@ -17,7 +16,7 @@ TEST(MutualVisibility, IsThatOfShadowRaysButForAFewVoxels) {
     Chain chain("cornell", "{lights: point}",
                 graphYaml({"gbuffer", "voxelize, resolution: 128",
                            fmt::format("mutual_visibility, x: {}, y: {}", x, y)}),
-                kSide, kSide, 1, [](Registry& registry) { registry.add<MutualVisibility>(); });
+                kSide, kSide, 1, [](Registry& registry) { addRegistered(registry, "tests/house/march/"); });
     const ImageF seen = chain.image("seen");
     const glm::vec4 from =
         chain.readImage<glm::vec4>(chain.graph().resource<GBuffer>("gbuffer")->position)[y * kSide + x];

@@ -1,6 +1,6 @@
 // Ambient rays of a batch of pixels, by cosine about the normals of the g-buffer's texels.
 #include "shaders/scene/sampling.glsl"
-#include "tests/house/occlusion/batch.glsl"
+#include "batch.glsl"
 layout(local_size_x = 64) in;
 
 uniform sampler2D position;  // m; w: how far off it rays begin, 0 where there is no surface.

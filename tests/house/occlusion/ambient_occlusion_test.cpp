@@ -1,5 +1,3 @@
-#include "tests/house/occlusion/ambient_occlusion.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +14,7 @@ Chain boxOf(uint32_t size, const std::string& parameters, uint64_t seed = 1,
             const std::string& gbuffer = "gbuffer") {
     return Chain("cornell", "{lights: point, boxes: false}",
                  graphYaml({gbuffer, "ambient_occlusion" + parameters}), size, size, seed,
-                 [](Registry& registry) { registry.add<AmbientOcclusion>(); });
+                 [](Registry& registry) { addRegistered(registry, "tests/house/occlusion/"); });
 }
 
 float centerOf(const ImageF& image) {

@@ -1,5 +1,5 @@
 // Radiance that each pixel of a batch reflects of the ambient light that its rays let through.
-#include "tests/house/occlusion/batch.glsl"
+#include "batch.glsl"
 layout(local_size_x = 64) in;
 
 uniform sampler2D albedo;

@@ -1,27 +1,40 @@
-#include "tests/house/template/tint.h"
+#include "graph/registry.h"
+#include "passes/common/view/frame_image.h"
 
 namespace voxray {
 
-void Tint::declare(PassBuilder& builder) {
-    source_ = builder.read<FrameImage>("source", "Image to tint.");
-    final_ = builder.write<FrameImage>("final", "The tinted image.");
-}
+/// Multiplies an image by a colour. The template of a pass: copy this folder to passes/<family>/<name>/.
+class Tint final : public Pass {
+ public:
+    static constexpr const char* kName = "tint";
+    static constexpr const char* kHelp =
+        "Multiplies an image by a colour.\n"
+        "Exact: no bias, no noise. Source: the template of docs/writing-a-pass.md.";
+    struct Params {
+        glm::vec3 color{1.0f};
+        static constexpr auto schema() {
+            return std::tuple{field("color", &Params::color, "Factor of each channel.", glm::vec3(0.0f),
+                                    glm::vec3(1000.0f))};
+        }
+    };
+    explicit Tint(const Params& params) : params_(params) {}
 
-void Tint::plan(PassPlan& plan) {
-    ImageDesc desc;
-    desc.extent = {plan.frame.width, plan.frame.height, 1};
-    plan.image(plan.get(final_).image, "tinted image", desc);
-}
+    void plan(PassPlan& plan) override {
+        plan.image(plan[final_].image, "tinted image", frameImageDesc(plan.frame));
+    }
+    void record(PassContext& context) override {
+        context.dispatch(kernel_, context.frame.pixels(),
+                         {{"source", context[source_].image},
+                          {"target", context[final_].image},
+                          {"color", params_.color}});
+    }
 
-void Tint::prepare(PassSetup& setup) {
-    program_ = makeComputeProgram(setup.device, setup.compiler.compile("tests/house/template/tint.comp"));
-}
-
-void Tint::record(PassContext& context) {
-    const Image& target = context.get(final_).image;
-    const glm::uvec3 pixels = target.desc().extent;
-    context.stream.dispatch(program_, {{"source", context.get(source_).image}, {"target", target}},
-                            params_.color, {(pixels.x + 7) / 8, (pixels.y + 7) / 8, 1});
-}
+ private:
+    const Params params_;
+    In<FrameImage> source_{*this, "source", "Image to tint."};
+    Out<FrameImage> final_{*this, "final", "The tinted image."};
+    Kernel kernel_{*this, "tint.comp"};
+};
+VOXRAY_REGISTER_PASS(Tint);
 
 }  // namespace voxray

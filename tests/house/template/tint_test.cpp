@@ -1,8 +1,7 @@
-#include "tests/house/template/tint.h"
-
 #include <gtest/gtest.h>
 
 #include "graph/graph.h"
+#include "passes/common/view/frame_image.h"
 #include "scene/load.h"
 #include "tests/support/device.h"
 #include "tests/support/places.h"
@@ -15,32 +14,22 @@ class KnownImage final : public Pass {
  public:
     static constexpr const char* kName = "known_image";
     static constexpr const char* kHelp = "An image of radiance (1, 2, 3).";
-    struct Params {
-        static constexpr auto schema() { return std::tuple{}; }
-    };
-    explicit KnownImage(const Params&) {}
     Phase phase() const override { return Phase::Frame; }
-    void declare(PassBuilder& builder) override {
-        source_ = builder.write<FrameImage>("source", "The image.");
-    }
     void plan(PassPlan& plan) override {
-        ImageDesc desc;
-        desc.extent = {plan.frame.width, plan.frame.height, 1};
-        plan.image(plan.get(source_).image, "known", desc);
+        plan.image(plan[source_].image, "known", frameImageDesc(plan.frame));
     }
-    void prepare(PassSetup&) override {}
     void record(PassContext& context) override {
-        context.stream.clear(context.get(source_).image, VkClearColorValue{{1.0f, 2.0f, 3.0f, 1.0f}});
+        context.stream.clear(context[source_].image, VkClearColorValue{{1.0f, 2.0f, 3.0f, 1.0f}});
     }
 
  private:
-    Port<FrameImage> source_;
+    Out<FrameImage> source_{*this, "source", "The image."};
 };
 
 Registry registryWithTint() {
     Registry registry;
     registry.add<KnownImage>();
-    registry.add<Tint>();
+    addRegistered(registry, "tests/house/template/");
     return registry;
 }
 

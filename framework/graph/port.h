@@ -1,0 +1,113 @@
+#pragma once
+
+#include <string>
+#include <typeindex>
+#include <utility>
+#include <vector>
+
+#include "graph/resource.h"
+
+/// What a pass reads and writes, as its members.
+namespace voxray {
+
+struct PortInfo {
+    std::string name;
+    std::string help;
+    bool output = false;
+    bool optional = false;
+    std::type_index type = typeid(void);
+    Resource* (*create)() = nullptr;  ///< Of an output.
+};
+
+/// What ports are members of: a pass, also for the parts of it that several passes share.
+class PortOwner {
+ public:
+    PortOwner() = default;
+    PortOwner(const PortOwner&) = delete;
+    PortOwner& operator=(const PortOwner&) = delete;
+    /// In the order of its members.
+    const std::vector<PortInfo>& ports() const { return ports_; }
+
+ protected:
+    ~PortOwner() = default;
+
+ private:
+    friend class Port;
+    std::vector<PortInfo> ports_;
+};
+
+/// What inputs and outputs have in common: the graph binds them to resources.
+class Port {
+ public:
+    Port(const Port&) = delete;
+    Port& operator=(const Port&) = delete;
+
+ protected:
+    Port(PortOwner& owner, PortInfo info, bool isAsked) {
+        if (!isAsked) return;
+        index_ = int(owner.ports_.size());
+        owner.ports_.push_back(std::move(info));
+    }
+
+ private:
+    friend class PortAccess;
+    int index_ = -1;  ///< Of the pass's own ports; -1: it has none, with its parameters.
+};
+
+/// An input of a pass: what an earlier pass writes under this name (or under the name that the config's
+/// `inputs` gives).
+template <typename T>
+class In : public Port {
+ public:
+    /// @param isAsked false: with its parameters the pass has no such port.
+    In(PortOwner& owner, std::string name, std::string help, bool isAsked = true)
+        : Port(owner, {std::move(name), std::move(help), false, false, typeid(T)}, isAsked) {}
+};
+
+/// The same, but the graph is valid without it.
+template <typename T>
+class InOptional : public Port {
+ public:
+    InOptional(PortOwner& owner, std::string name, std::string help, bool isAsked = true)
+        : Port(owner, {std::move(name), std::move(help), false, true, typeid(T)}, isAsked) {}
+};
+
+/// An output of a pass.
+template <typename T>
+class Out : public Port {
+ public:
+    Out(PortOwner& owner, std::string name, std::string help, bool isAsked = true)
+        : Port(owner,
+               {std::move(name), std::move(help), true, false, typeid(T),
+                []() -> Resource* { return new T(); }},
+               isAsked) {}
+};
+
+/// Access to the resources that a pass's ports are bound to.
+class PortAccess {
+ public:
+    explicit PortAccess(const std::vector<Resource*>& resources) : resources_(resources) {}
+
+    template <typename T>
+    const T& operator[](const In<T>& port) const {
+        return static_cast<const T&>(*bound(port));
+    }
+    /// Null where nothing writes it.
+    template <typename T>
+    const T* operator[](const InOptional<T>& port) const {
+        return static_cast<const T*>(bound(port));
+    }
+    template <typename T>
+    T& operator[](const Out<T>& port) const {
+        return static_cast<T&>(*bound(port));
+    }
+
+ private:
+    Resource* bound(const Port& port) const {
+        return port.index_ < 0 ? nullptr : resources_[size_t(port.index_)];
+    }
+
+    const std::vector<Resource*>& resources_;
+};
+
+}  // namespace voxray

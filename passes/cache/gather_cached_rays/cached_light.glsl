@@ -1,0 +1,16 @@
+// What a radiance cache holds, for the final gather (passes/final_gather/hit.glsl).
+#include "passes/final_gather/hit.glsl"
+#include "passes/cache/radiance_cache.glsl"
+
+layout(constant_id = 0) const uint minSamples = 1u;
+
+StoredLight storedLight(vec3 position, vec3 normal) {
+    const RadianceCacheGrid g = radianceCacheGrid.data;
+    StoredLight stored = StoredLight(vec3(0.0), radianceCacheCellSize(g, radianceCacheLevel(g, position)), false);
+    const uint slot = findRadianceCell(g, radianceCacheKey(g, position, normal));
+    if (slot == NO_CELL) return stored;
+    const vec4 mean = meanRadianceCell(g, slot);
+    stored.irradiance = mean.rgb;
+    stored.known = mean.w >= float(minSamples);
+    return stored;
+}

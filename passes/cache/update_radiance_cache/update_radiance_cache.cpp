@@ -1,0 +1,268 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "base/error.h"
+#include "graph/registry.h"
+#include "passes/cache/radiance_cache.h"
+#include "passes/cache/update_radiance_cache/path_types.h"
+#include "passes/common/compute/random_seed.h"
+#include "passes/common/view/image_rays.h"
+#include "passes/surfels/surfel_light.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kMaxVertices = 1u << 19;  // Of a batch of paths: 74 MiB.
+constexpr uint32_t kWrittenVertices = 4;     // Of a path: what it sees, and what rays that go on see.
+
+// As in write.comp.
+struct CellCounts {
+    uint32_t cells, lost, collisions;
+};
+
+}  // namespace
+
+enum class CacheUpdate { Once, EachFrame };
+template <>
+struct EnumNames<CacheUpdate> {
+    static constexpr std::array names{std::pair{CacheUpdate::Once, "once"},
+                                      std::pair{CacheUpdate::EachFrame, "each_frame"}};
+};
+
+/// Paths from the camera whose vertices leave the irradiance that they receive in a radiance cache. Source:
+/// NVIDIA's SHaRC; Binder et al. 2019, "Massively parallel path space filtering".
+class UpdateRadianceCache final : public Pass {
+ public:
+    static constexpr const char* kName = "update_radiance_cache";
+    static constexpr const char* kHelp =
+        "Fills a hashed radiance cache by paths traced from the camera. Shadow rays measure direct light at "
+        "each vertex. The first four vertices of a path leave in hashed cells the irradiance that the rest "
+        "of it brings. Unbiased in the mean of a cell. Leaves without cells: what no path meets, and what "
+        "finds the table full. Biased by: the size of cells; with history_frames, light that changed since; "
+        "samples_to_end. Noisy by: rays_per_image, the more so the smaller cells are. Source: NVIDIA's "
+        "SHaRC.";
+    struct Params {
+        CacheUpdate update = CacheUpdate::EachFrame;
+        uint32_t raysPerImage = 65536;
+        uint32_t bounces = 8;
+        uint32_t lightSamples = 1;
+        float cellSize = 0.1f;
+        uint32_t normalBins = 1;
+        uint32_t capacity = 1u << 20;
+        uint32_t historyFrames = 1;
+        uint32_t samplesToEnd = 0;
+        static constexpr auto schema() {
+            return std::tuple{
+                field(
+                    "update", &Params::update,
+                    "once: the cache is built before the frames, from where the camera is then. each_frame: "
+                    "it is made again in each frame, or goes on where history_frames is more than 1."),
+                field("rays_per_image", &Params::raysPerImage, "Paths from the camera in an update.", 1u,
+                      1u << 24)
+                    .lessNoise(),
+                field("bounces", &Params::bounces,
+                      "Bounces of light; Russian roulette by albedo ends paths early.", 0u, 32u),
+                field("light_samples", &Params::lightSamples,
+                      "Shadow rays at each vertex to the emissive surfaces, and to the environment.", 1u,
+                      64u),
+                field("cell_size", &Params::cellSize,
+                      "Largest edge of a cell over its distance from the camera; edges are the scene's size "
+                      "over powers of two.",
+                      0.0005f, 4.0f),
+                field("normal_bins", &Params::normalBins,
+                      "Normals are told apart by the face of a cube that they pass, and on each face by this "
+                      "many bins along each edge.",
+                      {1, 2, 3, 4, 5, 6}),
+                field("capacity", &Params::capacity, "Slots of the hash table, 40 bytes each.",
+                      powersOfTwo(1u << 6, 1u << 22)),
+                field("history_frames", &Params::historyFrames,
+                      "Each frame keeps all but one part in this many of the samples so far, so that cells "
+                      "hold the samples of about this many frames; light that changes lags behind as long. "
+                      "1: nothing is kept.",
+                      1u, 1024u)
+                    .onlyWith(oneOf(&Params::update, {CacheUpdate::EachFrame})),
+                field(
+                    "samples_to_end", &Params::samplesToEnd,
+                    "A path ends at its second vertex or a later one where the cell there had this many "
+                    "samples in the previous frame, and takes its light. Biased: light of all bounces, with "
+                    "the errors of cells and a lag of their own. 0: no path ends so.",
+                    0u, 65536u)
+                    .onlyWith(noneOf(&Params::historyFrames, {1u}))};
+        }
+    };
+
+    explicit UpdateRadianceCache(const Params& params) : params_(params) {}
+    Phase phase() const override {
+        return params_.update == CacheUpdate::EachFrame ? Phase::Frame : Phase::Build;
+    }
+    uint32_t framesBefore() const override { return params_.historyFrames - 1; }
+    void plan(PassPlan& plan) override;
+    void record(PassContext& context) override;
+
+ private:
+    bool keepsHistory() const {
+        return params_.update == CacheUpdate::EachFrame && params_.historyFrames > 1;
+    }
+    bool endsInCache() const { return keepsHistory() && params_.samplesToEnd > 0; }
+    /// Vertices of a path, at most: those that are written, and the bounces that the last of them still
+    /// needs.
+    uint32_t pathVertices() const { return kWrittenVertices + params_.bounces; }
+    uint32_t batchPaths() const { return std::min(params_.raysPerImage, kMaxVertices / pathVertices()); }
+    gpu::RadianceCacheGrid makeGrid(const Frame& frame) const;
+    /// Empties the table, or hands on what is kept of the previous frame.
+    void begin(PassContext& context, RadianceCache& cache);
+    /// Traces paths [first, first + count) of an update and leaves their light in the cache. @return
+    /// vertices.
+    uint32_t follow(PassContext& context, const RadianceCache& cache, uint32_t first, uint32_t count,
+                    uint32_t seed);
+
+    const Params params_;
+    Out<RadianceCache> cache_{*this, "radiance_cache", "light that arrives at surfaces, by hashed cells"};
+    std::vector<LightSource> sources_;
+    float unitsPerIrradiance_ = 1;
+    ImageRays imageRays_{*this};
+    SurfelLight light_{*this};
+    Kernel follow_{*this, "follow.comp"};
+    Kernel write_{*this, "write.comp"};
+    Kernel age_{*this, "age.comp"};
+    std::array<Buffer, 2> rays_, origins_;  ///< Of a path's step, and of the next one.
+    Buffer hits_, surfels_, vertices_, direct_, vertexCount_, cellCounts_;
+    Buffer oldKeys_, oldSums_;  ///< Of the previous frame, with history_frames.
+    bool hasHistory_ = false;
+};
+
+void UpdateRadianceCache::plan(PassPlan& plan) {
+    if (!plan.device.shaderInt64Atomics)
+        throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", kName,
+                    plan.device.name);
+    sources_ = requireLightSources(*plan.frame.scene, kName);
+    unitsPerIrradiance_ =
+        std::ldexp(1.0f, 28) / std::max(meanIrradiance(sources_, plan.frame.scene->geometry), 1e-30f);
+
+    RadianceCache& cache = plan[cache_];
+    if (!endsInCache()) cache.lightBounces = params_.bounces;  // Else light of all bounces.
+    plan.buffer(cache.gridAt, "grid of the radiance cache", sizeof(gpu::RadianceCacheGrid));
+    plan.buffer(cache.keys, "keys of the radiance cache", params_.capacity * RadianceCache::kKeyBytes);
+    plan.buffer(cache.sums, "sums of the radiance cache", params_.capacity * RadianceCache::kSumBytes);
+    if (keepsHistory()) {
+        plan.buffer(oldKeys_, "keys of the previous frame", params_.capacity * RadianceCache::kKeyBytes);
+        plan.buffer(oldSums_, "sums of the previous frame", params_.capacity * RadianceCache::kSumBytes);
+    }
+    const uint64_t paths = batchPaths(), vertices = paths * pathVertices();
+    for (Buffer& rays : rays_) plan.buffer(rays, "path rays", paths * sizeof(Ray));
+    for (Buffer& origins : origins_) plan.buffer(origins, "origins of path rays", paths * sizeof(uint32_t));
+    plan.buffer(hits_, "path hits", paths * sizeof(Hit));
+    plan.buffer(surfels_, "surfels of paths", vertices * sizeof(gpu::Surfel));
+    plan.buffer(vertices_, "vertices of paths", vertices * sizeof(gpu::PathVertex));
+    plan.buffer(direct_, "direct light at vertices", vertices * 4 * sizeof(float));
+    plan.buffer(vertexCount_, "number of vertices", sizeof(uint32_t));
+    plan.buffer(cellCounts_, "counts of cells", sizeof(CellCounts));
+    light_.plan(plan, uint32_t(vertices));
+    follow_.specialize({{"samplesToEnd", endsInCache() ? params_.samplesToEnd : 0}});
+    age_.compileIf(keepsHistory());
+}
+
+void UpdateRadianceCache::record(PassContext& context) {
+    RadianceCache& cache = context[cache_];
+    begin(context, cache);
+    const uint32_t seed = randomSeed(context.frame, context.frameIndex);
+    double vertices = 0;
+    for (uint32_t first = 0; first < params_.raysPerImage; first += batchPaths())
+        vertices += follow(context, cache, first, std::min(batchPaths(), params_.raysPerImage - first), seed);
+    const CellCounts counts = context.stream.readAs<CellCounts>(cellCounts_, 1)[0];
+    context.report("cells", counts.cells);
+    context.report("occupancy", double(counts.cells) / params_.capacity);
+    context.report("vertices per path", vertices / params_.raysPerImage);
+    context.report("samples lost", counts.lost);
+    context.report("hash collisions per cell",
+                   counts.cells > 0 ? double(counts.collisions) / counts.cells : 0);
+}
+
+// A cube round the scene's region, whose halves, quarters and so on are no round fractions of it: surfaces of
+// a model often lie at those.
+gpu::RadianceCacheGrid UpdateRadianceCache::makeGrid(const Frame& frame) const {
+    const auto [low, high] = frame.scene->geometry.region;
+    const glm::vec3 size = high - low;
+    const float largest = std::max({size.x, size.y, size.z, 1e-6f});
+    return {low - 0.0113f * largest, 1.0371f * largest,  frame.camera.position, params_.cellSize,
+            params_.capacity,        params_.normalBins, unitsPerIrradiance_};
+}
+
+void UpdateRadianceCache::begin(PassContext& context, RadianceCache& cache) {
+    CommandStream& stream = context.stream;
+    cache.grid = makeGrid(context.frame);
+    stream.upload(cache.gridAt, std::vector{cache.grid});
+    if (keepsHistory()) {
+        if (!hasHistory_) stream.fill(cache.keys, 0);
+        std::swap(cache.keys, oldKeys_);
+        std::swap(cache.sums, oldSums_);
+    }
+    stream.fill(cache.keys, 0);
+    stream.fill(cache.sums, 0);
+    stream.fill(cellCounts_, 0);
+    if (keepsHistory())
+        context.dispatch(age_, params_.capacity,
+                         {cache,
+                          {"oldKeys", oldKeys_},
+                          {"oldSums", oldSums_},
+                          {"cellCounts", cellCounts_},
+                          {"historyFrames", params_.historyFrames}});
+    hasHistory_ = keepsHistory();
+}
+
+uint32_t UpdateRadianceCache::follow(PassContext& context, const RadianceCache& cache, uint32_t first,
+                                     uint32_t count, uint32_t seed) {
+    CommandStream& stream = context.stream;
+    // Trace the paths, all of them a step at a time.
+    stream.fill(vertexCount_, 0);
+    imageRays_.record(context, rays_[0], first, count, seed);
+    uint32_t vertices = 0, written = 0, rays = count;
+    for (uint32_t step = 0; step < pathVertices() && rays > 0; ++step) {
+        const size_t from = step % 2, to = 1 - from;
+        context.tracer.closestHit(stream, rays_[from], hits_, rays);
+        context.dispatch(follow_, rays,
+                         {context.scene,
+                          {"rays", rays_[from]},
+                          {"hits", hits_},
+                          {"origins", origins_[from]},
+                          {"nextRays", rays_[to]},
+                          {"nextOrigins", origins_[to]},
+                          {"surfels", surfels_},
+                          {"vertices", vertices_},
+                          {"vertexCount", vertexCount_},
+                          {"radianceCacheGrid", cache.gridAt},
+                          {"radianceCacheKeys", endsInCache() ? oldKeys_ : cache.keys},
+                          {"radianceCacheSums", endsInCache() ? oldSums_ : cache.sums},
+                          {"rayCount", rays},
+                          {"firstVertex", vertices},
+                          {"firstPath", first},
+                          {"paths", params_.raysPerImage},
+                          {"seed", seed + 0x51u},
+                          {"fromCamera", step == 0},
+                          {"isWritten", step < kWrittenVertices}});
+        const uint32_t now = stream.readAs<uint32_t>(vertexCount_, 1)[0];
+        rays = now - vertices;
+        vertices = now;
+        if (step < kWrittenVertices) written = now;
+    }
+
+    // Direct light at all vertices, then what each receives from those that follow it.
+    if (vertices > 0) {
+        light_.measure(context, sources_, surfels_, vertices, params_.lightSamples, seed + 0xa3u, direct_);
+        context.dispatch(write_, written,
+                         {cache,
+                          {"surfels", surfels_},
+                          {"vertices", vertices_},
+                          {"direct", direct_},
+                          {"cellCounts", cellCounts_},
+                          {"count", written},
+                          {"bounces", params_.bounces}});
+    }
+    return vertices;
+}
+
+VOXRAY_REGISTER_PASS(UpdateRadianceCache);
+
+}  // namespace voxray

@@ -1,0 +1,23 @@
+#include "passes/clusters/cluster_light.h"
+
+namespace voxray {
+
+std::vector<Binding> gatherBindings(const ClusterVisibility& visibility, const ClusterLight& light,
+                                    std::initializer_list<Binding> more) {
+    std::vector<Binding> all{{"seenChunks", visibility.addresses},
+                             {"partRadiosity", light.parts},
+                             {"PatchRadiosityAt", light.patches.at()}};
+    all.insert(all.end(), more);
+    return all;
+}
+
+void ClusterGather::gather(CommandStream& stream, const ClusterVisibility& visibility,
+                           const ClusterLight& light, const LargeBuffer& irradiance) const {
+    stream.dispatch(gather_, visibility.patchCount,
+                    {gatherBindings(visibility, light),
+                     {"IrradianceAt", irradiance.at()},
+                     {"lists", visibility.layout},
+                     {"patches", visibility.patchCount}});
+}
+
+}  // namespace voxray

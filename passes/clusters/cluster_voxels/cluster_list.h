@@ -1,0 +1,29 @@
+#pragma once
+
+#include "passes/clusters/cluster_voxels/cluster_growth.h"
+#include "passes/common/compute/compaction.h"
+#include "passes/common/compute/histogram.h"
+#include "passes/common/compute/radix_sort.h"
+
+namespace voxray {
+
+/// Drops empty clusters, lists the voxels of each and describes it.
+class ClusterList {
+ public:
+    explicit ClusterList(ProgramOwner& owner);
+
+    /// Bytes that make() takes besides its results and RadixSort, at most. @param seeds of the growth.
+    static uint64_t scratchBytes(uint64_t voxels, uint64_t seeds);
+    /// Fills `clusters`, whose coordinates are there. Waits for the device.
+    void make(CommandStream& stream, const SurfaceVoxels& voxels, const ClusterGrowth::Result& growth,
+              VoxelClusters& clusters);
+
+ private:
+    Histogram histogram_;
+    PrefixSum prefixSum_;
+    Compaction compaction_;
+    RadixSort sort_;
+    Kernel occupied_, begin_, renumber_, describe_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "graph/registry.h"
+
+namespace voxray {
+
+/// A folder under passes/ and what its techniques have in common.
+struct Family {
+    std::string_view folder;
+    std::string_view title;
+};
+
+/// In the order of the pipeline.
+inline constexpr std::array kFamilies{
+    Family{"view", "What the camera sees: G-buffer, direct light, filters of images"},
+    Family{"voxels", "Voxels of surfaces"},
+    Family{"inject", "Light into voxels: rays and maps from the lights, shadow rays at surfaces"},
+    Family{"surfels", "Surfels: points of surfaces"},
+    Family{"radiosity", "Radiosity between surfels"},
+    Family{"clusters", "Clusters of voxels and what they see of each other"},
+    Family{"cones", "Prefiltered radiance voxels and cone tracing"},
+    Family{"final_gather", "Rays from what the camera sees to stored light"},
+    Family{"cache", "Hashed radiance cache"},
+    Family{"vpls", "Virtual point lights"},
+    Family{"hybrid_leaves", "Voxels with triangles as leaves; mirrors"},
+    Family{"published", "As published, for comparison"},
+    Family{"path_trace", "Reference"},
+};
+
+/// Adds every technique under passes/, by family, and the path tracer as the registry's preview.
+void registerPasses(Registry& registry);
+
+}  // namespace voxray

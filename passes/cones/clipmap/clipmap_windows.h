@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "base/schema.h"
+#include "passes/common/voxels/voxel_box.h"
+#include "passes/cones/radiance/radiance_clipmap_types.h"
+#include "passes/cones/radiance/radiance_types.h"
+
+namespace voxray {
+
+/// Parameters of a pass that makes a clipmap; it adds schema() to its own with std::tuple_cat.
+struct ClipmapParams {
+    uint32_t clipmapResolution = 64;
+    uint32_t clipmapLevels = RADIANCE_CLIPMAP_LEVELS;
+    static constexpr auto schema() {
+        return std::tuple{
+            field("clipmap_resolution", &ClipmapParams::clipmapResolution,
+                  "Voxels along an edge of a clipmap's window.", powersOfTwo(16, 1024)),
+            field("clipmap_levels", &ClipmapParams::clipmapLevels,
+                  "Levels of a clipmap at most. The coarsest must hold the whole scene; cones that are wider "
+                  "than its voxels read these. By default down to a single voxel; Arnebäck 2017 has 5.",
+                  1u, uint32_t(RADIANCE_CLIPMAP_LEVELS))};
+    }
+};
+
+/// Levels of a clipmap over a grid of `resolution` voxels. @throws Error naming `pass` where none of them
+/// holds the whole grid.
+uint32_t clipmapLevels(glm::uvec3 resolution, const ClipmapParams& params, const std::string& pass);
+
+/// What a clipmap over `grid` holds: of each level at most `side` voxels along an axis, round the camera.
+/// Levels that are no larger than that are held whole. `side`: a power of two, 16 or more.
+class ClipmapWindows {
+ public:
+    ClipmapWindows() = default;
+    ClipmapWindows(const gpu::RadianceGrid& grid, uint32_t side);
+
+    /// Voxels of all windows together.
+    uint64_t voxels() const { return voxels_; }
+    /// The first level that is held whole, as are all after it.
+    uint32_t firstWhole() const { return firstWhole_; }
+    uint32_t side() const { return side_; }
+    /// The window of a level for a camera at `camera` (m).
+    gpu::ClipmapWindow window(uint32_t level, const glm::vec3& camera) const;
+
+ private:
+    gpu::RadianceGrid grid_{};
+    uint32_t side_ = 0;
+    uint32_t firstWhole_ = 0;
+    uint64_t voxels_ = 0;
+    std::vector<uint32_t> begin_;  ///< By level.
+};
+
+/// What a pass reports as the number of voxels of its windows that it made, since they scrolled in or
+/// changed.
+constexpr const char* kUpdatedVoxels = "updated voxels";
+
+/// What `window` holds that `before` did not: up to three boxes that have no voxel in common. Windows of one
+/// level.
+std::vector<VoxelBox> scrolledIn(const gpu::ClipmapWindow& before, const gpu::ClipmapWindow& window);
+
+}  // namespace voxray

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "passes/cones/clipmap/clipmap_windows.h"
+#include "passes/cones/radiance/radiance_voxels.h"
+
+namespace voxray {
+
+enum class LevelDistance { Axis, Euclidean };
+template <>
+struct EnumNames<LevelDistance> {
+    static constexpr std::array names{std::pair{LevelDistance::Axis, "axis"},
+                                      std::pair{LevelDistance::Euclidean, "euclidean"}};
+};
+
+/// The parameter of a pass that fills a clipmap with radiance; it adds schema() to its own with
+/// std::tuple_cat.
+struct ClipmapLevelParams {
+    LevelDistance levelDistance = LevelDistance::Axis;
+    static constexpr auto schema() {
+        return std::tuple{field(
+            "level_distance", &ClipmapLevelParams::levelDistance,
+            "By which distance from the camera coarser levels of a clipmap take over. axis: that along the "
+            "axis where it is largest, so that all of a window counts. euclidean: as published in Arnebäck "
+            "2017 (section 4.2.1), for comparison: a ball in each window counts, half of its voxels.")};
+    }
+};
+
+/// Radiance voxels in a clipmap, layouts clipmap and clipmap_textures: their memory, and windows that follow
+/// the camera. Docs: docs/clipmap.md.
+class RadianceClipmap {
+ public:
+    RadianceClipmap() = default;
+    /// @param side of a window, a power of two.
+    RadianceClipmap(const gpu::RadianceGrid& grid, uint32_t side) : windows_(grid, side) {}
+
+    /// Describes the memory of `radiance`, which has its layout and grid. In a buffer values have an exponent
+    /// of their own: the unit is set to 1. @throws Error naming `pass` for more values than can be numbered,
+    /// or a texture that the device can't make.
+    void plan(PassPlan& plan, const std::string& pass, RadianceVoxels& radiance) const;
+    void prepare(PassSetup& setup, RadianceVoxels& radiance) const;
+    /// Moves the windows to the frame's camera. What is in their slots stays as it is.
+    /// @return the windows, by level.
+    std::vector<gpu::ClipmapWindow> follow(PassContext& context, RadianceVoxels& radiance) const;
+    const ClipmapWindows& windows() const { return windows_; }
+
+ private:
+    ClipmapWindows windows_;
+};
+
+}  // namespace voxray

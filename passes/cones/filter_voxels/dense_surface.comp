@@ -1,0 +1,27 @@
+// Level 0 of radiance voxels in full grids: the surfaces' own radiance and opacity; nothing where there are none.
+#include "shaders/compute/linear_index.glsl"
+#include "passes/cones/radiance/radiance_voxels.glsl"
+#include "passes/cones/radiance/surface_radiance.glsl"
+layout(local_size_x = 64) in;
+
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    float emission;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    const uvec3 size = radianceVoxels.grid.resolution;
+    if (i >= size.x * size.y * size.z) return;
+    const ivec3 at = ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
+    const uint voxel = voxelNumber(push.grid, at);
+    const RADIANCE_LEVEL level = radianceLevel(0u);
+    const uint directions = radianceVoxels.grid.directions;
+    for (uint face = 0u; face < directions; ++face) {
+        vec4 value = vec4(0.0);
+        if (voxel != NO_VOXEL)
+            value = directions == 6u ? faceRadiance(push.grid, voxel, face, push.emission)
+                                     : meanRadiance(push.grid, voxel, push.emission);
+        storeRadiance(radianceIndex(level, at), face, value / vec4(vec3(radianceVoxels.grid.unit), 1.0));
+    }
+}

@@ -1,0 +1,109 @@
+#include "base/error.h"
+#include "graph/registry.h"
+#include "passes/common/lights/light_sources.h"
+#include "passes/common/voxels/voxels.h"
+#include "passes/cones/clipmap/radiance_clipmap.h"
+#include "passes/cones/filter_voxels/radiance_storage.h"
+#include "passes/cones/radiance/cone_bounces.h"
+#include "passes/cones/radiance/radiance_voxels.h"
+
+namespace voxray {
+
+/// Turns lit surface voxels into radiance and opacity at all scales, for cone tracing.
+class FilterVoxels final : public Pass {
+ public:
+    static constexpr const char* kName = "filter_voxels";
+    static constexpr const char* kHelp =
+        "Prefilters surface voxels into radiance and opacity at all scales. Radiance is the light that "
+        "leaves them, and opacity is the part of a beam that surfaces hide. The result is for gather_cones. "
+        "Biased by: voxel size; what shares a larger voxel and faces the same way is averaged; in a clipmap "
+        "distance from the camera. Bounces by cones are for dense and svo; over a clipmap's windows "
+        "light_clipmap has its own. Source: Crassin et al. 2011, section 4 (anisotropic voxels); Arnebäck "
+        "2017, section 3.1.4.";
+    struct Params : ClipmapParams, ClipmapLevelParams, BrickParams, ConeBounceParams {
+        RadianceLayout layout = RadianceLayout::Dense;
+        bool emission = false;
+        static constexpr auto ofClipmaps() {
+            return oneOf(&Params::layout, {RadianceLayout::Clipmap, RadianceLayout::ClipmapTextures});
+        }
+        static constexpr auto schema() {
+            return std::tuple_cat(
+                std::tuple{field("layout", &Params::layout, kRadianceLayoutHelp),
+                           field("emission", &Params::emission,
+                                 "Whether what surfaces emit is in. Off, cones bring indirect light alone: a "
+                                 "direct_* pass adds the rest.")},
+                std::tuple{std::get<0>(ClipmapParams::schema()).onlyWith(ofClipmaps()),
+                           std::get<1>(ClipmapParams::schema()).onlyWith(ofClipmaps()),
+                           std::get<0>(ClipmapLevelParams::schema()).onlyWith(ofClipmaps()),
+                           std::get<0>(BrickParams::schema())
+                               .onlyWith(oneOf(&Params::layout, {RadianceLayout::SvoBricks}))},
+                ConeBounceParams::schema());
+        }
+    };
+    explicit FilterVoxels(const Params& params) : params_(params) {}
+
+    Phase phase() const override { return storage_->followsCamera() ? Phase::Frame : Phase::Build; }
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    const Params params_;
+    In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
+    In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
+    Out<RadianceVoxels> radiance_{*this, "radiance", "light that leaves them, at all scales"};
+    std::unique_ptr<RadianceStorage> storage_ = makeRadianceStorage(*this, params_.layout, params_, params_);
+    ConeBounces bounces_{*this, params_.bounceCones};
+    bool eachFrame_ = false;  ///< Whether it runs in each frame: storage keeps what it needs for that.
+};
+
+void FilterVoxels::plan(PassPlan& plan) {
+    eachFrame_ = plan.phase == Phase::Frame;
+    const gpu::VoxelGrid& grid = plan[voxels_].grid;
+    if (params_.bounces > 0 && storage_->followsCamera())
+        throw Error(
+            "filter_voxels: 'bounces' needs all voxels, of which this layout holds those near the camera; "
+            "set 'layout' to dense or svo, or the injection's own 'bounces', or take voxelize_clipmap and "
+            "light_clipmap");
+    RadianceVoxels& radiance = plan[radiance_];
+    if (const auto injected = plan[irradiance_].lightBounces)
+        radiance.lightBounces = *injected + params_.bounces + 1;
+    radiance.layout = params_.layout;
+    radiance.emission = params_.emission;
+    radiance.euclidean = params_.levelDistance == LevelDistance::Euclidean;
+    radiance.grid = {grid.origin,     grid.voxelSize,
+                     grid.resolution, gridLevels(grid.resolution),
+                     grid.directions, radianceUnit(*plan.frame.scene)};
+    storage_->plan(plan, plan[voxels_], radiance);
+    if (params_.bounces > 0) bounces_.plan(plan, radiance, plan[voxels_].voxelCount, eachFrame_);
+}
+
+void FilterVoxels::prepare(PassSetup& setup) {
+    storage_->prepare(setup, setup[radiance_]);
+    if (params_.bounces > 0) bounces_.prepare(setup);
+}
+
+void FilterVoxels::record(PassContext& context) {
+    const SurfaceVoxels& voxels = context[voxels_];
+    const VoxelIrradiance& irradiance = context[irradiance_];
+    RadianceVoxels& radiance = context[radiance_];
+    const auto fill = [&](const LargeBuffer& indirect, bool last) {
+        storage_->run(context, voxels, {irradiance.direct, indirect, irradiance.area, irradiance.version},
+                      radiance, last && params_.emission ? 1.0f : 0.0f);
+    };
+
+    // Each bounce carries all light of the last one on: one more of each order. What surfaces emit is not
+    // in before the end, since what it does to others is direct light.
+    fill(irradiance.indirect, params_.bounces == 0);
+    for (uint32_t bounce = 1; bounce <= params_.bounces; ++bounce) {
+        bounces_.gather(context, voxels, irradiance, radiance);
+        fill(bounces_.flux(), bounce == params_.bounces);
+    }
+    if (eachFrame_) return;
+    if (params_.bounces > 0) bounces_.release(context.stream);
+    storage_->close(context.stream, radiance);
+}
+
+VOXRAY_REGISTER_PASS(FilterVoxels);
+
+}  // namespace voxray

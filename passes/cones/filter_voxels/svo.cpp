@@ -1,0 +1,89 @@
+#include <algorithm>
+
+#include "base/error.h"
+#include "passes/common/octree/octree_builder.h"
+#include "passes/cones/filter_voxels/radiance_storage.h"
+#include "passes/cones/filter_voxels/svo_collapse.h"
+#include "passes/cones/filter_voxels/svo_values.h"
+
+namespace voxray {
+namespace {
+
+/// The structure is built of the voxels that there are, and kept for as long as they are the same and light
+/// is filtered again.
+class SvoStorage final : public RadianceStorage {
+ public:
+    explicit SvoStorage(ProgramOwner& owner)
+        : surface_(owner, "svo_surface.comp"), builder_(owner), filter_(owner), collapse_(owner) {}
+
+    void plan(PassPlan& plan, const SurfaceVoxels& voxels, RadianceVoxels& radiance) override {
+        radiance.grid.unit = 1;  // Values have an exponent of their own.
+        const OctreeSize size{radiance.grid.resolution, voxels.expectedCounts};
+        const uint64_t octree = size.bytes() + svoValueBytes(size, radiance.grid.directions);
+        plan.reserve("octree (estimated)", octree);
+        const uint64_t lists = size.leafBytes() + SvoFilter::changedBytes(size);
+        const uint64_t building = OctreeBuilder::scratchBytes(size);
+        if (plan.phase == Phase::Frame) {
+            plan.reserve("leaves and changes (estimated)", lists);
+            plan.reserveScratch("building (estimated)", building);
+        } else {
+            // A collapsed octree next to the first one.
+            const uint64_t collapsing = octree + SvoCollapse::scratchBytes(size);
+            plan.reserveScratch("leaves and changes (estimated)", lists);
+            plan.reserveScratch("building, then collapsing (at most)", std::max(building, collapsing));
+        }
+    }
+
+    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
+             RadianceVoxels& radiance, float emission) override {
+        CommandStream& stream = context.stream;
+        // All is new where the voxels are; else what has another value.
+        const bool rebuilt = version_ != voxels.version;
+        if (rebuilt) {
+            radiance.octree = {};
+            radiance.storage.clear();
+            changed_ = {};
+            allocateSvoValues(stream, builder_.build(stream, voxels), radiance);
+            version_ = voxels.version;
+            changed_ =
+                Buffer(context.device, "octree changes", SvoFilter::changedBytes(radiance.octree.size));
+        }
+        stream.fill(changed_, rebuilt ? ~0u : 0u);
+
+        const OctreeSize& size = radiance.octree.size;
+        context.dispatch(surface_, size.nodes[0],
+                         {voxels,
+                          light,
+                          radiance,
+                          {"leaves", radiance.octree.leafVoxels},
+                          {"changed", changed_},
+                          {"emission", emission},
+                          {"firstLeaf", size.first()[0]},
+                          {"count", size.nodes[0]}});
+        filter_.run(stream, radiance, changed_);
+    }
+
+    void close(CommandStream& stream, RadianceVoxels& radiance) override {
+        // What is not filtered again needs no more than its values.
+        collapse_.run(stream, radiance);
+        radiance.octree.leafVoxels = {};
+        changed_ = {};
+        version_.reset();
+    }
+
+ private:
+    Kernel surface_;
+    OctreeBuilder builder_;
+    SvoFilter filter_;
+    SvoCollapse collapse_;
+    std::optional<uint64_t> version_;  ///< Of the voxels that it is built of.
+    Buffer changed_;
+};
+
+}  // namespace
+
+std::unique_ptr<RadianceStorage> makeSvoStorage(ProgramOwner& owner) {
+    return std::make_unique<SvoStorage>(owner);
+}
+
+}  // namespace voxray

@@ -1,0 +1,94 @@
+#include "passes/cones/filter_voxels/svo_collapse.h"
+
+#include <algorithm>
+
+namespace voxray {
+
+SvoCollapse::SvoCollapse(ProgramOwner& owner)
+    : uniform_(owner, "svo_uniform.comp"),
+      masks_(owner, "svo_collapse.comp", {{"MASKS", "1"}}),
+      words_(owner, "svo_collapse.comp", {{"WORDS", "1"}}),
+      table_(owner, "svo_collapse_table.comp"),
+      prefixSum_(owner, PrefixSum::Of::SetBits) {}
+
+void SvoCollapse::run(CommandStream& stream, RadianceVoxels& radiance) const {
+    // From the leaves up: which nodes are uniform.
+    const OctreeSize& size = radiance.octree.size;
+    const std::vector<uint32_t> first = size.first();
+    const Buffer uniform(stream.device(), "octree uniform nodes",
+                         (uint64_t(size.nodeCount()) + 31) / 32 * sizeof(uint32_t));
+    const Buffer counts(stream.device(), "octree uniform counts", size.levels() * sizeof(uint32_t));
+    stream.fill(uniform, 0);
+    stream.fill(counts, 0);
+    for (uint32_t level = 1; level < size.levels(); ++level)
+        stream.dispatch(uniform_, size.nodes[level],
+                        {radiance,
+                         {"uniform_", uniform},
+                         {"counts", counts},
+                         {"level", level},
+                         {"count", size.nodes[level]},
+                         {"firstNode", first[level]}});
+
+    // Each of them drops its eight children.
+    const std::vector<uint32_t> uniformNodes = stream.readAs<uint32_t>(counts, size.levels());
+    OctreeSize smaller = size;
+    for (uint32_t level = 1; level < size.levels(); ++level)
+        smaller.nodes[level - 1] -= 8 * uniformNodes[level];
+    if (smaller.nodes != size.nodes) radiance = shrink(stream, radiance, uniform, smaller);
+}
+
+RadianceVoxels SvoCollapse::shrink(CommandStream& stream, const RadianceVoxels& radiance,
+                                   const Buffer& uniform, const OctreeSize& smaller) const {
+    Device& device = stream.device();
+    RadianceVoxels result;
+    result.layout = radiance.layout;
+    result.grid = radiance.grid;
+    allocateSvoValues(stream, allocateOctree(stream, smaller), result);
+
+    // From the root down, as it was built: masks, numbers, then words, values and the next level's list.
+    const std::vector<uint32_t> first = smaller.first();
+    Buffer nodes(device, "octree root", sizeof(glm::uvec2));
+    const glm::uvec2 root(1, 0);
+    stream.upload(nodes, std::as_bytes(std::span(&root, 1)));
+    for (uint32_t level = smaller.levels(); level-- > 0 && smaller.nodes[level] > 0;) {
+        const uint32_t count = smaller.nodes[level], words = (count + 3) / 4;
+        const uint32_t childCount = level > 0 ? smaller.nodes[level - 1] : 0;
+        const Buffer masks(device, "octree masks", uint64_t(words) * sizeof(uint32_t));
+        const Buffer before(device, "octree ranks", uint64_t(words) * sizeof(uint32_t));
+        Buffer children(device, "octree children", uint64_t(std::max(childCount, 1u)) * sizeof(glm::uvec2));
+        const Bindings step{{"octree", radiance.octree.header},
+                            {"nodes", nodes},
+                            {"uniform_", uniform},
+                            {"level", level},
+                            {"count", count},
+                            {"firstNode", first[level]},
+                            {"firstChild", level > 0 ? first[level - 1] : 0}};
+        stream.dispatch(masks_, words, {step.all(), {"masks", masks}});
+        prefixSum_.run(stream, masks, before, words);
+        stream.dispatch(words_, words,
+                        {step.all(),
+                         {"radianceVoxels", radiance.header},
+                         {"before", before},
+                         {"children", children},
+                         {"collapsed", result.octree.header},
+                         {"collapsedValues", result.header}});
+        stream.finish();
+        nodes = std::move(children);
+    }
+
+    for (uint32_t level = smaller.levels(); level-- > smaller.tableLevel();) {
+        const glm::uvec3 voxels = levelResolution(smaller.resolution, level);
+        stream.dispatch(table_, uint64_t(voxels.x) * voxels.y * voxels.z, {result.octree, {"level", level}});
+    }
+    stream.finish();
+    return result;
+}
+
+uint64_t SvoCollapse::scratchBytes(const OctreeSize& size) {
+    // Marks, and the step of the largest level: masks and ranks a word of four nodes, place and voxel a node.
+    const uint64_t marks = (uint64_t(size.nodeCount()) + 31) / 32 + size.levels();
+    const uint64_t words = (uint64_t(size.nodes.front()) + 3) / 4, blocks = (words + 1023) / 1024 + 1;
+    return (marks + 2 * words + blocks + 2 * uint64_t(size.nodes.front()) + 2) * sizeof(uint32_t);
+}
+
+}  // namespace voxray

@@ -1,0 +1,22 @@
+// The values of a level's nodes from their children's, where any of those has changed. A thread takes a node.
+#include "passes/cones/filter_voxels/svo_change.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "passes/cones/radiance/radiance_filter.glsl"
+layout(local_size_x = 64) in;
+
+layout(push_constant) uniform Push {
+    uint firstNode;
+    uint count;
+} push;
+
+void main() {
+    if (linearIndex() >= push.count) return;
+    const uint node = push.firstNode + linearIndex(), word = octree.nodes.data[node];
+    if (!anyChanged(word >> 8, uint(bitCount(octreeMask(word))))) return;
+    const uint directions = radianceVoxels.grid.directions;
+    for (uint face = 0u; face < directions; ++face) {
+        vec4 child[8];
+        for (uint octant = 0u; octant < 8u; ++octant) child[octant] = radianceValue(octreeChild(word, octant), face);
+        replaceOctreeValue(node, face, directions == 6u ? combineFaces(child, face) : combineAll(child));
+    }
+}

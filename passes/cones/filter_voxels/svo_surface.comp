@@ -1,0 +1,26 @@
+// The values of an octree's leaves: the surfaces' own radiance and opacity. A thread takes a leaf.
+#include "passes/cones/filter_voxels/svo_change.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "passes/cones/radiance/surface_radiance.glsl"
+layout(local_size_x = 64) in;
+
+readonly buffer Leaves { uint cell[]; } leaves;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    float emission;
+    uint firstLeaf;
+    uint count;
+} push;
+
+void main() {
+    const uint leaf = linearIndex();
+    if (leaf >= push.count) return;
+    const uint voxel = voxelNumber(push.grid, unpackCell(leaves.cell[leaf]));
+    const uint node = push.firstLeaf + leaf;
+    if (radianceVoxels.grid.directions == 6u) {
+        for (uint face = 0u; face < 6u; ++face)
+            replaceOctreeValue(node, face, faceRadiance(push.grid, voxel, face, push.emission));
+    } else {
+        replaceOctreeValue(node, 0u, meanRadiance(push.grid, voxel, push.emission));
+    }
+}

@@ -1,0 +1,149 @@
+#include "base/error.h"
+#include "graph/registry.h"
+#include "passes/common/view/frame_image.h"
+#include "passes/common/view/gbuffer.h"
+#include "passes/cones/gather_cones/near_field.h"
+#include "passes/cones/gather_cones/specular_cones.h"
+#include "passes/cones/radiance/cone_sets.h"
+#include "passes/cones/radiance/radiance_voxels.h"
+
+namespace voxray {
+namespace {
+
+/// One texel for each traced texel of the g-buffer, row by row.
+ImageDesc tracedImage(const Frame& frame, uint32_t samples, uint32_t stride) {
+    ImageDesc desc = frameImageDesc(frame);
+    const glm::uvec2 extent = gbufferExtent(frame, samples);
+    desc.extent = {(extent.x + stride - 1) / stride, extent.y, 1};
+    return desc;
+}
+
+}  // namespace
+
+/// Indirect light by cone tracing. Source: Crassin et al. 2011; Arnebäck 2017, sections 3.1.5 and 3.2.5.
+class GatherCones final : public Pass {
+ public:
+    static constexpr const char* kName = "gather_cones";
+    static constexpr const char* kHelp =
+        "Gathers indirect light by cone tracing through prefiltered voxels. A few cones go from each pixel "
+        "through the voxels (filter_voxels). Biased by: voxel size; the number of cones; a mean over some 25 "
+        "pixels of the same surface, which evens out the fixed pattern of directions; the shape of specular "
+        "lobes. Noisy by near_field_voxels alone. Time grows with the cones of each texel, so on a CPU begin "
+        "with `stride: 4`, a quarter of them, and `specular: 0` where nothing is glossy. Source: Crassin et "
+        "al. 2011; Arnebäck 2017, section 3.1.5.";
+    struct Params {
+        uint32_t cones = 16;
+        uint32_t stride = 1;
+        uint32_t specular = 7;
+        float nearFieldVoxels = 0;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("cones", &Params::cones,
+                      "Cones that divide up the hemisphere; the set of 6 is that of Arnebäck 2017.",
+                      coneSetSizes()),
+                field("stride", &Params::stride,
+                      "Traces every n-th texel of the g-buffer; the others take the mean of the traced ones "
+                      "around them that lie on the same surface.",
+                      1u, 64u),
+                field("specular", &Params::specular,
+                      "Cones that divide up the specular lobe of each texel of the g-buffer; a mirror takes "
+                      "one. 0: surfaces reflect by their diffuse albedo alone.",
+                      {0, 1, 7, 19}),
+                field("near_field_voxels", &Params::nearFieldVoxels,
+                      "Diffuse cones begin with a ray, so many voxels of the finest level long. Where it "
+                      "hits, light is measured by shadow rays and a ray goes on as a path does, up to twice; "
+                      "where not, the cone begins behind it. 0: no rays.",
+                      0.0f, 64.0f)};
+        }
+    };
+    explicit GatherCones(const Params& params) : params_(params) {
+        if (params_.specular > 0) specular_.emplace(*this);
+        if (params_.nearFieldVoxels > 0) near_.emplace(*this);
+    }
+
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    const Params params_;
+    In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
+    In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales"};
+    Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light"};
+    Out<SpecularLobes> lobes_{*this, "lobes",
+                              "what specular lobes reflect; a pass that reads it joins it with 'indirect'",
+                              params_.specular > 0};
+    Kernel trace_{*this, "trace.comp"};
+    Kernel resolve_{*this, "resolve.comp"};
+    Kernel resolveLobes_{*this, "resolve.comp", {{"SPECULAR", "1"}}};
+    Buffer cones_;
+    Image irradiance_;
+    std::optional<SpecularCones> specular_;
+    std::optional<NearField> near_;
+};
+
+void GatherCones::plan(PassPlan& plan) {
+    const RadianceVoxels& radiance = plan[radiance_];
+    plan.buffer(cones_, "cones", coneSet(params_.cones).size() * sizeof(gpu::Cone));
+    plan[indirect_].lightBounces = radiance.lightBounces;
+    plan[indirect_].hasSpecularLobes = params_.specular > 0;
+    plan.image(plan[indirect_].image, "indirect", frameImageDesc(plan.frame));
+    const ImageDesc traced = tracedImage(plan.frame, plan[gbuffer_].samples, params_.stride);
+    plan.image(irradiance_, "gathered irradiance", traced);
+    if (near_) {
+        if (radiance.emission)
+            throw Error(
+                "gather_cones: 'near_field_voxels' measures light at near hits without what they emit, which "
+                "the radiance voxels hold; set it to 0, or 'emission' of filter_voxels to false");
+        near_->plan(plan, radiance,
+                    {params_.nearFieldVoxels, params_.cones, params_.stride, traced.extent,
+                     coneSet(params_.cones).back().width});
+    }
+    trace_.define(radiance.defines());
+    trace_.compileIf(!near_);
+    resolveLobes_.compileIf(params_.specular > 0);
+    if (params_.specular == 0) return;
+    SpecularLobes& lobes = plan[lobes_];
+    lobes.isJoined = false;
+    lobes.emission = radiance.emission;
+    specular_->plan(plan, plan[gbuffer_], radiance, params_.specular, lobes.reflected);
+}
+
+void GatherCones::prepare(PassSetup& setup) {
+    if (specular_) specular_->prepare(setup);
+    setup.stream.upload(cones_, coneSet(params_.cones));
+}
+
+void GatherCones::record(PassContext& context) {
+    const GBuffer& gbuffer = context[gbuffer_];
+    const RadianceVoxels& radiance = context[radiance_];
+    if (near_)
+        near_->record(context, gbuffer, radiance, cones_, irradiance_);
+    else
+        context.dispatch(trace_, irradiance_.desc().extent,
+                         {gbuffer,
+                          radiance,
+                          {"cones", cones_},
+                          {"irradiance", irradiance_},
+                          {"coneCount", params_.cones},
+                          {"stride", params_.stride}});
+
+    // A later pass may join the lobes, which all have told by now.
+    std::vector<Binding> reflected;
+    if (specular_) {
+        const SpecularLobes& lobes = context[lobes_];
+        specular_->record(context, gbuffer, radiance, lobes.reflected);
+        if (!lobes.isJoined) reflected.emplace_back("reflected", lobes.reflected);
+    }
+    context.dispatch(reflected.empty() ? resolve_ : resolveLobes_, context.frame.pixels(),
+                     {gbuffer,
+                      reflected,
+                      {"irradiance", irradiance_},
+                      {"result", context[indirect_].image},
+                      {"stride", params_.stride},
+                      {"voxelSize", radiance.grid.voxelSize}});
+}
+
+VOXRAY_REGISTER_PASS(GatherCones);
+
+}  // namespace voxray

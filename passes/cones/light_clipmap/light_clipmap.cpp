@@ -1,0 +1,246 @@
+#include <algorithm>
+
+#include "base/error.h"
+#include "graph/registry.h"
+#include "passes/common/lights/light_sources.h"
+#include "passes/common/lights/pane_tint.h"
+#include "passes/common/lights/shadow_map.h"
+#include "passes/common/triangle_walk/triangle_walk.h"
+#include "passes/common/voxels/flux_accumulator.h"
+#include "passes/cones/clipmap/clipmap_voxels.h"
+#include "passes/cones/clipmap/radiance_clipmap.h"
+#include "passes/cones/radiance/cone_bounces.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint64_t kLitAreaBytes = kFaces * sizeof(uint32_t);
+
+}  // namespace
+
+/// The layouts of radiance voxels that it can fill.
+enum class ClipmapLayout {
+    Clipmap = int(RadianceLayout::Clipmap),
+    ClipmapTextures = int(RadianceLayout::ClipmapTextures)
+};
+template <>
+struct EnumNames<ClipmapLayout> {
+    static constexpr std::array names{std::pair{ClipmapLayout::Clipmap, "clipmap"},
+                                      std::pair{ClipmapLayout::ClipmapTextures, "clipmap_textures"}};
+};
+
+/// Lights the surface voxels of a clipmap by shadow maps, while it visits the triangles in them, and fills
+/// radiance voxels with what they reflect. Docs: docs/clipmap.md.
+class LightClipmap final : public Pass {
+ public:
+    static constexpr const char* kName = "light_clipmap";
+    static constexpr const char* kHelp =
+        "Lights the voxel clipmap by a shadow map of every light. Tests the part of each triangle in a voxel "
+        "of voxelize_clipmap against the maps. What voxels reflect is made radiance voxels for gather_cones. "
+        "The cones bring one bounce more than 'bounces'. What scrolled in is lit in each frame; all of the "
+        "windows where a light or a surface has moved, and with bounces wherever anything scrolled in. No "
+        "emissive surfaces as lights and no environment: they have no single viewpoint. Biased by: voxel "
+        "size, so distance from the camera; shadow_resolution. Source: Arnebäck 2017, section 4.1.2, after "
+        "Panteleev 2014.";
+    struct Params : ClipmapLevelParams, ConeBounceParams {
+        uint32_t shadowResolution = 512;
+        ClipmapLayout layout = ClipmapLayout::Clipmap;
+        static constexpr auto schema() {
+            return std::tuple_cat(
+                std::tuple{
+                    field("shadow_resolution", &Params::shadowResolution,
+                          "Texels along an edge of each shadow map; a point light has six.", 2u, 4096u),
+                    field("layout", &Params::layout,
+                          "How voxels are stored: clipmap, in a buffer; clipmap_textures, as published "
+                          "in Arnebäck 2017: in a 3D texture that the device's sampler filters.")},
+                ClipmapLevelParams::schema(), ConeBounceParams::schema());
+        }
+    };
+    explicit LightClipmap(const Params& params) : params_(params) {}
+
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    /// Measures light where windows or, with `moved`, lights or surfaces have changed, and fills all levels.
+    void relight(PassContext& context, bool moved);
+    /// Direct light of the voxels in boxes of a level. @param voxels these, or others besides.
+    VoxelIrradiance light(PassContext& context, const SurfaceVoxels& voxels,
+                          const std::vector<VoxelBox>& boxes);
+    /// Fills boxes of a level with what the voxels in them reflect.
+    void reflect(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
+                 const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light,
+                 const LargeBuffer& indirect);
+    /// Fills the levels beyond the first that is held whole, each from the one below.
+    void filter(PassContext& context);
+
+    const Params params_;
+    In<ClipmapVoxels> clipmap_{*this, "clipmap", "surface voxels to light"};
+    Out<RadianceVoxels> radiance_{*this, "radiance", "light that leaves them, at all scales"};
+    std::vector<LightSource> sources_;
+    RadianceClipmap storage_;
+    ShadowMaps shadowMaps_{*this};
+    std::unique_ptr<TriangleWalk> walk_ = makeExactWalk(*this);
+    std::unique_ptr<PassProgram> light_ =
+        walk_->makeVisitor(*this, "passes/cones/light_clipmap/light_voxels");
+    Kernel area_{*this, "lit_area.comp"};
+    Kernel window_{*this, "fill_window.comp"};
+    Kernel level_{*this, "fill_level.comp"};
+    FluxAccumulator flux_{*this};
+    ConeBounces bounces_{*this, params_.bounceCones};
+    std::optional<uint64_t> sceneVersion_;  ///< Of the last frame.
+    uint64_t updatedVoxels_ = 0;            ///< In this frame.
+};
+
+void LightClipmap::plan(PassPlan& plan) {
+    requireClearPanes(*plan.frame.scene, kName);
+    if (!plan.device.shaderInt64Atomics)
+        throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", kName,
+                    plan.device.name);
+    sources_ = requireViewpoints(*plan.frame.scene, kName);
+    const ClipmapVoxels& clipmap = plan[clipmap_];
+    RadianceVoxels& radiance = plan[radiance_];
+    radiance.lightBounces = params_.bounces + 1;
+    radiance.layout = RadianceLayout(params_.layout);
+    radiance.euclidean = params_.levelDistance == LevelDistance::Euclidean;
+    radiance.grid = clipmap.grid;
+    radiance.grid.unit = radianceUnit(*plan.frame.scene);
+    storage_ = RadianceClipmap(clipmap.grid, clipmap.windows.side());
+    storage_.plan(plan, kName, radiance);
+    shadowMaps_.plan(plan, sources_, params_.shadowResolution);
+
+    // One level at a time; with bounces all of them
+    uint64_t largest = 0, sum = 0;
+    for (const ClipmapVoxels::Level& level : clipmap.levels) {
+        largest = std::max<uint64_t>(largest, level.voxels.voxelCount);
+        sum += level.voxels.voxelCount;
+    }
+    plan.reserveScratch("light of a level (estimated)",
+                        largest * (FluxAccumulator::kBytesPerVoxel + kLitAreaBytes));
+    plan.reserveScratch("irradiance (estimated)",
+                        VoxelIrradiance::bytes(uint32_t(params_.bounces > 0 ? sum : largest)));
+    if (params_.bounces > 0) bounces_.plan(plan, radiance, sum, false);
+    walk_->plan(plan, clipmap.levels[0].voxels.grid);
+    for (Kernel* kernel : {&window_, &level_}) kernel->define(radiance.defines());
+}
+
+void LightClipmap::prepare(PassSetup& setup) {
+    storage_.prepare(setup, setup[radiance_]);
+    if (params_.bounces > 0) bounces_.prepare(setup);
+}
+
+void LightClipmap::record(PassContext& context) {
+    const ClipmapVoxels& clipmap = context[clipmap_];
+    RadianceVoxels& radiance = context[radiance_];
+    storage_.follow(context, radiance);
+
+    // Where a light or a surface moved, a shadow may have moved anywhere. What bounces comes from anywhere,
+    // too.
+    const bool moved = sceneVersion_ != context.frame.sceneVersion;
+    if (moved) shadowMaps_.draw(context, sources_);
+    sceneVersion_ = context.frame.sceneVersion;
+    const bool updated = std::ranges::any_of(
+        clipmap.levels, [](const ClipmapVoxels::Level& level) { return !level.boxes.empty(); });
+    updatedVoxels_ = 0;
+    if (moved || updated) relight(context, moved);
+    context.report(kUpdatedVoxels, double(updatedVoxels_));
+}
+
+void LightClipmap::relight(PassContext& context, bool moved) {
+    const ClipmapVoxels& clipmap = context[clipmap_];
+    const RadianceVoxels& radiance = context[radiance_];
+    const bool everywhere = moved || params_.bounces > 0;
+
+    // Direct light
+    std::vector<VoxelIrradiance> lights(clipmap.levels.size());
+    for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
+        const ClipmapVoxels::Level& level = clipmap.levels[l];
+        const SurfaceVoxels& voxels = everywhere || !level.updated.materials ? level.voxels : level.updated;
+        const std::vector<VoxelBox> boxes = everywhere ? std::vector{heldVoxels(voxels.grid)} : level.boxes;
+        if (boxes.empty()) continue;
+        VoxelIrradiance direct = light(context, voxels, boxes);
+        reflect(context, l, voxels, boxes, direct, direct.indirect);
+        if (params_.bounces > 0) lights[l] = std::move(direct);
+    }
+    if (everywhere || !clipmap.levels.back().boxes.empty()) filter(context);
+
+    // Each bounce carries all light of the last one on: one more of each order. Of all levels before any is
+    // filled.
+    for (uint32_t bounce = 1; bounce <= params_.bounces; ++bounce) {
+        std::vector<LargeBuffer> flux(clipmap.levels.size());
+        for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
+            const SurfaceVoxels& voxels = clipmap.levels[l].voxels;
+            if (voxels.voxelCount == 0) continue;
+            bounces_.gather(context, voxels, lights[l], radiance);
+            flux[l] = bounces_.takeFlux();
+        }
+        for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
+            const SurfaceVoxels& voxels = clipmap.levels[l].voxels;
+            if (voxels.voxelCount == 0) continue;
+            reflect(context, l, voxels, {heldVoxels(voxels.grid)}, lights[l], flux[l]);
+        }
+        filter(context);
+    }
+    if (params_.bounces > 0) bounces_.release(context.stream);
+}
+
+VoxelIrradiance LightClipmap::light(PassContext& context, const SurfaceVoxels& voxels,
+                                    const std::vector<VoxelBox>& boxes) {
+    CommandStream& stream = context.stream;
+    const Geometry& geometry = context.frame.scene->geometry;
+    const uint32_t count = std::max(voxels.voxelCount, 1u);
+
+    // Light that arrives at the clipped fragments in the boxes
+    const VoxelRegion region(voxels.grid, boxes);
+    walk_->select(context, voxels.grid, region, region.triangles(geometry));
+    const Buffer litArea(context.device, "lit area", count * kLitAreaBytes);
+    stream.fill(litArea, 0);
+    flux_.begin(context.device, stream, voxels, totalPower(sources_));
+    const Bindings bindings{voxels, flux_.bindings(), shadowMaps_.bindings(), {"litArea", litArea}};
+    walk_->run(context, *light_, voxels.grid, bindings.all(), flux_.unitsPerWatt());
+    VoxelIrradiance irradiance;
+    irradiance.allocate(context.device, count);
+    stream.fill(irradiance.indirect, 0);
+    flux_.resolve(stream, voxels, irradiance.direct);
+    context.dispatch(
+        area_, voxels.voxelCount,
+        {voxels, {"litArea", litArea}, {"area", irradiance.area}, {"voxelCount", voxels.voxelCount}});
+
+    stream.finish();
+    walk_->release();
+    flux_.end();
+    return irradiance;
+}
+
+void LightClipmap::reflect(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
+                           const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light,
+                           const LargeBuffer& indirect) {
+    for (const VoxelBox& box : boxes) {
+        context.dispatch(window_, box.count(),
+                         {voxels,
+                          context[radiance_].fillBindings(),
+                          {"DirectFluxAt", light.direct.at()},
+                          {"IndirectFluxAt", indirect.at()},
+                          {"voxelArea", light.area},
+                          {"boxFirst", box.first},
+                          {"boxSize", box.size},
+                          {"level", level}});
+        updatedVoxels_ += box.count();
+    }
+    context.stream.finish();
+}
+
+void LightClipmap::filter(PassContext& context) {
+    const RadianceVoxels& radiance = context[radiance_];
+    for (uint32_t l = storage_.windows().firstWhole() + 1; l < radiance.grid.levels; ++l) {
+        const glm::uvec3 size = levelResolution(radiance.grid.resolution, l);
+        const uint64_t voxels = uint64_t(size.x) * size.y * size.z;
+        context.dispatch(level_, voxels, {radiance.fillBindings(), {"level", l}});
+        updatedVoxels_ += voxels;
+    }
+}
+
+VOXRAY_REGISTER_PASS(LightClipmap);
+
+}  // namespace voxray

@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/error.h"
+#include "graph/registry.h"
+#include "passes/cones/radiance/cone_sets.h"
+#include "passes/cones/radiance/radiance_voxels.h"
+#include "passes/surfels/surfels.h"
+
+namespace voxray {
+namespace {
+
+/// Rec. 709, as the metrics have it.
+double luminance(const glm::vec4& c) {
+    return glm::dot(glm::dvec3(c), glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+}  // namespace
+
+/// Irradiance by cones at points that stay where they are on the surfaces, whatever the camera does, and how
+/// it changes from frame to frame. In a scene at rest a change is the method's own: a clipmap's levels that
+/// follow the camera, a window that scrolls. Random numbers are each point's own, the same in every frame.
+class ProbeIrradiance final : public Pass {
+ public:
+    static constexpr const char* kName = "probe_irradiance";
+    static constexpr const char* kHelp =
+        "Measures how stable irradiance is over frames, by cones at fixed points. The points stand still on "
+        "the surfaces. For each frame it reports the mean irradiance (W/m²) and its change since the last "
+        "frame over that mean: on average over the points and where it is largest. Tests stability: with a "
+        "moving camera and all else at rest the change is the method's own. Surfaces may not move: points "
+        "could not be told apart.";
+    struct Params {
+        uint32_t maxPoints = 1024;
+        uint32_t cones = 6;
+        uint32_t coneSets = 16;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("max_points", &Params::maxPoints,
+                      "Largest number of points, taken from those of place_surfels.", 1u, 1u << 20),
+                field("cones", &Params::cones, "Cones from each point.", coneSetSizes()),
+                field("cone_sets", &Params::coneSets,
+                      "Sets of cones from each point, whose directions and levels are shifted against each "
+                      "other. gather_cones sends one from a texel and takes the mean over some 25 texels.",
+                      1u, 256u)};
+        }
+    };
+    explicit ProbeIrradiance(const Params& params) : params_(params) {}
+
+    Phase phase() const override { return Phase::Frame; }
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    /// Every so many-th surfel is a point. Odd, so that both sides of surfaces have their turn.
+    uint32_t stride(const Surfels& surfels) const;
+
+    const Params params_;
+    In<Surfels> surfels_{*this, "surfels", "points on surfaces, some of which are probed"};
+    In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales"};
+    Kernel gather_{*this, "gather.comp"};
+    Buffer cones_, irradiance_;
+    std::vector<glm::vec4> last_;  ///< As `irradiance_` was in the last frame.
+};
+
+uint32_t ProbeIrradiance::stride(const Surfels& surfels) const {
+    return uint32_t((surfels.maxCount + params_.maxPoints - 1) / params_.maxPoints) | 1u;
+}
+
+void ProbeIrradiance::plan(PassPlan& plan) {
+    if (!movingRuns(plan.frame.scene->geometry).empty())
+        throw Error(
+            "{}: surfaces move, and with them the points that it would compare; set scene.time_step to 0 and "
+            "take out scene.moving_spheres",
+            kName);
+    plan.buffer(cones_, "cones", coneSet(params_.cones).size() * sizeof(gpu::Cone));
+    const Surfels& surfels = plan[surfels_];
+    plan.buffer(irradiance_, "irradiance of points",
+                (surfels.maxCount / stride(surfels) + 1) * sizeof(glm::vec4));
+    gather_.define(plan[radiance_].defines());
+}
+
+void ProbeIrradiance::prepare(PassSetup& setup) {
+    setup.stream.upload(cones_, coneSet(params_.cones));
+}
+
+void ProbeIrradiance::record(PassContext& context) {
+    // Gather at the points.
+    const Surfels& surfels = context[surfels_];
+    context.stream.fill(irradiance_, 0);
+    for (const Surfels::Chunk& chunk : surfels.chunks)
+        context.dispatch(gather_, chunk.count,
+                         {context[radiance_],
+                          {"cones", cones_},
+                          {"surfels", chunk.surfels},
+                          {"irradiance", irradiance_},
+                          {"count", chunk.count},
+                          {"stride", stride(surfels)},
+                          {"coneCount", params_.cones},
+                          {"samples", params_.coneSets}});
+    const std::vector<glm::vec4> now =
+        context.stream.readAs<glm::vec4>(irradiance_, irradiance_.bytes() / sizeof(glm::vec4));
+
+    // Compare with the last frame.
+    double sum = 0, change = 0, largest = 0;
+    uint64_t points = 0;
+    for (size_t i = 0; i < now.size(); ++i) {
+        if (now[i].w == 0) continue;
+        ++points;
+        sum += luminance(now[i]);
+        if (last_.empty() || last_[i].w == 0) continue;
+        const double difference = std::abs(luminance(now[i]) - luminance(last_[i]));
+        change += difference;
+        largest = std::max(largest, difference);
+    }
+    const double mean = points > 0 ? sum / double(points) : 0;
+    context.report("mean irradiance", mean);
+    if (!last_.empty() && mean > 0) {
+        context.report("mean change", change / double(points) / mean);
+        context.report("largest change", largest / mean);
+    }
+    last_ = now;
+}
+
+VOXRAY_REGISTER_PASS(ProbeIrradiance);
+
+}  // namespace voxray

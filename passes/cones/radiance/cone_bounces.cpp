@@ -1,0 +1,85 @@
+#include "passes/cones/radiance/cone_bounces.h"
+
+#include <algorithm>
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kBatchPairs = 1u << 18;  // Bounds the time of a dispatch.
+
+uint64_t coordinateBytes(uint64_t voxels) {
+    return voxels * sizeof(glm::uvec3);
+}
+
+uint64_t fluxBytes(uint64_t voxels) {
+    return voxels * kFluxWords * sizeof(uint32_t);
+}
+
+}  // namespace
+
+ConeBounces::ConeBounces(ProgramOwner& owner, uint32_t cones)
+    : cones_(cones),
+      list_(owner, "passes/common/voxels/list_voxels.comp"),
+      gather_(owner, "cone_bounces_gather.comp") {
+    for (Kernel* kernel : {&list_, &gather_}) kernel->compileIf(false);
+}
+
+void ConeBounces::plan(PassPlan& plan, const RadianceVoxels& radiance, uint64_t voxels, bool keeps) {
+    for (Kernel* kernel : {&list_, &gather_}) kernel->compileIf(true);
+    gather_.define(radiance.defines());
+    plan.buffer(coneSet_, "cones", coneSet(cones_).size() * sizeof(gpu::Cone));
+    const uint64_t light = coordinateBytes(voxels) + fluxBytes(voxels);
+    if (keeps)
+        plan.reserve("bounced light (estimated)", light);
+    else
+        plan.reserveScratch("bounced light (estimated)", light);
+}
+
+void ConeBounces::prepare(PassSetup& setup) {
+    setup.stream.upload(coneSet_, coneSet(cones_));
+}
+
+void ConeBounces::list(PassContext& context, const SurfaceVoxels& voxels) {
+    const uint64_t count = voxels.voxelCount;
+    if (!voxelCoordinates_ || voxelCoordinates_.bytes() != coordinateBytes(count)) {
+        voxelCoordinates_ = {};
+        voxelCoordinates_ = Buffer(context.device, "coordinates of surface voxels", coordinateBytes(count));
+    }
+    if (!flux_ || flux_.bytes() != fluxBytes(count)) {
+        flux_ = {};
+        flux_ = LargeBuffer(context.device, "bounced flux", fluxBytes(count));
+    }
+    const uint32_t words = uint32_t(voxels.words());
+    context.dispatch(list_, words, {voxels, {"voxelCoordinates", voxelCoordinates_}, {"words", words}});
+}
+
+void ConeBounces::gather(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& injected,
+                         const RadianceVoxels& radiance) {
+    list(context, voxels);
+    const uint32_t pairs = 3 * voxels.voxelCount;
+    for (uint32_t first = 0; first < pairs; first += kBatchPairs) {
+        const uint32_t batch = std::min(kBatchPairs, pairs - first);
+        context.dispatch(gather_, batch,
+                         {voxels,
+                          radiance,
+                          {"cones", coneSet_},
+                          {"voxelCoordinates", voxelCoordinates_},
+                          {"DirectFluxAt", injected.direct.at()},
+                          {"IndirectFluxAt", injected.indirect.at()},
+                          {"voxelArea", injected.area},
+                          {"FluxAt", flux_.at()},
+                          {"voxels", voxels.voxelCount},
+                          {"firstPair", first},
+                          {"pairs", batch},
+                          {"coneCount", cones_}});
+        context.stream.finish();
+    }
+}
+
+void ConeBounces::release(CommandStream& stream) {
+    stream.finish();
+    voxelCoordinates_ = {};
+    flux_ = {};
+}
+
+}  // namespace voxray

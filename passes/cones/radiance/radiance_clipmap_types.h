@@ -1,0 +1,26 @@
+// Levels of a radiance clipmap, shared by C++ (passes/cones/clipmap/radiance_clipmap.h) and GLSL
+// (passes/cones/radiance/radiance_clipmap.glsl).
+#ifndef VOXRAY_SHARED_RADIANCE_CLIPMAP_TYPES_H
+#define VOXRAY_SHARED_RADIANCE_CLIPMAP_TYPES_H
+
+#include "shaders/shared/types.h"
+
+// Enough for grids of 2048 voxels along an axis.
+#define RADIANCE_CLIPMAP_LEVELS 12
+
+VOXRAY_SHARED_BEGIN
+
+// The part of a level that is held: a box of its voxels.
+struct ClipmapWindow {
+    ivec3 first;  // Voxel of the level at the box's lower corner.
+    uvec3 size;   // Voxels along each axis.
+    uint begin;   // Voxels of the levels before.
+    vec3 center;  // m
+    vec3 reach;   // m from the center to where its weight in samples has fallen to 0; endless along axes that
+                  // it holds whole.
+    float fall;   // By how much that weight falls for each metre before the reach ends.
+};
+
+VOXRAY_SHARED_END
+
+#endif

@@ -1,0 +1,39 @@
+// Prefiltered radiance and opacity of surfaces at all scales: one accessor for all layouts. The including shader is compiled with
+// RadianceVoxels::defines() and given RadianceVoxels::bindings() (passes/cones/radiance/radiance_voxels.h).
+//
+// What a voxel stores, for each of its six faces: opacity, the area that its surfaces project onto the face over the face's area, at
+// most 1; and the radiance that they send that way, times the opacity. A ray meets the faces that look against it, those of axis k
+// once for each layer of voxels across k that it passes: |direction_k| layers for each voxel's width of its way. So the opacities
+// that a ray collects in passing a closed surface add up to 1, whatever the angle and however values are interpolated.
+#ifndef VOXRAY_RADIANCE_VOXELS_GLSL
+#define VOXRAY_RADIANCE_VOXELS_GLSL
+
+
+#include "passes/cones/radiance/radiance_types.h"
+
+// Voxels of a level along each axis: half as many as of the level below, rounded up.
+uvec3 levelResolution(RadianceGrid g, uint level) { return (g.resolution + ((1u << level) - 1u)) >> level; }
+
+// A layout declares `radianceVoxels`, a buffer whose first member is a RadianceGrid named `grid`, and defines, for a position in
+// metres:
+//  - vec4 sampleLevel(uint level, vec3 position, vec3 direction): what a ray along `direction` (unit) meets in a cube of a
+//    voxel's face round `position`, interpolated linearly in space: rgb, the radiance that surfaces there send against
+//    `direction`, times their opacity, W/(m² sr); a, the opacity that a beam meets there over one voxel's length: 0 where there is
+//    nothing; above 1 where surfaces hide each other;
+//  - uint startLevel(vec3 position, float dither): the level whose voxels a cone that starts there has to be clear of; between
+//    levels it is drawn by `dither`, 0 to 1.
+#if defined(RADIANCE_DENSE)
+#include "passes/cones/radiance/radiance_dense.glsl"
+#elif defined(RADIANCE_TEXTURES)
+#include "passes/cones/radiance/radiance_textures.glsl"
+#elif defined(RADIANCE_SVO)
+#include "passes/cones/radiance/radiance_svo.glsl"
+#elif defined(RADIANCE_SVO_BRICKS)
+#include "passes/cones/radiance/radiance_svo_bricks.glsl"
+#elif defined(RADIANCE_CLIPMAP) || defined(RADIANCE_CLIPMAP_TEXTURES)
+#include "passes/cones/radiance/radiance_clipmap.glsl"
+#endif
+
+float radianceVoxelSize(uint level) { return radianceVoxels.grid.voxelSize * float(1u << level); }
+
+#endif

@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "graph/registry.h"
+#include "passes/common/voxel_builder/voxel_builder.h"
+#include "passes/common/voxels/grid_levels.h"
+#include "passes/common/voxels/voxel_count.h"
+#include "passes/cones/clipmap/clipmap_voxels.h"
+
+namespace voxray {
+namespace {
+
+/// A level's grid, whose window is yet to be placed.
+gpu::VoxelGrid levelGrid(gpu::VoxelGrid grid, uint32_t level, uint32_t side) {
+    grid.voxelSize *= float(1u << level);
+    grid.resolution = levelResolution(grid.resolution, level);
+    grid.side = side;
+    grid.wordsPerRow = (heldVoxels(grid).size.x + 31) / 32;
+    return grid;
+}
+
+}  // namespace
+
+/// Turns triangles into the surface voxels of a clipmap. Windows follow the camera: what scrolls in is
+/// voxelized, and where surfaces moved what they touched, before and after. Docs: docs/clipmap.md.
+class VoxelizeClipmap final : public Pass {
+ public:
+    static constexpr const char* kName = "voxelize_clipmap";
+    static constexpr const char* kHelp =
+        "Voxelizes the scene's surfaces into a clipmap around the camera. Large voxels hold all of the "
+        "scene. Each finer level holds those of a window. Takes memory by the windows, not by the scene, but "
+        "for 8 bytes a triangle or more. In each frame voxelizes what scrolled in, and what moved. For "
+        "light_clipmap. Finds voxels as voxelize's method exact. Biased by: distance from the camera; a gap "
+        "narrower than a voxel of its level is closed. Source: Arnebäck 2017, section 4.1.1, after Panteleev "
+        "2014.";
+    struct Params : ClipmapParams, VoxelBuildParams {
+        uint32_t resolution = 128;
+        static constexpr auto schema() {
+            return std::tuple_cat(
+                std::tuple{field("resolution", &Params::resolution,
+                                 "Voxels of the finest level along the scene's longest side, if it were held "
+                                 "whole.",
+                                 1u, 1024u)},
+                ClipmapParams::schema(), VoxelBuildParams::schema());
+        }
+    };
+
+    explicit VoxelizeClipmap(const Params& params) : params_(params) {}
+    Phase phase() const override { return Phase::Frame; }
+    void plan(PassPlan& plan) override;
+    void record(PassContext& context) override;
+
+ private:
+    const Params params_;
+    Out<ClipmapVoxels> clipmap_{*this, "clipmap", "surface voxels round the camera, at all scales"};
+    VoxelBuilder builder_{*this, makeExactWalk(*this), params_.visibilityRays};
+    std::vector<gpu::ClipmapWindow> windows_;  ///< By level, as they were in the last frame.
+    uint64_t sceneVersion_ = 0;                ///< Likewise.
+};
+
+void VoxelizeClipmap::plan(PassPlan& plan) {
+    const Geometry& geometry = plan.frame.scene->geometry;
+    gpu::VoxelGrid finest = makeVoxelGrid(geometry.region.min, geometry.region.max, params_.resolution);
+    finest.directions = params_.directions;
+    ClipmapVoxels& clipmap = plan[clipmap_];
+    clipmap.grid = {finest.origin,     finest.voxelSize,
+                    finest.resolution, clipmapLevels(finest.resolution, params_, kName),
+                    finest.directions, 1};
+    clipmap.windows = ClipmapWindows(clipmap.grid, params_.clipmapResolution);
+
+    const std::vector<uint32_t> counts = plan.ofScene(
+        fmt::format("voxels of {} in windows of {}", params_.resolution, params_.clipmapResolution),
+        [&] { return countWindowVoxels(geometry, finest, params_.clipmapResolution); });
+    clipmap.levels.resize(clipmap.windows.firstWhole() + 1);
+    SurfaceVoxels largest;
+    for (uint32_t level = 0; level < clipmap.levels.size(); ++level) {
+        SurfaceVoxels& voxels = clipmap.levels[level].voxels;
+        voxels.unoccludedOnly = params_.visibilityRays > 0;
+        voxels.grid = levelGrid(finest, level, params_.clipmapResolution);
+        voxels.voxelCount = counts[level];
+        VoxelBuilder::planVoxels(plan, voxels);
+        // Known as updated up to the next frame.
+        plan.reserve("updated voxels (at most)", VoxelBuilder::bytes(voxels));
+        largest.voxelCount = std::max(largest.voxelCount, voxels.voxelCount);
+    }
+    largest.grid = clipmap.levels[0].voxels.grid;
+    builder_.planWork(plan, largest, true);
+}
+
+void VoxelizeClipmap::record(PassContext& context) {
+    const Frame& frame = context.frame;
+    ClipmapVoxels& clipmap = context[clipmap_];
+    const bool moved = frame.sceneVersion != sceneVersion_;
+    const bool known = !moved || (frame.sceneVersion == sceneVersion_ + 1 && frame.changed);
+    const std::vector<gpu::ClipmapWindow> before = known ? windows_ : std::vector<gpu::ClipmapWindow>();
+    windows_.clear();
+    uint64_t updated = 0;
+    for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
+        ClipmapVoxels::Level& level = clipmap.levels[l];
+        SurfaceVoxels& voxels = level.voxels;
+        windows_.push_back(clipmap.windows.window(l, frame.camera.position));
+        voxels.grid.first = windows_[l].first;
+        level.updated = {};
+        if (before.empty()) {
+            level.boxes = {heldVoxels(voxels.grid)};
+            builder_.build(context, voxels);
+        } else {
+            level.boxes = scrolledIn(before[l], windows_[l]);
+            if (moved)
+                std::ranges::copy(changedVoxels(voxels.grid, *frame.changed),
+                                  std::back_inserter(level.boxes));
+            if (!level.boxes.empty())
+                level.updated = builder_.update(context, VoxelRegion(voxels.grid, level.boxes), voxels);
+        }
+        for (const VoxelBox& box : level.boxes) updated += box.count();
+    }
+    context.report(kUpdatedVoxels, double(updated));
+    sceneVersion_ = frame.sceneVersion;
+    if (clipmap.levels.back().voxels.voxelCount == 0)
+        throw Error("{}: no surface meets the grid; the scene needs triangles with an area", kName);
+}
+
+VOXRAY_REGISTER_PASS(VoxelizeClipmap);
+
+}  // namespace voxray

@@ -1,0 +1,144 @@
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "base/parallel.h"
+#include "graph/registry.h"
+#include "passes/common/voxels/voxels.h"
+#include "passes/final_gather/merged_voxels/irradiance_tree.h"
+#include "passes/final_gather/merged_voxels/merge_voxels/face_samples.h"
+
+namespace voxray {
+namespace {
+
+/// The buffer `irradianceTree` of passes/final_gather/merged_voxels/irradiance_tree.glsl.
+struct Header {
+    VkDeviceAddress words;
+    gpu::IrradianceTreeGrid grid;
+};
+
+/// Of a tree with a leaf for each face of each voxel: leaves, and splits.
+uint64_t maxBytes(uint32_t voxelCount) {
+    return uint64_t(voxelCount) * kFaces * (TREE_LEAF_WORDS + 1) * sizeof(uint32_t);
+}
+
+}  // namespace
+
+/// Which light merged voxels hold.
+enum class MergedLight { All, Indirect };
+template <>
+struct EnumNames<MergedLight> {
+    static constexpr std::array names{std::pair{MergedLight::All, "all"},
+                                      std::pair{MergedLight::Indirect, "indirect"}};
+};
+
+/// Merges voxels that hold nearly the same light, so that error decides where they are small.
+class MergeVoxels final : public Pass {
+ public:
+    static constexpr const char* kName = "merge_voxels";
+    static constexpr const char* kHelp =
+        "Merges neighbouring voxels of nearly the same light into k-d trees. Each face has its own tree, "
+        "whose leaves stand for merged voxels. The trees are for gather_merged_rays. The tree is grown down "
+        "to voxels and pruned where leaves are not worth their memory. Runs on the host. Biased by: "
+        "tolerance; flux is kept. Source: cost-complexity pruning (Breiman et al. 1984; Chou, Lookabaugh and "
+        "Gray 1989).";
+    struct Params {
+        float tolerance = 0.3f;
+        MergedLight light = MergedLight::All;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("tolerance", &Params::tolerance,
+                      "Relative error of irradiance that is allowed over one voxel's face: a leaf is kept "
+                      "where it lowers the squared relative error, times area, by more than this squared "
+                      "voxel faces. 0: voxels are merged only where they hold the same. Black is merged with "
+                      "black alone.",
+                      0.0f, 30.0f),
+                field("light", &Params::light,
+                      "all: direct and indirect light. indirect: gather_merged_rays measures direct light at "
+                      "each hit.")};
+        }
+    };
+
+    explicit MergeVoxels(const Params& params) : params_(params) {}
+    void plan(PassPlan& plan) override;
+    void record(PassContext& context) override;
+
+ private:
+    const Params params_;
+    In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
+    In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
+    Out<IrradianceTree> tree_{*this, "irradiance_tree", "the same light, voxels that are alike merged"};
+    std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of the voxels and the light in them.
+};
+
+void MergeVoxels::plan(PassPlan& plan) {
+    const SurfaceVoxels& voxels = plan[voxels_];
+    plan[tree_].lightBounces = plan[irradiance_].lightBounces;
+    plan[tree_].holdsDirect = params_.light == MergedLight::All;
+    plan.buffer(plan[tree_].header, "header of the irradiance tree", sizeof(Header));
+    plan.reserve("irradiance tree (at most)", maxBytes(voxels.voxelCount));
+    plan.reserve("occupancy and known faces", 2 * voxels.words() * sizeof(uint32_t) + voxels.voxelCount + 4);
+}
+
+void MergeVoxels::record(PassContext& context) {
+    const SurfaceVoxels& voxels = context[voxels_];
+    const VoxelIrradiance& light = context[irradiance_];
+    IrradianceTree& tree = context[tree_];
+    const std::pair version{voxels.version, light.version};
+    if (version_ == version) return;
+    version_ = version;
+
+    // A tree for each face
+    VoxelFaces all = readVoxelFaces(context.stream, voxels, light, tree.holdsDirect);
+    std::array<SampleTree, kFaces> trees;
+    parallelRanges(kFaces, 1, [&](size_t begin, size_t end) {
+        for (size_t face = begin; face < end; ++face)
+            trees[face] = buildSampleTree(all.faces[face], params_.tolerance);
+    });
+
+    // One after another
+    Header header{0, {voxels.grid, {}}};
+    std::vector<uint32_t> words;
+    double area = 0, squaredError = 0;
+    size_t count = 0;
+    tree.leaves = 0;
+    for (size_t face = 0; face < kFaces; ++face) {
+        header.grid.root[face] = uint32_t(words.size());
+        words.insert(words.end(), trees[face].words.begin(), trees[face].words.end());
+        tree.leaves += trees[face].leaves;
+        squaredError += trees[face].squaredError;
+        for (const FaceSample& s : all.faces[face]) area += s.area;
+        count += all.faces[face].size();
+    }
+    tree.words = {};
+    tree.words = Buffer(context.device, "irradiance tree", words.size() * sizeof(uint32_t));
+    context.stream.upload(tree.words, words);
+    header.words = tree.words.address();
+    context.stream.upload(tree.header, std::as_bytes(std::span(&header, 1)));
+
+    // The voxels that they are for
+    const auto copied = [&](const Buffer& from, const char* name) {
+        Buffer copy(context.device, name, from.bytes());
+        context.stream.copy(from, copy, from.bytes());
+        return copy;
+    };
+    tree.occupancy = {};
+    tree.rank = {};
+    tree.faces = {};
+    tree.occupancy = copied(voxels.occupancy, "occupancy of merged voxels");
+    tree.rank = copied(voxels.rank, "rank of merged voxels");
+    tree.faces = Buffer(context.device, "faces of merged voxels", all.known.size() * sizeof(uint32_t));
+    context.stream.upload(tree.faces, all.known);
+    context.stream.finish();
+    context.report("faces of voxels", double(count));
+    context.report("leaves", tree.leaves);
+    context.report("bytes of the trees", double(tree.words.bytes()));
+    context.report("bytes in all", double(tree.bytes()));
+    context.report("relative error of faces", area > 0 ? std::sqrt(squaredError / area) : 0);
+}
+
+VOXRAY_REGISTER_PASS(MergeVoxels);
+
+}  // namespace voxray

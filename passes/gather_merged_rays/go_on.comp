@@ -1,3 +1,0 @@
-// Merged voxels where a final gather reads light.
-#include "passes/common/final_gather/go_on.glsl"
-#include "passes/gather_merged_rays/tree_light.glsl"

@@ -1,3 +1,0 @@
-// Voxels where a final gather reads light.
-#include "passes/common/final_gather/shade.glsl"
-#include "passes/gather_rays/voxel_light.glsl"

@@ -1,0 +1,401 @@
+#include "passes/hybrid_leaves/gather_mirror/gather_mirror.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
+#include "graph/registry.h"
+#include "passes/common/compute/compaction.h"
+#include "passes/common/compute/random_seed.h"
+#include "passes/common/view/frame_image.h"
+#include "passes/common/view/gbuffer.h"
+#include "passes/common/view/specular_lobes.h"
+#include "passes/common/voxels/face_irradiance.h"
+#include "passes/cones/radiance/radiance_voxels.h"
+#include "passes/hybrid_leaves/gather_mirror/grazing_table.h"
+#include "passes/hybrid_leaves/gather_mirror/mirror_types.h"
+#include "passes/hybrid_leaves/hybrid_tracer.h"
+#include "passes/surfels/surfel_light.h"
+#include "scene/camera_rays.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kBatchSlots = 1u << 18;  // Bounds what a batch takes to 80 MiB, whatever the image.
+
+/// As in shade.comp.
+struct MirrorCounts {
+    uint32_t next, surfels, triangles, cells, wide, missed;
+};
+
+/// Pixels whose rays are traced together.
+uint32_t batchPixels(const Frame& frame, uint32_t samples, uint32_t rays) {
+    return std::clamp(kBatchSlots / (samples * samples * rays), 1u, frame.width * frame.height);
+}
+
+uint32_t flagWords(uint64_t slots) {
+    return uint32_t((slots + 31) / 32);
+}
+
+}  // namespace
+
+/// Where direct light at what mirrors show comes from.
+enum class MirrorDirect { Voxels, ShadowRays };
+template <>
+struct EnumNames<MirrorDirect> {
+    static constexpr std::array names{std::pair{MirrorDirect::Voxels, "voxels"},
+                                      std::pair{MirrorDirect::ShadowRays, "shadow_rays"}};
+};
+
+/// What finds the ends of rays: the scene's ray tracer, or one of two walks through hybrid leaves
+/// (HybridWalk).
+enum class MirrorWalk { Exact, Hierarchical, VoxelByVoxel };
+template <>
+struct EnumNames<MirrorWalk> {
+    static constexpr std::array names{std::pair{MirrorWalk::Exact, "exact"},
+                                      std::pair{MirrorWalk::Hierarchical, "hierarchical"},
+                                      std::pair{MirrorWalk::VoxelByVoxel, "voxel_by_voxel"}};
+};
+
+/// What a ray through hybrid leaves becomes where it is wider than a voxel.
+enum class WideRays { Rays, Cones };
+template <>
+struct EnumNames<WideRays> {
+    static constexpr std::array names{std::pair{WideRays::Rays, "rays"}, std::pair{WideRays::Cones, "cones"}};
+};
+
+/// What mirror-like surfaces show: reflected rays from each texel of the g-buffer, lit where they end. Docs:
+/// docs/mirrors.md. Source: Seok 2021 (rays for mirrors, cones for all else).
+class GatherMirror final : public Pass {
+ public:
+    static constexpr const char* kName = "gather_mirror";
+    static constexpr const char* kHelp =
+        "Traces reflected rays for the specular light of mirror-like surfaces. Their light is joined with "
+        "the direct and the indirect light of other passes. It includes lamps and environment that a mirror "
+        "shows, and mirrors in mirrors. "
+        "Biased by: voxel size (indirect light where rays end; direct light too with `direct_at_hits: "
+        "voxels`); specular light of what mirrors show is left out where it is rougher than the hand-over; "
+        "light that mirrors throw at other surfaces is in voxels only where their injection follows it; "
+        "cells of hybrid leaves' grids reach a little farther than their surfaces. "
+        "Noisy by: `rays` where surfaces are no perfect mirrors; light_samples. "
+        "Source: Seok 2021, chapter 4.";
+    struct Params {
+        float maxRoughness = 0.1f;
+        float blendRoughness = 0.1f;
+        uint32_t rays = 1;
+        uint32_t bounces = 4;
+        MirrorWalk walk = MirrorWalk::Exact;
+        WideRays wideRays = WideRays::Rays;
+        MirrorDirect directAtHits = MirrorDirect::ShadowRays;
+        uint32_t lightSamples = 1;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("max_roughness", &Params::maxRoughness,
+                      "Up to this roughness rays alone bring specular light. Perfect mirrors end at 0.0316.",
+                      0.0f, 1.0f),
+                field("blend_roughness", &Params::blendRoughness,
+                      "Over this much more roughness rays hand over to the cones of gather_cones, or to none "
+                      "where no pass writes 'lobes'.",
+                      0.0f, 1.0f),
+                field("rays", &Params::rays,
+                      "Rays of each g-buffer texel whose surface is no perfect mirror; a mirror sends one.",
+                      1u, 64u)
+                    .lessNoise(),
+                field("bounces", &Params::bounces,
+                      "Mirrors that light meets one after another, at most, the one that the camera sees "
+                      "among them; what the last one shows of further mirrors is black.",
+                      1u, 32u),
+                field("walk", &Params::walk,
+                      "What finds the ends of rays. exact: the ray tracer. hierarchical, voxel_by_voxel: "
+                      "leaves of the octree, which hold triangles or grids of fine voxels, past empty space "
+                      "of all sizes or, as in the paper, through each finest voxel on the way, from the root "
+                      "each time."),
+                field("wide_rays", &Params::wideRays,
+                      "Rays through hybrid leaves that are wider than a voxel where they come to a surface. "
+                      "rays: they stay rays. cones: a cone through larger voxels goes on, which hold direct "
+                      "light, too.")
+                    .onlyWith(noneOf(&Params::walk, {MirrorWalk::Exact})),
+                field("direct_at_hits", &Params::directAtHits,
+                      "Direct light where rays end. voxels: as coarse as voxels. shadow_rays: exact, by a "
+                      "shadow ray to each light; voxels bring indirect light alone."),
+                field("light_samples", &Params::lightSamples,
+                      "Shadow rays to the emissive surfaces, and to the environment, from each ray's end.",
+                      1u, 256u)
+                    .lessNoise()
+                    .onlyWith(oneOf(&Params::directAtHits, {MirrorDirect::ShadowRays}))};
+        }
+    };
+
+    explicit GatherMirror(const Params& params);
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override { setup.stream.upload(grazing_, grazingTable()); }
+    void record(PassContext& context) override;
+
+ private:
+    bool isHybrid() const { return params_.walk != MirrorWalk::Exact; }
+    bool widens() const { return isHybrid() && params_.wideRays == WideRays::Cones; }
+    bool shadowRays() const { return params_.directAtHits == MirrorDirect::ShadowRays; }
+    Defines ofWalk() const { return isHybrid() ? Defines{{"HYBRID", "1"}} : Defines{}; }
+    gpu::MirrorBatch firstBatch(const Frame& frame, uint32_t samples, uint32_t frameIndex) const;
+    /// Light in voxels, by face; kept until it changes.
+    void updateFaces(PassContext& context);
+    /// Sends the rays of a batch and adds up what they bring.
+    void gather(PassContext& context, const gpu::MirrorBatch& batch);
+    /// Finds where `count` rays end.
+    void trace(PassContext& context, uint32_t depth, uint32_t count);
+    /// Lights their ends. @return the number of rays that mirrors send on.
+    uint32_t end(PassContext& context, const gpu::MirrorBatch& batch, uint32_t depth, uint32_t count);
+    void resolve(PassContext& context, const gpu::MirrorBatch& batch);
+
+    const Params params_;
+    In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
+    In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
+    In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
+    In<HybridLeaves> leaves_{*this, "hybrid_leaves", "what each leaf of the octree holds", isHybrid()};
+    In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales", widens()};
+    InOptional<SpecularLobes> lobes_{*this, "lobes", "specular light by cones, for what is rougher"};
+    InOptional<FrameImage> otherDirect_{*this, "direct", "radiance reflected of direct light"};
+    InOptional<FrameImage> otherIndirect_{*this, "indirect",
+                                          "radiance that diffuse albedos reflect of indirect light"};
+    Out<FrameImage> direct_{*this, "direct", "the same, and what mirrors show of lamps and environment"};
+    Out<FrameImage> indirect_{*this, "indirect", "the same, and what else mirrors show"};
+    Out<MirrorEnds> ends_{*this, "mirror_ends", "what a pixel's mirror rays ended on, to look at"};
+    Kernel mark_{*this, "mark.comp"};
+    Kernel begin_{*this, "begin.comp", ofWalk()};
+    Kernel wide_{*this, "wide.comp"};
+    Kernel shade_{*this, "shade.comp", ofWalk()};
+    Kernel reflect_{*this, "reflect.comp"};
+    Kernel resolve_{*this, "resolve.comp"};
+    Compaction compaction_{*this};
+    FaceIrradiance faces_{*this};
+    std::optional<std::pair<uint64_t, uint64_t>> facesVersion_;  ///< Of the voxels and the light in them.
+    std::vector<LightSource> sources_;
+    std::optional<SurfelLight> hitLight_;  ///< With shadow rays.
+    std::optional<HybridTracer> hybrid_;   ///< With a walk through hybrid leaves.
+    uint64_t triangleHits_ = 0, cellHits_ = 0, wideRays_ = 0, misses_ = 0;  ///< Of a frame.
+    Buffer grid_, grazing_, counts_;
+    Buffer flags_, slots_, light_;        ///< Of a batch.
+    std::array<Buffer, 2> paths_, rays_;  ///< Those on their way, and those that go on.
+    std::array<Buffer, 2> starts_;        ///< Of rays through hybrid leaves, a gpu::RayStart each.
+    Buffer hits_, surfels_, hitDirect_;
+};
+
+GatherMirror::GatherMirror(const Params& params) : params_(params) {
+    if (shadowRays()) hitLight_.emplace(*this);
+    if (isHybrid())
+        hybrid_.emplace(*this, params_.walk == MirrorWalk::Hierarchical ? HybridWalk::Hierarchical
+                                                                        : HybridWalk::VoxelByVoxel);
+}
+
+void GatherMirror::plan(PassPlan& plan) {
+    const SpecularLobes* lobes = plan[lobes_];
+    if (lobes && lobes->emission)
+        throw Error(
+            "gather_mirror: the cones of 'lobes' bring what surfaces emit, which rays and the direct pass "
+            "bring too; set 'emission' of filter_voxels to false");
+    if (widens() && plan[radiance_].emission)
+        throw Error(
+            "gather_mirror: wide rays would bring what surfaces emit, which other passes bring, too; set "
+            "'emission' of filter_voxels to false");
+    if (lobes) lobes->isJoined = true;
+    const uint32_t samples = plan[gbuffer_].samples;
+    const uint64_t slots =
+        uint64_t(batchPixels(plan.frame, samples, params_.rays)) * samples * samples * params_.rays;
+
+    plan.buffer(grid_, "grid of voxels", sizeof(gpu::VoxelGrid));
+    plan.buffer(grazing_, "what a dielectric layer takes", GRAZING_COSINES * sizeof(float));
+    plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(plan[voxels_].voxelCount));
+    plan.image(plan[direct_].image, "direct", frameImageDesc(plan.frame));
+    plan.image(plan[indirect_].image, "indirect", frameImageDesc(plan.frame));
+    plan.image(plan[ends_].parts, "ends of mirror rays", frameImageDesc(plan.frame));
+    // What voxels hold is reflected once more where rays end; an empty number counts as none.
+    std::optional<uint32_t> bounces = oneMore(plan[irradiance_].lightBounces);
+    if (const FrameImage* other = plan[otherIndirect_]) bounces = std::max(bounces, other->lightBounces);
+    plan[indirect_].lightBounces = bounces;
+    plan[indirect_].hasSpecularLobes = true;
+
+    plan.buffer(counts_, "numbers of mirror rays", sizeof(MirrorCounts));
+    plan.buffer(flags_, "flags of mirror rays", flagWords(slots) * sizeof(uint32_t));
+    plan.buffer(slots_, "list of mirror rays", slots * sizeof(uint32_t));
+    plan.buffer(light_, "light of mirror rays", slots * sizeof(gpu::MirrorLight));
+    for (Buffer& paths : paths_) plan.buffer(paths, "paths of mirror rays", slots * sizeof(gpu::MirrorPath));
+    for (Buffer& rays : rays_) plan.buffer(rays, "mirror rays", slots * sizeof(Ray));
+    if (hybrid_) {
+        hybrid_->plan(plan, plan[voxels_]);
+        for (Buffer& starts : starts_)
+            plan.buffer(starts, "starts of mirror rays", slots * sizeof(gpu::RayStart));
+    }
+    plan.buffer(hits_, "hits of mirror rays", slots * sizeof(Hit));
+    plan.buffer(surfels_, "surfels at hits", (shadowRays() ? slots : 1) * sizeof(gpu::Surfel));
+    plan.reserveScratch("listing mirror rays", Compaction::scratchBytes(flagWords(slots)));
+    wide_.compileIf(widens());
+    if (widens()) wide_.define(plan[radiance_].defines());
+    shade_.specialize({{"kShadowRays", shadowRays()}});
+    reflect_.compileIf(shadowRays());
+    resolve_.specialize({{"kHasLobes", lobes != nullptr}});
+    if (!hitLight_) return;
+    sources_ = lightSources(*plan.frame.scene);
+    hitLight_->plan(plan, uint32_t(slots));
+    plan.buffer(hitDirect_, "direct light at hits", slots * 4 * sizeof(float));
+}
+
+gpu::MirrorBatch GatherMirror::firstBatch(const Frame& frame, uint32_t samples, uint32_t frameIndex) const {
+    const CameraRays rays = cameraRays(frame.camera, frame.width, frame.height);
+    gpu::MirrorBatch batch{};
+    batch.camera = frame.camera.position;
+    batch.width = frame.width;
+    batch.forward = rays.forward;
+    batch.samples = samples;
+    batch.rays = params_.rays;
+    batch.maxRoughness = params_.maxRoughness;
+    batch.blendRoughness = params_.blendRoughness;
+    batch.texelArea = 4 * glm::length(rays.right) * glm::length(rays.up) /
+                      float(uint64_t(frame.width) * frame.height * samples * samples);
+    batch.seed = randomSeed(frame, frameIndex);
+    return batch;
+}
+
+void GatherMirror::record(PassContext& context) {
+    updateFaces(context);
+    const Frame& frame = context.frame;
+    const uint32_t samples = context[gbuffer_].samples, pixels = frame.width * frame.height;
+    const uint32_t perBatch = batchPixels(frame, samples, params_.rays);
+    gpu::MirrorBatch batch = firstBatch(frame, samples, context.frameIndex);
+    triangleHits_ = cellHits_ = wideRays_ = misses_ = 0;
+    if (hybrid_) {
+        const SurfaceVoxels& voxels = context[voxels_];
+        const float widest = widens() ? voxels.grid.voxelSize : std::numeric_limits<float>::infinity();
+        hybrid_->begin(context.stream, context.scene, voxels, context[leaves_], widest);
+    }
+    for (uint32_t first = 0; first < pixels; first += perBatch) {
+        batch.firstPixel = first;
+        batch.pixels = std::min(perBatch, pixels - first);
+        gather(context, batch);
+        resolve(context, batch);
+    }
+    context.report("mirror rays that hit triangles", double(triangleHits_));
+    context.report("mirror rays that missed", double(misses_));
+    if (!hybrid_) return;
+    context.report("mirror rays that hit cells of grids", double(cellHits_));
+    if (widens()) context.report("mirror rays that went on as cones", double(wideRays_));
+    context.voxelCounts.push_back(&hybrid_->counts());
+}
+
+void GatherMirror::updateFaces(PassContext& context) {
+    const SurfaceVoxels& voxels = context[voxels_];
+    const VoxelIrradiance& light = context[irradiance_];
+    const std::pair version{voxels.version, light.version};
+    if (facesVersion_ == version) return;
+    faces_.update(context.stream, voxels, light.area, light.indirect, shadowRays() ? nullptr : &light.direct);
+    context.stream.upload(grid_, std::vector{voxels.grid});
+    facesVersion_ = version;
+}
+
+void GatherMirror::gather(PassContext& context, const gpu::MirrorBatch& batch) {
+    // List the slots that send a ray.
+    CommandStream& stream = context.stream;
+    const uint64_t slots = uint64_t(batch.pixels) * batch.samples * batch.samples * batch.rays;
+    stream.fill(light_, 0);
+    stream.fill(flags_, 0);
+    context.dispatch(mark_, slots, {context[gbuffer_], {"flags", flags_}, {"batch", batch}});
+    uint32_t count = compaction_.run(stream, flags_, slots_, flagWords(slots));
+    if (count == 0) return;
+
+    // Their first rays, and those that mirrors send on.
+    context.dispatch(begin_, count,
+                     {context.scene,
+                      context[gbuffer_],
+                      {"slots", slots_},
+                      {"paths", paths_[0]},
+                      {"rays", rays_[0]},
+                      ifUsed({"starts", starts_[0]}),
+                      {"batch", batch},
+                      {"count", count}});
+    for (uint32_t depth = 0; depth < params_.bounces && count > 0; ++depth) {
+        trace(context, depth, count);
+        count = end(context, batch, depth, count);
+    }
+}
+
+void GatherMirror::trace(PassContext& context, uint32_t depth, uint32_t count) {
+    const Buffer& rays = rays_[depth % 2];
+    if (!hybrid_) {
+        context.tracer.closestHit(context.stream, rays, hits_, count);
+        return;
+    }
+    hybrid_->closestFrom(context.stream, rays, starts_[depth % 2], hits_, count);
+    context.extraRays += count;
+    if (!widens()) return;
+    context.dispatch(wide_, count,
+                     {context[radiance_],
+                      {"paths", paths_[depth % 2]},
+                      {"rays", rays},
+                      {"starts", starts_[depth % 2]},
+                      {"hits", hits_},
+                      {"light", light_},
+                      {"count", count}});
+}
+
+uint32_t GatherMirror::end(PassContext& context, const gpu::MirrorBatch& batch, uint32_t depth,
+                           uint32_t count) {
+    CommandStream& stream = context.stream;
+    stream.fill(counts_, 0);
+    context.dispatch(shade_, count,
+                     {context.scene,
+                      context[voxels_],
+                      isHybrid() ? context[leaves_].bindings() : std::vector<Binding>(),
+                      faces_.binding(),
+                      {"grazing", grazing_},
+                      {"grid", grid_},
+                      {"paths", paths_[depth % 2]},
+                      {"rays", rays_[depth % 2]},
+                      {"hits", hits_},
+                      {"nextPaths", paths_[(depth + 1) % 2]},
+                      {"nextRays", rays_[(depth + 1) % 2]},
+                      ifUsed({"nextStarts", starts_[(depth + 1) % 2]}),
+                      {"surfels", surfels_},
+                      {"light", light_},
+                      {"counts", counts_},
+                      {"batch", batch},
+                      {"count", count},
+                      {"depth", depth},
+                      {"isLast", depth + 1 == params_.bounces}});
+    const MirrorCounts counts = stream.readAs<MirrorCounts>(counts_, 1)[0];
+    triangleHits_ += counts.triangles;
+    cellHits_ += counts.cells;
+    wideRays_ += counts.wide;
+    misses_ += counts.missed;
+
+    // Direct light there.
+    if (counts.surfels > 0) {
+        hitLight_->measure(context, sources_, surfels_, counts.surfels, params_.lightSamples,
+                           batch.seed + 0xa3u + depth * 0x9e3779b9u, hitDirect_);
+        context.dispatch(
+            reflect_, counts.surfels,
+            {{"surfels", surfels_}, {"arriving", hitDirect_}, {"light", light_}, {"count", counts.surfels}});
+    }
+    return counts.next;
+}
+
+void GatherMirror::resolve(PassContext& context, const gpu::MirrorBatch& batch) {
+    const SpecularLobes* lobes = context[lobes_];
+    context.dispatch(resolve_, batch.pixels,
+                     {context[gbuffer_],
+                      {"lobes", lobes ? lobes->reflected : *context.black},
+                      {"direct", context.orBlack(otherDirect_)},
+                      {"indirect", context.orBlack(otherIndirect_)},
+                      {"grazing", grazing_},
+                      {"light", light_},
+                      {"joinedDirect", context[direct_].image},
+                      {"joinedIndirect", context[indirect_].image},
+                      {"ends", context[ends_].parts},
+                      {"batch", batch}});
+}
+
+VOXRAY_REGISTER_PASS(GatherMirror);
+
+}  // namespace voxray

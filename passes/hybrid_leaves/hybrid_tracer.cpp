@@ -1,0 +1,72 @@
+#include "passes/hybrid_leaves/hybrid_tracer.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kRaysPerLaunch = 1u << 26;
+
+}  // namespace
+
+HybridTracer::HybridTracer(ProgramOwner& owner, HybridWalk walk)
+    : march_(owner, walk == HybridWalk::Hierarchical ? VoxelWalk::Bricks : VoxelWalk::SvoVoxels),
+      closestHit_(owner, "hybrid_tracer.comp", march_.defines()),
+      occluded_(owner, "hybrid_tracer.comp", march_.defines()) {}
+
+void HybridTracer::plan(MemoryPlan& plan, const SurfaceVoxels& voxels) {
+    march_.plan(plan, voxels);
+    plan.buffer(testCounts_, "tests of triangles", sizeof(uint64_t));
+    closestHit_.specialize({{"kOccluded", 0}});
+    occluded_.specialize({{"kOccluded", 1}});
+}
+
+void HybridTracer::begin(CommandStream& stream, const GpuScene& scene, const SurfaceVoxels& voxels,
+                         const HybridLeaves& leaves, float widest) {
+    march_.begin(stream, leaves.voxels(voxels));
+    stream.fill(testCounts_, 0);
+    scene_ = &scene;
+    leaves_ = &leaves;
+    grid_ = voxels.grid;
+    widest_ = widest;
+}
+
+void HybridTracer::closestFrom(CommandStream& stream, const Buffer& rays, const Buffer& starts,
+                               const Buffer& hits, uint32_t count) {
+    if (rays.bytes() < count * sizeof(Ray) || starts.bytes() < count * sizeof(gpu::RayStart) ||
+        hits.bytes() < count * sizeof(Hit))
+        throw Error("hybrid tracer: buffers of {} rays are too small", count);
+    dispatch(stream, closestHit_, rays.address(), starts.address(), hits.address(), count);
+}
+
+void HybridTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
+                         uint32_t count, Coherence) {
+    if (starts_ && starts_->bytes() < count * sizeof(gpu::RayStart))
+        throw Error("hybrid tracer: a buffer of the starts of {} rays is too small", count);
+    dispatch(stream, query == Query::Occluded ? occluded_ : closestHit_, rays.address(),
+             starts_ ? starts_->address() : 0, results.address(), count);
+}
+
+void HybridTracer::dispatch(CommandStream& stream, const Program& program, VkDeviceAddress rays,
+                            VkDeviceAddress starts, VkDeviceAddress results, uint32_t count) {
+    for (uint32_t first = 0; first < count;) {
+        const uint32_t end = first + std::min(kRaysPerLaunch, count - first);
+        stream.dispatch(program, end - first,
+                        {*scene_,
+                         march_,
+                         *leaves_,
+                         {"hybridTestCounts", testCounts_},
+                         {"rays", rays},
+                         {"starts", starts},
+                         {"hits", results},
+                         {"grid", grid_},
+                         {"widest", widest_},
+                         {"firstRay", first},
+                         {"endRay", end}});
+        first = end;
+    }
+}
+
+}  // namespace voxray

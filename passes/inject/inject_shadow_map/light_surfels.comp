@@ -1,0 +1,41 @@
+// Adds the light of one view of a light to the surfels in it, by the fraction of the four nearest texels, weighted bilinearly,
+// that see the surfel.
+#include "shaders/lights/light_view.glsl"
+#include "shaders/lights/lights.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "passes/surfels/surfel_types.h"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(scalar) buffer Direct { vec4 data[]; } direct;
+uniform sampler2D shadowMap;
+layout(push_constant, scalar) uniform Push {
+    LightView view;
+    uint light;
+    uint resolution;  // Texels a side.
+    uint side;        // Which side of a cube the view is, in the order +x -x +y -y +z -z; 6: it is no cube's.
+    uint count;
+} push;
+
+bool seen(ivec2 texel, Surfel s) {
+    return texelSees(push.view, push.resolution, texel, texelFetch(shadowMap, texel, 0).r, s.position, s.normal);
+}
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const Surfel s = surfels.data[i];
+    const LightView view = push.view;
+    const vec3 away = s.position - view.origin;
+    if (push.side < 6u && cubeSide(away) != push.side) return;
+    const LightSample l = samplePunctual(sceneLights.data[push.light], s.position);
+    const vec3 irradiance = l.irradiance * max(dot(s.normal, l.direction), 0.0);
+    if (all(equal(irradiance, vec3(0.0)))) return;
+
+    vec4 weights;
+    const ivec2 first = nearestTexels(view, push.resolution, s.position, weights);
+    float visible = 0.0;
+    for (int k = 0; k < 4; ++k)
+        if (seen(first + ivec2(k & 1, k >> 1), s)) visible += weights[k];
+    direct.data[i] += vec4(visible * irradiance, 0.0);
+}

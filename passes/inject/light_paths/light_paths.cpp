@@ -1,0 +1,154 @@
+#include "passes/inject/light_paths/light_paths.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "passes/inject/light_paths/light_path_types.h"
+
+namespace voxray {
+namespace {
+
+// Merged irradiances need beams: light whose cross-section is known at each hit.
+void checkBeams(const std::string& pass, const LightPathParams& params,
+                const std::vector<LightSource>& sources) {
+    const std::string write = enumName(params.write);
+    const bool isDiffuse = params.secondary == Secondary::Diffuse || params.secondary == Secondary::Material;
+    if (isDiffuse && params.bounces > 0)
+        throw Error(
+            "{}: 'write: {}' merges irradiances, and a diffusely reflected ray has none, only power; use "
+            "'secondary: mirror' or 'none', or 'write: average'",
+            pass, write);
+    for (const LightSource& source : sources)
+        if (source.kind != LightSource::Punctual)
+            throw Error(
+                "{}: 'write: {}' merges irradiances, and a ray from {} has none, only power; use 'write: "
+                "average', or point, spot and directional lights alone",
+                pass, write,
+                source.kind == LightSource::Emitters ? "an emissive surface" : "the environment");
+}
+
+}  // namespace
+
+LightPaths::LightPaths(ProgramOwner& owner, const LightPathParams& params)
+    : params_(params),
+      sumsFlux_(params.write == Write::Average),
+      visibility_(owner, "light_paths_visibility.comp"),
+      follow_(owner, "light_paths_follow.comp",
+              sumsFlux_ ? Defines{{"FLUX", "1"}} : VoxelAccumulator::defines(params.write)),
+      unoccludedArea_(owner, "passes/common/voxels/unoccluded_area.comp"),
+      tint_(owner) {
+    for (size_t i = 0; i < targets(); ++i) {
+        if (sumsFlux_)
+            fluxes_[i].emplace(owner);
+        else
+            irradiances_[i].emplace(owner, params_);
+    }
+}
+
+void LightPaths::plan(PassPlan& plan, const std::string& pass, uint32_t batch, const SurfaceVoxels& voxels,
+                      const std::vector<LightSource>& sources) {
+    follow_.specialize({{"kSecondary", uint32_t(params_.secondary)}, {"kCaustics", params_.caustics}});
+    if (sumsFlux_) {
+        if (!plan.device.shaderInt64Atomics)
+            throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", pass,
+                        plan.device.name);
+        plan.reserveScratch("flux accumulator (estimated)",
+                            targets() * uint64_t(voxels.voxelCount) * FluxAccumulator::kBytesPerVoxel);
+    } else {
+        checkBeams(pass, params_, sources);
+        plan.reserveScratch("voxel samples (estimated)",
+                            targets() * VoxelAccumulator::plan(plan, pass, params_, voxels));
+    }
+    plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
+    plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
+    plan.scratchBuffer(paths_, "light paths", batch * sizeof(gpu::LightPath));
+    tint_.plan(plan, batch);
+    plan.scratchBuffer(visibilityRays_, "visibility rays", batch * sizeof(Ray));
+    plan.scratchBuffer(hidden_, "visibility results", batch * sizeof(uint32_t));
+    plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
+}
+
+void LightPaths::begin(PassContext& context, const SurfaceVoxels& voxels,
+                       const std::vector<LightSource>& sources) {
+    const double power = totalPower(sources);
+    const float typical = meanIrradiance(sources, context.frame.scene->geometry);
+    for (size_t i = 0; i < targets(); ++i) {
+        if (sumsFlux_)
+            fluxes_[i]->begin(context.device, context.stream, voxels, power);
+        else
+            irradiances_[i]->begin(context.device, context.stream, voxels, typical);
+    }
+    context.stream.fill(hidden_, 0);
+}
+
+void LightPaths::follow(PassContext& context, const SurfaceVoxels& voxels, const Batch& batch) {
+    CommandStream& stream = context.stream;
+    for (uint32_t bounce = 0; bounce <= params_.lastBounce(); ++bounce) {
+        if (bounce > 0 || !batch.hitsKnown) context.tracer.closestHit(stream, rays_, hits_, batch.count);
+
+        if (bounce == 0)
+            tint_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float), batch.count, &hits_);
+
+        // Whether each hit is visible from open space, where only unoccluded area counts.
+        if (voxels.unoccludedOnly) {
+            stream.dispatch(visibility_, batch.count,
+                            {context.scene,
+                             {"rays", rays_},
+                             {"hits", hits_},
+                             {"visibilityRays", visibilityRays_},
+                             {"batchRays", batch.count},
+                             {"voxelSize", voxels.grid.voxelSize}});
+            context.tracer.occluded(stream, visibilityRays_, hidden_, batch.count);
+        }
+
+        // Deposit and bounce.
+        const size_t target = bounce == 0 ? 0 : 1;
+        stream.dispatch(
+            follow_, batch.count,
+            {context.scene,
+             voxels,
+             sumsFlux_ ? fluxes_[target]->bindings() : irradiances_[target]->bindings(),
+             {"scale", sumsFlux_ ? fluxes_[target]->unitsPerWatt() : irradiances_[target]->scale()},
+             {"rays", rays_},
+             {"hits", hits_},
+             {"paths", paths_},
+             {"hidden", hidden_},
+             {"firstRay", batch.first},
+             {"batchRays", batch.count},
+             {"seed", batch.seed},
+             {"bounce", bounce},
+             {"lastBounce", params_.lastBounce()}});
+    }
+}
+
+void LightPaths::finish(PassContext& context, const SurfaceVoxels& voxels, VoxelIrradiance& irradiance) {
+    CommandStream& stream = context.stream;
+    irradiance.allocate(context.device, voxels.voxelCount);
+
+    // A face that no ray met is dark, not unknown.
+    stream.dispatch(unoccludedArea_, voxels.voxelCount,
+                    {voxels, {"area", irradiance.area}, {"voxelCount", voxels.voxelCount}});
+    const auto resolve = [&](size_t i, const LargeBuffer& flux) {
+        if (sumsFlux_)
+            fluxes_[i]->resolve(stream, voxels, flux);
+        else
+            irradiances_[i]->resolve(stream, voxels, flux, irradiance.area);
+    };
+    resolve(0, irradiance.direct);
+    if (params_.lastBounce() > 0)
+        resolve(1, irradiance.indirect);
+    else
+        stream.fill(irradiance.indirect, 0);
+
+    stream.finish();
+    for (size_t i = 0; i < targets(); ++i) {
+        if (sumsFlux_)
+            fluxes_[i]->end();
+        else
+            irradiances_[i]->end();
+    }
+
+    requireLight(stream, voxels, irradiance, *context.frame.scene);
+}
+
+}  // namespace voxray

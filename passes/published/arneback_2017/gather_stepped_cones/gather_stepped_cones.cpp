@@ -1,0 +1,56 @@
+#include "graph/registry.h"
+#include "passes/common/view/frame_image.h"
+#include "passes/common/view/gbuffer.h"
+#include "passes/cones/radiance/radiance_voxels.h"
+
+namespace voxray {
+
+class GatherSteppedCones final : public Pass {
+ public:
+    static constexpr const char* kName = "gather_stepped_cones";
+    static constexpr const char* kHelp =
+        "Gathers indirect light by six cones of 60 degrees, as published. It is for comparison with "
+        "gather_cones. The cones have fixed directions about the normal and are weighed by their cosine. "
+        "Each is sampled at points along its axis and composited front to back. Biased by: voxel size; six "
+        "directions; closed walls that a step passes, or meets twice. No noise. Source: Arnebäck 2017, "
+        "sections 3.1.5 and 3.2.5.";
+    struct Params {
+        float step = 0.5f;
+        float start = 1.0f;
+        static constexpr auto schema() {
+            return std::tuple{field("step", &Params::step,
+                                    "From a sample to the next, in widths of the cone there; each counts for "
+                                    "so much of its width.",
+                                    0.125f, 1.0f),
+                              field("start", &Params::start,
+                                    "From the surface to a cone's first sample, in voxels. Near ones see the "
+                                    "surface itself, far ones pass what is near. As published it is unknown.",
+                                    0.5f, 16.0f)};
+        }
+    };
+    explicit GatherSteppedCones(const Params& params) : params_(params) {}
+
+    void plan(PassPlan& plan) override {
+        plan[indirect_].lightBounces = plan[radiance_].lightBounces;
+        plan.image(plan[indirect_].image, "indirect", frameImageDesc(plan.frame));
+        trace_.define(plan[radiance_].defines());
+    }
+    void record(PassContext& context) override {
+        context.dispatch(trace_, context.frame.pixels(),
+                         {context[gbuffer_],
+                          context[radiance_],
+                          {"result", context[indirect_].image},
+                          {"step", params_.step},
+                          {"start", params_.start}});
+    }
+
+ private:
+    const Params params_;
+    In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
+    In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales"};
+    Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light"};
+    Kernel trace_{*this, "trace.comp"};
+};
+VOXRAY_REGISTER_PASS(GatherSteppedCones);
+
+}  // namespace voxray

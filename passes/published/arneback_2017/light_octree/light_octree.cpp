@@ -1,0 +1,122 @@
+#include "graph/registry.h"
+#include "passes/common/lights/pane_tint.h"
+#include "passes/common/lights/rsm.h"
+#include "passes/common/voxels/grid_levels.h"
+#include "passes/cones/radiance/brick_radiance.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint64_t kLeafSumBytes = 4 * sizeof(uint32_t), kLeafRadianceBytes = 3 * sizeof(float);
+
+}  // namespace
+
+/// Light into the leaves of an octree of bricks, and up its levels, as published in Arnebäck 2017, sections
+/// 3.2.3 and 3.2.4: each texel of a light's reflective shadow map lights the leaf that it sees, by the leaf's
+/// own color and normal.
+class LightOctree final : public Pass {
+ public:
+    static constexpr const char* kName = "light_octree";
+    static constexpr const char* kHelp =
+        "Lights an octree's leaves by RSM texels and filters them upwards. The leaves are those of "
+        "voxelize_octree, each lit by the texels of render_rsm that see it. The result is radiance voxels "
+        "for gather_stepped_cones or gather_cones. As published in Arnebäck 2017 (sections 3.2.3 and 3.2.4), "
+        "for comparison: an injection and filter_voxels with layout svo are the method to use. Point, spot "
+        "and directional lights; no bounces, and nothing that surfaces emit. Biased by: voxel size; "
+        "rsm_resolution (leaves between texels stay dark); mean normals of leaves; 8 bits. Source: Arnebäck "
+        "2017, section 3.2.3.";
+    void plan(PassPlan& plan) override;
+    void record(PassContext& context) override;
+
+ private:
+    /// Radiance of the leaves that a light sees, added to `leafRadiance_`.
+    void scatter(PassContext& context, uint32_t source);
+
+    In<BrickOctree> octree_{*this, "brick_octree", "octree to light"};
+    In<Rsm> rsm_{*this, "rsm", "what each light sees"};
+    Out<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales"};
+    BrickRadiance bricks_{*this};
+    Kernel scatter_{*this, "scatter.comp"};
+    Kernel resolve_{*this, "resolve.comp"};
+    Kernel write_{*this, "write.comp"};
+    LargeBuffer sums_;                 ///< gpu::LeafSum a leaf, of one light.
+    LargeBuffer leafRadiance_;         ///< W/(m² sr), three floats a leaf.
+    Buffer brightest_;                 ///< Of what a texel of a light brings, as the bits of a float.
+    std::optional<uint64_t> version_;  ///< Of the octree.
+};
+
+void LightOctree::plan(PassPlan& plan) {
+    requireClearPanes(*plan.frame.scene, kName);
+    const BrickOctree& octree = plan[octree_];
+    RadianceVoxels& radiance = plan[radiance_];
+    radiance.lightBounces = 1;
+    radiance.layout = RadianceLayout::SvoBricks;
+    const gpu::VoxelGrid& grid = octree.grid;
+    radiance.grid = {grid.origin, grid.voxelSize, grid.resolution, gridLevels(grid.resolution), 1, 1};
+    BrickRadiance::plan(plan, radiance, octree.expected);
+    plan.buffer(brightest_, "brightest texel", sizeof(uint32_t));
+    const uint64_t leaves = octree.expected.levels[0].nodes;
+    plan.reserveScratch("light of leaves (estimated)",
+                        (octree.moves ? 2 : 1) * leaves * (kLeafSumBytes + kLeafRadianceBytes));
+    write_.define(radiance.defines());
+}
+
+void LightOctree::record(PassContext& context) {
+    const BrickOctree& octree = context[octree_];
+    RadianceVoxels& radiance = context[radiance_];
+    CommandStream& stream = context.stream;
+    if (version_ != octree.version) bricks_.follow(stream, octree, radiance);
+    version_ = octree.version;
+
+    // Light of each leaf
+    const uint32_t leaves = nodesOf(octree.levels[0]);
+    sums_ = LargeBuffer(context.device, "sums over texels", leaves * kLeafSumBytes);
+    leafRadiance_ = LargeBuffer(context.device, "leaves' radiance", leaves * kLeafRadianceBytes);
+    stream.fill(leafRadiance_, 0);
+    for (uint32_t source = 0; source < context[rsm_].sources.size(); ++source) scatter(context, source);
+
+    // Into bricks, and up
+    stream.fill(radiance.storage[0], 0);
+    for (const uint32_t isMeasured : {0u, 1u})
+        context.dispatch(write_, leaves,
+                         {radiance,
+                          {"LeafRadianceAt", leafRadiance_.at()},
+                          {"nodes", octree.levels[0]},
+                          {"isMeasured", isMeasured}});
+    bricks_.filter(stream, octree, radiance);
+    stream.finish();
+    sums_ = {};
+    leafRadiance_ = {};
+}
+
+void LightOctree::scatter(PassContext& context, uint32_t source) {
+    const BrickOctree& octree = context[octree_];
+    const Rsm& rsm = context[rsm_];
+    const uint32_t leaves = nodesOf(octree.levels[0]);
+    const uint32_t texels = (rsm.firstView[source + 1] - rsm.firstView[source]) * rsm.texelsPerView();
+    context.stream.fill(sums_, 0);
+    context.stream.fill(brightest_, 0);
+    for (const uint32_t isCounted : {0u, 1u})
+        context.dispatch(scatter_, texels,
+                         {context.scene,
+                          {"LeafSumsAt", sums_.at()},
+                          {"OctreeNodesAt", octree.nodes.at()},
+                          {"brightest", brightest_},
+                          {"RsmTexelsAt", rsm.texels.at()},
+                          {"grid", octree.grid},
+                          {"leaves", octree.levels[0]},
+                          {"belowRoot", uint32_t(octree.levels.size()) - 1},
+                          {"light", rsm.sources[source].light},
+                          {"firstTexel", rsm.firstView[source] * rsm.texelsPerView()},
+                          {"texels", texels},
+                          {"isCounted", isCounted}});
+    context.dispatch(resolve_, leaves,
+                     {{"LeafSumsAt", sums_.at()},
+                      {"LeafRadianceAt", leafRadiance_.at()},
+                      {"brightest", brightest_},
+                      {"leaves", leaves}});
+}
+
+VOXRAY_REGISTER_PASS(LightOctree);
+
+}  // namespace voxray

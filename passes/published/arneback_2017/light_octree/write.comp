@@ -1,0 +1,28 @@
+// The bricks of leaves: first the brightest of all, then the values. A thread takes a leaf. A leaf is one voxel of light, so all 27
+// values of its brick are that until the neighbours' are averaged in. Leaves with surfaces are opaque; neighbours that were made to
+// exist are transparent and black.
+#include "passes/published/arneback_2017/light_octree/leaf_sums.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "passes/cones/radiance/radiance_voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) buffer LeafRadianceAt { LeafRadiance leaves; };
+layout(push_constant, scalar) uniform Push {
+    LevelNodes nodes;
+    uint isMeasured;  // 0: the brightest is looked for; 1: it is known.
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= nodesOf(push.nodes)) return;
+    const BrickNode node = radianceVoxels.nodes.data[levelNode(push.nodes, i)];
+    if (node.brick == NO_BRICK) return;
+    vec4 value = node.color == 0u ? vec4(0.0) : vec4(leaves.data[i], 1.0);
+    const uint largest = floatBitsToUint(max(value.r, max(value.g, value.b)));
+    if (push.isMeasured == 0u) {
+        if (largest > radianceVoxels.scale.brightest) atomicMax(radianceVoxels.scale.brightest, largest);
+        return;
+    }
+    if (largest > 0u) value.rgb /= uintBitsToFloat(radianceVoxels.scale.brightest);
+    for (int v = 0; v < int(BRICK_VALUES); ++v) storeBrickValue(node.brick, ivec3(v % 3, v / 3 % 3, v / 9), value);
+}

@@ -1,0 +1,55 @@
+// Radiance that each pixel's surface reflects of the irradiance in packed voxels, filtered between their centers with empty ones as
+// black.
+#include "passes/published/magalhaes_2020/packed_voxels.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(constant_id = 0) const bool kSevenTap = true;
+
+uniform sampler2D position;
+uniform sampler2D albedo;
+layout(scalar) buffer IrradianceAt { LargeUints irradiance; };
+layout(rgba32f) writeonly uniform image2D result;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    float white;  // W/m²
+    int samples;  // Texels of the g-buffer along each side of a pixel.
+} push;
+
+vec3 filtered(vec3 place) {
+    const vec3 corner = floor(place - 0.5), along = place - 0.5 - corner;
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < 8u; ++k) {
+        const ivec3 offset = ivec3(k & 1u, (k >> 1) & 1u, k >> 2);
+        const vec3 weight = mix(1.0 - along, along, vec3(offset));
+        sum += weight.x * weight.y * weight.z * packedColor(irradiance.data[packedIndex(push.grid, ivec3(corner) + offset)]);
+    }
+    return sum;
+}
+
+// Listing 4.8
+vec3 sevenTap(vec3 place) {
+    vec3 sum = filtered(place);
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        vec3 voxel = vec3(0.0);
+        voxel[axis] = 1.0;
+        sum += filtered(place + voxel) + filtered(place - voxel);
+    }
+    return sum / 7.0;
+}
+
+vec3 reflected(ivec2 texel) {
+    const vec4 p = texelFetch(position, texel, 0);
+    if (p.w == 0.0) return vec3(0.0);
+    const vec3 place = packedPlace(push.grid, p.xyz);
+    const vec3 arriving = push.white * (kSevenTap ? sevenTap(place) : filtered(place));
+    return texelFetch(albedo, texel, 0).rgb / 3.14159265358979 * arriving;
+}
+
+void main() {
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(result)))) return;
+    vec3 sum = vec3(0.0);
+    for (int j = 0; j < push.samples; ++j)
+        for (int i = 0; i < push.samples; ++i) sum += reflected(pixel * push.samples + ivec2(i, j));
+    imageStore(result, pixel, vec4(sum / float(push.samples * push.samples), 1.0));
+}

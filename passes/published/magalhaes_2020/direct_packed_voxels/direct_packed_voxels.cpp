@@ -1,0 +1,65 @@
+#include <array>
+#include <utility>
+
+#include "graph/registry.h"
+#include "passes/common/view/frame_image.h"
+#include "passes/common/view/gbuffer.h"
+#include "passes/published/magalhaes_2020/packed_voxels.h"
+
+namespace voxray {
+
+enum class PackedLookup { Single, SevenTap };
+template <>
+struct EnumNames<PackedLookup> {
+    static constexpr std::array names{std::pair{PackedLookup::Single, "single"},
+                                      std::pair{PackedLookup::SevenTap, "seven_tap"}};
+};
+
+/// The final pass as published in Magalhães 2020, sections 3.4.1 and 4.4: the light at a pixel's surface, its
+/// normal aside, times the albedo. composite.ambient adds the thesis's ambient light.
+class DirectPackedVoxels final : public Pass {
+ public:
+    static constexpr const char* kName = "direct_packed_voxels";
+    static constexpr const char* kHelp =
+        "Looks light up in packed voxels, filtered between voxels. A voxel's light is what its one word "
+        "holds. Of light that secondary rays left there it shows that, too. As published in Magalhães 2020 "
+        "(section 4.4), for comparison: direct_voxels is the method to use. Biased by: voxel size; empty "
+        "voxels, which are filtered in as black; light from all sides of a surface in one. No noise of its "
+        "own. Source: Magalhães 2020, sections 3.4.1 and 4.4.";
+    struct Params {
+        PackedLookup lookup = PackedLookup::SevenTap;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("lookup", &Params::lookup,
+                      "As published in Magalhães 2020. single: trilinear, at the surface. seven_tap: the "
+                      "mean of that and of lookups at one voxel's distance along each axis (listing 4.8).")};
+        }
+    };
+
+    explicit DirectPackedVoxels(const Params& params) : params_(params) {}
+    void plan(PassPlan& plan) override {
+        plan[direct_].lightBounces = plan[light_].lightBounces;
+        plan.image(plan[direct_].image, "direct", frameImageDesc(plan.frame));
+        program_.specialize({{"kSevenTap", params_.lookup == PackedLookup::SevenTap}});
+    }
+    void record(PassContext& context) override {
+        const PackedLight& light = context[light_];
+        context.dispatch(program_, context.frame.pixels(),
+                         {context[gbuffer_],
+                          {"IrradianceAt", light.irradiance.at()},
+                          {"result", context[direct_].image},
+                          {"grid", context[voxels_].grid},
+                          {"white", light.white}});
+    }
+
+ private:
+    const Params params_;
+    In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
+    In<PackedVoxels> voxels_{*this, "packed_voxels", "the voxels that hold the light"};
+    In<PackedLight> light_{*this, "packed_light", "light that arrives in voxels, one word a voxel"};
+    Out<FrameImage> direct_{*this, "direct", "radiance reflected of the light in voxels"};
+    Kernel program_{*this, "direct_packed_voxels.comp"};
+};
+VOXRAY_REGISTER_PASS(DirectPackedVoxels);
+
+}  // namespace voxray

@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/error.h"
+#include "graph/registry.h"
+#include "passes/common/lights/light_sources.h"
+#include "passes/common/lights/pane_tint.h"
+#include "passes/published/magalhaes_2020/packed_voxels.h"
+
+namespace voxray {
+namespace {
+
+/// Bounds the memory of rays and what they carry to 60 MiB.
+constexpr uint32_t kMaxPackedBatchRays = 1u << 20;
+constexpr float kNearest = 0.02f;  // m; no hit is nearer (listing 7.7).
+
+}  // namespace
+
+/// Light tracing as published in Magalhães 2020, sections 3.3.1 and 4.3.
+///  - Rays leave a spot light through a planar grid that spans 90 degrees about its axis (listing 4.4). The
+///    thesis's light has no cone; rays outside of this one's are not traced.
+///  - A hit leaves intensity * cosine / length² in its voxel, by the voxel's mean normal and the length of
+///    this segment alone.
+///  - Secondary rays go on mirrored about the mean normal; their intensity is the irradiance at the hit,
+///    times the albedo there. By units this is no intensity: metres stand where steradians should.
+///
+/// The text is followed where the listings differ from it: listing 7.7 stores a debug color, disables
+/// secondary rays, starts them at the origin, and leaves the albedo out, which sections 3.2.7.1 and 4.3.2.2
+/// have. Empty voxels, whose word of 0 would be the normal (-1, -1, -1), are the misses that the listing
+/// means them to be.
+class InjectPackedLightRays final : public Pass {
+ public:
+    static constexpr const char* kName = "inject_packed_light_rays";
+    static constexpr const char* kHelp =
+        "Traces a planar grid of rays from one spot light into packed voxels. The irradiance of each hit is "
+        "merged into the voxel's one word. Then the rays are mirrored. As published in Magalhães 2020 "
+        "(section 4.3), for comparison: inject_light_rays is the method to use. Biased by: voxel size; "
+        "write: all rays of a voxel count alike, whatever area they stand for; falloff that begins again "
+        "with each segment; 8 bits of white. Noisy by: nothing, but moving_average and none depend on the "
+        "order of threads. Leaves unlit: what lies between the grid's rays or beyond 45 degrees, and voxels "
+        "that voxelization missed. Source: Magalhães 2020, sections 3.3.1 and 4.3.";
+    struct Params : PackedWriteParams {
+        uint32_t raysPerLight = 262144;
+        uint32_t bounces = 0;
+        float white = 3.14159265f;
+        static constexpr auto schema() {
+            return std::tuple_cat(
+                std::tuple{
+                    field("rays_per_light", &Params::raysPerLight,
+                          "Rays of the grid: the square of a whole number, of rays along its edge.", 1u,
+                          1u << 26),
+                    field("bounces", &Params::bounces,
+                          "Mirrored rays after a ray's first hit. 0 and 1 as published.", 0u, 64u),
+                    field("white", &Params::white,
+                          "Irradiance, W/m², that the largest of 8 bits stands for; what is brighter is "
+                          "clamped. pi, as published: a white surface then sends out a radiance of 1.",
+                          1e-6f, 1e9f)},
+                PackedWriteParams::schema());
+        }
+    };
+
+    explicit InjectPackedLightRays(const Params& params) : params_(params) {}
+    void plan(PassPlan& plan) override;
+    void record(PassContext& context) override;
+
+ private:
+    /// The number of the scene's only light. @throws Error where it is none, or not a spot light.
+    static uint32_t spotLight(const SceneState& scene);
+
+    const Params params_;
+    In<PackedVoxels> voxels_{*this, "packed_voxels", "normals and albedos, one word a voxel"};
+    Out<PackedLight> light_{*this, "packed_light", "light that arrives in voxels, one word a voxel"};
+    Kernel gridRays_{*this, "grid_rays.comp"};
+    Kernel deposit_{*this, "deposit.comp", params_.defines()};
+    uint32_t raysPerEdge_ = 0;
+    Buffer rays_, hits_, intensities_;
+    PaneTint tint_{*this};
+};
+
+uint32_t InjectPackedLightRays::spotLight(const SceneState& scene) {
+    const std::vector<LightSource> sources = requireLightSources(scene, kName);
+    const LightSource& first = sources.front();
+    if (sources.size() > 1 || first.kind != LightSource::Punctual ||
+        scene.lights[first.light].type != LightType::Spot)
+        throw Error("{}: it takes one spot light and no other light, as published", kName);
+    return first.light;
+}
+
+void InjectPackedLightRays::plan(PassPlan& plan) {
+    spotLight(*plan.frame.scene);
+    raysPerEdge_ = uint32_t(std::lround(std::sqrt(double(params_.raysPerLight))));
+    if (raysPerEdge_ * raysPerEdge_ != params_.raysPerLight)
+        throw Error("{}: rays_per_light: {} is no square of a whole number; the nearest is {}", kName,
+                    params_.raysPerLight, raysPerEdge_ * raysPerEdge_);
+
+    PackedLight& light = plan[light_];
+    light.white = params_.white;
+    light.lightBounces = params_.bounces;
+    plan.buffer(light.irradiance, "packed irradiance", plan[voxels_].bytes());
+    const uint64_t batch = std::min(params_.raysPerLight, kMaxPackedBatchRays);
+    plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
+    plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
+    tint_.plan(plan, batch);
+    plan.scratchBuffer(intensities_, "intensities of light rays", batch * sizeof(glm::vec3));
+}
+
+void InjectPackedLightRays::record(PassContext& context) {
+    const PackedVoxels& voxels = context[voxels_];
+    const PackedLight& light = context[light_];
+    const uint32_t number = spotLight(*context.frame.scene);
+    context.stream.fill(light.irradiance, 0);
+    for (uint32_t first = 0; first < params_.raysPerLight; first += kMaxPackedBatchRays) {
+        const uint32_t count = std::min(kMaxPackedBatchRays, params_.raysPerLight - first);
+        context.dispatch(gridRays_, count,
+                         {context.scene,
+                          {"rays", rays_},
+                          {"intensities", intensities_},
+                          {"light", number},
+                          {"raysPerEdge", raysPerEdge_},
+                          {"firstRay", first},
+                          {"batchRays", count},
+                          {"nearest", kNearest}});
+        for (uint32_t bounce = 0; bounce <= params_.bounces; ++bounce) {
+            context.tracer.closestHit(context.stream, rays_, hits_, count,
+                                      bounce == 0 ? Coherence::Coherent : Coherence::Incoherent);
+            if (bounce == 0) tint_.apply(context, rays_, intensities_, 3, count, &hits_);
+            context.dispatch(deposit_, count,
+                             {{"rays", rays_},
+                              {"intensities", intensities_},
+                              {"hits", hits_},
+                              {"NormalsAt", voxels.normals.at()},
+                              {"AlbedosAt", voxels.albedos.at()},
+                              {"IrradianceAt", light.irradiance.at()},
+                              {"grid", voxels.grid},
+                              {"batchRays", count},
+                              {"isLast", bounce == params_.bounces},
+                              {"white", light.white},
+                              {"nearest", kNearest}});
+        }
+    }
+}
+
+VOXRAY_REGISTER_PASS(InjectPackedLightRays);
+
+}  // namespace voxray

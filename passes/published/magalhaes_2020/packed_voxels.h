@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "graph/pass.h"
+#include "passes/common/compute/large_buffer.h"
+#include "shaders/voxels/voxel_types.h"
+
+namespace voxray {
+
+/// How colors that meet in a voxel's word are merged (passes/published/packed_write.glsl).
+enum class PackedWrite { MovingAverage, Max, None };
+template <>
+struct EnumNames<PackedWrite> {
+    static constexpr std::array names{std::pair{PackedWrite::MovingAverage, "moving_average"},
+                                      std::pair{PackedWrite::Max, "max"},
+                                      std::pair{PackedWrite::None, "none"}};
+};
+
+/// The parameter of a pass that writes packed words.
+struct PackedWriteParams {
+    PackedWrite write = PackedWrite::MovingAverage;
+    static constexpr auto schema() {
+        return std::tuple{field(
+            "write", &PackedWriteParams::write,
+            "How what meets in a voxel's word is merged, as published in Magalhães 2020. moving_average: "
+            "compare and swap, the count in alpha (section 4.2.5.3). max: one atomic maximum of the packed "
+            "word, so that blue decides (section 5.2.4). none: a plain store, the last one stays, whichever "
+            "that is.")};
+    }
+    /// For a shader that includes passes/published/packed_write.glsl.
+    Defines defines() const {
+        switch (write) {
+            case PackedWrite::MovingAverage:
+                return {{"PACKED_WRITE", "PACKED_MOVING_AVERAGE"}};
+            case PackedWrite::Max:
+                return {{"PACKED_WRITE", "PACKED_MAX"}};
+            default:
+                return {{"PACKED_WRITE", "PACKED_NONE"}};
+        }
+    }
+};
+
+/// Volumes of one RGBA8 word a voxel, as published in Magalhães 2020 (section 4.2.1, table 4.1): no faces, no
+/// areas, and a word for each voxel of the grid, empty ones too, which hold 0. Buffers stand for the thesis's
+/// 3D textures. GLSL access: passes/published/magalhaes_2020/packed_voxels.glsl.
+struct PackedVoxels : Resource {
+    gpu::VoxelGrid grid{};
+    LargeBuffer normals;  ///< Mean of the front-side normals n, as 0.5 n + 0.5.
+    LargeBuffer albedos;  ///< Mean diffuse reflectance.
+
+    /// Bytes of one volume.
+    uint64_t bytes() const {
+        return uint64_t(grid.resolution.x) * grid.resolution.y * grid.resolution.z * sizeof(uint32_t);
+    }
+};
+
+/// Light that arrives at the surfaces in each voxel of PackedVoxels, from all sides in one.
+struct PackedLight : Resource {
+    std::string basisPort() const override { return "packed_voxels"; }
+
+    LargeBuffer irradiance;  ///< In units of `white`; what is brighter was clamped.
+    float white = 1;         ///< W/m²
+};
+
+}  // namespace voxray

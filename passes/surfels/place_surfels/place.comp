@@ -1,0 +1,42 @@
+// Both sides of points that are spread evenly over the surfaces, each with a ray along its normal, as long as a voxel, which
+// tells whether open space lies before it.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/sampling.glsl"
+#include "shaders/scene/scene.glsl"
+#include "passes/surfels/open_space.glsl"
+#include "passes/surfels/surfel_types.h"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+readonly buffer PointTriangles { uint data[]; } pointTriangles;
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(scalar) writeonly buffer Candidates { Surfel data[]; } candidates;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint firstPoint;
+    uint points;
+    uint seed;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.points) return;
+    const SurfacePoint p = surfacePoint(pointTriangles.data[i], trianglePoint(sobol2(push.firstPoint + i, push.seed)));
+    const uint voxel = voxelNumber(push.grid, voxelAt(push.grid, p.position));
+    const GpuMaterial m = sceneMaterials.data[p.material];
+    const bool isCut = alphaCut(m, p);
+    const vec3 albedo = clamp(diffuseAlbedo(m, p, 0.0), 0.0, 1.0);
+    for (uint side = 0u; side < 2u; ++side) {
+        Surfel s;
+        s.normal = side == 0u ? p.geometricNormal : -p.geometricNormal;
+        s.position = p.position + p.offset * s.normal;
+        s.voxel = voxel;
+        s.id = 2u * (push.firstPoint + i) + side;
+        s.reflectance = albedo;
+        s.parent = 0u;
+        s.area = 1.0;
+        candidates.data[2u * i + side] = s;
+        const bool isPlaced = voxel != NO_VOXEL && !isCut && dot(s.normal, s.normal) > 0.0;
+        rays.data[2u * i + side] = isPlaced ? openSpaceRay(s.position, s.normal, push.grid.voxelSize) : kNoRay;
+    }
+}

@@ -1,0 +1,83 @@
+#include <algorithm>
+
+#include "graph/registry.h"
+#include "passes/surfels/surfel_neighbours.h"
+#include "passes/surfels/surfels_by_voxel.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint64_t kSurroundingsBytes = 4 * sizeof(float), kLitBytes = 3 * sizeof(uint32_t);
+
+}  // namespace
+
+/// Lowers the noise of surfels' irradiance by their surroundings', as far as the light there is the same.
+/// Source: the weights of filter_irradiance (docs/filtering.md), between points in space; docs/radiosity.md.
+class SmoothSurfels final : public Pass {
+ public:
+    static constexpr const char* kName = "smooth_surfels";
+    static constexpr const char* kHelp =
+        "Denoises the surfels' irradiance by means over neighbours. This lowers the noise of what "
+        "gather_surfels reads. A surfel takes the mean irradiance of the surfels within a voxel's size, as "
+        "far as they lie on the same surface in the same light. Once for a light, so that frames cost the "
+        "same. Biased by: iterations (blurs what is smaller than a voxel).";
+    struct Params {
+        uint32_t iterations = 2;
+        static constexpr auto schema() {
+            return std::tuple{field("iterations", &Params::iterations,
+                                    "How often each surfel takes the mean of its surroundings.", 1u, 16u)};
+        }
+    };
+
+    explicit SmoothSurfels(const Params& params) : params_(params) {}
+    void plan(PassPlan& plan) override;
+    void record(PassContext& context) override;
+
+ private:
+    const Params params_;
+    In<SurfelsByVoxel> surfels_{*this, "surfels_by_voxel", "surfels, in the slots of their light"};
+    In<SurfelNeighbours> neighbours_{*this, "neighbours", "the surfels around each surfel"};
+    In<SurfelIrradiance> light_{*this, "surfel_irradiance", "light that arrives at surfels"};
+    Out<SurfelIrradiance> smooth_{*this, "surfel_irradiance", "the same with less noise"};
+    Kernel surroundings_{*this, "surroundings.comp"};
+    Kernel mean_{*this, "mean.comp"};
+};
+
+void SmoothSurfels::plan(PassPlan& plan) {
+    const uint64_t slots = plan[surfels_].maxCount;
+    plan[smooth_].relativeVariance = plan[light_].relativeVariance;
+    plan.reserve("smooth irradiance of surfels (estimated)", slots * kLitBytes);
+    plan.reserveScratch("surroundings of surfels (estimated)", slots * (kSurroundingsBytes + kLitBytes));
+}
+
+void SmoothSurfels::record(PassContext& context) {
+    const SurfelsByVoxel& surfels = context[surfels_];
+    const uint32_t count = surfels.slotCount;
+    const uint64_t slots = std::max(count, 1u);
+    LargeBuffer& result = context[smooth_].lit;
+    result = {};
+    result = LargeBuffer(context.device, "smooth irradiance of surfels", slots * kLitBytes);
+    LargeBuffer other(context.device, "irradiance one step before", slots * kLitBytes);
+    const LargeBuffer surroundings(context.device, "surroundings of surfels", slots * kSurroundingsBytes);
+
+    const SurfelNeighbours& neighbours = context[neighbours_];
+    const LargeBuffer* from = &context[light_].lit;
+    for (uint32_t i = 0; i < params_.iterations; ++i) {
+        // The last iteration writes the result.
+        LargeBuffer& to = (params_.iterations - i) % 2 == 1 ? result : other;
+        const Bindings bindings{{"begins", neighbours.begins},
+                                {"PairsAt", neighbours.pairs.at()},
+                                {"LitAt", from->at()},
+                                {"SurroundingsAt", surroundings.at()},
+                                {"count", count},
+                                {"noise", context[light_].relativeVariance}};
+        context.dispatch(surroundings_, count, bindings);
+        context.dispatch(mean_, count, {bindings.all(), {"ResultAt", to.at()}});
+        from = &to;
+    }
+    context.stream.finish();
+}
+
+VOXRAY_REGISTER_PASS(SmoothSurfels);
+
+}  // namespace voxray

@@ -1,0 +1,30 @@
+// A surfel where a ray hit a surface. Needs the bindings of shaders/scene/scene.glsl.
+#ifndef VOXRAY_SURFEL_AT_HIT_GLSL
+#define VOXRAY_SURFEL_AT_HIT_GLSL
+
+#include "shaders/scene/scene.glsl"
+#include "passes/surfels/surfel_types.h"
+#include "shaders/trace/ray_types.h"
+
+// The surfel at the hit of a ray that came from `from`, on that side: with the shading normal, reflectance of diffuse light, no voxel,
+// area 1; id and parent are the caller's to set. False where the ray hit nothing or a triangle without area: then it receives nothing.
+// `faceNormal`: the geometric normal, on the same side. `offset`: m; once the surfel has been looked up, it is to be moved so far along
+// it, where rays may begin.
+bool surfelAtHit(Hit hit, vec3 from, out Surfel s, out vec3 faceNormal, out float offset) {
+    s = Surfel(vec3(0.0), 0xffffffffu, vec3(0.0), 0u, vec3(0.0), 0u, 1.0);
+    faceNormal = vec3(0.0);
+    offset = 0.0;
+    if (hit.triangle == NO_HIT) return false;
+    const SurfacePoint p = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
+    if (dot(p.geometricNormal, p.geometricNormal) == 0.0) return false;
+    faceNormal = dot(p.geometricNormal, from - p.position) >= 0.0 ? p.geometricNormal : -p.geometricNormal;
+    const GpuMaterial m = sceneMaterials.data[p.material];
+    const vec3 normal = shadingNormal(m, p, 0.0);
+    s.position = p.position;
+    offset = p.offset;
+    s.normal = dot(normal, faceNormal) < 0.0 ? -normal : normal;
+    s.reflectance = clamp(diffuseAlbedo(m, p, 0.0), 0.0, 1.0);
+    return true;
+}
+
+#endif

@@ -1,0 +1,13 @@
+// Counts the surfels of each voxel.
+#include "shaders/compute/linear_index.glsl"
+#include "passes/surfels/surfel_types.h"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+buffer Counts { uint data[]; } counts;
+layout(push_constant) uniform Push { uint count; } push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i < push.count && surfels.data[i].voxel != 0xffffffffu) atomicAdd(counts.data[surfels.data[i].voxel], 1u);
+}

@@ -1,0 +1,90 @@
+#include "passes/surfels/surfel_injection.h"
+
+namespace voxray {
+
+SurfelInjection::SurfelInjection(ProgramOwner& owner)
+    : owner_(owner),
+      write_(owner, "surfel_write.comp"),
+      fillUnknown_(owner, "passes/common/voxels/fill_unknown.comp") {}
+
+void SurfelInjection::plan(PassPlan& plan, const std::string& pass, const WriteParams& params,
+                           const Rays& rays, const SurfaceVoxels& voxels) {
+    write_.define(VoxelAccumulator::defines(params.write));
+    directSums_.emplace(owner_, params);
+    indirectSums_.emplace(owner_, params);
+    const uint64_t irradianceBytes = uint64_t(rays.batch) * 4 * sizeof(float);
+    plan.reserveScratch("voxel samples (estimated)", 2 * VoxelAccumulator::plan(plan, pass, params, voxels));
+    plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
+    if (rays.shadow) plan.buffer(direct_, "surfels' direct irradiance", irradianceBytes);
+    if (rays.paths) plan.buffer(indirect_, "surfels' indirect irradiance", irradianceBytes);
+    if (!rays.shadow && !rays.paths) return;
+    paths_.emplace(owner_);
+    paths_->plan(plan, rays.batch, rays.lightSamples, rays.paths);
+}
+
+void SurfelInjection::begin(PassContext& context, const PathScene& scene, VoxelIrradiance& irradiance) {
+    const SurfaceVoxels& voxels = scene.voxels;
+    irradiance.allocate(context.device, voxels.voxelCount);
+    context.stream.fill(irradiance.area, 0);
+    const float typicalIrradiance = meanIrradiance(scene.sources, context.frame.scene->geometry);
+    directSums_->begin(context.device, context.stream, voxels, typicalIrradiance);
+    indirectSums_->begin(context.device, context.stream, voxels, typicalIrradiance);
+}
+
+void SurfelInjection::light(PassContext& context, const PathScene& scene, const Buffer& surfels,
+                            uint32_t count, const SurfelParams& params, uint32_t seed) {
+    paths_->measure(context, scene, surfels, count, seed, direct_);
+    lightIndirect(context, scene, surfels, count, params, seed, direct_);
+}
+
+void SurfelInjection::lightIndirect(PassContext& context, const PathScene& scene, const Buffer& surfels,
+                                    uint32_t count, const SurfelParams& params, uint32_t seed,
+                                    const Buffer& direct) {
+    write(context, *directSums_, surfels, count, direct);
+    for (uint32_t path = 0; path < params.pathsPerPoint && params.bounces > 0; ++path) {
+        paths_->begin(context, surfels, count, seed + (path + 1) * 0xc2b2ae35u, indirect_);
+        for (uint32_t bounce = 0; bounce < params.bounces; ++bounce)
+            paths_->extend(context, scene, indirect_);
+        write(context, *indirectSums_, surfels, count, indirect_);
+    }
+}
+
+void SurfelInjection::write(PassContext& context, const Buffer& surfels, uint32_t count, const Buffer& direct,
+                            const Buffer& indirect) const {
+    write(context, *directSums_, surfels, count, direct);
+    write(context, *indirectSums_, surfels, count, indirect);
+}
+
+void SurfelInjection::write(PassContext& context, const VoxelAccumulator& sums, const Buffer& surfels,
+                            uint32_t count, const Buffer& irradiance) const {
+    context.dispatch(
+        write_, count,
+        {sums, {"surfels", surfels}, {"irradiance", irradiance}, {"count", count}, {"scale", sums.scale()}});
+}
+
+void SurfelInjection::finish(PassContext& context, const SurfaceVoxels& voxels,
+                             const VoxelIrradiance& irradiance) {
+    directSums_->resolve(context.stream, voxels, irradiance.direct, irradiance.area);
+    indirectSums_->resolve(context.stream, voxels, irradiance.indirect, irradiance.area);
+    context.stream.finish();
+    directSums_->end();
+    indirectSums_->end();
+}
+
+void SurfelInjection::fillUnknown(PassContext& context, const SurfaceVoxels& voxels,
+                                  const VoxelIrradiance& irradiance) const {
+    const uint64_t bytes = irradiance.area.bytes();
+    Buffer measured(context.device, "areas measured", bytes);
+    context.stream.copy(irradiance.area, measured, bytes);
+    const uint32_t words = uint32_t(voxels.words());
+    context.dispatch(fillUnknown_, words,
+                     {voxels,
+                      {"measured", measured},
+                      {"area", irradiance.area},
+                      {"DirectAt", irradiance.direct.at()},
+                      {"IndirectAt", irradiance.indirect.at()},
+                      {"words", words}});
+    context.stream.finish();
+}
+
+}  // namespace voxray

@@ -1,0 +1,29 @@
+// Orders each voxel's surfels by id, so that sums over them come out alike in every run, and tells each surfel its
+// slot.
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "passes/surfels/sorted_surfels.h"
+layout(local_size_x = 64) in;
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SortedSurfels { SortedSurfel data[]; };
+layout(scalar) readonly buffer SortedAt { SortedSurfels sorted; };
+layout(scalar) readonly buffer SlotsAt { LargeUints slots; };
+readonly buffer Begins { uint data[]; } begins;
+readonly buffer Ends { uint data[]; } ends;
+writeonly buffer Lists { uvec2 data[]; } lists;
+layout(push_constant) uniform Push { uint voxels; } push;
+
+void main() {
+    const uint voxel = linearIndex();
+    if (voxel >= push.voxels) return;
+    const uint begin = begins.data[voxel], end = ends.data[voxel];
+    lists.data[voxel] = uvec2(begin, end);
+    // By insertion: lists are short.
+    for (uint i = begin; i < end; ++i) {
+        const SortedSurfel s = sorted.data[i];
+        uint to = i;
+        for (; to > begin && sorted.data[to - 1u].id > s.id; --to) sorted.data[to] = sorted.data[to - 1u];
+        sorted.data[to] = s;
+    }
+    for (uint i = begin; i < end; ++i) slots.data[sorted.data[i].number] = i;
+}

@@ -1,0 +1,23 @@
+// Puts each surfel into its voxel's list. The order within a list is any; order.comp makes it one.
+#include "shaders/compute/linear_index.glsl"
+#include "passes/surfels/sorted_surfels.h"
+#include "passes/surfels/surfel_types.h"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SortedSurfels { SortedSurfel data[]; };
+layout(scalar) readonly buffer SortedAt { SortedSurfels sorted; };
+buffer Ends { uint data[]; } ends;  // At first where a voxel's list begins, at last where it ends.
+layout(push_constant) uniform Push {
+    uint count;
+    uint firstNumber;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const Surfel s = surfels.data[i];
+    if (s.voxel == 0xffffffffu) return;
+    sorted.data[atomicAdd(ends.data[s.voxel], 1u)] = 
+        SortedSurfel(s.position, push.firstNumber + i, s.normal, s.id | (s.area == 0.0 ? VOXRAY_COVERED : 0u));
+}

@@ -1,0 +1,75 @@
+#include "passes/surfels/surfel_sort.h"
+
+#include <algorithm>
+
+#include "passes/surfels/surfel_links.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint64_t kListBytes = 2 * sizeof(uint32_t);
+
+}  // namespace
+
+SurfelSort::SurfelSort(ProgramOwner& owner)
+    : count_(owner, "surfel_count.comp"),
+      sort_(owner, "surfel_sort.comp"),
+      order_(owner, "surfel_order.comp"),
+      prefixSum_(owner, PrefixSum::Of::Values) {}
+
+void SurfelSort::plan(PassPlan& plan, const Surfels& surfels, uint64_t voxels, SurfelsByVoxel& lists) {
+    lists.maxCount = surfels.maxCount;
+    plan.reserve("surfels by voxel (estimated)",
+                 listBytes(surfels.maxCount, voxels) + surfels.maxCount * sizeof(uint32_t));
+    plan.reserveScratch("counts of surfels (estimated)", scratchBytes(voxels));
+}
+
+uint64_t SurfelSort::listBytes(uint64_t surfels, uint64_t voxels) {
+    return surfels * sizeof(gpu::SortedSurfel) + kListBytes * voxels;
+}
+
+uint64_t SurfelSort::scratchBytes(uint64_t voxels) {
+    return 2 * voxels * sizeof(uint32_t) + PrefixSum::scratchBytes(uint32_t(voxels));
+}
+
+void SurfelSort::run(CommandStream& stream, const Surfels& surfels, uint32_t voxels,
+                     SurfelsByVoxel& to) const {
+    Device& device = stream.device();
+    to.lists = {}, to.sorted = {}, to.slots = {};
+    to.lists = Buffer(device, "lists of surfels by voxel", voxels * kListBytes);
+    const Buffer begins(device, "first surfel of each voxel", voxels * sizeof(uint32_t));
+    const Buffer ends(device, "last surfel of each voxel", voxels * sizeof(uint32_t));
+    stream.fill(begins, 0);
+    uint32_t count = 0;
+    for (const Surfels::Chunk& chunk : surfels.chunks) {
+        stream.dispatch(count_, chunk.count,
+                        {{"surfels", chunk.surfels}, {"counts", begins}, {"count", chunk.count}});
+        count += chunk.count;
+    }
+    to.slotCount = prefixSum_.run(stream, begins, begins, voxels);
+    stream.copy(begins, ends, voxels * sizeof(uint32_t));
+    to.sorted =
+        LargeBuffer(device, "surfels by voxel", std::max(to.slotCount, 1u) * sizeof(gpu::SortedSurfel));
+    to.slots = LargeBuffer(device, "slots of surfels", std::max(count, 1u) * sizeof(uint32_t));
+    stream.fill(to.slots, SurfelLinks::kNone);
+    uint32_t first = 0;
+    for (const Surfels::Chunk& chunk : surfels.chunks) {
+        stream.dispatch(sort_, chunk.count,
+                        {{"surfels", chunk.surfels},
+                         {"SortedAt", to.sorted.at()},
+                         {"ends", ends},
+                         {"count", chunk.count},
+                         {"firstNumber", first}});
+        first += chunk.count;
+    }
+    stream.dispatch(order_, voxels,
+                    {{"SortedAt", to.sorted.at()},
+                     {"SlotsAt", to.slots.at()},
+                     {"begins", begins},
+                     {"ends", ends},
+                     {"lists", to.lists},
+                     {"voxels", voxels}});
+    stream.finish();
+}
+
+}  // namespace voxray

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "graph/pass.h"
+#include "passes/surfels/surfel_types.h"
+
+namespace voxray {
+
+/// Points on the sides of surfaces that open space lies before, spread evenly over their area: where the
+/// irradiance of voxels is measured. Each stands for the same area. Covered sides may be among them, with
+/// area 0: no voxel's irradiance is theirs.
+struct Surfels : Resource {
+    std::string basisPort() const override { return "voxels"; }
+
+    struct Chunk {
+        Buffer surfels;  ///< gpu::Surfel each.
+        uint32_t count = 0;
+    };
+    /// Surfels of a chunk, at most.
+    static constexpr uint32_t kChunk = 1u << 18;
+    std::vector<Chunk> chunks;
+    bool coveredSides = false;  ///< Whether covered sides have surfels; known from planning on.
+    uint64_t maxCount = 0;      ///< An upper bound of their number, known from planning on.
+};
+
+}  // namespace voxray

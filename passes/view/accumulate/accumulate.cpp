@@ -1,0 +1,153 @@
+#include "graph/registry.h"
+#include "passes/common/filter/irradiance_resolve.h"
+#include "passes/common/filter/noisy_irradiance.h"
+#include "passes/common/view/frame_image.h"
+#include "passes/common/view/surface_motion.h"
+
+namespace voxray {
+namespace {
+
+ImageDesc descOf(glm::uvec2 extent, VkFormat format) {
+    ImageDesc desc;
+    desc.format = format;
+    desc.extent = {extent, 1};
+    return desc;
+}
+
+}  // namespace
+
+/// Adds up a gather's irradiance over frames. Source: the temporal part of Schied et al. 2017 (SVGF), with
+/// the clamp of Salvi 2016. Docs: docs/accumulation.md.
+class Accumulate final : public Pass {
+ public:
+    static constexpr const char* kName = "accumulate";
+    static constexpr const char* kHelp =
+        "Averages a gather's irradiance over frames by temporal reprojection. What a surface had in the "
+        "frame before is looked up where it was seen then. Lowers noise; the result serves as "
+        "'noisy_irradiance' of filter_irradiance, or as an image. Biased where light changes, by lag, which "
+        "'clamp' bounds, and, while the camera moves, by the blur of lookups between texels. Source: Schied "
+        "et al. 2017; Salvi 2016; docs/accumulation.md.";
+    struct Params {
+        uint32_t history = 16;
+        float clamp = 0.0f;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("history", &Params::history,
+                      "Frames in the mean, this one included. Once so many have come, each new one counts as "
+                      "one in so many. 1: this frame alone.",
+                      1u, 64u),
+                field("clamp", &Params::clamp,
+                      "How far history may be off the mean of this frame's surroundings, in standard "
+                      "deviations of what these surroundings hold. 0: as far as it is. Smaller: less lag, "
+                      "more noise.",
+                      0.0f, 100.0f)};
+        }
+    };
+
+    explicit Accumulate(const Params& params) : params_(params) {}
+    uint32_t framesBefore() const override { return params_.history - 1; }
+    void plan(PassPlan& plan) override;
+    void record(PassContext& context) override;
+
+ private:
+    const Params params_;
+    In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
+    In<SurfaceMotion> motion_{*this, "motion", "where it was in the frame before"};
+    In<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "irradiance of this frame"};
+    Out<NoisyIrradiance> accumulated_{*this, "noisy_irradiance", "irradiance of these frames"};
+    Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of it"};
+    Kernel findCells_{*this, "cells.comp"};
+    Kernel accumulate_{*this, "accumulate.comp", params_.clamp > 0 ? Defines{{"CLAMP", "1"}} : Defines{}};
+    Kernel keep_{*this, "keep.comp"};
+    IrradianceResolve resolve_{*this};
+    Image cellLight_, cellSurface_;  ///< cells.comp; where history is clamped.
+    Image frames_;  ///< R32F: in how many frames the texel's surface was seen, this one included.
+    // Of the frame before
+    bool hasHistory_ = false;
+    Image historyLight_;     ///< RGBA32F: irradiance, W/m², and number of rays.
+    Image historyPosition_;  ///< RGBA32F: m; instance as in SurfaceMotion::previous.
+    Image historyNormal_;    ///< RGBA16F: geometric normal; frames.
+};
+
+void Accumulate::plan(PassPlan& plan) {
+    const NoisyIrradiance& noisy = plan[noisy_];
+    const uint32_t samples = plan[gbuffer_].samples;
+    const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
+    constexpr VkFormat kWide = VK_FORMAT_R32G32B32A32_SFLOAT;
+
+    NoisyIrradiance& result = plan[accumulated_];
+    result.lightBounces = noisy.lightBounces;
+    result.spacing = noisy.spacing;
+    result.blockSize = noisy.blockSize;
+    plan.image(result.irradiance, "accumulated irradiance", NoisyIrradiance::desc(plan.frame, samples));
+    if (noisy.blockSize > 0) plan.buffer(result.moments, "moments of rays", noisy.momentsBytes(texels));
+    FrameImage& indirect = plan[indirect_];
+    indirect.lightBounces = noisy.lightBounces;
+    if (indirect.isRead) plan.image(indirect.image, "accumulated indirect", frameImageDesc(plan.frame));
+
+    plan.image(frames_, "length of history", descOf(texels, VK_FORMAT_R32_SFLOAT));
+    plan.image(historyLight_, "history of irradiance", descOf(texels, kWide));
+    plan.image(historyPosition_, "history of positions", descOf(texels, kWide));
+    plan.image(historyNormal_, "history of normals", descOf(texels, VK_FORMAT_R16G16B16A16_SFLOAT));
+    findCells_.compileIf(params_.clamp > 0);
+    if (params_.clamp == 0) return;
+    const glm::uvec2 cells = (texels + noisy.spacing - 1u) / noisy.spacing;
+    plan.image(cellLight_, "light of cells", descOf(cells, kWide));
+    plan.image(cellSurface_, "surfaces of cells", descOf(cells, kWide));
+}
+
+void Accumulate::record(PassContext& context) {
+    const GBuffer& gbuffer = context[gbuffer_];
+    const SurfaceMotion& motion = context[motion_];
+    const NoisyIrradiance& noisy = context[noisy_];
+    const NoisyIrradiance& result = context[accumulated_];
+    const glm::uvec3 texels = result.irradiance.desc().extent;
+
+    // What this frame's surroundings hold
+    if (params_.clamp > 0)
+        context.dispatch(findCells_, cellLight_.desc().extent,
+                         {gbuffer,
+                          {"irradiance", noisy.irradiance},
+                          {"previous", motion.previous},
+                          {"cellLight", cellLight_},
+                          {"cellSurface", cellSurface_},
+                          {"spacing", noisy.spacing}});
+
+    // This frame and those before it
+    context.dispatch(accumulate_, texels,
+                     {gbuffer,
+                      {"irradiance", noisy.irradiance},
+                      {"motion", motion.motion},
+                      {"previous", motion.previous},
+                      ifUsed({"cellLight", cellLight_}),
+                      ifUsed({"cellSurface", cellSurface_}),
+                      {"historyLight", historyLight_},
+                      {"historyPosition", historyPosition_},
+                      {"historyNormal", historyNormal_},
+                      {"result", result.irradiance},
+                      {"frames", frames_},
+                      {"history", float(params_.history)},
+                      {"clamp", params_.clamp},
+                      {"hasHistory", hasHistory_},
+                      {"spacing", noisy.spacing}});
+
+    // For the next frame
+    context.dispatch(keep_, texels,
+                     {gbuffer,
+                      {"result", result.irradiance},
+                      {"frames", frames_},
+                      {"previous", motion.previous},
+                      {"historyLight", historyLight_},
+                      {"historyPosition", historyPosition_},
+                      {"historyNormal", historyNormal_}});
+    hasHistory_ = true;
+
+    // The variance of a ray is this frame's: it does not depend on how many there are
+    if (noisy.blockSize > 0) context.stream.copy(noisy.moments, result.moments, result.moments.bytes());
+    if (const FrameImage& indirect = context[indirect_]; indirect.isRead)
+        resolve_.record(context, gbuffer, result.irradiance, indirect.image);
+}
+
+VOXRAY_REGISTER_PASS(Accumulate);
+
+}  // namespace voxray

@@ -1,0 +1,46 @@
+#include "graph/registry.h"
+#include "passes/common/view/frame_image.h"
+#include "passes/common/view/gbuffer.h"
+
+namespace voxray {
+
+class Composite final : public Pass {
+ public:
+    static constexpr const char* kName = "composite";
+    static constexpr const char* kHelp =
+        "Adds up emitted light (or the environment), direct and indirect light. What no pass writes is "
+        "black.";
+    struct Params {
+        float ambient = 0.0f;
+        static constexpr auto schema() {
+            return std::tuple{field("ambient", &Params::ambient,
+                                    "Radiance, W/(m² sr), that a white surface sends out besides, others by "
+                                    "their albedo. Magalhães 2020, section 4.4: 0.2.",
+                                    0.0f, 1e9f)};
+        }
+    };
+    explicit Composite(const Params& params) : params_(params) {}
+
+    void plan(PassPlan& plan) override {
+        plan.image(plan[final_].image, "final", frameImageDesc(plan.frame));
+    }
+    void record(PassContext& context) override {
+        context.dispatch(kernel_, context.frame.pixels(),
+                         {context[gbuffer_],
+                          {"direct", context.orBlack(direct_)},
+                          {"indirect", context.orBlack(indirect_)},
+                          {"result", context[final_].image},
+                          {"ambient", params_.ambient}});
+    }
+
+ private:
+    const Params params_;
+    In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
+    InOptional<FrameImage> direct_{*this, "direct", "radiance reflected of direct light"};
+    InOptional<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light"};
+    Out<FrameImage> final_{*this, "final", "radiance towards the camera"};
+    Kernel kernel_{*this, "composite.comp"};
+};
+VOXRAY_REGISTER_PASS(Composite);
+
+}  // namespace voxray

@@ -1,0 +1,45 @@
+#include "graph/registry.h"
+#include "passes/common/lights/pane_tint.h"
+#include "passes/common/lights/rsm.h"
+#include "passes/common/view/frame_image.h"
+#include "passes/common/view/gbuffer.h"
+
+namespace voxray {
+
+/// Direct light per pixel by shadow maps (Williams 1978): each texel of the g-buffer is tested against what
+/// the lights' views see, with percentage-closer filtering over 2x2 texels (Reeves et al. 1987).
+class DirectShadowMaps final : public Pass {
+ public:
+    static constexpr const char* kName = "direct_shadow_maps";
+    static constexpr const char* kHelp =
+        "Computes direct light at each pixel by shadow maps. The lights are point, spot and directional "
+        "lights, and the maps are those of render_rsm. Biased by: rsm_resolution, at edges of shadows by "
+        "about a texel, contacts within half a texel. No noise. Mirrors reflect no light. Compare with "
+        "direct_shadow_rays. Source: Williams 1978; filtering: Reeves et al. 1987; as Sun and Agu 2015, "
+        "section 3.2.";
+
+    void plan(PassPlan& plan) override {
+        requireClearPanes(*plan.frame.scene, kName);
+        plan.image(plan[direct_].image, "direct", frameImageDesc(plan.frame));
+    }
+    void record(PassContext& context) override {
+        const Rsm& rsm = context[rsm_];
+        context.dispatch(shade_, context.frame.pixels(),
+                         {context.scene,
+                          context[gbuffer_],
+                          rsm,
+                          {"direct", context[direct_].image},
+                          {"resolution", rsm.resolution},
+                          {"views", rsm.firstView.back()},
+                          {"camera", context.frame.camera.position}});
+    }
+
+ private:
+    In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
+    In<Rsm> rsm_{*this, "rsm", "what lights see"};
+    Out<FrameImage> direct_{*this, "direct", "radiance reflected of direct light"};
+    Kernel shade_{*this, "shade.comp"};
+};
+VOXRAY_REGISTER_PASS(DirectShadowMaps);
+
+}  // namespace voxray

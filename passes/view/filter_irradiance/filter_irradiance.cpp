@@ -1,0 +1,201 @@
+#include <string>
+
+#include "base/error.h"
+#include "graph/registry.h"
+#include "passes/common/filter/noisy_irradiance.h"
+#include "passes/common/view/frame_image.h"
+#include "passes/view/filter_irradiance/filter_types.h"
+#include "scene/camera_rays.h"
+
+namespace voxray {
+namespace {
+
+// Of the means that are compared: light from some hundreds of pixels, of rays where each has one.
+constexpr uint32_t kMeanLevels = 3;
+
+/// Of an image of elements (elements.glsl).
+ImageDesc elementsDesc(const Frame& frame, uint32_t samples, VkFormat format) {
+    ImageDesc desc;
+    desc.format = format;
+    desc.extent = {frame.width, frame.height * (samples > 1 ? 2 : 1), 1};
+    return desc;
+}
+
+}  // namespace
+
+/// Lowers the noise of any gather's irradiance. Source: the edge-avoiding à-trous wavelet of Dammertz et al.
+/// 2010, with a weight that balances noise against what texels differ by: the gradient bound of Ward et al.
+/// 1988, geometry, and the means of their surroundings (wavelet.comp).
+/// Docs: docs/filtering.md.
+class FilterIrradiance final : public Pass {
+ public:
+    static constexpr const char* kName = "filter_irradiance";
+    static constexpr const char* kHelp =
+        "Denoises a gather's irradiance along surfaces and multiplies by albedo. The noisy irradiance is "
+        "that of a gather (gather_rays, path_trace). An edge-avoiding wavelet whose width follows from the "
+        "number of rays and, where the gather tells them, from their variance, the distances of their hits, "
+        "and how much the light around texels differs. Biased by: edge_stopping_scale and levels, less the "
+        "more rays. Lambert surfaces only. Source: Dammertz et al. 2010; Ward et al. 1988; "
+        "docs/filtering.md.";
+    struct Params {
+        uint32_t levels = 4;
+        float edgeStoppingScale = 0.1f;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("levels", &Params::levels,
+                      "Levels of the wavelet, each of twice the reach of the one before: n levels reach "
+                      "2^n - 1 pixels.",
+                      1u, 6u),
+                field("edge_stopping_scale", &Params::edgeStoppingScale,
+                      "Factor of the bound on how much irradiance differs between two texels. 1: the whole "
+                      "bound, sharp and noisy. Smaller: smoother, and shadows blur. Most changes cancel, so "
+                      "a tenth is a good start.",
+                      0.01f, 100.0f)};
+        }
+    };
+
+    explicit FilterIrradiance(const Params& params) : params_(params) {}
+    void plan(PassPlan& plan) override;
+    void record(PassContext& context) override;
+
+ private:
+    void findLight(PassContext& context) const;
+    const Image& means(PassContext& context) const;
+    uint64_t elements() const;
+
+    const Params params_;
+    In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
+    In<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "irradiance from few rays a texel"};
+    Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light"};
+    Kernel findSurfaces_{*this, "surfaces.comp"};
+    Kernel statistics_{*this, "statistics.comp"};
+    Kernel mean_{*this, "mean.comp"};
+    Kernel findLight_{*this, "light.comp"};
+    Kernel wavelet_{*this, "wavelet.comp"};
+    Kernel resolve_{*this, "resolve.comp"};
+    Buffer second_;           ///< How many pixels show a second surface, then their numbers.
+    Buffer blockStatistics_;  ///< gpu::RayStatistics a block, where the gather tells moments.
+    // Images of elements (elements.glsl).
+    Image surfaces_;     ///< surface.glsl
+    Image reflectance_;  ///< Albedo times the part of the pixel that has it.
+    Image means_[2];     ///< Of surroundings (mean.comp), where the gather tells moments.
+    Image light_;        ///< surface_light.glsl
+    Image filtered_[2];  ///< Irradiance, W/m², and number of rays; levels write them in turn.
+};
+
+void FilterIrradiance::plan(PassPlan& plan) {
+    const NoisyIrradiance& noisy = plan[noisy_];
+    const uint32_t samples = plan[gbuffer_].samples;
+    uint32_t minLevels = 1;
+    while ((samples << minLevels) < 2 * noisy.spacing) ++minLevels;
+    if (noisy.spacing > samples && params_.levels < minLevels)
+        throw Error(
+            "filter_irradiance: the gather has rays for one texel in each {0}x{0}, which {1} levels leave "
+            "with gaps; raise 'levels' to {2} or the gather's rays",
+            noisy.spacing, params_.levels, minLevels);
+    plan[indirect_].lightBounces = noisy.lightBounces;
+    plan.image(plan[indirect_].image, "filtered indirect", frameImageDesc(plan.frame));
+    const ImageDesc values = elementsDesc(plan.frame, samples, VK_FORMAT_R32G32B32A32_SFLOAT);
+    plan.image(surfaces_, "surfaces of pixels",
+               elementsDesc(plan.frame, samples, VK_FORMAT_R32G32B32A32_UINT));
+    plan.image(reflectance_, "reflectance of surfaces",
+               elementsDesc(plan.frame, samples, VK_FORMAT_R16G16B16A16_SFLOAT));
+    plan.image(light_, "light around surfaces", values);
+    for (Image& level : filtered_) plan.image(level, "filtered irradiance", values);
+    plan.buffer(second_, "second surfaces",
+                (1 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
+    if (noisy.blockSize > 0) {
+        const glm::uvec2 blocks = noisy.blocks(gbufferExtent(plan.frame, samples));
+        plan.buffer(blockStatistics_, "statistics of rays",
+                    uint64_t(blocks.x) * blocks.y * sizeof(gpu::RayStatistics));
+        for (Image& mean : means_) plan.image(mean, "mean irradiance of surroundings", values);
+    }
+
+    Defines defines{{"SAMPLES", std::to_string(samples)}};
+    if (noisy.blockSize > 0) defines.emplace("MOMENTS", "1");
+    for (Kernel* kernel : {&findSurfaces_, &statistics_, &mean_, &findLight_, &wavelet_, &resolve_})
+        kernel->define(defines);
+    statistics_.compileIf(noisy.blockSize > 0);
+    mean_.compileIf(noisy.blockSize > 0);
+}
+
+void FilterIrradiance::record(PassContext& context) {
+    const glm::uvec2 pixels = context.frame.pixels();
+
+    // The surfaces of each pixel.
+    context.stream.fill(second_, 0);
+    context.dispatch(findSurfaces_, uint64_t(pixels.x) * pixels.y,
+                     {context[gbuffer_],
+                      {"irradiance", context[noisy_].irradiance},
+                      {"surfaces", surfaces_},
+                      {"source", filtered_[0]},
+                      {"reflectance", reflectance_},
+                      {"second", second_},
+                      {"pixels", pixels}});
+
+    // Their light, filtered.
+    findLight(context);
+    for (uint32_t level = 0; level < params_.levels; ++level)
+        context.dispatch(wavelet_, elements(),
+                         {{"second", second_},
+                          {"surfaces", surfaces_},
+                          {"light", light_},
+                          {"source", filtered_[level % 2]},
+                          {"result", filtered_[(level + 1) % 2]},
+                          {"level", level},
+                          {"edgeStoppingScale", params_.edgeStoppingScale}});
+
+    // What they reflect.
+    context.dispatch(resolve_, pixels,
+                     {{"irradiance", filtered_[params_.levels % 2]},
+                      {"reflectance", reflectance_},
+                      {"result", context[indirect_].image}});
+}
+
+void FilterIrradiance::findLight(PassContext& context) const {
+    const NoisyIrradiance& noisy = context[noisy_];
+    const uint32_t samples = context[gbuffer_].samples;
+    const CameraRays camera = cameraRays(context.frame.camera, context.frame.width, context.frame.height);
+    glm::uvec2 blocks(0);
+    const Image* mean = &means_[0];
+    if (noisy.blockSize > 0) {
+        blocks = noisy.blocks(gbufferExtent(context.frame, samples));
+        context.dispatch(statistics_, blocks,
+                         {{"moments", noisy.moments}, {"statistics", blockStatistics_}, {"blocks", blocks}});
+        mean = &means(context);
+    }
+    context.dispatch(findLight_, elements(),
+                     {{"second", second_},
+                      {"surfaces", surfaces_},
+                      {"light", light_},
+                      ifUsed({"mean", *mean}),
+                      ifUsed({"statistics", blockStatistics_}),
+                      {"blocks", blocks},
+                      {"blockSize", float(noisy.blockSize) / float(samples)},
+                      {"pixelAngle", 2 * glm::length(camera.up) / float(context.frame.height)},
+                      {"camera", camera.origin}});
+}
+
+const Image& FilterIrradiance::means(PassContext& context) const {
+    const Image* from = &filtered_[0];
+    for (uint32_t level = 0; level < kMeanLevels; ++level) {
+        const Image& to = means_[level % 2];
+        context.dispatch(mean_, elements(),
+                         {{"second", second_},
+                          {"surfaces", surfaces_},
+                          {"source", *from},
+                          {"result", to},
+                          {"level", level}});
+        from = &to;
+    }
+    return *from;
+}
+
+uint64_t FilterIrradiance::elements() const {
+    const glm::uvec3 extent = surfaces_.desc().extent;
+    return uint64_t(extent.x) * extent.y;
+}
+
+VOXRAY_REGISTER_PASS(FilterIrradiance);
+
+}  // namespace voxray

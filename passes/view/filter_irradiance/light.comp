@@ -1,0 +1,61 @@
+// What is known of the light around each element: the mean of its surroundings, and the statistics of the rays there, interpolated
+// between the centers of blocks.
+#include "passes/view/filter_irradiance/filter_types.h"
+#include "passes/view/filter_irradiance/elements.glsl"
+
+#ifdef MOMENTS
+uniform sampler2D mean;  // mean.comp
+layout(scalar) readonly buffer Statistics { RayStatistics data[]; } statistics;
+#endif
+layout(rgba32f) writeonly uniform image2D light;  // surface_light.glsl
+layout(push_constant, scalar) uniform Push {
+    uvec2 blocks;
+    float blockSize;   // Pixels along a block's edge.
+    float pixelAngle;  // Width of a pixel at unit distance.
+    vec3 camera;       // m
+} push;
+
+// What is nearer than 4 pixels changes irradiance within a few pixels whatever the filter does, so the gradient is bounded as if
+// nothing were nearer (Tabellion and Lamorlette 2004, section 5, bound the spacing of irradiance records by pixels likewise).
+#define MIN_PIXELS 4.0
+
+#ifdef MOMENTS
+vec2 statisticsOf(ivec2 block) {
+    const ivec2 inside = clamp(block, ivec2(0), ivec2(push.blocks) - 1);
+    const RayStatistics s = statistics.data[inside.y * int(push.blocks.x) + inside.x];
+    return vec2(s.gradient, s.variance);
+}
+
+// x: gradient, y: variance.
+vec2 interpolatedStatistics(ivec2 pixel) {
+    const vec2 at = (vec2(pixel) + 0.5) / push.blockSize - 0.5, weight = fract(at);
+    const ivec2 corner = ivec2(floor(at));
+    return mix(mix(statisticsOf(corner), statisticsOf(corner + ivec2(1, 0)), weight.x),
+               mix(statisticsOf(corner + ivec2(0, 1)), statisticsOf(corner + ivec2(1, 1)), weight.x), weight.y);
+}
+#endif
+
+void main() {
+    const ivec2 pixels = imageSize(light) / ivec2(1, LAYERS);
+    ivec2 element;
+    if (!elementOfThread(pixels, element)) return;
+    const uvec4 surface = texelFetch(surfaces, element, 0);
+
+    // Without moments light is everywhere the same as far as we know: 1, with the largest gradient. The variance of a ray is then
+    // taken as its squared mean.
+    vec4 found = vec4(1.0, 0.0, 1.0, 1.0e30);
+    float relativeVariance = 1.0;
+#ifdef MOMENTS
+    const vec2 rays = interpolatedStatistics(ivec2(element.x, element.y % pixels.y));
+    const vec3 around = texelFetch(mean, element, 0).xyz;
+    relativeVariance = rays.y;
+    found.x = around.x;
+    found.z = rays.y * around.x * around.x;
+    found.y = around.y > 0.0 ? found.z * around.z / (around.y * around.y) : 0.0;
+    found.w = rays.x;
+#endif
+    const float maxGradient =
+        sqrt(relativeVariance) / (MIN_PIXELS * push.pixelAngle * distance(unpackSurface(surface).position, push.camera));
+    found.w = min(found.w, maxGradient);
+    imageStore(light, element, areaOf(surface) > 0.0 ? found : vec4(0.0));
+}

@@ -1,0 +1,47 @@
+// From sums over rays to the two numbers that steer the filter: how noisy a single ray is, and how fast irradiance can change
+// along a surface. Blocks have few rays, so each takes its 3 x 3 neighbourhood, weighted 1 2 1 along rows and columns.
+//
+// The gradient bound. Irradiance E is the mean of what rays bring, L. An even surrounding of radiance M/pi gives the same E
+// everywhere, so only the deviations L - M can change E along a surface. A light at distance r changes its contribution by at
+// most 1/r of it per metre (the split sphere of Ward, Rubinstein and Clear 1988, section 3, which has all light in place of the
+// deviations). Over the rays around a block:
+//
+//     |grad E| / E  <=  sum(|L - M| / r) / sum(L)  <=  sqrt(sum((L - M)^2 / r) * sum(1/r)) / sum(L)
+//
+// The second step is the inequality of Cauchy and Schwarz. Its sums expand to sums of L/r and L^2/r, so that M need not be known
+// while rays are added up.
+#include "passes/view/filter_irradiance/filter_types.h"
+#include "shaders/filter/ray_moments.h"
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(scalar) readonly buffer Moments { RayMoments data[]; } moments;
+layout(scalar) writeonly buffer Statistics { RayStatistics data[]; } statistics;
+layout(push_constant) uniform Push { uvec2 blocks; } push;
+
+void main() {
+    const ivec2 block = ivec2(gl_GlobalInvocationID.xy), last = ivec2(push.blocks) - 1;
+    if (any(greaterThan(block, last))) return;
+    RayMoments sum = RayMoments(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x) {
+            const ivec2 other = clamp(block + ivec2(x, y), ivec2(0), last);
+            const RayMoments m = moments.data[other.y * int(push.blocks.x) + other.x];
+            const float weight = (x == 0 ? 2.0 : 1.0) * (y == 0 ? 2.0 : 1.0);
+            sum.rays += weight * m.rays;
+            sum.luminance += weight * m.luminance;
+            sum.squared += weight * m.squared;
+            sum.inverseDistance += weight * m.inverseDistance;
+            sum.luminanceOverDistance += weight * m.luminanceOverDistance;
+            sum.squaredOverDistance += weight * m.squaredOverDistance;
+        }
+
+    RayStatistics found = RayStatistics(0.0, 0.0);
+    if (sum.luminance > 0.0) {
+        const float mean = sum.luminance / sum.rays;
+        const float deviation =
+            sum.squaredOverDistance - 2.0 * mean * sum.luminanceOverDistance + mean * mean * sum.inverseDistance;
+        found.gradient = sqrt(max(deviation, 0.0) * sum.inverseDistance) / sum.luminance;
+        found.variance = max(sum.squared / (sum.luminance * mean) - 1.0, 0.0);
+    }
+    statistics.data[block.y * int(push.blocks.x) + block.x] = found;
+}

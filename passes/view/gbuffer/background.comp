@@ -1,0 +1,14 @@
+// Fills the emission target with the environment's radiance; surfaces are drawn over it.
+#include "passes/view/gbuffer/view.glsl"
+#include "shaders/scene/scene.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(rgba32f) writeonly uniform image2D background;
+layout(push_constant, scalar) uniform Push { View view; } push;
+
+void main() {
+    const uvec2 texel = gl_GlobalInvocationID.xy;
+    if (texel.x >= push.view.width || texel.y >= push.view.height) return;
+    const vec3 direction = viewDirection(push.view, texel);
+    imageStore(background, ivec2(texel), vec4(environmentRadiance(direction), 0.0));
+}

@@ -1,0 +1,7 @@
+// Which patches light arrives at straight from the lights.
+#include "shaders/compute/large_buffer.glsl"
+#include "passes/surfels/radiosity.glsl"
+
+layout(scalar) readonly buffer PatchDirectAt { LargeUints patchDirect; };
+
+bool isLit(uint number) { return any(greaterThan(unpackRadiosity(patchDirect.data[number]), vec3(0.0))); }

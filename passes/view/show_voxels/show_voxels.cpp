@@ -1,0 +1,181 @@
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
+#include "graph/registry.h"
+#include "passes/common/view/frame_image.h"
+#include "passes/common/voxel_march/voxel_march.h"
+#include "passes/common/voxels/face_irradiance.h"
+#include "passes/cones/radiance/radiance_voxels.h"
+#include "passes/view/show_voxels/lit_faces.h"
+#include "scene/camera_rays.h"
+
+namespace voxray {
+
+enum class ShownValue { Albedo, Irradiance, Opacity, Normal, LitFaces, Radiance, RadianceOpacity };
+
+template <>
+struct EnumNames<ShownValue> {
+    static constexpr std::array names{std::pair{ShownValue::Albedo, "albedo"},
+                                      std::pair{ShownValue::Irradiance, "irradiance"},
+                                      std::pair{ShownValue::Opacity, "opacity"},
+                                      std::pair{ShownValue::Normal, "normal"},
+                                      std::pair{ShownValue::LitFaces, "lit_faces"},
+                                      std::pair{ShownValue::Radiance, "radiance"},
+                                      std::pair{ShownValue::RadianceOpacity, "radiance_opacity"}};
+};
+
+/// The voxels themselves, as cubes, seen by the camera: for looking at what other passes read.
+class ShowVoxels final : public Pass {
+ public:
+    static constexpr const char* kName = "show_voxels";
+    static constexpr const char* kHelp =
+        "Draws voxels as cubes, each in the color of what it holds. A pixel shows the first voxel on the ray "
+        "through its center, without antialiasing. Surface voxels, or prefiltered ones of any level. For "
+        "looking at, not for scores. Exact, no noise of its own.";
+    struct Params {
+        ShownValue show = ShownValue::Albedo;
+        uint32_t redAt = 225;
+        uint32_t level = 0;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("show", &Params::show,
+                      "Of surface voxels. albedo: diffuse reflectance. irradiance: what arrives at the face "
+                      "that is seen, as the radiance of a white surface there (over pi); magenta where the "
+                      "injection did not look. opacity: 0 to 1. normal: each component from -1 to 1 as 0 to "
+                      "1. lit_faces: how many lit faces of voxels the face sees by its list "
+                      "(cluster_visibility), none as green, red_at as red; of a part of a cluster all count "
+                      "(Cosin and Patow 2022, figure 13); magenta where no surfel looks that way. Of "
+                      "prefiltered voxels, which cones read. radiance: what their surfaces send through the "
+                      "face that is seen. radiance_opacity: the part of a beam that they hide there."),
+                field("red_at", &Params::redAt, "So many lit faces, and more, are red.", 1u, 1u << 24)
+                    .onlyWith(oneOf(&Params::show, {ShownValue::LitFaces})),
+                field("level", &Params::level,
+                      "Level of the prefiltered voxels: each is twice as wide as those of the level before.",
+                      0u, 15u)
+                    .onlyWith(oneOf(&Params::show, {ShownValue::Radiance, ShownValue::RadianceOpacity}))};
+        }
+    };
+
+    explicit ShowVoxels(const Params& params);
+    Phase phase() const override { return Phase::Frame; }
+    void plan(PassPlan& plan) override;
+    void record(PassContext& context) override;
+
+ private:
+    bool showsLight() const { return params_.show == ShownValue::Irradiance; }
+    bool showsLitFaces() const { return params_.show == ShownValue::LitFaces; }
+    bool showsLevel() const {
+        return params_.show == ShownValue::Radiance || params_.show == ShownValue::RadianceOpacity;
+    }
+    /// Brings up to date what is shown of faces, and binds it.
+    Binding faces(PassContext& context);
+    void recordLevel(PassContext& context);
+
+    const Params params_;
+    In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales",
+                                 showsLevel()};
+    In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels", !showsLevel()};
+    In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces",
+                                    showsLight()};
+    In<VoxelPatches> patches_{*this, "patches", "surfaces by the open space that they look into",
+                              showsLitFaces()};
+    In<ClusterVisibility> visibility_{*this, "cluster_visibility", "what each patch sees", showsLitFaces()};
+    In<ClusterLight> clusterLight_{*this, "cluster_light", "which patches are lit", showsLitFaces()};
+    Out<FrameImage> final_{*this, "final", "voxels, as cubes"};
+    Kernel program_{*this, showsLevel() ? "show_levels.comp" : "show_voxels.comp"};
+    std::optional<VoxelMarch> march_;                            ///< Of surface voxels.
+    std::optional<FaceIrradiance> faces_;                        ///< Where light is shown.
+    std::optional<LitFaces> litFaces_;                           ///< Where lit faces are shown.
+    std::optional<std::pair<uint64_t, uint64_t>> facesVersion_;  ///< Of the voxels or lists, and of light.
+};
+
+ShowVoxels::ShowVoxels(const Params& params) : params_(params) {
+    if (!showsLevel()) march_.emplace(*this, VoxelWalk::Bricks);
+    if (showsLight()) faces_.emplace(*this);
+    if (showsLitFaces()) litFaces_.emplace(*this);
+}
+
+void ShowVoxels::plan(PassPlan& plan) {
+    plan.image(plan[final_].image, "voxels", frameImageDesc(plan.frame));
+    if (showsLevel()) {
+        const RadianceVoxels& radiance = plan[radiance_];
+        if (params_.level >= radiance.grid.levels)
+            throw Error("show_voxels.level: there is no level {}; the radiance voxels have 0 to {}",
+                        params_.level, radiance.grid.levels - 1);
+        program_.define(radiance.defines());
+        return;
+    }
+    const SurfaceVoxels& voxels = plan[voxels_];
+    march_->plan(plan, voxels);
+    Defines defines = march_->defines();
+    if (showsLight()) {
+        plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(voxels.voxelCount));
+        defines.emplace("SHOW_IRRADIANCE", "1");
+    }
+    if (showsLitFaces()) {
+        plan.reserve("lit faces (estimated)", LitFaces::bytes(voxels.voxelCount));
+        defines.emplace("SHOW_LIT_FACES", "1");
+    }
+    program_.define(defines);
+}
+
+void ShowVoxels::record(PassContext& context) {
+    if (showsLevel()) return recordLevel(context);
+    const SurfaceVoxels& voxels = context[voxels_];
+    march_->begin(context.stream, voxels);
+    const Binding shown = faces(context);
+    const CameraRays camera = cameraRays(context.frame.camera, context.frame.width, context.frame.height);
+    context.dispatch(program_, context.frame.pixels(),
+                     {*march_,
+                      shown,
+                      {"result", context[final_].image},
+                      {"grid", voxels.grid},
+                      {"origin", camera.origin},
+                      {"forward", camera.forward},
+                      {"right", camera.right},
+                      {"up", camera.up},
+                      {"show", params_.show},
+                      {"redAt", params_.redAt}});
+    context.voxelCounts.push_back(&march_->counts());
+}
+
+Binding ShowVoxels::faces(PassContext& context) {
+    const SurfaceVoxels& voxels = context[voxels_];
+    const auto isNew = [&](uint64_t of, uint64_t light) {
+        const std::pair version{of, light};
+        return std::exchange(facesVersion_, version) != version;
+    };
+    if (showsLight()) {
+        const VoxelIrradiance& light = context[irradiance_];
+        if (isNew(voxels.version, light.version))
+            faces_->update(context.stream, voxels, light.area, light.indirect, &light.direct);
+        return faces_->binding();
+    }
+    if (showsLitFaces()) {
+        const ClusterVisibility& visibility = context[visibility_];
+        const ClusterLight& light = context[clusterLight_];
+        if (isNew(visibility.version, light.version))
+            litFaces_->count(context.stream, voxels.voxelCount, context[patches_], visibility, light);
+        return {"seenByFaces", litFaces_->seenByFaces()};
+    }
+    return {"VoxelMaterialsAt", voxels.materials.at()};
+}
+
+void ShowVoxels::recordLevel(PassContext& context) {
+    const CameraRays camera = cameraRays(context.frame.camera, context.frame.width, context.frame.height);
+    context.dispatch(program_, context.frame.pixels(),
+                     {context[radiance_],
+                      {"result", context[final_].image},
+                      {"origin", camera.origin},
+                      {"forward", camera.forward},
+                      {"right", camera.right},
+                      {"up", camera.up},
+                      {"level", params_.level},
+                      {"showsOpacity", params_.show == ShownValue::RadianceOpacity}});
+}
+
+VOXRAY_REGISTER_PASS(ShowVoxels);
+
+}  // namespace voxray

@@ -1,0 +1,263 @@
+#include <glm/gtc/constants.hpp>
+#include <memory>
+#include <optional>
+
+#include "base/error.h"
+#include "graph/registry.h"
+#include "passes/common/filter/irradiance_resolve.h"
+#include "passes/common/filter/noisy_irradiance.h"
+#include "passes/common/view/frame_image.h"
+#include "passes/common/view/gbuffer.h"
+#include "passes/common/voxel_march/voxel_tracer.h"
+#include "passes/hybrid_leaves/hybrid_tracer.h"
+#include "passes/vpls/gather_vpls/compensation.h"
+#include "passes/vpls/gather_vpls/point_maps.h"
+#include "passes/vpls/gather_vpls/traced_maps.h"
+
+namespace voxray {
+
+/// What hides a virtual point light from a surface.
+enum class VplVisibility {
+    Svo,
+    SvoRestart,
+    Bricks,
+    Bits,
+    HybridLeaves,
+    ShadowMap,
+    ImperfectShadowMap,
+    Exact,
+    None
+};
+template <>
+struct EnumNames<VplVisibility> {
+    static constexpr std::array names{std::pair{VplVisibility::Svo, "svo"},
+                                      std::pair{VplVisibility::SvoRestart, "svo_restart"},
+                                      std::pair{VplVisibility::Bricks, "bricks"},
+                                      std::pair{VplVisibility::Bits, "bits"},
+                                      std::pair{VplVisibility::HybridLeaves, "hybrid_leaves"},
+                                      std::pair{VplVisibility::ShadowMap, "shadow_map"},
+                                      std::pair{VplVisibility::ImperfectShadowMap, "imperfect_shadow_map"},
+                                      std::pair{VplVisibility::Exact, "exact"},
+                                      std::pair{VplVisibility::None, "none"}};
+};
+
+namespace {
+
+bool hasMaps(VplVisibility visibility) {
+    return visibility == VplVisibility::ShadowMap || visibility == VplVisibility::ImperfectShadowMap;
+}
+
+bool meetsVoxels(VplVisibility visibility) {
+    return !hasMaps(visibility) && visibility != VplVisibility::HybridLeaves &&
+           visibility != VplVisibility::Exact && visibility != VplVisibility::None;
+}
+
+VoxelWalk walkOf(VplVisibility visibility) {
+    switch (visibility) {
+        case VplVisibility::SvoRestart:
+            return VoxelWalk::SvoRestart;
+        case VplVisibility::Bricks:
+            return VoxelWalk::Bricks;
+        case VplVisibility::Bits:
+            return VoxelWalk::Bits;
+        default:
+            return VoxelWalk::Svo;
+    }
+}
+
+}  // namespace
+
+/// Irradiance from virtual point lights, each texel from every n-th of them (interleaved sampling, Segovia et
+/// al. 2006), with shadow rays through voxels. Source: Sun and Agu 2015, sections 3.1 and 3.2, equations 1 to
+/// 4; there without the 1/pi that makes radiant intensity of flux (docs/many-lights.md).
+class GatherVpls final : public Pass {
+ public:
+    static constexpr const char* kName = "gather_vpls";
+    static constexpr const char* kHelp =
+        "Gathers indirect light from virtual point lights (VPLs) by shadow rays. A shadow ray, through "
+        "voxels or exact, goes to each of the lights of sample_vpls. Each texel of a block takes another "
+        "part of them; let filter_irradiance follow. Biased by: bound without compensation_rays, which "
+        "darkens contacts and corners; voxel size or map_resolution, unless visibility is exact. Noisy by: "
+        "the number of virtual lights, as blotches that all texels share. Source: Sun and Agu 2015; Kollig "
+        "and Keller 2004.";
+    struct Params {
+        uint32_t block = 4;
+        float bound = 1;
+        uint32_t compensationRays = 0;
+        float roulette = 0;
+        float earlyOut = 0;
+        VplVisibility visibility = VplVisibility::Svo;
+        float restartEpsilon = 0;
+        float endEpsilon = 0;
+        uint32_t mapResolution = 128;
+        uint32_t mapPoints = 8192;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("block", &Params::block,
+                      "Texels along the edge of blocks whose texels share all virtual lights out among them.",
+                      powersOfTwo(1, 16)),
+                field(
+                    "bound", &Params::bound,
+                    "Virtual lights nearer than this give no more light than at it: factor of the radius of "
+                    "the disc that has as much area as there is surface for each path of light. 0: no bound.",
+                    0.0f, 1000.0f),
+                field("compensation_rays", &Params::compensationRays,
+                      "Rays of each texel that bring back what 'bound' takes away, which is then no bias but "
+                      "noise near contacts; 0: it is left out.",
+                      0u, 256u)
+                    .onlyWith(noneOf(&Params::bound, {0.0f})),
+                field(
+                    "roulette", &Params::roulette,
+                    "Virtual lights that, were nothing in the way, would bring a texel less than this times "
+                    "what its lights do on average, get a shadow ray with a chance in proportion, and count "
+                    "for more by as much. Saves rays for noise; 0: each gets one that faces the texel.",
+                    0.0f, 100.0f),
+                field("early_out", &Params::earlyOut,
+                      "As 'roulette', but such virtual lights are left out altogether, as the paper does: "
+                      "the image is darker by what they would bring. 0: none is.",
+                      0.0f, 100.0f)
+                    .onlyWith(oneOf(&Params::roulette, {0.0f})),
+                field("visibility", &Params::visibility,
+                      "What hides virtual lights. svo, bricks, bits: surface voxels, on three walks that "
+                      "find the same ones. svo_restart: these by the paper's walk. hybrid_leaves: triangles "
+                      "and grids that the octree's leaves hold (build_hybrid_leaves). shadow_map: what a map "
+                      "of each virtual light's hemisphere sees, by a ray a texel. imperfect_shadow_map: the "
+                      "same, made of points (Ritschel et al. 2008). exact: triangles. none: nothing."),
+                field("restart_epsilon", &Params::restartEpsilon,
+                      "Voxels by which the walk steps past each node, as the paper does, which skips what is "
+                      "thinner; 0 steps exactly.",
+                      0.0f, 1.0f)
+                    .onlyWith(oneOf(&Params::visibility, {VplVisibility::SvoRestart})),
+                field("end_epsilon", &Params::endEpsilon,
+                      "Voxels by which both ends of a shadow ray are moved along it, as the paper does; 0 "
+                      "moves them out of their surfaces' voxels along normals.",
+                      0.0f, 64.0f)
+                    .onlyWith(oneOf(&Params::visibility, {VplVisibility::SvoRestart})),
+                field("map_resolution", &Params::mapResolution,
+                      "Texels along each side of a virtual light's map.", 4u, 1024u)
+                    .onlyWith(oneOf(&Params::visibility,
+                                    {VplVisibility::ShadowMap, VplVisibility::ImperfectShadowMap})),
+                field("map_points", &Params::mapPoints,
+                      "Points of the scene's surfaces that each map is made of.", 64u, 1u << 20)
+                    .onlyWith(oneOf(&Params::visibility, {VplVisibility::ImperfectShadowMap}))};
+        }
+    };
+
+    explicit GatherVpls(const Params& params);
+    void plan(PassPlan& plan) override;
+    void record(PassContext& context) override;
+
+ private:
+    const Params params_;
+    In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
+    In<Vpls> vpls_{*this, "vpls", "virtual point lights"};
+    In<SurfaceVoxels> voxels_{
+        *this, "voxels",
+        meetsVoxels(params_.visibility) ? "what shadow rays meet" : "whose octree shadow rays walk through",
+        meetsVoxels(params_.visibility) || params_.visibility == VplVisibility::HybridLeaves};
+    In<HybridLeaves> leaves_{*this, "hybrid_leaves", "what shadow rays meet",
+                             params_.visibility == VplVisibility::HybridLeaves};
+    Out<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "irradiance from a subset of lights a texel"};
+    Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light, unfiltered"};
+    std::optional<VoxelTracer> voxelTracer_;
+    std::optional<HybridTracer> hybridTracer_;
+    std::unique_ptr<VplMaps> maps_;  ///< With shadow maps of either kind.
+    VplLight light_{*this};
+    std::optional<VplCompensation> compensation_;  ///< Where something is taken away and comes back.
+    Image sums_;                                   ///< Of the G-buffer's extent.
+    Kernel finish_{*this, "finish.comp"};
+    std::optional<IrradianceResolve> resolve_;  ///< Where `indirect` is read.
+};
+
+GatherVpls::GatherVpls(const Params& params) : params_(params) {
+    if (meetsVoxels(params_.visibility))
+        voxelTracer_.emplace(*this, walkOf(params_.visibility), params_.restartEpsilon);
+    if (params_.visibility == VplVisibility::HybridLeaves)
+        hybridTracer_.emplace(*this, HybridWalk::Hierarchical);
+    if (params_.visibility == VplVisibility::ShadowMap)
+        maps_ = std::make_unique<TracedMaps>(*this, params_.mapResolution);
+    if (params_.visibility == VplVisibility::ImperfectShadowMap)
+        maps_ = std::make_unique<PointMaps>(*this, params_.mapResolution, params_.mapPoints);
+}
+
+void GatherVpls::plan(PassPlan& plan) {
+    const Vpls& vpls = plan[vpls_];
+    const uint32_t samples = plan[gbuffer_].samples;
+    const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
+    // The disc of that area has the squared radius area / pi. Things move without changing their area
+    const float minDistanceSquared = params_.bound * params_.bound * vpls.areaPerPath / glm::pi<float>();
+    const bool isCompensated = params_.compensationRays > 0 && minDistanceSquared > 0;
+    if (maps_) maps_->plan(plan);
+    const bool isByChance = params_.roulette > 0;
+    const VplLight::Dim dim{isByChance ? params_.roulette : params_.earlyOut, isByChance};
+    const float endEpsilon = params_.visibility == VplVisibility::SvoRestart ? params_.endEpsilon : 0;
+    light_.plan(plan,
+                {params_.block, minDistanceSquared, dim, endEpsilon, maps_.get(), isCompensated,
+                 hybridTracer_.has_value()},
+                texels, uint64_t(vpls.paths) * vpls.bounces);
+    if (isCompensated)
+        compensation_.emplace(*this).plan(plan, {params_.compensationRays, vpls.bounces, minDistanceSquared},
+                                          texels);
+    NoisyIrradiance& noisy = plan[noisy_];
+    noisy.blockSize = params_.block;
+    noisy.lightBounces = plan[indirect_].lightBounces = vpls.lightBounces;
+    plan.image(noisy.irradiance, "noisy irradiance", NoisyIrradiance::desc(plan.frame, samples));
+    plan.image(sums_, "sums over virtual point lights", NoisyIrradiance::desc(plan.frame, samples));
+    plan.buffer(noisy.moments, "moments of virtual point lights", noisy.momentsBytes(texels));
+    if (FrameImage& indirect = plan[indirect_]; indirect.isRead) {
+        plan.image(indirect.image, "indirect", frameImageDesc(plan.frame));
+        resolve_.emplace(*this);
+    }
+    if (voxelTracer_) voxelTracer_->plan(plan, plan[voxels_]);
+    if (hybridTracer_) hybridTracer_->plan(plan, plan[voxels_]);
+}
+
+void GatherVpls::record(PassContext& context) {
+    CommandStream& stream = context.stream;
+    const GBuffer& gbuffer = context[gbuffer_];
+    const Vpls& vpls = context[vpls_];
+    const NoisyIrradiance& noisy = context[noisy_];
+    VplLight::Visibility visibility{&context.tracer};
+    if (params_.visibility == VplVisibility::None) visibility.tracer = nullptr;
+    if (maps_) maps_->begin(context);
+    if (voxelTracer_) {
+        const SurfaceVoxels& voxels = context[voxels_];
+        voxelTracer_->begin(stream, voxels);
+        visibility = {&*voxelTracer_, voxels.grid};
+    }
+    if (hybridTracer_) {
+        hybridTracer_->begin(stream, context.scene, context[voxels_], context[leaves_]);
+        hybridTracer_->setStarts(&light_.starts());
+        visibility.tracer = &*hybridTracer_;
+    }
+    const uint64_t voxelRaysBefore = voxelTracer_ ? voxelTracer_->raysTraced() : 0;
+    const uint64_t hybridRaysBefore = hybridTracer_ ? hybridTracer_->raysTraced() : 0;
+
+    // All that virtual lights bring, and what they bring too little.
+    const VplTarget target{noisy.irradiance, sums_};
+    stream.clear(target.irradiance, {});
+    stream.clear(target.sums, {});
+    light_.addToTexels(context, vpls, visibility, gbuffer, target);
+    if (compensation_) compensation_->record(context, vpls, light_, visibility, gbuffer, target);
+    const glm::uvec2 blocks = noisy.blocks(gbufferExtent(context.frame, gbuffer.samples));
+    context.dispatch(finish_, uint64_t(blocks.x) * blocks.y,
+                     {gbuffer,
+                      {"irradiance", noisy.irradiance},
+                      {"sums", sums_},
+                      {"moments", noisy.moments},
+                      {"blocks", blocks},
+                      {"block", params_.block}});
+    if (voxelTracer_) {
+        context.extraRays += voxelTracer_->raysTraced() - voxelRaysBefore;
+        context.voxelCounts.push_back(&voxelTracer_->march().counts());
+    }
+    if (hybridTracer_) {
+        context.extraRays += hybridTracer_->raysTraced() - hybridRaysBefore;
+        context.voxelCounts.push_back(&hybridTracer_->counts());
+    }
+    if (resolve_) resolve_->record(context, gbuffer, noisy.irradiance, context[indirect_].image);
+}
+
+VOXRAY_REGISTER_PASS(GatherVpls);
+
+}  // namespace voxray

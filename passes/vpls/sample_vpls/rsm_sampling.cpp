@@ -1,0 +1,57 @@
+#include "passes/vpls/sample_vpls/rsm_sampling.h"
+
+#include <algorithm>
+
+namespace voxray {
+namespace {
+
+// A source's weights in all. What texels add up to differs from the source's power by the size of texels, by
+// less than a factor of 2 at the smallest resolution, so that the sum stays below 2^32.
+constexpr float kUnits = 1u << 30;
+
+}  // namespace
+
+RsmSampling::RsmSampling(ProgramOwner& owner)
+    : weigh_(owner, "rsm_weigh.comp"),
+      pick_(owner, "rsm_pick.comp"),
+      prefixSum_(owner, PrefixSum::Of::Values) {}
+
+void RsmSampling::plan(PassPlan& plan, const Rsm& rsm) {
+    uint32_t views = 0;
+    for (size_t s = 0; s < rsm.sources.size(); ++s)
+        views = std::max(views, rsm.firstView[s + 1] - rsm.firstView[s]);
+    const uint32_t texels = views * rsm.texelsPerView();
+    plan.scratchBuffer(weights_, "weights of shadow maps' texels", uint64_t(texels) * sizeof(uint32_t));
+    plan.reserveScratch("prefix sums (estimated)", PrefixSum::scratchBytes(texels));
+}
+
+void RsmSampling::emit(PassContext& context, const Rsm& rsm, size_t source, const Target& target) const {
+    const uint32_t firstView = rsm.firstView[source], views = rsm.firstView[source + 1] - firstView;
+    const uint32_t texels = views * rsm.texelsPerView();
+    context.dispatch(weigh_, texels,
+                     {context.scene,
+                      rsm,
+                      {"weights", weights_},
+                      {"resolution", rsm.resolution},
+                      {"firstView", firstView},
+                      {"texels", texels},
+                      {"unitsPerWatt", kUnits / rsm.sources[source].power}});
+    const uint32_t sum = prefixSum_.run(context.stream, weights_, weights_, texels);
+    context.dispatch(pick_, target.batch.count,
+                     {context.scene,
+                      rsm,
+                      {"before", weights_},
+                      {"rays", target.rays},
+                      {"hits", target.hits},
+                      {"paths", target.paths},
+                      {"resolution", rsm.resolution},
+                      {"firstView", firstView},
+                      {"rows", views * rsm.resolution},
+                      {"sum", sum},
+                      {"firstPath", target.batch.first},
+                      {"count", target.batch.count},
+                      {"lightPaths", target.batch.rays},
+                      {"seed", target.batch.seed}});
+}
+
+}  // namespace voxray

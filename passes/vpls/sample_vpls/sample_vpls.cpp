@@ -1,0 +1,253 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "base/error.h"
+#include "graph/registry.h"
+#include "passes/common/compute/compaction.h"
+#include "passes/common/compute/random_seed.h"
+#include "passes/common/lights/pane_tint.h"
+#include "passes/common/voxel_march/voxel_tracer.h"
+#include "passes/inject/light_paths/light_emission.h"
+#include "passes/inject/light_paths/light_path_types.h"
+#include "passes/vpls/sample_vpls/rsm_sampling.h"
+#include "passes/vpls/vpls.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kBatchPaths = 1u << 20;  // Bounds the memory of rays to 84 MiB.
+
+/// How many of `paths` each source sends: by its power, at least one.
+std::vector<uint32_t> pathsBySource(const std::vector<LightSource>& sources, uint32_t paths) {
+    const double power = totalPower(sources);
+    std::vector<uint32_t> counts;
+    for (const LightSource& source : sources)
+        counts.push_back(std::max(1u, uint32_t(std::lround(paths * (double(source.power) / power)))));
+    return counts;
+}
+
+/// The place of each path, source by source, where paths of all sources are mixed evenly: any run of places
+/// then holds runs of each source's own numbers, which complement each other.
+std::vector<uint32_t> orderOfPaths(const std::vector<uint32_t>& pathsOf) {
+    std::vector<double> at;
+    for (const uint32_t paths : pathsOf)
+        for (uint32_t i = 0; i < paths; ++i) at.push_back((i + 0.5) / paths);
+    std::vector<uint32_t> paths(at.size()), places(at.size());
+    std::iota(paths.begin(), paths.end(), 0u);
+    std::stable_sort(paths.begin(), paths.end(), [&](uint32_t a, uint32_t b) { return at[a] < at[b]; });
+    for (uint32_t place = 0; place < paths.size(); ++place) places[paths[place]] = place;
+    return places;
+}
+
+/// The same source among those that shine now, nullptr where it does not.
+const LightSource* find(const std::vector<LightSource>& sources, const LightSource& source) {
+    const auto found = std::ranges::find_if(sources, [&](const LightSource& other) {
+        return other.kind == source.kind && other.light == source.light;
+    });
+    return found == sources.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+/// How the first vertices of paths of light are found.
+enum class FirstVertices { LightRays, Rsm };
+template <>
+struct EnumNames<FirstVertices> {
+    static constexpr std::array names{std::pair{FirstVertices::LightRays, "light_rays"},
+                                      std::pair{FirstVertices::Rsm, "rsm"}};
+};
+
+/// What rays of the second bounce and further ones meet.
+enum class VplBounce { Exact, Svo };
+template <>
+struct EnumNames<VplBounce> {
+    static constexpr std::array names{std::pair{VplBounce::Exact, "exact"}, std::pair{VplBounce::Svo, "svo"}};
+};
+
+/// Virtual point lights at the vertices of paths from the lights (instant radiosity, Keller 1997); with
+/// FirstVertices::Rsm as Sun and Agu 2015, sections 3 and 3.2: the first out of reflective shadow maps by
+/// importance, further ones by rays from there.
+class SampleVpls final : public Pass {
+ public:
+    static constexpr const char* kName = "sample_vpls";
+    static constexpr const char* kHelp =
+        "Places virtual point lights (VPLs) where rays from the lights hit. The rays go on, bounce after "
+        "bounce. From these points gather_vpls sends indirect light. Lights of every kind send rays by their "
+        "power. All surfaces are Lambert surfaces of their base colour. Biased by: shading normals, whose "
+        "factor on light paths is left out; voxel size with 'bounce: svo'. Noisy by: vpls_per_bounce. Each "
+        "frame draws the same numbers, so that virtual lights move with a light, unless 'resample' is set. "
+        "Source: Keller 1997; Sun and Agu 2015, section 3.2.";
+    struct Params {
+        uint32_t vplsPerBounce = 1024;
+        uint32_t bounces = 3;
+        FirstVertices first = FirstVertices::LightRays;
+        VplBounce bounce = VplBounce::Exact;
+        bool resample = false;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("vpls_per_bounce", &Params::vplsPerBounce,
+                      "Paths of light. Each leaves a virtual point light at each of its hits, until Russian "
+                      "roulette by albedo ends it. Each light sends at least one.",
+                      1u, 1u << 24)
+                    .lessNoise(),
+                field("bounces", &Params::bounces, "Bounces of light: hits of a path that count.", 1u, 16u),
+                field("first", &Params::first,
+                      "Where paths begin. light_rays: where rays from lights of every kind hit, which carry "
+                      "equal power. rsm: at texels of reflective shadow maps (render_rsm), picked by the "
+                      "flux that their points reflect; point, spot and directional lights alone."),
+                field("bounce", &Params::bounce,
+                      "What rays from one virtual light to the next meet. exact: triangles. svo: surface "
+                      "voxels, and virtual lights past the first bounce stand before them, with the voxel's "
+                      "mean normal and albedo."),
+                field("resample", &Params::resample,
+                      "Whether each frame draws numbers of its own, for comparison: virtual lights then "
+                      "jump.")};
+        }
+    };
+
+    explicit SampleVpls(const Params& params);
+    Phase phase() const override { return params_.resample ? Phase::Frame : Phase::Build; }
+    void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override;
+    void record(PassContext& context) override;
+
+ private:
+    const Params params_;
+    In<Rsm> rsm_{*this, "rsm", "what lights see", params_.first == FirstVertices::Rsm};
+    In<SurfaceVoxels> voxels_{*this, "voxels", "what rays of further bounces meet",
+                              params_.bounce == VplBounce::Svo};
+    Out<Vpls> vpls_{*this, "vpls", "virtual point lights"};
+    std::vector<LightSource> sources_;        ///< Those that shone when paths were divided among them.
+    std::vector<uint32_t> pathsOf_;           ///< Each one's.
+    std::optional<LightEmission> emission_;   ///< With FirstVertices::LightRays.
+    std::optional<RsmSampling> rsmSampling_;  ///< With FirstVertices::Rsm.
+    std::optional<VoxelTracer> voxelTracer_;  ///< With VplBounce::Svo.
+    /// Hits of triangles, and of voxels.
+    Kernel record_{*this, "record.comp",
+                   params_.bounce == VplBounce::Svo ? Defines{{"VOXEL_NEXT", "1"}} : Defines{}};
+    Kernel recordVoxels_{*this, "record.comp", {{"VOXEL_HITS", "1"}, {"VOXEL_NEXT", "1"}}};
+    Compaction compaction_{*this};
+    Buffer rays_, hits_, paths_, order_, flags_;
+    PaneTint tint_{*this};
+};
+
+SampleVpls::SampleVpls(const Params& params) : params_(params) {
+    if (params_.first == FirstVertices::Rsm)
+        rsmSampling_.emplace(*this);
+    else
+        emission_.emplace(*this);
+    if (params_.bounce == VplBounce::Svo) voxelTracer_.emplace(*this, VoxelWalk::Svo);
+}
+
+void SampleVpls::plan(PassPlan& plan) {
+    sources_ = requireLightSources(*plan.frame.scene, kName);
+    pathsOf_ = pathsBySource(sources_, params_.vplsPerBounce);
+    Vpls& vpls = plan[vpls_];
+    vpls.paths = std::accumulate(pathsOf_.begin(), pathsOf_.end(), 0u);
+    vpls.areaPerPath = float(surfaceArea(plan.frame.scene->geometry) / vpls.paths);
+    vpls.bounces = params_.bounces;
+    vpls.lightBounces = params_.bounces;
+    const uint64_t points = vpls.places(kName);
+    const uint64_t batch = std::min(*std::max_element(pathsOf_.begin(), pathsOf_.end()), kBatchPaths);
+    plan.buffer(vpls.points, "virtual point lights", points * sizeof(gpu::Vpl));
+    plan.buffer(vpls.list, "list of virtual point lights", points * sizeof(uint32_t));
+    plan.buffer(order_, "order of light paths", vpls.paths * sizeof(uint32_t));
+    plan.buffer(flags_, "flags of virtual point lights", (points + 31) / 32 * sizeof(uint32_t));
+    plan.reserveScratch("compaction of virtual point lights",
+                        Compaction::scratchBytes(uint32_t((points + 31) / 32)));
+    plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
+    plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
+    plan.scratchBuffer(paths_, "light paths", batch * sizeof(gpu::LightPath));
+    tint_.plan(plan, batch);
+    if (rsmSampling_)
+        rsmSampling_->plan(plan, plan[rsm_]);
+    else
+        emission_->plan(plan, batch);
+    if (voxelTracer_) voxelTracer_->plan(plan, plan[voxels_]);
+    recordVoxels_.compileIf(voxelTracer_.has_value());
+}
+
+void SampleVpls::prepare(PassSetup& setup) {
+    setup.stream.upload(order_, orderOfPaths(pathsOf_));
+}
+
+void SampleVpls::record(PassContext& context) {
+    CommandStream& stream = context.stream;
+    Vpls& vpls = context[vpls_];
+    const std::vector<LightSource> shining = lightSources(*context.frame.scene);
+    for (const LightSource& source : shining)
+        if (!find(sources_, source))
+            throw Error(
+                "{}: a light began to shine after the first frame, when paths were divided among lights",
+                kName);
+    stream.fill(flags_, 0);
+    stream.fill(vpls.points, 0);
+    RayTracer* furtherTracer = &context.tracer;
+    std::vector<Binding> ofVoxels{{"grid", gpu::VoxelGrid{}}};
+    if (voxelTracer_) {
+        const SurfaceVoxels& voxels = context[voxels_];
+        voxelTracer_->begin(stream, voxels);
+        furtherTracer = &*voxelTracer_;
+        ofVoxels = voxels.bindings();
+    }
+    const uint64_t voxelRaysBefore = voxelTracer_ ? voxelTracer_->raysTraced() : 0;
+
+    // The paths of each light in batches, hit after hit. One that was switched off sends none
+    uint32_t firstPath = 0;
+    for (uint32_t s = 0; s < sources_.size(); firstPath += pathsOf_[s], ++s) {
+        const LightSource* source = find(shining, sources_[s]);
+        if (!source) continue;
+        const auto number = uint32_t(s + (params_.resample ? context.frameIndex * sources_.size() : 0));
+        LightEmission::Batch batch{randomSeed(context.frame, number), pathsOf_[s], 0, 0};
+        const bool areHitsKnown = rsmSampling_.has_value();
+        for (; batch.first < batch.rays; batch.first += batch.count) {
+            batch.count = std::min(batch.rays - batch.first, kBatchPaths);
+            if (areHitsKnown)
+                rsmSampling_->emit(context, context[rsm_], s, {rays_, hits_, paths_, batch});
+            else
+                emission_->emit(context, *source, batch, rays_, paths_);
+            for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {
+                if (bounce > 0)
+                    furtherTracer->closestHit(stream, rays_, hits_, batch.count);
+                else if (!areHitsKnown)
+                    context.tracer.closestHit(stream, rays_, hits_, batch.count);
+                if (bounce == 0)
+                    tint_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float), batch.count,
+                                &hits_);
+                context.dispatch(bounce > 0 && voxelTracer_ ? recordVoxels_ : record_, batch.count,
+                                 {context.scene,
+                                  ofVoxels,
+                                  {"rays", rays_},
+                                  {"hits", hits_},
+                                  {"paths", paths_},
+                                  {"order", order_},
+                                  {"VplsAt", vpls.points.at()},
+                                  {"flags", flags_},
+                                  {"count", batch.count},
+                                  {"firstPath", firstPath + batch.first},
+                                  {"firstRay", batch.first},
+                                  {"seed", batch.seed},
+                                  {"bounce", bounce},
+                                  {"bounces", params_.bounces}});
+            }
+        }
+    }
+    if (voxelTracer_) {
+        context.extraRays += voxelTracer_->raysTraced() - voxelRaysBefore;
+        context.voxelCounts.push_back(&voxelTracer_->march().counts());
+    }
+    vpls.count = compaction_.run(stream, flags_, vpls.list, uint32_t(flags_.bytes() / sizeof(uint32_t)));
+    context.report("vpls", vpls.count);
+    if (vpls.count == 0 && !shining.empty())
+        throw Error(
+            "{}: none of {} rays from the lights hit a surface that reflects light; let lights shine on "
+            "the scene, or raise 'vpls_per_bounce'",
+            kName, vpls.paths);
+}
+
+VOXRAY_REGISTER_PASS(SampleVpls);
+
+}  // namespace voxray

@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <glm/gtc/constants.hpp>
+#include <vector>
+
+#include "graph/registry.h"
+#include "passes/common/compute/random_seed.h"
+#include "passes/common/lights/light_sources.h"
+#include "passes/common/view/gbuffer.h"
+#include "passes/vpls/select_vpls/resample.h"
+#include "passes/vpls/vpls.h"
+
+namespace voxray {
+
+/// Of many virtual point lights those that light what the camera sees: each is kept with a probability by
+/// what it brings to a few random texels, and counts for more by as much. Source: Georgiev and Slusallek
+/// 2010, "Simple and Robust Iterative Importance Sampling of Virtual Point Lights".
+class SelectVpls final : public Pass {
+ public:
+    static constexpr const char* kName = "select_vpls";
+    static constexpr const char* kHelp =
+        "Picks virtual point lights (VPLs) by what they bring to random texels. Keeps a number of those of "
+        "sample_vpls for gather_vpls. Exact shadow rays measure what they bring to a few random texels. "
+        "Those that stay count for more. No bias: any may stay. Noisy by: count; and points, which miss "
+        "where a light is seen from few places. Source: Georgiev and Slusallek 2010.";
+    struct Params {
+        uint32_t count = 2048;
+        uint32_t points = 32;
+        float unseen = 0.1f;
+        float bound = 1;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("count", &Params::count, "Virtual point lights that stay, at most.", 1u, 1u << 20)
+                    .lessNoise(),
+                field("points", &Params::points,
+                      "Texels that each virtual light is tried on, others for each.", 1u, 1024u)
+                    .lessNoise(),
+                field(
+                    "unseen", &Params::unseen,
+                    "Fraction of 'count' that goes by flux alone, to virtual lights that these texels don't "
+                    "see too. Smaller: they are rarer and brighter.",
+                    0.001f, 1.0f),
+                field("bound", &Params::bound,
+                      "That of gather_vpls, so that virtual lights near the texels are weighed by what it "
+                      "will let them bring. Another one biases nothing.",
+                      0.0f, 1000.0f)};
+        }
+    };
+
+    explicit SelectVpls(const Params& params) : params_(params) {}
+    void plan(PassPlan& plan) override;
+    void record(PassContext& context) override;
+
+ private:
+    /// Luminance of what each light of the list brings to a texel, W/m², and of its flux, W.
+    std::vector<glm::vec2> importance(PassContext& context) const;
+
+    static constexpr uint32_t kBatchShadowRays = 1u << 19;  ///< Bounds the memory of rays to 20 MiB.
+
+    const Params params_;
+    In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
+    In<Vpls> candidates_{*this, "vpls", "virtual point lights to choose from"};
+    Out<Vpls> vpls_{*this, "vpls", "those that stay"};
+    Kernel aim_{*this, "aim.comp"};
+    Kernel importanceProgram_{*this, "importance.comp"};
+    Kernel scale_{*this, "scale.comp"};
+    Buffer rays_, carried_, occluded_, importance_, places_, weights_;
+};
+
+void SelectVpls::plan(PassPlan& plan) {
+    const Vpls& candidates = plan[candidates_];
+    const uint64_t points = uint64_t(candidates.paths) * candidates.bounces;
+    Vpls& vpls = plan[vpls_];
+    vpls.bounces = candidates.bounces;
+    vpls.lightBounces = candidates.lightBounces;
+    vpls.paths = uint32_t(std::min<uint64_t>(params_.count, points));
+    vpls.areaPerPath = float(surfaceArea(plan.frame.scene->geometry) * vpls.bounces / vpls.paths);
+    plan.buffer(vpls.points, "selected virtual point lights", vpls.places(kName) * sizeof(gpu::Vpl));
+    plan.buffer(vpls.list, "list of selected virtual point lights", vpls.paths * sizeof(uint32_t));
+    plan.buffer(places_, "places of selected virtual point lights", vpls.paths * sizeof(uint32_t));
+    plan.buffer(weights_, "weights of selected virtual point lights", vpls.paths * sizeof(float));
+    const uint64_t batch = std::min(points, uint64_t(kBatchShadowRays / params_.points)),
+                   rays = batch * params_.points;
+    plan.scratchBuffer(rays_, "shadow rays", rays * sizeof(Ray));
+    plan.scratchBuffer(carried_, "kernels of shadow rays", rays * sizeof(float));
+    plan.scratchBuffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
+    plan.scratchBuffer(importance_, "importance of virtual point lights", batch * sizeof(glm::vec2));
+}
+
+void SelectVpls::record(PassContext& context) {
+    CommandStream& stream = context.stream;
+    const Vpls& candidates = context[candidates_];
+    Vpls& vpls = context[vpls_];
+    if (candidates.count == 0) {  // Every light was switched off.
+        vpls.count = 0;
+        context.report("selected vpls", 0);
+        return;
+    }
+
+    // Most go to lights by what they bring to the image, some by their flux.
+    const std::vector<glm::vec2> found = importance(context);
+    double irradiance = 0, flux = 0;
+    for (const glm::vec2& light : found) {
+        irradiance += light.x;
+        flux += light.y;
+    }
+    const double byFlux = irradiance > 0 ? params_.unseen : 1;
+    std::vector<double> probabilities;
+    for (const glm::vec2& light : found)
+        probabilities.push_back((irradiance > 0 ? (1 - byFlux) * light.x / irradiance : 0) +
+                                byFlux * light.y / flux);
+    const double offset = double(randomSeed(context.frame, 0x92u) >> 8) / (1 << 24);
+    const Resampled kept = resample(probabilities, vpls.paths, offset);
+
+    // Each becomes the only vertex of a path of its own, at the bounce that it had.
+    const auto numbers = stream.readAs<uint32_t>(candidates.list, candidates.count);
+    std::vector<uint32_t> list;
+    for (const uint32_t place : kept.places)
+        list.push_back(uint32_t(list.size()) * vpls.bounces + numbers[place] % vpls.bounces);
+    stream.fill(vpls.points, 0);
+    stream.upload(vpls.list, list);
+    stream.upload(places_, kept.places);
+    stream.upload(weights_, kept.weights);
+    stream.dispatch(scale_, list.size(),
+                    {{"VplsAt", candidates.points.at()},
+                     {"candidateList", candidates.list},
+                     {"places", places_},
+                     {"weights", weights_},
+                     {"list", vpls.list},
+                     {"SelectedAt", vpls.points.at()},
+                     {"count", uint32_t(list.size())}});
+    vpls.count = uint32_t(list.size());
+    context.report("selected vpls", vpls.count);
+}
+
+std::vector<glm::vec2> SelectVpls::importance(PassContext& context) const {
+    CommandStream& stream = context.stream;
+    const Vpls& candidates = context[candidates_];
+    const uint32_t batch = uint32_t(occluded_.bytes() / sizeof(uint32_t)) / params_.points;
+    const float minDistanceSquared =
+        params_.bound * params_.bound * context[vpls_].areaPerPath / glm::pi<float>();
+    std::vector<glm::vec2> all;
+    for (uint32_t first = 0; first < candidates.count; first += batch) {
+        const uint32_t count = std::min(candidates.count - first, batch), rays = count * params_.points;
+        context.dispatch(aim_, rays,
+                         {context.scene,
+                          context[gbuffer_],
+                          {"VplsAt", candidates.points.at()},
+                          {"list", candidates.list},
+                          {"rays", rays_},
+                          {"carried", carried_},
+                          {"first", first},
+                          {"count", count},
+                          {"points", params_.points},
+                          {"seed", randomSeed(context.frame, 0x91u)},
+                          {"minDistanceSquared", minDistanceSquared}});
+        context.tracer.occluded(stream, rays_, occluded_, rays);
+        context.dispatch(importanceProgram_, count,
+                         {{"VplsAt", candidates.points.at()},
+                          {"list", candidates.list},
+                          {"carried", carried_},
+                          {"occluded", occluded_},
+                          {"importance", importance_},
+                          {"first", first},
+                          {"count", count},
+                          {"points", params_.points}});
+        const auto found = stream.readAs<glm::vec2>(importance_, count);
+        all.insert(all.end(), found.begin(), found.end());
+    }
+    return all;
+}
+
+VOXRAY_REGISTER_PASS(SelectVpls);
+
+}  // namespace voxray
