@@ -96,7 +96,8 @@ class Graph {
     /// the largest part, and what to lower).
     std::vector<PassMemory> plan(const Frame& frame, const DeviceInfo& device, uint64_t memoryLimitBytes);
 
-    /// Makes what passes described, and lets them make their programs. After plan(), with the same frame.
+    /// Makes what passes described, compiles their programs, all at once, and lets them fill their tables.
+    /// After plan(), with the same frame.
     /// @throws Error naming a pass that takes more memory than it planned, or more than there is (with its
     /// place and what to lower).
     void prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler, CommandStream& stream);

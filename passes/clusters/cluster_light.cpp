@@ -2,13 +2,10 @@
 
 namespace voxray {
 
-std::vector<Binding> gatherBindings(const ClusterVisibility& visibility, const ClusterLight& light,
-                                    std::initializer_list<Binding> more) {
-    std::vector<Binding> all{{"seenChunks", visibility.addresses},
-                             {"partRadiosity", light.parts},
-                             {"PatchRadiosityAt", light.patches.at()}};
-    all.insert(all.end(), more);
-    return all;
+std::vector<Binding> gatherBindings(const ClusterVisibility& visibility, const ClusterLight& light) {
+    return {{"seenChunks", visibility.addresses},
+            {"partRadiosity", light.parts},
+            {"PatchRadiosityAt", light.patches.at()}};
 }
 
 void ClusterGather::gather(CommandStream& stream, const ClusterVisibility& visibility,

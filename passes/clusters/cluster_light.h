@@ -24,9 +24,8 @@ struct ClusterLight : Resource {
     static uint64_t bytes(uint64_t count) { return std::max<uint64_t>(count, 1) * sizeof(uint32_t); }
 };
 
-/// What passes/clusters/gather_patch.glsl reads, followed by `more`.
-std::vector<Binding> gatherBindings(const ClusterVisibility& visibility, const ClusterLight& light,
-                                    std::initializer_list<Binding> more = {});
+/// What passes/clusters/gather_patch.glsl reads.
+std::vector<Binding> gatherBindings(const ClusterVisibility& visibility, const ClusterLight& light);
 
 /// Radiosity of what patches see, weighted by their rays: the irradiance of each patch.
 class ClusterGather {

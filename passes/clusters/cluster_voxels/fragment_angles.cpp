@@ -21,8 +21,7 @@ float unitsFor(size_t triangles) {
 }  // namespace
 
 FragmentAngles::FragmentAngles(ProgramOwner& owner)
-    : walk_(makeExactWalk(owner)),
-      add_(walk_->makeVisitor(owner, "passes/clusters/cluster_voxels/add_angles")) {}
+    : walk_(makeExactWalk()), add_(walk_->makeVisitor(owner, "passes/clusters/cluster_voxels/add_angles")) {}
 
 void FragmentAngles::plan(PassPlan& plan, const SurfaceVoxels& voxels) {
     plan.reserveScratch("angles of fragments (estimated)", bytesOf(voxels.voxelCount));

@@ -57,11 +57,11 @@ class DominantAxisWalk final : public RasterWalk {
 
 }  // namespace
 
-std::unique_ptr<TriangleWalk> makeDominantAxisWalk(ProgramOwner&) {
+std::unique_ptr<TriangleWalk> makeDominantAxisWalk() {
     return std::make_unique<DominantAxisWalk>(0);
 }
 
-std::unique_ptr<TriangleWalk> makeSampledAxisWalk(ProgramOwner&, uint32_t samples) {
+std::unique_ptr<TriangleWalk> makeSampledAxisWalk(uint32_t samples) {
     return std::make_unique<DominantAxisWalk>(samples);
 }
 

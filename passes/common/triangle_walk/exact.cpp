@@ -55,7 +55,7 @@ class ExactWalk final : public TriangleWalk {
 
 }  // namespace
 
-std::unique_ptr<TriangleWalk> makeExactWalk(ProgramOwner&) {
+std::unique_ptr<TriangleWalk> makeExactWalk() {
     return std::make_unique<ExactWalk>();
 }
 

@@ -40,7 +40,7 @@ class ThreeAxisWalk final : public RasterWalk {
 
 }  // namespace
 
-std::unique_ptr<TriangleWalk> makeThreeAxisWalk(ProgramOwner&, uint32_t samples) {
+std::unique_ptr<TriangleWalk> makeThreeAxisWalk(uint32_t samples) {
     return std::make_unique<ThreeAxisWalk>(samples);
 }
 

@@ -41,14 +41,14 @@ class TriangleWalk {
 };
 
 /// Tests triangles against voxels' boxes in a compute shader.
-std::unique_ptr<TriangleWalk> makeExactWalk(ProgramOwner& owner);
+std::unique_ptr<TriangleWalk> makeExactWalk();
 /// Rasterises each triangle once, conservatively, along the axis that it faces most.
-std::unique_ptr<TriangleWalk> makeDominantAxisWalk(ProgramOwner& owner);
+std::unique_ptr<TriangleWalk> makeDominantAxisWalk();
 /// Rasterises each triangle once, along the axis that it faces most, a voxel a pixel: as published in
 /// Arnebäck 2017, section 3.2.1. @param samples a pixel: 1, in its center, or 8, the standard pattern of D3D
 /// and Vulkan.
-std::unique_ptr<TriangleWalk> makeSampledAxisWalk(ProgramOwner& owner, uint32_t samples);
+std::unique_ptr<TriangleWalk> makeSampledAxisWalk(uint32_t samples);
 /// Rasterises along all three axes, `samples` squared points a voxel.
-std::unique_ptr<TriangleWalk> makeThreeAxisWalk(ProgramOwner& owner, uint32_t samples);
+std::unique_ptr<TriangleWalk> makeThreeAxisWalk(uint32_t samples);
 
 }  // namespace voxray

@@ -81,7 +81,7 @@ class LightClipmap final : public Pass {
     std::vector<LightSource> sources_;
     RadianceClipmap storage_;
     ShadowMaps shadowMaps_{*this};
-    std::unique_ptr<TriangleWalk> walk_ = makeExactWalk(*this);
+    std::unique_ptr<TriangleWalk> walk_ = makeExactWalk();
     std::unique_ptr<PassProgram> light_ =
         walk_->makeVisitor(*this, "passes/cones/light_clipmap/light_voxels");
     Kernel area_{*this, "lit_area.comp"};

@@ -55,7 +55,7 @@ class VoxelizeClipmap final : public Pass {
  private:
     const Params params_;
     Out<ClipmapVoxels> clipmap_{*this, "clipmap", "surface voxels round the camera, at all scales"};
-    VoxelBuilder builder_{*this, makeExactWalk(*this), params_.visibilityRays};
+    VoxelBuilder builder_{*this, makeExactWalk(), params_.visibilityRays};
     std::vector<gpu::ClipmapWindow> windows_;  ///< By level, as they were in the last frame.
     uint64_t sceneVersion_ = 0;                ///< Likewise.
 };

@@ -147,7 +147,7 @@ class BuildHybridLeaves final : public Pass {
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels: the leaves"};
     Out<HybridLeaves> leaves_{*this, "hybrid_leaves", "what each leaf holds"};
-    std::unique_ptr<TriangleWalk> walk_ = makeExactWalk(*this);
+    std::unique_ptr<TriangleWalk> walk_ = makeExactWalk();
     std::unique_ptr<PassProgram> markLeaves_ = visitor("mark_leaves"),
                                  count_ = visitor("count_triangles", ofLists()),
                                  fill_ = visitor("fill_lists", ofLists());

@@ -61,11 +61,11 @@ class VoxelizePass final : public Pass {
 std::unique_ptr<TriangleWalk> VoxelizePass::makeWalk() {
     switch (params_.method) {
         case VoxelizeMethodName::ThreeAxis:
-            return makeThreeAxisWalk(*this, params_.samplesPerVoxelEdge);
+            return makeThreeAxisWalk(params_.samplesPerVoxelEdge);
         case VoxelizeMethodName::DominantAxis:
-            return makeDominantAxisWalk(*this);
+            return makeDominantAxisWalk();
         default:
-            return makeExactWalk(*this);
+            return makeExactWalk();
     }
 }
 

@@ -68,7 +68,7 @@ class VoxelizeOctree final : public Pass {
 
     const Params params_;
     Out<BrickOctree> octree_{*this, "brick_octree", "nodes of an octree, colors and normals of its leaves"};
-    std::unique_ptr<TriangleWalk> walk_ = makeSampledAxisWalk(*this, params_.samples);
+    std::unique_ptr<TriangleWalk> walk_ = makeSampledAxisWalk(params_.samples);
     std::unique_ptr<PassProgram> count_ =
         walk_->makeVisitor(*this, "passes/published/arneback_2017/voxelize_octree/count");
     std::unique_ptr<PassProgram> list_ =

@@ -62,7 +62,7 @@ class VoxelizePacked final : public Pass {
  private:
     const Params params_;
     Out<PackedVoxels> voxels_{*this, "packed_voxels", "normals and albedos, one word a voxel"};
-    std::unique_ptr<TriangleWalk> walk_ = makeThreeAxisWalk(*this, params_.samplesPerVoxelEdge);
+    std::unique_ptr<TriangleWalk> walk_ = makeThreeAxisWalk(params_.samplesPerVoxelEdge);
     std::unique_ptr<PassProgram> write_ = walk_->makeVisitor(
         *this, "passes/published/magalhaes_2020/voxelize_packed/voxelize_packed", params_.defines());
 };
