@@ -1,6 +1,6 @@
 # Tests of the graph, of the passes and of what they share with shaders.
 voxray_tests(graph
-  SOURCES unit/graph_memory_test.cpp unit/graph_basis_test.cpp unit/graph_wiring_test.cpp
+  SOURCES unit/graph_basis_test.cpp unit/graph_changes_test.cpp unit/graph_memory_test.cpp unit/graph_wiring_test.cpp
   DEPENDS voxray_experiment)
 
 # What follows from where surfaces lie: offsets of rays, counts of voxels, regions.
@@ -14,5 +14,5 @@ file(GLOB CHAIN_TESTS CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}
   gpu/*_test.cpp physics/*_test.cpp house/march/*.cpp house/occlusion/*.cpp)
 list(REMOVE_ITEM CHAIN_TESTS ${REGION_TESTS} ${PATH_TRACE_TESTS})
 voxray_tests(chain SHARDS 12
-  SOURCES ${CHAIN_TESTS} support/watched_device.cpp
+  SOURCES ${CHAIN_TESTS} support/brick_octree_count.cpp support/watched_device.cpp
   DEPENDS voxray_experiment voxray_passes)

@@ -63,8 +63,7 @@ inline void addRunOptions(CLI::App& command, RunOptions& options, const std::str
     command.add_option("--out", options.out, outHelp)->type_name("DIR");
     addDeviceOptions(command, options);
     command.add_flag("--resume", options.resume, "Keep what an earlier run of the same experiment finished.");
-    command.add_flag("--dry-run", options.dryRun,
-                     "Print variants, passes and predicted memory; render nothing.");
+    command.add_flag("--dry-run", options.dryRun, "Print variants, passes and known memory; render nothing.");
     command.add_flag("--quiet", options.quiet, "Print nothing but errors.");
 }
 

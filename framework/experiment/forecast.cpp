@@ -18,11 +18,14 @@ void print(const Forecast& forecast) {
                    forecast.passes[i].phase == Phase::Build ? "build" : "frame", double(memory.bytes) / kMiB);
         if (memory.scratchBytes > 0)
             fmt::print(" and {:.1f} MiB of scratch", double(memory.scratchBytes) / kMiB);
+        if (memory.estimatedBytes > 0)
+            fmt::print(", about {:.1f} MiB more by the scene's size", double(memory.estimatedBytes) / kMiB);
         fmt::print("\n");
-        kept += memory.bytes;
+        kept += memory.bytes + memory.estimatedBytes;
     }
     fmt::print("  {:24} {:6} {:10.1f} MiB, {:.1f} MiB with the largest scratch; the scene {:.1f} MiB\n",
-               "sum", "", double(kept) / kMiB, double(peakBytes(forecast.memory)) / kMiB,
+               "sum", "", double(kept) / kMiB,
+               double(peakBytes(forecast.memory) + estimatedBytes(forecast.memory)) / kMiB,
                double(forecast.sceneBytes) / kMiB);
 }
 
@@ -61,6 +64,8 @@ size_t printForecasts(PreparedExperiment& prepared) {
         print(own);
         failed += own.error.empty() ? 0 : 1;
     }
+    fmt::print(
+        "What passes count on the device (voxels, surfels ...) is estimated, or counted while they run.\n");
     return failed;
 }
 

@@ -7,7 +7,7 @@
 
 namespace voxray {
 
-/// What a variant is predicted to take, before anything is rendered.
+/// What a variant takes as far as it is known before anything is rendered, and estimates of the rest.
 struct Forecast {
     std::vector<Graph::PassInfo> passes;
     std::vector<PassMemory> memory;  ///< In the order of the passes.
@@ -29,7 +29,7 @@ class Forecaster {
     uint64_t sceneBytes_ = 0;
 };
 
-/// Prints variants, passes and predicted memory. @return how many variants would fail. @throws Interrupted.
+/// Prints variants, passes and their memory. @return how many variants would fail. @throws Interrupted.
 size_t printForecasts(PreparedExperiment& prepared);
 
 }  // namespace voxray

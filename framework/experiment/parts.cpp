@@ -66,8 +66,8 @@ PartNeed partNeedOf(const Part& part, PreparedExperiment& prepared, Forecaster& 
                 {}};
     }
     const Forecast own = forecaster.forecast(variant);
-    return {peakBytes(own.memory) + own.sceneBytes, graphRuns(prepared.experiment()), "runs of the graph",
-            own.error};
+    return {peakBytes(own.memory) + estimatedBytes(own.memory) + own.sceneBytes,
+            graphRuns(prepared.experiment()), "runs of the graph", own.error};
 }
 
 const char* nameOf(Part::Kind kind) {

@@ -198,11 +198,11 @@ std::string overTheLimit(const Experiment& experiment, std::vector<MemoryNeed> n
     if (over == 0) return {};
     std::ranges::stable_sort(needs, {}, &MemoryNeed::bytes);
     const auto& [variant, bytes, largest] = *std::ranges::find_if(needs, isOver);
-    const UsageError error(
-        placeOf(experiment.config, "measure.memory_limit_mb"),
-        "measure.memory_limit_mb: {} MiB are too few for {} of {} variants: {} takes {:.1f} "
-        "MiB, the largest part of it by '{}'",
-        limitMb, over, needs.size(), variant, double(bytes) / kMiB, largest);
+    const UsageError error(placeOf(experiment.config, "measure.memory_limit_mb"),
+                           "measure.memory_limit_mb: {} MiB are too few for {} of {} variants: {} takes at "
+                           "least {:.1f} MiB, the "
+                           "largest part of it by '{}'",
+                           limitMb, over, needs.size(), variant, double(bytes) / kMiB, largest);
     if (over == needs.size()) throw error;
     return error.what();
 }

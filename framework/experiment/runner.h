@@ -14,7 +14,7 @@ struct RunOptions {
     std::string tracer;            ///< Name of a backend; replaces the config's. Empty: the config's.
     bool resume = false;           ///< Keep what an earlier run of the same experiment finished, and wait for
                                    ///< another process that is at the same part.
-    bool dryRun = false;           ///< Print variants, passes and predicted memory; render nothing.
+    bool dryRun = false;           ///< Print variants, passes and known memory; render nothing.
     bool quiet = false;
     bool validation = false;  ///< Vulkan validation layer; its messages fail the run.
     bool aovs = false;        ///< Write AOVs of frame 0 next to each variant's images.

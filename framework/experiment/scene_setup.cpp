@@ -300,9 +300,6 @@ PreparedScene SceneLoader::prepare(const SceneSettings& settings, Origin origin)
         prepared.state = evaluateParted(std::move(moved), settings.options.time, playback);
     }
     if (settings.region) putRegion(prepared, settings);
-    prepared.memo = memoOf(fmt::format("{} {} {} {}", prepared.state.scene->contentHash,
-                                       settings.options.time, playback == Playback::Looping,
-                                       settings.region ? writeParams(*settings.region).text() : ""));
     chooseLightsAndCamera(prepared, settings, 0);
     return prepared;
 }
@@ -322,21 +319,9 @@ const PreparedScene& SceneLoader::prepareOnce(const SceneSettings& settings, con
     return prepared_.emplace_front(key, prepare(settings)).second;
 }
 
-std::shared_ptr<PlanMemo> SceneLoader::memoOf(const std::string& surfaces) {
-    constexpr size_t kMemos = 64;  // Counts of some scenes are as large as the scenes.
-    const auto known = std::ranges::find(memos_, surfaces, &decltype(memos_)::value_type::first);
-    std::pair entry =
-        known == memos_.end() ? std::pair(surfaces, std::make_shared<PlanMemo>()) : std::move(*known);
-    if (known != memos_.end()) memos_.erase(known);
-    memos_.push_front(std::move(entry));
-    if (memos_.size() > kMemos) memos_.pop_back();
-    return memos_.front().second;
-}
-
 std::vector<Box> SceneLoader::goToFrame(PreparedScene& prepared, const SceneSettings& settings, int frame) {
     const SceneOptions& options = settings.options;
     std::vector<Box> changed = advance(prepared.state, options.time + frame * options.timeStep);
-    if (!changed.empty()) prepared.memo = std::make_shared<PlanMemo>();
     chooseLightsAndCamera(prepared, settings, frame);
     return changed;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <deque>
 #include <filesystem>
 #include <list>
 #include <map>
@@ -11,7 +10,6 @@
 #include <vector>
 
 #include "config/config.h"
-#include "graph/plan_memo.h"
 #include "scene/geometry.h"
 #include "scene/scene.h"
 
@@ -29,8 +27,6 @@ struct PreparedScene {
     glm::vec3 origin{0.0f};  ///< Coordinates of state and camera count from there, m.
     SceneState state;        ///< Its lights are those that shine, its only camera is `camera`.
     Camera camera;
-    /// Of its surfaces: another one where they have moved.
-    std::shared_ptr<PlanMemo> memo = std::make_shared<PlanMemo>();
 };
 
 /// What a camera sees of a scene: checkView().
@@ -85,8 +81,6 @@ class SceneLoader {
     /// The scene with all that is added, overridden and hidden.
     std::shared_ptr<const Scene> compose(const SceneSettings& settings);
     std::shared_ptr<const ImageF> loadMap(const SceneSettings& settings);
-    /// The memo of these surfaces: other cameras, lights, profiles and configs plan on the same ones.
-    std::shared_ptr<PlanMemo> memoOf(const std::string& surfaces);
 
     std::vector<std::filesystem::path> folders_;
     std::map<std::string, std::shared_ptr<const Scene>>
@@ -95,8 +89,7 @@ class SceneLoader {
         maps_;                              ///< By path and layer.
     std::vector<std::string> mapWarnings_;  ///< Which layers were taken, where a map has several.
     std::set<std::string> changes_;         ///< What composing changed.
-    std::deque<std::pair<std::string, std::shared_ptr<PlanMemo>>> memos_;  ///< Of the last few surfaces.
-    std::list<std::pair<std::string, PreparedScene>> prepared_;            ///< By key, the last one first.
+    std::list<std::pair<std::string, PreparedScene>> prepared_;  ///< By key, the last one first.
 };
 
 }  // namespace voxray

@@ -212,7 +212,6 @@ bool standsStill(const SceneSettings& settings) {
 Frame frameOf(const Setup& setup, const PreparedScene& prepared, uint64_t seed) {
     Frame frame;
     frame.scene = &prepared.state;
-    frame.memo = prepared.memo;
     frame.camera = prepared.camera;
     if (setup.scene.camera) frame.cameraMove = setup.scene.camera->move;
     frame.width = setup.image.width;

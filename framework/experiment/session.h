@@ -49,7 +49,7 @@ class Session {
     /// whoever begins there everything is new.
     Frame enterFrame(const Setup& setup, uint32_t number, uint64_t seed);
 
-    /// Plans a graph: checks it against scene and device and predicts its memory, bytes by pass.
+    /// Plans a graph: checks it against scene and device and sums up its memory, bytes by pass.
     /// @param limitMb the config's limit for the graph in MiB, 0: none.
     std::vector<PassMemory> plan(Graph& graph, const Frame& frame, uint64_t limitMb);
 

@@ -8,25 +8,54 @@
 #include "base/byte_units.h"
 #include "graph/finite_check.h"
 #include "graph/left_out.h"
-#include "graph/memory_book.h"
+#include "graph/pass_memory_tracker.h"
 #include "graph/size_advice.h"
 #include "graph/wiring.h"
 #include "vulkan/size_error.h"
 
 namespace voxray {
 
+namespace {
+
+/// Leaves a graph so much of the device's memory, what its passes hold already among it, while it lives.
+class MemoryLimit {
+ public:
+    MemoryLimit(Device& device, uint64_t bytes, uint64_t takenBytes)
+        : device_(device), before_(device.memoryLimitBytes()) {
+        const uint64_t others = device.memoryUsedBytes() - takenBytes;
+        if (bytes < before_ - std::min(before_, others)) device.setMemoryLimitBytes(others + bytes);
+    }
+    ~MemoryLimit() { device_.setMemoryLimitBytes(before_); }
+    MemoryLimit(const MemoryLimit&) = delete;
+    MemoryLimit& operator=(const MemoryLimit&) = delete;
+
+ private:
+    Device& device_;
+    const uint64_t before_;
+};
+
+/// Numbers the contents of the outputs, and remembers which contents of all the pass knows.
+void markVersions(GraphNode& node, bool outputsKept) {
+    if (!outputsKept)
+        for (const std::unique_ptr<Resource>& output : node.outputs) ++output->version;
+    node.seenVersions.emplace();
+    for (const Resource* resource : node.resources)
+        node.seenVersions->push_back(resource ? resource->version : 0);
+}
+
+}  // namespace
+
 struct Graph::Impl {
     std::vector<GraphNode> nodes;
-    std::vector<MemoryBook> books;  ///< By node.
+    std::vector<PassMemoryTracker> memory;  ///< By node.
     std::optional<FiniteCheck> finiteCheck;
     uint64_t memoryLimitBytes = 0;
     Image black;  ///< A texel, for inputs that nothing writes.
 
     /// Does a part of a pass's work. @throws Error that says what to lower where something is too large.
     void work(const GraphNode& node, const std::function<void()>& part) const;
-    /// What the limit leaves to a pass beyond its plan, while the others keep what they have planned or
-    /// taken.
-    uint64_t spareBytes(size_t node) const;
+    /// Bytes that passes hold now.
+    uint64_t takenBytes() const;
     void checkOutputs(const GraphNode& node, CommandStream& stream);
 };
 
@@ -39,15 +68,16 @@ uint64_t peakBytes(const std::vector<PassMemory>& passes) {
     return kept + scratch;
 }
 
-uint64_t Graph::Impl::spareBytes(size_t node) const {
-    std::vector<PassMemory> memory;
-    for (size_t n = 0; n < books.size(); ++n) {
-        PassMemory own = books[n].planned();
-        if (n != node) own.bytes = std::max(own.bytes, books[n].taken().bytes);
-        memory.push_back(own);
-    }
-    const uint64_t peak = peakBytes(memory);
-    return memoryLimitBytes > peak ? memoryLimitBytes - peak : 0;
+uint64_t estimatedBytes(const std::vector<PassMemory>& passes) {
+    uint64_t bytes = 0;
+    for (const PassMemory& pass : passes) bytes += pass.estimatedBytes;
+    return bytes;
+}
+
+uint64_t Graph::Impl::takenBytes() const {
+    uint64_t bytes = 0;
+    for (const PassMemoryTracker& own : memory) bytes += own.taken().bytes;
+    return bytes;
 }
 
 const std::vector<std::string>& Graph::reservedKeys() {
@@ -57,7 +87,7 @@ const std::vector<std::string>& Graph::reservedKeys() {
 
 Graph::Graph(const Registry& registry, const Value& passList) : impl_(std::make_unique<Impl>()) {
     impl_->nodes = wireGraph(registry, passList, reservedKeys());
-    impl_->books.resize(impl_->nodes.size());
+    impl_->memory.resize(impl_->nodes.size());
 }
 
 Graph::~Graph() = default;
@@ -127,7 +157,7 @@ std::vector<std::string> Graph::keepOnly(const std::vector<std::string>& portNam
         kept.push_back(std::move(nodes[n]));
     }
     nodes = std::move(kept);
-    impl_->books.assign(nodes.size(), {});
+    impl_->memory.assign(nodes.size(), {});
     return dropped;
 }
 
@@ -183,15 +213,16 @@ std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device
     uint64_t largestBytes = 0;
     for (size_t n = 0; n < impl_->nodes.size(); ++n) {
         GraphNode& node = impl_->nodes[n];
-        PassPlan plan(node.resources, frame, device, node.phase);
+        PassPlan plan(*node.pass, node.resources, frame, device, node.phase);
         try {
             node.pass->plan(plan);
         } catch (const Error& error) {
             throw Error(node.where, "{}", error.what());
         }
         node.lightRays = plan.lightRays;
-        impl_->books[n] = MemoryBook(node.id, plan);
-        memory.push_back(impl_->books[n].planned());
+        impl_->memory[n] = PassMemoryTracker(plan);
+        memory.push_back(impl_->memory[n].planned());
+
         for (const MemoryPlan::Part& part : plan.parts()) {
             if (part.bytes <= largestBytes) continue;
             largestBytes = part.bytes;
@@ -200,17 +231,17 @@ std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device
         }
     }
     if (const uint64_t peak = peakBytes(memory); peak > memoryLimitBytes)
-        throw Error(
-            largestPass->where,
-            "the graph needs about {:.1f} MiB, the limit is {:.1f} MiB; the largest part is {} with {:.1f} "
-            "MiB: {}",
-            double(peak) / kMiB, double(memoryLimitBytes) / kMiB, largest, double(largestBytes) / kMiB,
-            sizeAdvice(impl_->nodes, *largestPass));
+        throw Error(largestPass->where,
+                    "the graph needs {:.1f} MiB, the limit is {:.1f} MiB; the largest part is {} with {:.1f} "
+                    "MiB: {}",
+                    double(peak) / kMiB, double(memoryLimitBytes) / kMiB, largest,
+                    double(largestBytes) / kMiB, sizeAdvice(impl_->nodes, *largestPass));
     return memory;
 }
 
 void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler,
                     CommandStream& stream) {
+    const MemoryLimit limit(device, impl_->memoryLimitBytes, 0);
     impl_->finiteCheck.emplace(device);
     if (!device.isHost()) {
         impl_->black = Image(device, "black", ImageDesc{});
@@ -223,7 +254,7 @@ void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& co
     for (size_t n = 0; n < impl_->nodes.size(); ++n) {
         GraphNode& node = impl_->nodes[n];
         PassSetup setup(node.resources, frame, device, stream);
-        impl_->work(node, [&] { impl_->books[n].prepare(stream, [&] { node.pass->prepare(setup); }); });
+        impl_->work(node, [&] { impl_->memory[n].prepare(stream, [&] { node.pass->prepare(setup); }); });
     }
 }
 
@@ -237,6 +268,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
     };
     std::vector<PassSample> samples;
     std::vector<Stamps> stamps;
+    const MemoryLimit limit(device, impl_->memoryLimitBytes, impl_->takenBytes());
     stream.finish();
     stream.resetTimestamps();
     for (size_t n = 0; n < impl_->nodes.size(); ++n) {
@@ -245,9 +277,9 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         const uint64_t raysBefore = tracer.raysTraced();
 
         // Time the pass on the device; the Embree backend's host work falls between the stamps.
-        PassContext context(node.resources, frame, device, stream, tracer, scene, frameIndex);
+        PassContext context(node.resources, node.seenVersions ? &*node.seenVersions : nullptr, frame, device,
+                            stream, tracer, scene, frameIndex);
         context.black = &impl_->black;
-        context.spareBytes = impl_->spareBytes(n);
         const StreamCounts before = stream.counts();
         uint32_t begin = 0, end = 0;
         const auto record = [&] {
@@ -257,7 +289,8 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
             end = stream.timestamp();
             stream.endLabel();
         };
-        impl_->work(node, [&] { impl_->books[n].record(stream, context.spareBytes, record); });
+        impl_->work(node, [&] { impl_->memory[n].record(stream, record); });
+        markVersions(node, context.outputsKept());
 
         PassSample sample;
         sample.rays = tracer.raysTraced() - raysBefore + context.extraRays;
@@ -315,7 +348,7 @@ void Graph::Impl::checkOutputs(const GraphNode& node, CommandStream& stream) {
 
 std::vector<PassMemory> Graph::memory() const {
     std::vector<PassMemory> memory;
-    for (const MemoryBook& book : impl_->books) memory.push_back(book.taken());
+    for (const PassMemoryTracker& own : impl_->memory) memory.push_back(own.taken());
     return memory;
 }
 

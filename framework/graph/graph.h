@@ -23,8 +23,10 @@ struct PassSample {
 
 /// The most that passes hold at once: all that they keep, and the scratch of the one that takes most, for
 /// they run one after another. Exact where all passes run again with the outputs of the last run still there,
-/// as repeated builds, moving scenes and frames do.
+/// as repeated builds, moving scenes and frames do. Of a plan: what is known, without estimates.
 uint64_t peakBytes(const std::vector<PassMemory>& passes);
+/// What a plan estimates besides.
+uint64_t estimatedBytes(const std::vector<PassMemory>& passes);
 
 /// A checked chain of passes. Each entry of a config's `graph` list is a map with `pass`, optionally `id`
 /// (default: the pass's name) and `inputs` (port: "id.port" or "id"), and the pass's own parameters.
@@ -90,21 +92,21 @@ class Graph {
     /// A resource that will be read from outside, by port name: the last pass that writes it.
     bool writes(const std::string& portName) const;
 
-    /// Checks sizes against the scene and the device and predicts memory, before any allocation.
-    /// @return what each pass takes, in the order of passes().
-    /// @throws Error where a pass can't do what is asked, or peakBytes() is over `memoryLimitBytes` (names
+    /// Checks parameters against the scene and the device and sums up the memory that is known, before any
+    /// allocation. What passes count on the device is held to `memoryLimitBytes` when they take it.
+    /// @return what each pass takes as far as it is known, in the order of passes().
+    /// @throws Error where a pass can't do what is asked, or what is known is over `memoryLimitBytes` (names
     /// the largest part, and what to lower).
     std::vector<PassMemory> plan(const Frame& frame, const DeviceInfo& device, uint64_t memoryLimitBytes);
 
     /// Makes what passes described, compiles their programs, all at once, and lets them fill their tables.
     /// After plan(), with the same frame.
-    /// @throws Error naming a pass that takes more memory than it planned, or more than there is (with its
-    /// place and what to lower).
+    /// @throws Error naming a pass that takes more memory than there is (with its place and what to lower).
     void prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler, CommandStream& stream);
 
     /// Runs all passes of a phase once and checks their outputs for NaN and infinity where `checkFinite`
-    /// (outside the measured time). @throws Error naming the pass, also where it takes more memory than it
-    /// planned or than there is.
+    /// (outside the measured time). @throws Error naming the pass, also where it takes more memory than there
+    /// is.
     /// @return a sample for each pass of that phase, in the order of passes().
     std::vector<PassSample> run(Phase phase, const Frame& frame, Device& device, CommandStream& stream,
                                 RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex,

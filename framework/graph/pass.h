@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,7 +11,6 @@
 
 #include "base/schema.h"
 #include "graph/memory_plan.h"
-#include "graph/plan_memo.h"
 #include "graph/port.h"
 #include "image/sample_sums.h"
 #include "scene/geometry.h"
@@ -36,8 +34,6 @@ enum class Phase { Build, Frame };
 /// What all passes of a graph share. Everything outlives the graph.
 struct Frame {
     const SceneState* scene = nullptr;
-    /// What plans found out about `scene`; without it each plan finds out for itself.
-    std::shared_ptr<PlanMemo> memo;
     Camera camera;               ///< World space.
     glm::vec3 cameraMove{0.0f};  ///< From this frame to the next, m.
     uint32_t width = 0;
@@ -49,30 +45,40 @@ struct Frame {
     /// Where surfaces came, went or moved since the build phase ran last (old and new bounds of what moves,
     /// each instance apart); nullopt: everything is new.
     std::optional<std::vector<Box>> changed;
-    /// Another one whenever surfaces or lights have changed: one more each time that `changed` is told.
+    /// Incremented when surfaces or lights change, each time that `changed` is told.
     uint64_t sceneVersion = 0;
     /// Called by passes that take long with the part that is done, 0 to 1; false asks them to stop with an
     /// Error.
     std::function<bool(double)> progress;
 };
 
+/// What every image of the frame's size and format is made from.
+inline ImageDesc frameImageDesc(const Frame& frame) {
+    ImageDesc desc;
+    desc.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    desc.extent = {frame.width, frame.height, 1};
+    return desc;
+}
+
 /// For describing buffers and images (MemoryPlan), before any memory is taken.
 class PassPlan : public PortAccess, public MemoryPlan {
  public:
-    PassPlan(const std::vector<Resource*>& resources, const Frame& f, const DeviceInfo& d, Phase p)
-        : PortAccess(resources), frame(f), device(d), phase(p) {}
+    PassPlan(const PortOwner& owner, const std::vector<Resource*>& resources, const Frame& f,
+             const DeviceInfo& d, Phase p)
+        : PortAccess(resources), frame(f), device(d), phase(p), owner_(owner) {}
     const Frame& frame;
     const DeviceInfo& device;
     const Phase phase;  ///< In which the pass runs.
     /// Rays that one run traces to or from lights, where they are so many for each light.
     uint64_t lightRays = 0;
 
-    /// The answer of `find`, which depends on the scene's surfaces and on what `key` names alone: asked once
-    /// for all variants of a scene (PlanMemo).
-    template <typename Find>
-    auto ofScene(const std::string& key, const Find& find) const {
-        return frame.memo ? frame.memo->get(key, find) : find();
+    /// Describes an output image of the frame's size.
+    void frameImage(const Out<FrameImage>& port) {
+        image((*this)[port].image, owner_.nameOf(port), frameImageDesc(frame));
     }
+
+ private:
+    const PortOwner& owner_;
 };
 
 /// For filling tables among the buffers and images that were described.
@@ -88,15 +94,39 @@ class PassSetup : public PortAccess {
 /// For running.
 class PassContext : public PortAccess {
  public:
-    PassContext(const std::vector<Resource*>& resources, const Frame& f, Device& d, CommandStream& s,
-                RayTracer& t, const GpuScene& g, uint32_t index)
-        : PortAccess(resources), frame(f), device(d), stream(s), tracer(t), scene(g), frameIndex(index) {}
+    /// @param seenVersions of the resources when the pass recorded last; null in its first run.
+    PassContext(const std::vector<Resource*>& resources, const std::vector<uint64_t>* seenVersions,
+                const Frame& f, Device& d, CommandStream& s, RayTracer& t, const GpuScene& g, uint32_t index)
+        : PortAccess(resources),
+          frame(f),
+          device(d),
+          stream(s),
+          tracer(t),
+          scene(g),
+          frameIndex(index),
+          seenVersions_(seenVersions) {}
     const Frame& frame;
     Device& device;
     CommandStream& stream;
     RayTracer& tracer;
     const GpuScene& scene;
     uint32_t frameIndex;
+
+    /// Whether the pass records for the first time.
+    bool isFirstRun() const { return !seenVersions_; }
+    /// Whether the contents of an input have changed since the pass recorded last; true in its first run,
+    /// false for an optional input that nothing writes.
+    bool changed(const Resource& input) const;
+    bool changed(const Port& input) const {
+        const Resource* resource = bound(input);
+        return resource && changed(*resource);
+    }
+    /// Whether those of any input have. A pass that returns where none has leaves its outputs as they are,
+    /// and so the graph takes them for unchanged where this is false.
+    bool inputsChanged();
+    /// Tells the graph that this run leaves the outputs as they were.
+    void keepOutputs() { outputsKept_ = true; }
+    bool outputsKept() const { return outputsKept_; }
 
     /// Runs a compute program (CommandStream::dispatch).
     void dispatch(const Program& program, const Invocations& invocations, const Bindings& bindings) {
@@ -108,9 +138,6 @@ class PassContext : public PortAccess {
         return image ? image->image : *black;
     }
     const Image* black = nullptr;  ///< Of the graph.
-    /// What the graph's limit leaves to this pass beyond what all have planned, for parts that it sizes by
-    /// what it counts (MemoryPlan::reserveCounted).
-    uint64_t spareBytes = 0;
     /// Rays traced outside of `tracer` (the reference traces on its own).
     uint64_t extraRays = 0;
     /// Counts of walks through voxels (shaders/voxel_march), which the graph reads when all passes have run:
@@ -125,6 +152,10 @@ class PassContext : public PortAccess {
     std::vector<Value> reported;
     /// Leaves a finite number for values.csv and the report, under a name in words (with its unit, if any).
     void report(std::string name, double value) { reported.push_back({std::move(name), value}); }
+
+ private:
+    const std::vector<uint64_t>* seenVersions_;
+    bool outputsKept_ = false;
 };
 
 /// A stage of a graph. A pass class also has `struct Params` with a schema, a constructor from Params, and

@@ -19,6 +19,8 @@ struct PortInfo {
     Resource* (*create)() = nullptr;  ///< Of an output.
 };
 
+class Port;
+
 /// What ports are members of: a pass, also for the parts of it that several passes share.
 class PortOwner {
  public:
@@ -27,6 +29,7 @@ class PortOwner {
     PortOwner& operator=(const PortOwner&) = delete;
     /// In the order of its members.
     const std::vector<PortInfo>& ports() const { return ports_; }
+    const std::string& nameOf(const Port& port) const;
 
  protected:
     ~PortOwner() = default;
@@ -51,8 +54,13 @@ class Port {
 
  private:
     friend class PortAccess;
+    friend class PortOwner;
     int index_ = -1;  ///< Of the pass's own ports; -1: it has none, with its parameters.
 };
+
+inline const std::string& PortOwner::nameOf(const Port& port) const {
+    return ports_.at(size_t(port.index_)).name;
+}
 
 /// An input of a pass: what an earlier pass writes under this name (or under the name that the config's
 /// `inputs` gives).
@@ -102,11 +110,15 @@ class PortAccess {
         return static_cast<T&>(*bound(port));
     }
 
- private:
+    /// In the order of the ports; null where an optional input has none.
+    const std::vector<Resource*>& resources() const { return resources_; }
+
+ protected:
     Resource* bound(const Port& port) const {
         return port.index_ < 0 ? nullptr : resources_[size_t(port.index_)];
     }
 
+ private:
     const std::vector<Resource*>& resources_;
 };
 

@@ -16,12 +16,14 @@ struct Aov {
 };
 
 /// What passes hand to each other: a plain struct of buffers and images. The pass that writes it describes
-/// them in plan(), or makes them in record() where their size is counted.
+/// them in plan(), or makes them in record() where their size is counted on the device.
 struct Resource {
     virtual ~Resource() = default;
     /// False for an output that nothing reads: its producer may leave it empty. Set by the graph, before
     /// plan().
     bool isRead = true;
+    /// Incremented by the graph when the contents have changed (PassContext::changed).
+    uint64_t version = 0;
     /// Bounces of light between a source and the surface that the camera sees, at most, as `bounces` of
     /// path_trace counts them; nullopt where it carries no indirect light or has no such bound. Of stored
     /// light those before it arrives where it is stored. Set in plan().

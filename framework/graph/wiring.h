@@ -19,10 +19,11 @@ struct GraphNode {
     Phase phase = Phase::Build;  ///< The pass's own, or Frame where it reads what is written in each frame.
     std::vector<PortInfo> ports;
     std::vector<Resource*> resources;  ///< By port; null for an optional input that nothing writes.
-    std::vector<std::unique_ptr<Resource>> outputs;  ///< What this pass owns.
-    Value resolved;                                  ///< The config's entry with defaults filled in.
-    std::vector<std::string> counts;                 ///< Its whole-number parameters that can be lowered.
-    std::vector<std::string> lessNoise;              ///< Parameters whose larger values lower its noise.
+    std::optional<std::vector<uint64_t>> seenVersions;  ///< Of `resources` after the pass recorded last.
+    std::vector<std::unique_ptr<Resource>> outputs;     ///< What this pass owns.
+    Value resolved;                                     ///< The config's entry with defaults filled in.
+    std::vector<std::string> counts;                    ///< Its whole-number parameters that can be lowered.
+    std::vector<std::string> lessNoise;                 ///< Parameters whose larger values lower its noise.
     std::vector<IdleParameter> idle;  ///< What its entry names although it has no effect there.
     TextLocation where;
     uint64_t lightRays = 0;  ///< As planned.

@@ -117,9 +117,6 @@ class CommandStream {
 
     /// Bytes of the staging buffers that wait for finish().
     uint64_t stagingBytes() const;
-    /// The most that staging buffers held at once since resetStagingPeak(), those of read() included.
-    uint64_t stagingPeakBytes() const;
-    void resetStagingPeak();
 
     /// finish(), then the bytes of a buffer (staged where it isn't mapped).
     std::vector<std::byte> read(const Buffer& buffer, uint64_t bytes, uint64_t offset = 0);

@@ -43,7 +43,6 @@ struct CommandStream::Impl {
     uint64_t smallUploadBytes = 0;  ///< Waiting in smallUploads.
     std::vector<Buffer> staging;
     uint64_t stagingBytes = 0;
-    uint64_t stagingPeakBytes = 0;
     StreamCounts counts;
     std::vector<VkQueryPool> queryPools;
     uint32_t timestamps = 0;

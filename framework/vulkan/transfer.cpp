@@ -67,7 +67,6 @@ CommandStream::Impl::Staged CommandStream::Impl::stage(std::span<const std::byte
     }
     if (stagingBytes > 0 && stagingBytes + data.size() > kStagingBytes) finish();
     stagingBytes += data.size();
-    stagingPeakBytes = std::max(stagingPeakBytes, stagingBytes);
     const Buffer& buffer = staging.emplace_back(device, "staging", data.size(), MemoryKind::Upload);
     std::memcpy(buffer.mapped(), data.data(), data.size());
     return {&buffer, 0};
@@ -75,14 +74,6 @@ CommandStream::Impl::Staged CommandStream::Impl::stage(std::span<const std::byte
 
 uint64_t CommandStream::stagingBytes() const {
     return impl_->stagingBytes;
-}
-
-uint64_t CommandStream::stagingPeakBytes() const {
-    return impl_->stagingPeakBytes;
-}
-
-void CommandStream::resetStagingPeak() {
-    impl_->stagingPeakBytes = impl_->stagingBytes;
 }
 
 void CommandStream::fill(const Buffer& buffer, uint32_t word) {
@@ -204,10 +195,8 @@ std::vector<std::byte> CommandStream::read(const Buffer& buffer, uint64_t bytes,
     }
     // The copy goes into the submission of what was recorded before it: one wait, not two.
     Buffer own;
-    if (bytes > impl_->smallReads.bytes()) {
+    if (bytes > impl_->smallReads.bytes())
         own = Buffer(impl_->device, "staging", std::min(bytes, kStagingBytes), MemoryKind::Readback);
-        impl_->stagingPeakBytes = std::max(impl_->stagingPeakBytes, own.bytes());
-    }
     const Buffer& staging = own ? own : impl_->smallReads;
     for (uint64_t done = 0; done < bytes; done += staging.bytes()) {
         const uint64_t part = std::min(staging.bytes(), bytes - done);

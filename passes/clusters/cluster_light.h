@@ -15,10 +15,9 @@ namespace voxray {
 /// each, off by 1/255 of the largest channel at most (passes/surfels/radiosity.glsl). Light that lamps send
 /// themselves is not in it.
 struct ClusterLight : Resource {
-    Buffer parts;          ///< 6 a part.
-    LargeBuffer patches;   ///< 1 a patch.
-    LargeBuffer direct;    ///< Irradiance (W/m²) straight from the lights, packed likewise: 1 a patch.
-    uint64_t version = 0;  ///< Another one whenever the light is.
+    Buffer parts;         ///< 6 a part.
+    LargeBuffer patches;  ///< 1 a patch.
+    LargeBuffer direct;   ///< Irradiance (W/m²) straight from the lights, packed likewise: 1 a patch.
 
     /// Bytes of one of these values for each of so many.
     static uint64_t bytes(uint64_t count) { return std::max<uint64_t>(count, 1) * sizeof(uint32_t); }

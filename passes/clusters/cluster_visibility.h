@@ -25,7 +25,6 @@ struct ClusterVisibility : Resource {
     bool listsPatches = false;  ///< Whether entries name patches besides faces of parts; from plan() on.
     uint64_t entries = 0;       ///< Of all lists.
     uint32_t patchCount = 0;    ///< That have a list.
-    uint64_t version = 0;       ///< Another one whenever the lists are.
 
     uint64_t bytes() const {
         uint64_t sum = addresses.bytes();

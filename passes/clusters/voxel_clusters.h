@@ -10,18 +10,11 @@ namespace voxray {
 struct VoxelClusters : Resource {
     std::string basisPort() const override { return "voxels"; }
 
-    uint32_t maxCount = 0;  ///< No more clusters than this; known from plan() on.
-    uint32_t count = 0;     ///< Clusters; known once the pass has run.
-    uint64_t version = 0;   ///< Another one whenever the clusters are.
-    Buffer clusters;        ///< gpu::VoxelCluster each, in the order of the seeds that they grew from.
-    Buffer ofVoxel;         ///< By voxel number: its cluster, or NO_CLUSTER.
-    Buffer members;         ///< Voxel numbers, those of each cluster together and ascending.
-    Buffer coordinates;     ///< By voxel number: three uints.
-
-    /// At most, for so many voxels and clusters.
-    static uint64_t bytes(uint64_t voxels, uint64_t clusters) {
-        return voxels * (2 + 3) * sizeof(uint32_t) + clusters * sizeof(gpu::VoxelCluster);
-    }
+    uint32_t count = 0;  ///< Clusters; known once the pass has run.
+    Buffer clusters;     ///< gpu::VoxelCluster each, in the order of the seeds that they grew from.
+    Buffer ofVoxel;      ///< By voxel number: its cluster, or NO_CLUSTER.
+    Buffer members;      ///< Voxel numbers, those of each cluster together and ascending.
+    Buffer coordinates;  ///< By voxel number: three uints.
 };
 
 }  // namespace voxray

@@ -18,7 +18,6 @@ struct VoxelPatches : Resource {
     uint32_t patchCount = 0;
     uint32_t surfelCount = 0;
     uint32_t partCount = 0;
-    uint64_t version = 0;    ///< Another one whenever the content is.
     LargeBuffer surfels;     ///< gpu::PatchSurfel each, by voxel, side and id.
     LargeBuffer places;      ///< Of each surfel by its number: where it is in `surfels`, or NO_SIDE.
     Buffer firstSide;        ///< By voxel: its first side, and the end of the last one's; voxels + 1 uints.
@@ -29,7 +28,7 @@ struct VoxelPatches : Resource {
     Buffer parts;            ///< gpu::ClusterPart each.
     Buffer members;          ///< Sides, those of each part together and ascending.
     Buffer ofSide;           ///< By side: its part, or NO_PART where its voxel has no cluster.
-    /// Where surfaces have moved since the version before: by side its number then, or NO_SIDE where its
+    /// Where surfaces have moved since the build before: by side its number then, or NO_SIDE where its
     /// voxel has changed since. Empty where all is new.
     Buffer previousSides;
 
@@ -45,8 +44,5 @@ struct VoxelPatches : Resource {
     }
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }
 };
-
-/// More sides and patches than this many a voxel aren't expected, in the mean.
-constexpr uint64_t kSidesPerVoxel = 3, kPatchesPerVoxel = 6;
 
 }  // namespace voxray

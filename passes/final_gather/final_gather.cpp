@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "passes/common/compute/random_seed.h"
-#include "passes/common/view/frame_image.h"
 
 namespace voxray {
 namespace {
@@ -51,7 +50,7 @@ void FinalGather::plan(PassPlan& plan, const Settings& settings) {
         plan.buffer(noisy.moments, "moments of rays", noisy.momentsBytes(hits.layout.texels));
     }
     if (FrameImage& indirect = plan[indirect_]; indirect.isRead) {
-        plan.image(indirect.image, "indirect", frameImageDesc(plan.frame));
+        plan.frameImage(indirect_);
         resolve_.emplace(owner_);
     }
     plan.buffer(light_, "light of gather rays", batchRays(hits) * kLightBytes);

@@ -30,7 +30,6 @@ struct HybridLeaves : Resource {
     std::string basisPort() const override { return "voxels"; }
 
     gpu::HybridShape shape{};
-    uint64_t version = 0;  ///< Another one whenever the content is.
     uint32_t gridCount = 0;
     uint32_t emptyCount = 0;      ///< Leaves that hold nothing.
     uint32_t primitiveCount = 0;  ///< Triangles of all lists.
@@ -43,7 +42,7 @@ struct HybridLeaves : Resource {
     Buffer cells;                 ///< shape.cellWords each. Like the bits, none where no leaf has a grid.
 
     /// Surface voxels and those in which alpha masks leave too little to make them one; without materials.
-    /// Not there in scenes without masks.
+    /// Not there in scenes without masks. Its version is that of the surface voxels.
     SurfaceVoxels masked;
 
     /// The voxels that the leaves are numbered by, out of the surface voxels that they are built over.

@@ -27,8 +27,8 @@ class HybridTracer final : public RayTracer {
  public:
     HybridTracer(ProgramOwner& owner, HybridWalk walk);
 
-    /// Describes what a walk takes besides voxels and leaves: bricks, or the octree. @throws Error as
-    /// VoxelMarch::plan().
+    /// Describes what a walk takes besides voxels and leaves: bricks; an octree is made by begin(). @throws
+    /// Error as VoxelMarch::plan().
     void plan(MemoryPlan& plan, const SurfaceVoxels& voxels);
     std::string_view name() const override { return "hybrid"; }
     /// Takes over voxels and leaves, before the first rays and where either has changed, and sets the counts

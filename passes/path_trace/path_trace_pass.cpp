@@ -6,7 +6,6 @@
 #include "graph/reference_sums.h"
 #include "graph/registry.h"
 #include "passes/common/filter/noisy_irradiance.h"
-#include "passes/common/view/frame_image.h"
 #include "passes/path_trace/path_tracer.h"
 #include "trace/embree_scene.h"
 
@@ -69,7 +68,6 @@ class PathTracePass final : public Pass {
     using Pixels = const ImageF& (*)(const PathTraceResult&);
     /// An output and what is rendered for it.
     struct RenderedImage {
-        const char* name;
         Out<FrameImage> port;
         PathLight light;  ///< Where paths are spent on this light alone, it is written.
         bool isHalf;
@@ -77,7 +75,7 @@ class PathTracePass final : public Pass {
 
         RenderedImage(PortOwner& owner, const char* portName, const char* help, PathLight of, bool half,
                       Pixels which)
-            : name(portName), port(owner, portName, help), light(of), isHalf(half), pixels(which) {}
+            : port(owner, portName, help), light(of), isHalf(half), pixels(which) {}
     };
     /// With `light: indirect` nothing but indirect light is; of a single sample there are no halves.
     bool isRendered(const RenderedImage& image) const {
@@ -118,28 +116,22 @@ void PathTracePass::plan(PassPlan& plan) {
                 .light = params_.light,
                 .samples = plan.frame.samples,
                 .keepSums = plan[sums_].isRead && params_.light == PathLight::All && params_.spp > 1};
-    uint64_t largest = 0;
     for (const RenderedImage& image : images_) {
         plan[image.port].lightBounces = params_.bounces;
         plan[image.port].hasSpecularLobes = true;
     }
     for (const RenderedImage& image : images_)
-        if (FrameImage& frame = plan[image.port]; frame.isRead && isRendered(image)) {
-            plan.image(frame.image, image.name, frameImageDesc(plan.frame));
-            largest = imageBytes(frameImageDesc(plan.frame));
-        }
+        if (FrameImage& frame = plan[image.port]; frame.isRead && isRendered(image))
+            plan.frameImage(image.port);
     if (NoisyIrradiance& noisy = plan[noisy_]; noisy.isRead) {
         const uint32_t texels = plan[gbuffer_] ? plan[gbuffer_]->samples : 1;
         options_.irradianceTexels = texels;
         noisy.lightBounces = params_.bounces;
         noisy.spacing = texels;
         noisy.blockSize = texels * options_.momentsPixels();
-        const ImageDesc desc = NoisyIrradiance::desc(plan.frame, texels);
-        plan.image(noisy.irradiance, "path traced irradiance", desc);
+        plan.image(noisy.irradiance, "path traced irradiance", NoisyIrradiance::desc(plan.frame, texels));
         plan.buffer(noisy.moments, "moments of paths", noisy.momentsBytes(gbufferExtent(plan.frame, texels)));
-        largest = imageBytes(desc);
     }
-    plan.reserveScratch("staging of an image", largest);
 }
 
 void PathTracePass::prepare(PassSetup& setup) {

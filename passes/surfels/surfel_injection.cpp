@@ -9,12 +9,12 @@ SurfelInjection::SurfelInjection(ProgramOwner& owner)
 
 void SurfelInjection::plan(PassPlan& plan, const std::string& pass, const WriteParams& params,
                            const Rays& rays, const SurfaceVoxels& voxels) {
+    VoxelAccumulator::plan(plan, pass, params);
     write_.define(VoxelAccumulator::defines(params.write));
     directSums_.emplace(owner_, params);
     indirectSums_.emplace(owner_, params);
     const uint64_t irradianceBytes = uint64_t(rays.batch) * 4 * sizeof(float);
-    plan.reserveScratch("voxel samples (estimated)", 2 * VoxelAccumulator::plan(plan, pass, params, voxels));
-    plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
+    plan.estimate(voxels.estimatedCount * VoxelIrradiance::bytes(1));
     if (rays.shadow) plan.buffer(direct_, "surfels' direct irradiance", irradianceBytes);
     if (rays.paths) plan.buffer(indirect_, "surfels' indirect irradiance", irradianceBytes);
     if (!rays.shadow && !rays.paths) return;

@@ -39,7 +39,8 @@ class SurfelInjection {
         bool paths = true;          ///< Whether there are bounces.
         uint32_t lightSamples = 1;  ///< Shadow rays to the emissive surfaces, and to the environment.
     };
-    /// Describes the memory, the result's included. @throws Error naming `pass` for what the device can't do.
+    /// Describes the memory of rays and estimates the result's. @throws Error naming `pass` for what the
+    /// device can't do.
     void plan(PassPlan& plan, const std::string& pass, const WriteParams& params, const Rays& rays,
               const SurfaceVoxels& voxels);
 

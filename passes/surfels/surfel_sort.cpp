@@ -17,21 +17,6 @@ SurfelSort::SurfelSort(ProgramOwner& owner)
       order_(owner, "surfel_order.comp"),
       prefixSum_(owner, PrefixSum::Of::Values) {}
 
-void SurfelSort::plan(PassPlan& plan, const Surfels& surfels, uint64_t voxels, SurfelsByVoxel& lists) {
-    lists.maxCount = surfels.maxCount;
-    plan.reserve("surfels by voxel (estimated)",
-                 listBytes(surfels.maxCount, voxels) + surfels.maxCount * sizeof(uint32_t));
-    plan.reserveScratch("counts of surfels (estimated)", scratchBytes(voxels));
-}
-
-uint64_t SurfelSort::listBytes(uint64_t surfels, uint64_t voxels) {
-    return surfels * sizeof(gpu::SortedSurfel) + kListBytes * voxels;
-}
-
-uint64_t SurfelSort::scratchBytes(uint64_t voxels) {
-    return 2 * voxels * sizeof(uint32_t) + PrefixSum::scratchBytes(uint32_t(voxels));
-}
-
 void SurfelSort::run(CommandStream& stream, const Surfels& surfels, uint32_t voxels,
                      SurfelsByVoxel& to) const {
     Device& device = stream.device();
@@ -40,17 +25,15 @@ void SurfelSort::run(CommandStream& stream, const Surfels& surfels, uint32_t vox
     const Buffer begins(device, "first surfel of each voxel", voxels * sizeof(uint32_t));
     const Buffer ends(device, "last surfel of each voxel", voxels * sizeof(uint32_t));
     stream.fill(begins, 0);
-    uint32_t count = 0;
-    for (const Surfels::Chunk& chunk : surfels.chunks) {
+    for (const Surfels::Chunk& chunk : surfels.chunks)
         stream.dispatch(count_, chunk.count,
                         {{"surfels", chunk.surfels}, {"counts", begins}, {"count", chunk.count}});
-        count += chunk.count;
-    }
     to.slotCount = prefixSum_.run(stream, begins, begins, voxels);
     stream.copy(begins, ends, voxels * sizeof(uint32_t));
     to.sorted =
         LargeBuffer(device, "surfels by voxel", std::max(to.slotCount, 1u) * sizeof(gpu::SortedSurfel));
-    to.slots = LargeBuffer(device, "slots of surfels", std::max(count, 1u) * sizeof(uint32_t));
+    to.slots =
+        LargeBuffer(device, "slots of surfels", std::max<uint64_t>(surfels.count, 1) * sizeof(uint32_t));
     stream.fill(to.slots, SurfelLinks::kNone);
     uint32_t first = 0;
     for (const Surfels::Chunk& chunk : surfels.chunks) {

@@ -11,13 +11,7 @@ class SurfelSort {
  public:
     explicit SurfelSort(ProgramOwner& owner);
 
-    /// Announces the lists of all surfels. @param voxels that hold them.
-    static void plan(PassPlan& plan, const Surfels& surfels, uint64_t voxels, SurfelsByVoxel& lists);
-    /// Bytes of the lists without the slots, for a pass that frees them again.
-    static uint64_t listBytes(uint64_t surfels, uint64_t voxels);
-    /// The most that run() takes besides.
-    static uint64_t scratchBytes(uint64_t voxels);
-    /// Fills the lists. Waits for the device.
+    /// Fills the lists. Waits for the device. @param voxels that hold the surfels.
     void run(CommandStream& stream, const Surfels& surfels, uint32_t voxels, SurfelsByVoxel& lists) const;
 
  private:

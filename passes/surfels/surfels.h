@@ -20,8 +20,10 @@ struct Surfels : Resource {
     /// Surfels of a chunk, at most.
     static constexpr uint32_t kChunk = 1u << 18;
     std::vector<Chunk> chunks;
-    bool coveredSides = false;  ///< Whether covered sides have surfels; known from planning on.
-    uint64_t maxCount = 0;      ///< An upper bound of their number, known from planning on.
+    uint64_t count = 0;         ///< Of all chunks.
+    uint64_t pointCount = 0;    ///< Points that were spread: each has a surfel on either side, at most.
+    double estimatedCount = 0;  ///< About as many surfels, for estimates of memory. Set in plan().
+    bool coveredSides = false;  ///< Whether covered sides have surfels. Set in plan().
 };
 
 }  // namespace voxray

@@ -10,8 +10,7 @@ namespace voxray {
 struct SurfelsByVoxel : Resource {
     std::string basisPort() const override { return "voxels"; }
 
-    uint64_t maxCount = 0;      ///< Of slots: an upper bound, known from planning on.
-    bool coveredSides = false;  ///< Whether covered sides have surfels; known from planning on.
+    bool coveredSides = false;  ///< Whether covered sides have surfels. Set in plan().
     uint32_t slotCount = 0;
     Buffer lists;        ///< By voxel: its first slot, and the one after its last; two uint32_t.
     LargeBuffer sorted;  ///< gpu::SortedSurfel in each slot; within a voxel by rising id.
@@ -25,7 +24,7 @@ struct SurfelIrradiance : Resource {
 
     LargeBuffer
         lit;  ///< Surfel and its indirect irradiance, W/m² (LitSurfels, packed_surfel.glsl): 12 bytes.
-    /// Of a surfel's irradiance, roughly, before smooth_surfels: known from planning on.
+    /// Of a surfel's irradiance, roughly, before smooth_surfels. Set in plan().
     float relativeVariance = 0;
 };
 

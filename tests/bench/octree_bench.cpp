@@ -21,6 +21,7 @@ void octreeBuild(benchmark::State& state) {
     programs.compile();
     CommandStream stream(test::device());
     OctreeSize size;
+    uint64_t bytes = 0;
     for (auto _ : state) {
         RadianceVoxels radiance;
         radiance.grid = {voxels.grid.origin,       voxels.grid.voxelSize,
@@ -28,6 +29,7 @@ void octreeBuild(benchmark::State& state) {
                          uint32_t(state.range(1)), 1.0f};
         allocateSvoValues(stream, builder.build(stream, voxels), radiance);
         size = radiance.octree.size;
+        bytes = size.nodeBytes() + size.tableBytes() + radiance.storage[0].bytes();
         const Buffer changed(test::device(), "changed", SvoFilter::changedBytes(size));
         stream.fill(changed, ~0u);
         filter.run(stream, radiance, changed);
@@ -36,12 +38,10 @@ void octreeBuild(benchmark::State& state) {
     const glm::uvec3 grid = voxels.grid.resolution;
     state.counters["voxels"] = voxels.voxelCount;
     state.counters["grid_voxels"] = double(grid.x) * grid.y * grid.z;
-    const uint64_t bytes = size.bytes() + svoValueBytes(size, uint32_t(state.range(1)));
     state.counters["MB"] = double(bytes) / 1e6;
     state.counters["bytes_per_voxel"] = double(bytes) / voxels.voxelCount;
     state.counters["structure_bytes_per_voxel"] =
         double(size.nodeBytes() + size.tableBytes()) / voxels.voxelCount;
-    state.counters["scratch_MB"] = double(OctreeBuilder::scratchBytes(size)) / 1e6;
 }
 BENCHMARK(octreeBuild)
     ->ArgNames({"resolution", "directions"})

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "passes/common/octree/brick_octree_count.h"
 #include "scene/load.h"
+#include "tests/support/brick_octree_count.h"
 #include "tests/support/places.h"
 
 namespace voxray {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,14 +22,16 @@ class Chain {
  public:
     Chain(const std::string& scene, const std::string& sceneParameters, const std::string& graphYaml,
           uint32_t width = 32, uint32_t height = 32, uint64_t seed = 1,
-          const std::function<void(Registry&)>& addPasses = {})
+          const std::function<void(Registry&)>& addPasses = {}, std::optional<uint64_t> memoryLimitBytes = {})
         : Chain(std::make_shared<SceneState>(
                     evaluate(makeBuiltinScene(scene, parseYaml(sceneParameters, "scene")), 0.0)),
-                graphYaml, width, height, seed, addPasses) {}
+                graphYaml, width, height, seed, addPasses, memoryLimitBytes) {}
 
     /// @param addPasses adds a test's own passes to those of the program.
+    /// @param memoryLimitBytes of the graph; none: what the device has.
     Chain(const std::shared_ptr<const SceneState>& state, const std::string& graphYaml, uint32_t width,
-          uint32_t height, uint64_t seed, const std::function<void(Registry&)>& addPasses = {})
+          uint32_t height, uint64_t seed, const std::function<void(Registry&)>& addPasses = {},
+          std::optional<uint64_t> memoryLimitBytes = {})
         : state_(std::make_shared<SceneState>(*state)),
           compiler_(test::sourceRoot(), test::shaderCache()),
           stream_(device()),
@@ -43,7 +46,8 @@ class Chain {
         registerPasses(registry);
         if (addPasses) addPasses(registry);
         graph_ = std::make_unique<Graph>(registry, parseYaml(graphYaml, "graph"));
-        predicted = graph_->plan(frame_, device().info(), device().memoryLimitBytes());
+        planned =
+            graph_->plan(frame_, device().info(), memoryLimitBytes.value_or(device().memoryLimitBytes()));
         graph_->prepare(frame_, device(), compiler_, stream_);
         buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
         frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, 0, true);
@@ -111,7 +115,7 @@ class Chain {
         return stream_.readAs<T>(buffer, texels);
     }
 
-    std::vector<PassMemory> predicted;
+    std::vector<PassMemory> planned;
     std::vector<PassSample> buildSamples, updateSamples, frameSamples;
 
  private:

@@ -11,12 +11,8 @@ namespace voxray::test {
 template <typename Walker>
 void prepare(TestPrograms& programs, Walker& walker, const SurfaceVoxels& voxels) {
     MemoryPlan plan;
-    SurfaceVoxels planned;  // Of the same grid; how many voxels it expects is told to graphs alone.
-    planned.grid = voxels.grid;
-    planned.expectedCounts.resize(gridLevels(voxels.grid.resolution));
-    walker.plan(plan, planned);
-    for (const MemoryPlan::Part& part : plan.parts())
-        if (part.make) part.make(device());
+    walker.plan(plan, voxels);
+    for (const MemoryPlan::Part& part : plan.parts()) part.make(device());
     programs.compile();
 }
 

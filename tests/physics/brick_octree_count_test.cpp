@@ -1,7 +1,7 @@
 // Nodes and bricks of the octree of Arnebäck 2017, counted by hand.
 #include <gtest/gtest.h>
 
-#include "passes/common/octree/brick_octree_count.h"
+#include "tests/support/brick_octree_count.h"
 
 namespace voxray::test {
 namespace {

@@ -175,7 +175,7 @@ TEST(Clipmap, ScrolledInBoxesAreTheDifference) {
 TEST(Clipmap, MemoryIsPredictedAndBoundByTheWindows) {
     Chain chain(cornellFrom({0, 0, 0}), litVoxels(80, "layout: clipmap, clipmap_resolution: 16"), 8, 8, 1);
     const RadianceVoxels& r = radiance(chain);
-    EXPECT_EQ(chain.predicted.back().bytes, r.header.bytes() + r.storage[0].bytes());
+    EXPECT_EQ(chain.planned.back().bytes, r.header.bytes() + r.storage[0].bytes());
     // 80 voxels a side: windows of 16^3 on three levels, then 10, 5, 3, 2 and 1.
     EXPECT_EQ(r.storage[0].bytes(), (3 * 4096 + 1000 + 125 + 27 + 8 + 1) * 6 * 8u);
 }

@@ -204,7 +204,7 @@ TEST(ClipmapTextures, MemoryIsPredictedAndBoundByTheWindows) {
                            "filter_voxels, layout: clipmap_textures, clipmap_resolution: 16"}),
                 8, 8, 1);
     const RadianceVoxels& r = radiance(chain);
-    EXPECT_EQ(chain.predicted.back().bytes, r.header.bytes() + imageBytes(r.texture.desc()));
+    EXPECT_EQ(chain.planned.back().bytes, r.header.bytes() + imageBytes(r.texture.desc()));
     // 80 voxels a side, and a border: 18 voxels of windows of three levels and 12 of the first whole one,
     // then rows of 7, 5 and 4 voxels and of 3.
     EXPECT_EQ(r.texture.desc().extent, glm::uvec3(6 * 18, 18, 3 * 18 + 12 + 7 + 3));

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <numbers>
 
-#include "passes/common/voxels/voxel_count.h"
 #include "passes/cones/clipmap/clipmap_voxels.h"
 #include "passes/cones/radiance/radiance_voxels.h"
 #include "scene/shapes.h"
@@ -258,22 +257,6 @@ TEST(ClipmapVoxels, BouncesAreThoseOfTheSceneAndFollowTheCamera) {
     scrolled.runFrameFrom(camera);
     Chain fresh(cornellFrom(camera), graph, 8, 8, 1);
     EXPECT_TRUE(content(scrolled) == content(fresh));
-}
-
-TEST(ClipmapVoxels, TakeMemoryByTheWindows) {
-    Chain chain(cornellFrom({0, 1, 0}), kGraph, 8, 8, 1);
-    const gpu::VoxelGrid finest =
-        makeVoxelGrid(chain.state().geometry.boundsMin, chain.state().geometry.boundsMax, 80);
-    const std::vector<uint32_t> maxVoxels = countWindowVoxels(chain.state().geometry, finest, 16);
-    for (const glm::vec3 camera :
-         {glm::vec3(0, 1, 0), glm::vec3(0.9f, 0.1f, -0.9f), glm::vec3(-0.4f, 0.6f, -0.3f)}) {
-        chain.runFrameFrom(camera);
-        for (size_t level = 0; level < clipmap(chain).levels.size(); ++level)
-            EXPECT_LE(clipmap(chain).levels[level].voxels.voxelCount, maxVoxels[level]) << level;
-    }
-    // 80, 40 and 20 voxels a side in windows, 10 whole.
-    EXPECT_EQ(clipmap(chain).levels.size(), 4u);
-    EXPECT_LT(maxVoxels[0], countSurfaceVoxels(chain.state().geometry, finest).front() / 8);
 }
 
 TEST(ClipmapVoxels, BadInputIsNamed) {

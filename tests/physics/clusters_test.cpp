@@ -189,7 +189,7 @@ TEST(ClusterVisibility, CountsFormFactors) {
     }
 }
 
-TEST(ClusterVisibility, KeepLongerListsThanAreExpected) {
+TEST(ClusterVisibility, KeepLongLists) {
     // In a closed sphere 1024 rays meet nearly as many clusters, of one voxel each. Walls that emit 1 and
     // reflect a half reflect a quarter of pi after the gather.
     Chain chain(
@@ -199,15 +199,8 @@ TEST(ClusterVisibility, KeepLongerListsThanAreExpected) {
                    "inject_clusters, direct: shadow_rays", "gather_clusters, filter_passes: 0",
                    "gather_irradiance"}),
         16, 16);
-    const std::vector<Graph::PassInfo> passes = chain.graph().passes();
-    const size_t pass =
-        size_t(std::ranges::find(passes, "cluster_visibility", &Graph::PassInfo::id) - passes.begin());
-    const double expected = double(chain.predicted.at(pass).bytes);
-    const double taken = double(chain.graph().memory().at(pass).bytes);
     const double light = mean(chain.image("indirect")) / 0.25;
-    std::printf("lists take %.2f of what was expected; light %.4f of the closed form\n", taken / expected,
-                light);
-    EXPECT_GT(taken, 1.2 * expected);
+    std::printf("light %.4f of the closed form\n", light);
     EXPECT_NEAR(light, 1, 0.01);
 }
 
@@ -292,18 +285,6 @@ TEST(ClusterVisibility, LookAlongTheNormalOfEachWallOfACorner) {
     EXPECT_GT(corners, 100);
     EXPECT_LT(difference[1], 1e-4 * sum[1]);
     EXPECT_GT(difference[0], 0.01 * sum[0]);
-}
-
-TEST(FindPatches, PlansForManySurfelsInFewVoxels) {
-    // Lists of surfels take more than all that is searched afterwards; a pass that takes more than it planned
-    // fails
-    for (const char* points :
-         {"points_per_voxel: 40", "points_per_voxel: 40, sides: all", "points_per_voxel: 1"})
-        EXPECT_NO_THROW(Chain("white_room", "{}",
-                              graphYaml({"voxelize, resolution: 8", std::string("place_surfels, ") + points,
-                                         "cluster_voxels, target: 20", "find_patches"}),
-                              16, 16))
-            << points;
 }
 
 TEST(ClusterVisibility, RefusesWhatMakesNoSense) {

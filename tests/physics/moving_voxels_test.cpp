@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "passes/common/voxels/voxel_count.h"
 #include "passes/hybrid_leaves/hybrid_leaves.h"
 #include "tests/gpu/radiance_samples.h"
 #include "tests/physics/voxels_read.h"
@@ -126,22 +125,6 @@ TEST(MovingVoxels, CarryTheSameLightInEachLayout) {
                        EXPECT_TRUE(sameBits(samples(moved), samples(made)));
                    });
     }
-}
-
-TEST(MovingVoxels, ArePlannedForWhereverTheyGo) {
-    // From each place the prediction holds for all others; without what moves apart it would not.
-    const auto scene = roomWithSpheres();
-    std::vector<uint32_t> planned, plannedStill, counts;
-    for (size_t second = 0; second < kWalk.size(); ++second) {
-        const auto chain = chainAt(scene, double(second), graphYaml({"voxelize, resolution: 40"}));
-        const Voxels voxels(*chain);
-        counts.push_back(voxels.count);
-        planned.push_back(countSurfaceVoxels(chain->state().geometry, voxels.grid).front());
-        plannedStill.push_back(
-            countSurfaceVoxels(evaluate(scene, double(second)).geometry, voxels.grid).front());
-    }
-    EXPECT_GE(std::ranges::min(planned), std::ranges::max(counts));
-    EXPECT_LT(std::ranges::min(plannedStill), std::ranges::max(counts));
 }
 
 TEST(MovingVoxels, StayWhereNothingMoves) {

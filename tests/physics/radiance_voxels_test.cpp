@@ -63,7 +63,7 @@ TEST(RadianceVoxels, OneDirectionMixesTheSides) {
 TEST(RadianceVoxels, MemoryIsPredicted) {
     const Chain chain("cornell", "{lights: point}", filterGraph("resolution: 32"));
     const RadianceVoxels& r = radiance(chain);
-    EXPECT_EQ(chain.predicted.back().bytes, r.header.bytes() + r.storage[0].bytes());
+    EXPECT_EQ(chain.planned.back().bytes, r.header.bytes() + r.storage[0].bytes());
 }
 
 TEST(RadianceVoxels, AreFilteredInThePhaseOfTheirLight) {

@@ -7,11 +7,11 @@
 #include <glm/gtx/component_wise.hpp>
 
 #include "image/metrics.h"
-#include "passes/common/octree/brick_octree_count.h"
 #include "passes/common/voxels/voxels.h"
 #include "scene/moving_spheres.h"
 #include "scene/shapes.h"
 #include "tests/gpu/radiance_samples.h"
+#include "tests/support/brick_octree_count.h"
 #include "tests/support/errors.h"
 
 namespace voxray::test {
@@ -234,7 +234,7 @@ TEST(SvoBricks, FollowALightThatChanges) {
     EXPECT_EQ(samplesOf(changed), samplesOf(Chain(state(3), graph, 16, 16, 1)));
 }
 
-TEST(SvoBricks, TakeWhatIsCountedAndPredicted) {
+TEST(SvoBricks, TakeWhatTheHostCounts) {
     for (const std::string scene : {"cornell", "thin_wall", "spheres"}) {
         const Chain chain(scene, "{}",
                           graphYaml({"voxelize, resolution: 48, directions: 1",

@@ -5,7 +5,6 @@
 #include <glm/gtx/component_wise.hpp>
 #include <numbers>
 
-#include "passes/common/voxels/voxel_count.h"
 #include "passes/common/voxels/voxels.h"
 #include "passes/cones/filter_voxels/svo_values.h"
 #include "scene/shapes.h"
@@ -67,27 +66,6 @@ TEST(SvoLayout, ConesGatherWhatTheyGatherInFullGrids) {
         ASSERT_NEAR(octree.data[i], dense.data[i], 0.01 * mean(dense)) << "value " << i;
     const double arriving = 4 * std::numbers::pi / 24 * 0.5 / (1 - 0.5);  // Of the second bounce on.
     EXPECT_NEAR(mean(octree) / (0.5 / std::numbers::pi * arriving), 1.0, 0.05);
-}
-
-TEST(SvoLayout, TakesWhatIsPredicted) {
-    // What the plan counts on the host: within a hundredth or two of the voxels, so of the bytes.
-    for (const std::string scene : {"cornell", "thin_wall", "spheres", "furnace"}) {
-        const Chain chain(
-            scene, "{}",
-            graphYaml({"voxelize, resolution: 64", "inject_light_rays, rays_per_light: 1024, bounces: 0",
-                       "filter_voxels, layout: svo"}));
-        const RadianceVoxels& octree = *chain.graph().resource<RadianceVoxels>("radiance");
-        const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
-        const OctreeSize size{voxels.grid.resolution,
-                              countSurfaceVoxels(chain.state().geometry, voxels.grid)};
-        EXPECT_NEAR(double(size.nodes[0]) / voxels.voxelCount, 1.0, 0.03) << scene;
-        uint64_t held = octree.header.bytes() + octree.storage[0].bytes();
-        for (const Buffer* buffer : {&octree.octree.header, &octree.octree.table, &octree.octree.nodes})
-            held += buffer->bytes();
-        EXPECT_NEAR(double(size.bytes() + svoValueBytes(size, 6)) / double(held), 1.0, 0.03) << scene;
-        std::printf("%s: %u voxels, %u counted; %.2f MB\n", scene.c_str(), voxels.voxelCount, size.nodes[0],
-                    double(held) / 1e6);
-    }
 }
 
 TEST(SvoLayout, GrowsWithItsSurfaceAlone) {

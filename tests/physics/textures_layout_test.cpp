@@ -78,7 +78,7 @@ TEST(TexturesLayout, MemoryIsPredicted) {
     const RadianceVoxels& r = radiance(textures);
     ASSERT_EQ(r.grid.resolution, glm::uvec3(32));
     EXPECT_EQ(imageBytes(r.texture.desc()), radiance(dense).storage[0].bytes());
-    EXPECT_EQ(textures.predicted.at(3).bytes, r.header.bytes() + imageBytes(r.texture.desc()));
+    EXPECT_EQ(textures.planned.at(3).bytes, r.header.bytes() + imageBytes(r.texture.desc()));
 }
 
 TEST(TexturesLayout, WhatADeviceLacksIsNamed) {

@@ -158,9 +158,7 @@ TEST(ComposedSceneLoader, AddedAnimationsPlay) {
     PreparedScene moved = loader.prepare(at("0"));
     const PreparedScene there = loader.prepare(at("1.5"));
     EXPECT_NE(moved.state.geometry.positions, there.state.geometry.positions);
-    const std::shared_ptr<PlanMemo> memo = moved.memo;
     EXPECT_EQ(SceneLoader::goToFrame(moved, at("0"), 3).size(), 4u);  // Two spheres, before and after.
-    EXPECT_NE(moved.memo, memo);  // What plans found out held for where they were.
     EXPECT_EQ(moved.state.geometry.positions, there.state.geometry.positions);
 }
 
@@ -303,14 +301,4 @@ TEST_F(SceneSize, ASceneThatTheDeviceHasNoRoomForIsToldWithAdvice) {
     // With room again it is there
     session.device().setMemoryLimitBytes(limit);
     EXPECT_EQ(session.scene(setup).gpu.triangleCount, 9216u);
-}
-
-TEST(ComposedSceneLoader, SurfacesKeepWhatPlansCounted) {
-    SceneLoader loader({});
-    const auto memo = loader.prepare(settingsOf("")).memo;
-    EXPECT_EQ(loader.prepare(settingsOf("  camera: {position: [0, 1, 3], target: [0, 1, 0]}\n")).memo, memo);
-    EXPECT_NE(loader.prepare(settingsOf("  add: [{builtin: spheres}]\n")).memo, memo);
-    EXPECT_NE(loader.prepare(settingsOf("  moving_spheres: {count: 1}\n  time: 1\n")).memo,
-              loader.prepare(settingsOf("  moving_spheres: {count: 1}\n  time: 2\n")).memo);
-    EXPECT_EQ(loader.prepare(settingsOf("")).memo, memo) << "whatever was prepared meanwhile";
 }

@@ -80,7 +80,7 @@ class Constant : public Pass {
         ImageDesc desc;
         desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT;
         if (params_.misuse) plan.image(notToBeCleared_, "not to be cleared", desc);
-        plan.reserve("nothing", uint64_t(params_.megabytes) << 20);
+        if (params_.megabytes > 0) plan.scratchBuffer(scratch_, "nothing", uint64_t(params_.megabytes) << 20);
     }
     void record(PassContext& context) override {
         ++runs;
@@ -103,6 +103,7 @@ class Constant : public Pass {
     InOptional<Testimony> testimony_{*this, "testimony", "Of a witness."};
     InOptional<LayerImages> layers_{*this, "layers", "To look at."};
     Image notToBeCleared_;
+    Buffer scratch_;
 };
 
 /// A reference of radiance 1, whose halves are 1 - noise and 1 + noise. Of an odd number of samples the

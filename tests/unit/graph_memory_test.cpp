@@ -1,4 +1,4 @@
-// Graphs hold passes to the memory that they plan.
+// Graphs sum up what passes plan, and hold them to the limit when they take more.
 #include <gtest/gtest.h>
 
 #include "config/yaml.h"
@@ -13,21 +13,17 @@ constexpr uint64_t kKiB = 1024;
 
 struct Nothing : Resource {};
 
-/// Describes a kept and a scratch buffer of 256 KiB, and makes others itself.
+/// Describes a kept and a scratch buffer, and makes others itself.
 struct Hoard final : Pass {
     static constexpr const char* kName = "hoard";
     static constexpr const char* kHelp = "Takes memory.";
     struct Params {
-        uint32_t reserveKept = 0;
-        uint32_t reserveCounted = 0;
-        uint32_t reserveScratch = 0;
+        uint32_t described = 256;
         uint32_t prepareKept = 0;
         uint32_t recordKept = 0;
         uint32_t recordScratch = 0;
         static constexpr auto schema() {
-            return std::tuple{field("reserve_kept", &Params::reserveKept, "KiB.", 0u, 1u << 20),
-                              field("reserve_counted", &Params::reserveCounted, "KiB.", 0u, 1u << 20),
-                              field("reserve_scratch", &Params::reserveScratch, "KiB.", 0u, 1u << 20),
+            return std::tuple{field("described", &Params::described, "KiB.", 1u, 1u << 20),
                               field("prepare_kept", &Params::prepareKept, "KiB.", 0u, 1u << 20),
                               field("record_kept", &Params::recordKept, "KiB.", 0u, 1u << 20),
                               field("record_scratch", &Params::recordScratch, "KiB.", 0u, 1u << 20)};
@@ -35,20 +31,17 @@ struct Hoard final : Pass {
     };
     explicit Hoard(const Params& params) : params_(params) {}
     void plan(PassPlan& plan) override {
-        plan.buffer(described_, "described", 256 * kKiB);
+        plan.buffer(described_, "described", params_.described * kKiB);
         plan.scratchBuffer(scratch_, "described scratch", 256 * kKiB);
-        plan.reserve("kept", params_.reserveKept * kKiB);
-        if (params_.reserveCounted > 0) plan.reserveCounted("counted", params_.reserveCounted * kKiB);
-        plan.reserveScratch("scratch", params_.reserveScratch * kKiB);
+        plan.estimate(2.0 * params_.recordKept * kKiB);
     }
     void prepare(PassSetup& setup) override {
-        EXPECT_EQ(described_.bytes(), 256 * kKiB);
+        EXPECT_EQ(described_.bytes(), params_.described * kKiB);
         EXPECT_FALSE(scratch_);
         if (params_.prepareKept > 0) atPrepare_ = Buffer(setup.device, "kept", params_.prepareKept * kKiB);
     }
     void record(PassContext& context) override {
         EXPECT_EQ(scratch_.bytes(), 256 * kKiB);
-        context.report("spare", double(context.spareBytes));
         context.stream.fill(scratch_, 1);
         context.stream.upload(described_, std::vector<uint32_t>(64 * kKiB, 2));
         if (params_.recordKept > 0 && !atRecord_)
@@ -74,18 +67,12 @@ class GraphMemory : public testing::Test {
         Frame frame;
         frame.scene = &state_;
         planned_ = graph.plan(frame, device_.info(), limit).at(0);
-        spare_.clear();
         graph.prepare(frame, device_, compiler_, stream_);
         const uint64_t before = device_.memoryUsedBytes();
         for (int i = 0; i < 2; ++i)
-            for (const PassSample& sample :
-                 graph.run(Phase::Build, frame, device_, stream_, *tracer_, scene_, 0, false))
-                spare_.push_back(sample.reported.at(0).value);
+            graph.run(Phase::Build, frame, device_, stream_, *tracer_, scene_, 0, false);
         keptByRecording_ = device_.memoryUsedBytes() - before;
         return graph.memory().at(0);
-    }
-    std::string errorOf(const std::string& parameters) {
-        return errorOf(parameters, device_.memoryLimitBytes());
     }
     std::string errorOf(const std::string& parameters, uint64_t limit) {
         try {
@@ -104,13 +91,12 @@ class GraphMemory : public testing::Test {
     const GpuScene scene_ = makeGpuScene(device_, stream_, state_);
     const std::unique_ptr<RayTracer> tracer_ = makeRayTracer(TracerKind::Embree, device_, compiler_, state_);
     PassMemory planned_;
-    std::vector<double> spare_;  ///< Bytes, in each run.
     uint64_t keptByRecording_ = 0;
 };
 
 TEST_F(GraphMemory, DescribedBuffersArePlannedMadeAndFreed) {
     const uint64_t before = device_.memoryUsedBytes();
-    const PassMemory taken = run("reserve_kept: 0");
+    const PassMemory taken = run("described: 256");
     EXPECT_EQ(planned_.bytes, 256 * kKiB);
     EXPECT_EQ(planned_.scratchBytes, 256 * kKiB);
     EXPECT_EQ(taken.bytes, 256 * kKiB);
@@ -120,43 +106,38 @@ TEST_F(GraphMemory, DescribedBuffersArePlannedMadeAndFreed) {
     EXPECT_TRUE(device_.validationMessages().empty());
 }
 
-TEST_F(GraphMemory, ReservationsHold) {
-    const PassMemory taken = run(
-        "reserve_kept: 3072, reserve_scratch: 1024, prepare_kept: 1024, record_kept: 2048, record_scratch: "
-        "1024");
+TEST_F(GraphMemory, WhatPassesMakeThemselvesIsMeasured) {
+    const PassMemory taken = run("prepare_kept: 1024, record_kept: 2048, record_scratch: 1024");
     EXPECT_EQ(taken.bytes, (256 + 3072) * kKiB);
     EXPECT_EQ(taken.scratchBytes, (512 + 1024) * kKiB);
     EXPECT_EQ(keptByRecording_, 2048 * kKiB);
-    run("prepare_kept: 60");  // Less than alignment may take.
-    run("record_scratch: 60");
+    EXPECT_EQ(planned_.bytes, 256 * kKiB);
+    EXPECT_EQ(planned_.estimatedBytes, 4096 * kKiB);
 }
 
-TEST_F(GraphMemory, WhatIsTakenBeyondThemNamesThePass) {
-    const auto expectError = [&](const std::string& parameters, uint64_t taken, const char* kind,
-                                 uint64_t reserved) {
-        const std::string error = errorOf(parameters);
-        EXPECT_NE(error.find(fmt::format("pass 'greedy' takes {} bytes of {} memory", taken * kKiB, kind)),
-                  std::string::npos)
-            << error;
-        EXPECT_NE(error.find(fmt::format("reserves {};", reserved * kKiB)), std::string::npos) << error;
-    };
-    expectError("prepare_kept: 128", 128, "kept", 0);
-    expectError("record_kept: 128", 128, "kept", 0);
-    expectError("record_scratch: 512", 512, "scratch", 0);
-    expectError("reserve_kept: 1024, prepare_kept: 512, record_kept: 1024", 1536, "kept", 1024);
-    expectError("reserve_scratch: 1024, record_scratch: 2048", 2048, "scratch", 1024);
-    expectError("reserve_scratch: 1024, record_kept: 1024", 1024, "kept", 0);
+TEST_F(GraphMemory, TheLimitHoldsForWhatIsCounted) {
+    // What is described, and what is staged for an upload of 256 KiB.
+    const uint64_t known = 3 * 256 * kKiB, limit = known + 1024 * kKiB;
+    const uint64_t before = device_.memoryLimitBytes();
+    EXPECT_EQ(run("record_kept: 1000", limit).bytes, (256 + 1000) * kKiB);
+    for (const char* parameter : {"prepare_kept: 2048", "record_kept: 2048", "record_scratch: 2048"}) {
+        const std::string error = errorOf(parameter, limit);
+        EXPECT_EQ(error.find("g.yaml:1: greedy: '"), 0u) << error;
+        EXPECT_NE(error.find("needs 2.0 MiB of device memory"), std::string::npos) << error;
+        EXPECT_NE(error.find("lower what it grows with, of greedy."), std::string::npos) << error;
+    }
+    EXPECT_EQ(device_.memoryLimitBytes(), before);
 }
 
 TEST_F(GraphMemory, WhatIsTooLargeNamesThePassAndWhatToLower) {
     Registry registry;
     registry.add<Hoard>();
     const std::string advice =
-        "lower what it grows with, of greedy.reserve_kept, greedy.prepare_kept, first.reserve_scratch, "
-        "image.width, image.height";
+        "lower what it grows with, of greedy.described, greedy.prepare_kept, first.record_kept, image.width, "
+        "image.height";
     Graph graph(registry, parseYaml("- {pass: hoard, id: unread}\n"
-                                    "- {pass: hoard, id: first, reserve_scratch: 1}\n"
-                                    "- {pass: hoard, id: greedy, reserve_kept: 8192, prepare_kept: 8192}\n",
+                                    "- {pass: hoard, id: first, record_kept: 1}\n"
+                                    "- {pass: hoard, id: greedy, described: 8192, prepare_kept: 8192}\n",
                                     "g.yaml"));
     Frame frame;
     frame.scene = &state_;
@@ -169,8 +150,9 @@ TEST_F(GraphMemory, WhatIsTooLargeNamesThePassAndWhatToLower) {
         return "no error";
     };
     const std::string planned = messageOf([&] { graph.plan(frame, device_.info(), 4096 * kKiB); });
-    EXPECT_EQ(planned.find("g.yaml:3: the graph needs about "), 0u) << planned;
-    EXPECT_NE(planned.find("the largest part is greedy's kept with 8.0 MiB: " + advice), std::string::npos)
+    EXPECT_EQ(planned.find("g.yaml:3: the graph needs "), 0u) << planned;
+    EXPECT_NE(planned.find("the largest part is greedy's described with 8.0 MiB: " + advice),
+              std::string::npos)
         << planned;
 
     const uint64_t limit = device_.memoryLimitBytes();
@@ -178,41 +160,9 @@ TEST_F(GraphMemory, WhatIsTooLargeNamesThePassAndWhatToLower) {
     device_.setMemoryLimitBytes(device_.memoryUsedBytes() + 4096 * kKiB);
     const std::string made = messageOf([&] { graph.prepare(frame, device_, compiler_, stream_); });
     device_.setMemoryLimitBytes(limit);
-    EXPECT_EQ(made.find("g.yaml:3: greedy: 'kept' needs 8.0 MiB"), 0u) << made;
+    EXPECT_EQ(made.find("g.yaml:3: greedy: 'described' needs 8.0 MiB"), 0u) << made;
     EXPECT_NE(made.find(": " + advice), std::string::npos) << made;
     stream_.discard();
-}
-
-TEST_F(GraphMemory, WhatIsCountedMayTakeWhatTheLimitLeaves) {
-    const uint64_t limit = (2 * 256 + 1024 + 512) * kKiB;  // What is described and reserved, and 512 KiB.
-    EXPECT_EQ(run("reserve_counted: 1024, record_kept: 1536", limit).bytes, (256 + 1536) * kKiB);
-    EXPECT_EQ(spare_, std::vector<double>(2, 512 * kKiB));
-    EXPECT_EQ(planned_.bytes, (256 + 1024) * kKiB);
-    EXPECT_NE(errorOf("reserve_counted: 1024, record_kept: 2048", limit).find("takes 2097152 bytes"),
-              std::string::npos);
-    // Not for what is reserved otherwise.
-    EXPECT_NE(errorOf("reserve_kept: 1024, record_kept: 1536", limit).find("takes 1572864 bytes"),
-              std::string::npos);
-}
-
-TEST(PlanMemo, AsksASceneOnceForAllItsVariants) {
-    int asked = 0;
-    const auto plan = [&](const std::shared_ptr<PlanMemo>& memo, const std::string& key) {
-        Frame frame;
-        frame.memo = memo;
-        const std::vector<Resource*> resources;
-        const DeviceInfo device;
-        return PassPlan(resources, frame, device, Phase::Build).ofScene(key, [&] {
-            return std::vector<int>{++asked};
-        });
-    };
-    const auto memo = std::make_shared<PlanMemo>();
-    EXPECT_EQ(plan(memo, "voxels of 16"), std::vector<int>{1});
-    EXPECT_EQ(plan(memo, "voxels of 16"), std::vector<int>{1});
-    EXPECT_EQ(plan(memo, "voxels of 32"), std::vector<int>{2});
-    EXPECT_EQ(plan(memo, "voxels of 16"), std::vector<int>{1});
-    EXPECT_EQ(plan(std::make_shared<PlanMemo>(), "voxels of 16"), std::vector<int>{3});  // Another scene.
-    EXPECT_EQ(plan(nullptr, "voxels of 16"), std::vector<int>{4});
 }
 
 }  // namespace

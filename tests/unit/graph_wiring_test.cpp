@@ -25,7 +25,8 @@ struct Light : Resource {};
 
 // A pass that does nothing but have ports.
 struct Idle : Pass {
-    void plan(PassPlan& plan) override { plan.reserve("results", 1u << 20); }
+    void plan(PassPlan& plan) override { plan.buffer(results, "results", 1u << 20); }
+    Buffer results;
     void record(PassContext&) override {}
 };
 
@@ -85,10 +86,11 @@ struct SumUp : Idle {
     };
     explicit SumUp(const Params& p) : params(p) {}
     void plan(PassPlan& plan) override {
-        plan.reserve("light", 1u << 20);
-        plan.reserveScratch("sums", uint64_t(params.mib) << 20);
+        plan.buffer(kept, "light", 1u << 20);
+        plan.scratchBuffer(sums, "sums", uint64_t(params.mib) << 20);
     }
     const Params params;
+    Buffer kept, sums;
     Out<Light> light{*this, "light", "the light"};
 };
 
@@ -105,9 +107,10 @@ struct TwoOutputs : Idle {
     static constexpr const char* kName = "two_outputs";
     static constexpr const char* kHelp = "Writes light and spare light.";
     void plan(PassPlan& plan) override {
-        plan.reserve("light", plan[light].isRead ? 1 : 0);
-        plan.reserve("spare", plan[spare].isRead ? 2 : 0);
+        if (plan[light].isRead) plan.buffer(kept, "light", 1);
+        if (plan[spare].isRead) plan.buffer(keptSpare, "spare", 2);
     }
+    Buffer kept, keptSpare;
     InOptional<Light> before{*this, "before", "any light"};
     Out<Light> light{*this, "light", "the light"};
     Out<Light> spare{*this, "spare", "more light"};
@@ -306,7 +309,7 @@ TEST(GraphPlan, RefusesMoreMemoryThanThereIs) {
     ASSERT_EQ(memory.size(), 2u);
     for (const PassMemory& pass : memory) EXPECT_EQ(pass.bytes, 1u << 20);
     const std::string error = errorOf([&] { g.plan(frame, {}, (2u << 20) - 1); });
-    EXPECT_CONTAINS(error, "needs about 2.0 MiB, the limit is 2.0 MiB");
+    EXPECT_CONTAINS(error, "needs 2.0 MiB, the limit is 2.0 MiB");
     EXPECT_CONTAINS(error, "make_voxels's results");
 }
 
@@ -324,7 +327,7 @@ TEST(GraphPlan, ScratchOfOnePassIsFreeForTheNext) {
     EXPECT_EQ(memory.at(0).scratchBytes, 2u << 20);
     EXPECT_EQ(memory.at(1).scratchBytes, 3u << 20);
     const std::string error = errorOf([&] { g.plan(frame, {}, (5u << 20) - 1); });
-    EXPECT_CONTAINS(error, "needs about 5.0 MiB");
+    EXPECT_CONTAINS(error, "needs 5.0 MiB");
     EXPECT_CONTAINS(error, "more's sums with 3.0 MiB");
 }
 

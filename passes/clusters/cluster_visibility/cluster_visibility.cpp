@@ -30,9 +30,9 @@ struct Proposal {
     uint32_t hidden[kRounds];
 };
 
-/// Of what patches see, by clusters alone: several rays of a patch meet the same one, so that lists grow with
-/// the root of rays (docs/papers/cosin2022.md). About this many times the root are expected, in the mean.
-constexpr double kSeenByRootOfRays = 4;
+/// For the estimate, in the mean. Several rays of a patch meet the same cluster, so that lists of clusters
+/// alone grow with the root of rays (docs/papers/cosin2022.md).
+constexpr double kPatchesPerVoxel = 6, kSeenByRootOfRays = 4;
 
 }  // namespace
 
@@ -119,7 +119,6 @@ class FindClusterVisibility final : public Pass {
     PrefixSum prefixSum_{*this, PrefixSum::Of::Values};
     std::optional<Compaction> compaction_;  ///< Where surfaces move.
     std::optional<KeptRays> kept_;          ///< Likewise.
-    uint64_t listBytes_ = 0;                ///< That are expected of the lists.
     uint64_t traced_ = 0;                   ///< Rays, in this build.
     Kernel listFaces_{*this, "faces.comp"};
     Kernel marchRays_{*this, "march.comp"};
@@ -131,7 +130,6 @@ class FindClusterVisibility final : public Pass {
     Kernel compact_{*this, "compact.comp"};
     Buffer faces_, met_, targets_, counts_, missed_;  ///< Scratch.
     Buffer flags_, list_, rays_, hits_, proposals_, between_, occluded_;
-    std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of the voxels and their patches.
 };
 
 void FindClusterVisibility::plan(PassPlan& plan) {
@@ -140,24 +138,20 @@ void FindClusterVisibility::plan(PassPlan& plan) {
     const uint32_t chunk = kChunkRays / params_.rays;
     visibility.listsPatches = seesPatches();
     visibility.layout = {params_.rays, chunk, 0, uint32_t(std::bit_width(params_.rays - 1)), 32};
-    const uint64_t patches = kPatchesPerVoxel * voxels.voxelCount, rays = uint64_t(chunk) * params_.rays;
-    const double root = std::ceil(kSeenByRootOfRays * std::sqrt(double(params_.rays)));
-    const uint64_t seen = seesPatches() ? params_.rays : std::min(params_.rays, uint32_t(root));
-    listBytes_ = patches * (seen + 1) * sizeof(uint32_t);
-    plan.reserveCounted("what patches see (estimated)", listBytes_);
-    plan.reserveScratch("faces of patches (estimated)", patches * sizeof(uint32_t));
+    const uint64_t rays = uint64_t(chunk) * params_.rays;
     plan.scratchBuffer(targets_, "targets of rays", rays * sizeof(uint32_t));
     plan.scratchBuffer(counts_, "targets of patches", (chunk + 1) * sizeof(uint32_t));
     plan.scratchBuffer(missed_, "rays that met nothing", 2 * sizeof(uint32_t));
-    plan.reserveScratch("sums of lists", PrefixSum::scratchBytes(chunk + 1));
     const bool keeps = isExact() && !movingRuns(plan.frame.scene->geometry).empty();
     if (keeps) {
         compaction_.emplace(*this);
         kept_.emplace(*this);
-        KeptRays::plan(plan, voxels, patches, params_.rays);
     } else {
         plan.scratchBuffer(met_, "what rays met", rays * sizeof(uint32_t));
     }
+    const double all = params_.rays, kept = keeps ? all : 0;
+    const double seen = seesPatches() ? all : std::min(all, kSeenByRootOfRays * std::sqrt(all));
+    plan.estimate(voxels.estimatedCount * kPatchesPerVoxel * (seen + kept) * sizeof(uint32_t));
     marchRays_.compileIf(!isExact());
     for (Kernel* kernel : {&all_, &emit_, &choose_}) kernel->compileIf(isExact());
     if (!isExact()) {
@@ -168,10 +162,7 @@ void FindClusterVisibility::plan(PassPlan& plan) {
         return;
     }
     const uint64_t words = (rays + 31) / 32;
-    if (keeps) {
-        plan.scratchBuffer(flags_, "rays to trace", words * sizeof(uint32_t));
-        plan.reserveScratch("ranks of rays", Compaction::scratchBytes(uint32_t(words)));
-    }
+    if (keeps) plan.scratchBuffer(flags_, "rays to trace", words * sizeof(uint32_t));
     plan.scratchBuffer(list_, "rays by number", rays * sizeof(uint32_t));
     plan.scratchBuffer(rays_, "rays of patches", rays * sizeof(Ray));
     plan.scratchBuffer(hits_, "hits of patches' rays", rays * sizeof(Hit));
@@ -181,16 +172,11 @@ void FindClusterVisibility::plan(PassPlan& plan) {
 }
 
 void FindClusterVisibility::record(PassContext& context) {
+    if (!context.inputsChanged()) return;
     const SurfaceVoxels& voxels = context[voxels_];
     const VoxelPatches& patches = context[patches_];
     ClusterVisibility& visibility = context[visibility_];
-    const std::pair version{voxels.version, patches.version};
-    if (version_ == version) return;
     const std::optional<std::vector<Box>>& changed = context.frame.changed;
-    const bool updates =
-        kept_ && changed && version_ && version_->second + 1 == patches.version && patches.previousSides;
-    version_ = version;
-    ++visibility.version;
     visibility.chunks.clear();
     visibility.entries = 0;
     visibility.addresses = {};
@@ -208,7 +194,7 @@ void FindClusterVisibility::record(PassContext& context) {
 
     CommandStream& stream = context.stream;
     if (march_) march_->begin(stream, voxels);
-    if (updates)
+    if (kept_ && changed && !context.isFirstRun() && patches.previousSides)
         kept_->begin(stream, voxels, context[clusters_], patches, *changed);
     else if (kept_)
         kept_->clear();
@@ -336,13 +322,6 @@ void FindClusterVisibility::look(PassContext& context, uint32_t first, uint32_t 
     chunk.first = Buffer(context.device, "where patches' lists begin", (count + 1) * sizeof(uint32_t));
     const uint32_t seen = prefixSum_.run(stream, counts_, chunk.first, count + 1);
     const uint64_t words = (uint64_t(seen) * visibility.layout.entryBits + 31) / 32;
-    const uint64_t bytes = visibility.bytes() + (uint64_t(count) + 1 + words) * sizeof(uint32_t);
-    const uint64_t most = listBytes_ + context.spareBytes;
-    if (bytes > most)
-        throw Error(
-            "{}: what {} of {} patches see takes {:.1f} MiB, and the memory limit leaves {:.1f} MiB for all; "
-            "lower 'rays', cluster_voxels's 'target' or voxelize's 'resolution', or raise the limit",
-            kName, first + count, visibility.patchCount, double(bytes) / (1 << 20), double(most) / (1 << 20));
     chunk.seen = Buffer(context.device, "what patches see", std::max<uint64_t>(words, 1) * sizeof(uint32_t));
     stream.fill(chunk.seen, 0);
     context.dispatch(compact_, count, {list.all(), {"first", chunk.first}, {"seen", chunk.seen}});

@@ -32,13 +32,6 @@ KeptRays::KeptRays(ProgramOwner& owner)
       keep_(owner, "keep.comp"),
       regions_(owner) {}
 
-void KeptRays::plan(MemoryPlan& plan, const SurfaceVoxels& voxels, uint64_t patches, uint32_t raysPerPatch) {
-    const uint64_t sides = kSidesPerVoxel * voxels.voxelCount, met = uints(patches * raysPerPatch);
-    plan.reserve("what rays met (estimated)", met + uints(sides));
-    plan.reserveScratch("what rays met before (estimated)", met + 3 * uints(sides));
-    plan.reserveScratch("voxels near a change", 2 * uints(voxels.words()));
-}
-
 void KeptRays::begin(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
                      const VoxelPatches& patches, const std::vector<Box>& changed) {
     Device& device = stream.device();

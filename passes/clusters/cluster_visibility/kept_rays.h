@@ -20,9 +20,6 @@ class KeptRays {
  public:
     explicit KeptRays(ProgramOwner& owner);
 
-    /// Announces what is kept, and as much again while it is taken over. @param patches at most.
-    static void plan(MemoryPlan& plan, const SurfaceVoxels& voxels, uint64_t patches, uint32_t raysPerPatch);
-
     /// Finds where what rays of `patches` have met is kept. @param changed where surfaces have changed, m.
     /// Waits for the device.
     void begin(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,

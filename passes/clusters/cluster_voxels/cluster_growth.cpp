@@ -50,16 +50,6 @@ glm::uvec3 ClusterGrowth::cells(const gpu::VoxelGrid& grid, uint32_t voxelCount)
                     glm::uvec3(1));
 }
 
-uint64_t ClusterGrowth::seeds(const SurfaceVoxels& voxels) const {
-    return product(cells(voxels.grid, voxels.voxelCount));
-}
-
-uint64_t ClusterGrowth::scratchBytes(const SurfaceVoxels& voxels) const {
-    const uint64_t count = voxels.voxelCount;
-    const uint64_t perVoxel = sizeof(glm::vec3) + sizeof(uint64_t) + 3 * sizeof(uint32_t);
-    return count * perVoxel + seeds(voxels) * (sizeof(gpu::ClusterSeed) + kSumBytes) + 64;
-}
-
 void ClusterGrowth::findNormals(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates,
                                 const FragmentAngles::Sums& fragments, Result& result) const {
     const uint32_t count = voxels.voxelCount;

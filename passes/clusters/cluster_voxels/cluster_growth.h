@@ -109,11 +109,6 @@ class ClusterGrowth {
  public:
     ClusterGrowth(ProgramOwner& owner, const ClusterParams& params);
 
-    /// Seeds in the grid.
-    uint64_t seeds(const SurfaceVoxels& voxels) const;
-    /// Bytes that grow() takes, at most.
-    uint64_t scratchBytes(const SurfaceVoxels& voxels) const;
-
     /// What ClusterNormals::OpenSpace does, in voxels.
     struct OpenSpaceCounts {
         uint32_t disagreeing;  ///< Surfaces disagree.

@@ -14,12 +14,6 @@ ClusterList::ClusterList(ProgramOwner& owner)
       renumber_(owner, "renumber.comp"),
       describe_(owner, "describe.comp") {}
 
-uint64_t ClusterList::scratchBytes(uint64_t voxels, uint64_t seeds) {
-    const uint64_t numbers = voxels + seeds, words = (numbers + 31) / 32;
-    return (4 * numbers + words + voxels) * sizeof(uint32_t) + PrefixSum::scratchBytes(uint32_t(numbers)) +
-           Compaction::scratchBytes(uint32_t(words));
-}
-
 void ClusterList::make(CommandStream& stream, const SurfaceVoxels& voxels,
                        const ClusterGrowth::Result& growth, VoxelClusters& clusters) {
     Device& device = stream.device();

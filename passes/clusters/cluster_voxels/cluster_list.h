@@ -12,8 +12,6 @@ class ClusterList {
  public:
     explicit ClusterList(ProgramOwner& owner);
 
-    /// Bytes that make() takes besides its results and RadixSort, at most. @param seeds of the growth.
-    static uint64_t scratchBytes(uint64_t voxels, uint64_t seeds);
     /// Fills `clusters`, whose coordinates are there. Waits for the device.
     void make(CommandStream& stream, const SurfaceVoxels& voxels, const ClusterGrowth::Result& growth,
               VoxelClusters& clusters);

@@ -35,25 +35,16 @@ class ClusterVoxels final : public Pass {
     ClusterGrowth growth_{*this, params_};
     ClusterList list_{*this};
     Kernel coordinates_{*this, "passes/common/voxels/list_voxels.comp"};
-    std::optional<uint64_t> version_;  ///< Of the voxels.
 };
 
 void ClusterVoxels::plan(PassPlan& plan) {
-    const SurfaceVoxels& voxels = plan[voxels_];
-    plan[clusters_].maxCount = voxels.voxelCount;
-    plan.reserve("clusters (at most)", VoxelClusters::bytes(voxels.voxelCount, voxels.voxelCount));
-    plan.reserve("sorting of voxels (estimated)", RadixSort::scratchBytes(voxels.voxelCount));
-    const uint64_t seeds = growth_.seeds(voxels);
-    plan.reserveScratch("growth of clusters (estimated)",
-                        growth_.scratchBytes(voxels) + ClusterList::scratchBytes(voxels.voxelCount, seeds));
-    if (fragments_) fragments_->plan(plan, voxels);
+    if (fragments_) fragments_->plan(plan);
 }
 
 void ClusterVoxels::record(PassContext& context) {
+    if (!context.inputsChanged()) return;
     const SurfaceVoxels& voxels = context[voxels_];
     VoxelClusters& clusters = context[clusters_];
-    if (version_ == voxels.version) return;
-    version_ = voxels.version;
     CommandStream& stream = context.stream;
     clusters.clusters = {}, clusters.ofVoxel = {}, clusters.members = {}, clusters.coordinates = {};
     clusters.coordinates =
@@ -65,7 +56,6 @@ void ClusterVoxels::record(PassContext& context) {
     if (fragments_) fragments = fragments_->measure(context, voxels);
     const ClusterGrowth::Result growth = growth_.grow(stream, voxels, clusters.coordinates, fragments);
     list_.make(stream, voxels, growth, clusters);
-    clusters.version = voxels.version;
     context.report("clusters", clusters.count);
     context.report("clusters, % of voxels", 100.0 * clusters.count / voxels.voxelCount);
     context.report("voxels no seed reached, %", 100.0 * growth.unassigned / voxels.voxelCount);

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <numbers>
 
+#include "passes/common/compute/uints.h"
+
 namespace voxray {
 namespace {
 
 constexpr float kFinestUnits = 65536;  // Of a radian.
-
-uint64_t bytesOf(uint64_t voxels) {
-    return std::max<uint64_t>(voxels, 1) * 4 * sizeof(uint32_t);
-}
 
 /// A triangle is one fragment of a voxel at most, so that sums of angles up to pi fit into 32 bits.
 float unitsFor(size_t triangles) {
@@ -23,14 +21,9 @@ float unitsFor(size_t triangles) {
 FragmentAngles::FragmentAngles(ProgramOwner& owner)
     : walk_(makeExactWalk()), add_(walk_->makeVisitor(owner, "passes/clusters/cluster_voxels/add_angles")) {}
 
-void FragmentAngles::plan(PassPlan& plan, const SurfaceVoxels& voxels) {
-    plan.reserveScratch("angles of fragments (estimated)", bytesOf(voxels.voxelCount));
-    walk_->plan(plan, voxels.grid);
-}
-
 FragmentAngles::Sums FragmentAngles::measure(PassContext& context, const SurfaceVoxels& voxels) {
     const Geometry& geometry = context.frame.scene->geometry;
-    Sums sums{Buffer(context.device, "angles of fragments", bytesOf(voxels.voxelCount)),
+    Sums sums{Buffer(context.device, "angles of fragments", uints(4 * uint64_t(voxels.voxelCount))),
               unitsFor(geometry.triangles.size())};
     context.stream.fill(sums.angles, 0);
     const VoxelRegion region(voxels.grid);

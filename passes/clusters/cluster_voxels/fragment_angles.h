@@ -18,7 +18,7 @@ class FragmentAngles {
 
     explicit FragmentAngles(ProgramOwner& owner);
 
-    void plan(PassPlan& plan, const SurfaceVoxels& voxels);
+    void plan(PassPlan& plan) { walk_->plan(plan); }
     /// Waits for the device.
     Sums measure(PassContext& context, const SurfaceVoxels& voxels);
 

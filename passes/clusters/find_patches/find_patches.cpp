@@ -14,12 +14,6 @@
 #include "passes/surfels/surfel_sort.h"
 
 namespace voxray {
-namespace {
-
-/// Of a side, in the mean: two layers of the voxels round it.
-constexpr uint64_t kNeighbours = 18;
-
-}  // namespace
 
 /// Splits the surfaces of each voxel by the space that they look into, and clusters likewise, so that
 /// no side of a thin wall holds the other side's light. Beyond Cosin and Patow 2022; docs/clusters.md.
@@ -68,49 +62,27 @@ class FindPatches final : public Pass {
     Kernel listNear_{*this, "near.comp", {{"LIST", "1"}}};
     Kernel aimNear_{*this, "aim_near.comp"};
     Kernel partNear_{*this, "part_near.comp"};
-    RayBatch batch_;                                        ///< Scratch.
-    std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of the voxels and their clusters.
+    RayBatch batch_;  ///< Scratch.
 };
 
 void FindPatches::plan(PassPlan& plan) {
-    const uint64_t voxels = plan[voxels_].voxelCount, surfels = plan[surfels_].maxCount;
-    const uint64_t sides = kSidesPerVoxel * voxels, pairs = kNeighbours * sides;
-    plan.reserve("surfels by side (estimated)", surfels * sizeof(gpu::PatchSurfel) + uints(surfels));
-    plan.reserve(
-        "sides of voxels (estimated)",
-        sides * (sizeof(gpu::SurfaceSide) + sizeof(gpu::PackedVoxelMaterial)) + uints(voxels + sides));
-    plan.reserve("neighbours of sides (estimated)", uints(sides) + uints(pairs));
-    PartSearch::plan(plan, sides);
-
-    // One after another: surfels are sorted by voxel, and the lists stay until sides are found, which takes a
-    // uint a voxel or a side (less than the sort did); then come whose neighbours they are, then parts
-    plan.reserveScratch(
-        "search of sides and parts (estimated)",
-        std::max({SurfelSort::listBytes(surfels, voxels) + SurfelSort::scratchBytes(voxels),
-                  uints(pairs) + PrefixSum::scratchBytes(uint32_t(sides)), PartSearch::scratchBytes(sides)}));
     batch_.plan(plan, plan[surfels_].coveredSides);
     const bool surfacesMove = !movingRuns(plan.frame.scene->geometry).empty();
     for (Kernel* kernel : {&beginKept_, &aimNearKept_, &partNearKept_}) kernel->compileIf(surfacesMove);
-    if (!surfacesMove) return;
-    kept_.emplace(*this);
-    KeptSides::plan(plan, plan[voxels_], surfels, sides, pairs);
+    if (surfacesMove) kept_.emplace(*this);
 }
 
 void FindPatches::record(PassContext& context) {
+    if (!context.inputsChanged()) return;
     const SurfaceVoxels& voxels = context[voxels_];
-    const std::pair version{voxels.version, context[clusters_].version};
-    if (version_ == version) return;
     const std::optional<std::vector<Box>>& changed = context.frame.changed;
-    const bool updates = kept_ && changed && version_ && version_->first + 1 == voxels.version;
-    version_ = version;
     if (!voxels.unoccludedOnly)
         throw Error(
             "{}: surfels without open space before them have no side; leave voxelize's 'visibility_rays' "
             "above 0",
             kName);
     VoxelPatches& patches = context[patches_];
-    ++patches.version;
-    if (updates) kept_->begin(context.stream, voxels, patches, *changed);
+    if (kept_ && changed && !context.isFirstRun()) kept_->begin(context.stream, voxels, patches, *changed);
     patches.clear();
     SurfelsByVoxel lists;
     sort_.run(context.stream, context[surfels_], voxels.voxelCount, lists);
@@ -153,7 +125,7 @@ void FindPatches::findSides(PassContext& context, SurfelsByVoxel& lists) {
     patches.places = std::move(lists.slots);
     lists.sorted = {};
     sideSearch_.find(context, batch_, voxels, context[surfels_].coveredSides, lists, patches);
-    if (kept_) kept_->rememberSurfels(stream, patches, context[surfels_].maxCount);
+    if (kept_) kept_->rememberSurfels(stream, patches, 2 * context[surfels_].pointCount);
 }
 
 void FindPatches::listSides(PassContext& context, const SurfelsByVoxel& lists) {

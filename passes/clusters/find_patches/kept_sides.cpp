@@ -12,15 +12,6 @@ namespace voxray {
 KeptSides::KeptSides(ProgramOwner& owner)
     : save_(owner, "save.comp"), previous_(owner, "previous.comp"), regions_(owner) {}
 
-void KeptSides::plan(MemoryPlan& plan, const SurfaceVoxels& voxels, uint64_t surfels, uint64_t sides,
-                     uint64_t pairs) {
-    const uint64_t words = uints(voxels.words());
-    plan.reserve("sides of surfels (estimated)", surfels * sizeof(gpu::SavedSide));
-    plan.reserve("previous sides (estimated)", uints(sides) + 2 * words);
-    plan.reserveScratch("sides of the last build (estimated)",
-                        uints(voxels.voxelCount) + 2 * uints(sides) + uints(pairs) + 3 * words);
-}
-
 void KeptSides::begin(CommandStream& stream, const SurfaceVoxels& voxels, VoxelPatches& patches,
                       const std::vector<Box>& changed) {
     const auto bits = [&](uint32_t more) {

@@ -24,10 +24,6 @@ class KeptSides {
  public:
     explicit KeptSides(ProgramOwner& owner);
 
-    /// Announces what is kept, and what an update takes besides. @param surfels, sides, pairs at most.
-    static void plan(MemoryPlan& plan, const SurfaceVoxels& voxels, uint64_t surfels, uint64_t sides,
-                     uint64_t pairs);
-
     /// Takes what it needs out of `patches`. @param changed where surfaces have changed, m. Waits for the
     /// device.
     void begin(CommandStream& stream, const SurfaceVoxels& voxels, VoxelPatches& patches,
@@ -43,7 +39,7 @@ class KeptSides {
     void end();
 
     /// Which side of its voxel each surfel is on, before sides are numbered. @param ids of surfels end
-    /// before.
+    /// before. The stream has finished.
     void rememberSurfels(CommandStream& stream, const VoxelPatches& patches, uint64_t ids);
     void rememberVoxels(CommandStream& stream, const SurfaceVoxels& voxels);
 

@@ -19,18 +19,6 @@ PartSearch::PartSearch(ProgramOwner& owner)
       assign_(owner, "assign.comp"),
       parts_(owner, "parts.comp") {}
 
-void PartSearch::plan(MemoryPlan& plan, uint64_t sides) {
-    plan.reserve("parts of clusters (estimated)", sides * sizeof(gpu::ClusterPart) + 2 * uints(sides));
-    plan.reserve("sort of sides (estimated)", RadixSort::scratchBytes(uint32_t(sides)));
-}
-
-uint64_t PartSearch::scratchBytes(uint64_t sides) {
-    // Labels, leaders, numbers and keys; there are no more parts than sides, so of these counts and what is
-    // before; a bit a side, and what the compaction and the prefix sum take
-    const uint64_t words = (sides + 31) / 32;
-    return 6 * uints(sides) + 2 * uints(words) + 2 * PrefixSum::scratchBytes(uint32_t(sides)) + uints(1);
-}
-
 void PartSearch::find(CommandStream& stream, const VoxelClusters& clusters, VoxelPatches& patches) {
     Device& device = stream.device();
     const uint32_t sides = patches.sideCount, words = (sides + 31) / 32;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "graph/memory_plan.h"
 #include "passes/clusters/voxel_clusters.h"
 #include "passes/clusters/voxel_patches.h"
 #include "passes/common/compute/compaction.h"
@@ -13,11 +12,6 @@ namespace voxray {
 class PartSearch {
  public:
     explicit PartSearch(ProgramOwner& owner);
-
-    /// Announces what find() keeps. @param sides of all voxels.
-    static void plan(MemoryPlan& plan, uint64_t sides);
-    /// The most that it takes besides while it runs.
-    static uint64_t scratchBytes(uint64_t sides);
 
     /// Fills the parts of patches whose sides and neighbours are known. Waits for the device.
     void find(CommandStream& stream, const VoxelClusters& clusters, VoxelPatches& patches);

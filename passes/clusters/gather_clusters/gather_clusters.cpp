@@ -99,8 +99,7 @@ class GatherClusters final : public Pass {
     Kernel gather_{*this, "gather.comp", defines()};
     Kernel filter_{*this, "filter.comp", defines()};
     Kernel store_{*this, "store.comp", defines()};
-    LargeBuffer gathered_, filtered_;                       ///< Irradiance of patches.
-    std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of lists and light.
+    LargeBuffer gathered_, filtered_;  ///< Irradiance of patches.
 };
 
 Defines GatherClusters::defines() const {
@@ -110,29 +109,20 @@ Defines GatherClusters::defines() const {
 }
 
 void GatherClusters::plan(PassPlan& plan) {
-    const uint32_t voxels = plan[voxels_].voxelCount;
     plan[irradiance_].lightBounces = oneMore(plan[light_].lightBounces);
-    plan.reserve("irradiance of voxels (estimated)", VoxelIrradiance::bytes(voxels));
-    const uint64_t ofPatches = 2 * kPatchesPerVoxel * voxels * sizeof(glm::vec3);
-    if (!isLazy()) {
-        plan.reserveScratch("irradiance of patches (estimated)", ofPatches);
-        return;
-    }
     if (readsGBuffer()) plan[irradiance_].reach = params_.reach;
-    plan.reserve("irradiance of patches (estimated)", ofPatches);
-    seen_->plan(plan, voxels);
+    plan.estimate(plan[voxels_].estimatedCount * VoxelIrradiance::bytes(1));
+    if (seen_) seen_->plan(plan);
 }
 
 void GatherClusters::record(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
     const VoxelPatches& patches = context[patches_];
-    const std::pair version{context[visibility_].version, context[light_].version};
-    const bool isNew = version_ != version;
-    version_ = version;
+    const bool isNew = context.changed(visibility_) || context.changed(light_);
     VoxelIrradiance& result = context[irradiance_];
     if (isNew) result.allocate(context.device, voxels.voxelCount);
     if (!isLazy()) {
-        if (!isNew) return;
+        if (!isNew) return context.keepOutputs();
         SeenVoxels::Found all;
         all.voxelCount = voxels.voxelCount;
         all.sidesWithin.assign(filterSteps() + 1, patches.sideCount);
@@ -148,9 +138,10 @@ void GatherClusters::record(PassContext& context) {
     const SeenVoxels::Found found =
         seen_->find(context, gbuffer, voxels, context[clusters_], patches, params_.reach, filterSteps());
     context.report("voxels gathered", found.voxelCount);
-    if (found.voxelCount == 0) return;
-    if (!isNew) ++result.version;
-    gather(context, found);
+    if (found.voxelCount > 0)
+        gather(context, found);
+    else if (!isNew)
+        context.keepOutputs();
 }
 
 void GatherClusters::gather(PassContext& context, const SeenVoxels::Found& found) {

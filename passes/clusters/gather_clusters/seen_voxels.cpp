@@ -9,9 +9,7 @@ SeenVoxels::SeenVoxels(ProgramOwner& owner, GatherUpdate update)
     if (update == GatherUpdate::SeenPoints) points_.emplace(owner);
 }
 
-void SeenVoxels::plan(PassPlan& plan, uint64_t voxels) {
-    plan.reserve("voxels that come into view (estimated)",
-                 2 * uints(voxels) + 2 * uints(kSidesPerVoxel * voxels) + uints(1));
+void SeenVoxels::plan(PassPlan& plan) {
     mark_.compileIf(!points_);
     if (points_) points_->plan(plan);
 }

@@ -34,7 +34,7 @@ class SeenVoxels {
         std::vector<uint32_t> sidesWithin;
     };
 
-    void plan(PassPlan& plan, uint64_t voxels);
+    void plan(PassPlan& plan);
     /// Nothing has been seen. Makes the buffers.
     void reset(PassContext& context, const SurfaceVoxels& voxels, const VoxelPatches& patches);
     /// @param gbuffer what the camera sees, and @param reach how many voxels along each axis count as round

@@ -139,8 +139,7 @@ class InjectClusters final : public Pass {
     Kernel bounceParts_{*this, "bounce.comp"};
     Kernel spread_{*this, "spread.comp"};
     LargeBuffer arriving_, bounced_;
-    Buffer direct_;                                                    ///< Scratch: of a chunk of surfels.
-    std::optional<std::tuple<uint64_t, uint64_t, uint64_t>> version_;  ///< Of voxels, lists and light.
+    Buffer direct_;  ///< Scratch: of a chunk of surfels.
 };
 
 void InjectClusters::plan(PassPlan& plan) {
@@ -150,12 +149,6 @@ void InjectClusters::plan(PassPlan& plan) {
     for (Kernel* kernel : {&senders_, &bounceParts_, &spread_}) kernel->compileIf(bouncesParts());
 
     requireClearPanes(*plan.frame.scene, kName);
-    const uint64_t voxels = plan[voxels_].voxelCount;
-    const uint64_t patches = ClusterLight::bytes(kPatchesPerVoxel * voxels);
-    plan.reserve("light of patches (estimated)", 2 * patches);
-    const uint64_t parts = kFaces * ClusterLight::bytes(kSidesPerVoxel * voxels);
-    plan.reserve("light of parts (estimated)", parts);
-    plan.reserveScratch("bounced light (estimated)", patches + (bouncesParts() ? 7 * parts : patches));
     if (isInjected()) {
         const std::optional<uint32_t> injected = plan[irradiance_].lightBounces;
         if (injected) plan[light_].lightBounces = *injected + params_.bounces;
@@ -163,7 +156,6 @@ void InjectClusters::plan(PassPlan& plan) {
     }
     plan[light_].lightBounces = params_.bounces;
     sources_ = requireLightSources(*plan.frame.scene, kName);
-    plan.reserveScratch("irradiance of surfels (estimated)", plan[surfels_].maxCount * sizeof(glm::vec3));
     if (!testsPoints()) {
         surfelLight_->plan(plan, Surfels::kChunk);
         plan.scratchBuffer(direct_, "direct irradiance of surfels", Surfels::kChunk * kIrradianceBytes);
@@ -178,14 +170,10 @@ void InjectClusters::plan(PassPlan& plan) {
 }
 
 void InjectClusters::record(PassContext& context) {
+    // Shadow rays are traced in each run: lights may have changed, which are no input
+    if (isInjected() && !context.inputsChanged()) return;
     const VoxelPatches& patches = context[patches_];
-    if (isInjected()) {
-        const std::tuple version{patches.version, context[visibility_].version, context[irradiance_].version};
-        if (version_ == version) return;
-        version_ = version;
-    }
     ClusterLight& light = context[light_];
-    ++light.version;
     const auto make = [&](auto& buffer, const char* name, uint64_t count) {
         makeOrKeep(buffer, context.device, name, ClusterLight::bytes(count));
     };

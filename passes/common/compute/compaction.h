@@ -14,10 +14,6 @@ class Compaction {
     /// @param indices a uint for each flagged item, or more.
     /// @param words of `flags`. @return the number of flagged items; waits for the device.
     uint32_t run(CommandStream& stream, const Buffer& flags, const Buffer& indices, uint32_t words) const;
-    /// Bytes of device memory that run() takes until it returns.
-    static uint64_t scratchBytes(uint32_t words) {
-        return uint64_t(words) * sizeof(uint32_t) + PrefixSum::scratchBytes(words);
-    }
 
  private:
     PrefixSum prefixSum_;

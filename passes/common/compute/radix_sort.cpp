@@ -15,21 +15,12 @@ uint32_t sortBlocksOf(uint32_t count) {
     return count / kBlockPairs + (count % kBlockPairs > 0 ? 1 : 0);
 }
 
-uint64_t bytesOf(uint32_t count) {
-    return uint64_t(count) * sizeof(uint32_t);
-}
-
 }  // namespace
 
 RadixSort::RadixSort(ProgramOwner& owner)
     : prefixSum_(owner, PrefixSum::Of::Values),
       count_(owner, "radix_sort.comp", {{"COUNT_DIGITS", "1"}}),
       scatter_(owner, "radix_sort.comp", {{"SCATTER", "1"}}) {}
-
-uint64_t RadixSort::scratchBytes(uint32_t count) {
-    const uint32_t counts = sortBlocksOf(count) * kDigits;
-    return 2 * bytesOf(count) + bytesOf(counts) + PrefixSum::scratchBytes(counts);
-}
 
 void RadixSort::record(CommandStream& stream, Buffer& keys, Buffer& values, uint32_t count,
                        uint32_t keyBits) {
@@ -44,7 +35,7 @@ void RadixSort::record(CommandStream& stream, Buffer& keys, Buffer& values, uint
     };
     require(otherKeys_, "radix sort keys", keys.bytes());
     require(otherValues_, "radix sort values", values.bytes());
-    require(counts_, "radix sort counts", bytesOf(counts));
+    require(counts_, "radix sort counts", uint64_t(counts) * sizeof(uint32_t));
     require(blockSums_, "radix sort sums", PrefixSum::scratchBytes(counts));
 
     for (uint32_t shift = 0; shift < keyBits; shift += kDigitBits) {

@@ -10,11 +10,10 @@ class RadixSort {
  public:
     explicit RadixSort(ProgramOwner& owner);
 
-    /// Sorts in place the first `count` pairs. @param keyBits bits of the keys that may be set, 1 to 32:
-    /// fewer take fewer passes. @throws Error for more pairs than 32768 blocks of 4096.
+    /// Sorts in place the first `count` pairs; keeps what it takes for the next call with as many. @param
+    /// keyBits bits of the keys that may be set, 1 to 32: fewer take fewer passes. @throws Error for more
+    /// pairs than 32768 blocks of 4096.
     void record(CommandStream& stream, Buffer& keys, Buffer& values, uint32_t count, uint32_t keyBits = 32);
-    /// Bytes of device memory that record() takes and keeps for the next call with as many pairs.
-    static uint64_t scratchBytes(uint32_t count);
 
  private:
     PrefixSum prefixSum_;

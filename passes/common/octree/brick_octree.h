@@ -4,11 +4,15 @@
 
 #include "graph/pass.h"
 #include "passes/common/compute/large_buffer.h"
-#include "passes/common/octree/brick_octree_count.h"
 #include "shaders/octree/brick_octree_types.h"
 #include "shaders/voxels/voxel_types.h"
 
 namespace voxray {
+
+/// The octree of Arnebäck 2017, chapter 3, as published: nodes of 11 words in blocks of eight siblings, and
+/// for each node that is subdivided or a leaf a brick of 3x3x3 values of 8 bits a channel at its corners, the
+/// centers of its edges and faces, and its own.
+constexpr uint64_t kBrickNodeBytes = 11 * sizeof(uint32_t), kBrickBytes = 27 * sizeof(uint32_t);
 
 /// Nodes of a level, in both sections.
 inline uint32_t nodesOf(const gpu::LevelNodes& level) {
@@ -21,20 +25,11 @@ inline uint32_t nodesOf(const gpu::LevelNodes& level) {
 /// shaders/octree/brick_octree.glsl.
 struct BrickOctree : Resource {
     gpu::VoxelGrid grid{};                ///< Its voxels are the leaves; known from plan() on.
-    BrickOctreeCount expected;            ///< About what it will hold; likewise.
-    bool moves = false;                   ///< Whether it has a dynamic section; likewise.
+    bool moves = false;                   ///< Whether surfaces move; likewise.
     LargeBuffer nodes;                    ///< gpu::BrickNode each; may have room for more.
     std::vector<gpu::LevelNodes> levels;  ///< Leaves first.
     uint32_t nodeCount = 0, brickCount = 0;
     uint32_t staticNodes = 0, staticBricks = 0;  ///< Of these, in the static section.
-    uint64_t version = 0;                        ///< Another one whenever the content is.
-
-    /// Nodes that the pool has room for at first: a few more than expected, since floats on the device may
-    /// take a sample on an edge that doubles don't, and an eighth more where surfaces move.
-    uint64_t room() const { return expected.nodes() + expected.nodes() / (moves ? 8 : 256) + 64; }
-    /// Bytes that building takes besides while it runs: where surfaces move the pool may outgrow that room,
-    /// and is there twice while it is copied.
-    uint64_t copyBytes() const { return moves ? room() * kBrickNodeBytes : 0; }
 };
 
 }  // namespace voxray

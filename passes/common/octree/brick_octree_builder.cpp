@@ -12,14 +12,13 @@ namespace {
 using gpu::BrickNode;
 using gpu::LevelNodes;
 static_assert(sizeof(BrickNode) == kBrickNodeBytes);
-constexpr uint32_t kLongestAxis = 1024;     // A node's place takes 10 bits an axis.
-constexpr uint32_t kScratchWordsANode = 3;  // Visited, flag, flags before.
+constexpr uint32_t kLongestAxis = 1024;  // A node's place takes 10 bits an axis.
 
-/// Room for so many nodes; those that are there stay. A pool that is outgrown gets an eighth to spare, so
-/// that what moves does not outgrow it in each frame.
+/// Room for so many nodes; those that are there stay. Where surfaces move there is an eighth to spare, so
+/// that they do not outgrow the pool in each frame.
 void grow(CommandStream& stream, BrickOctree& octree, uint64_t nodes) {
     if (octree.nodes && octree.nodes.bytes() >= nodes * kBrickNodeBytes) return;
-    if (octree.nodes) nodes += nodes / 8;
+    if (octree.moves) nodes += nodes / 8;
     const uint64_t bytes = nodes * kBrickNodeBytes;
     if (nodes > UINT32_MAX) throw Error("an octree of {} nodes can't be numbered in 32 bits", nodes);
     LargeBuffer larger(stream.device(), "octree nodes", bytes);
@@ -47,7 +46,7 @@ void BrickOctreeBuilder::build(CommandStream& stream, BrickOctree& octree, const
     octree.levels.assign(gridLevels(size), LevelNodes{});
     octree.levels.back().staticCount = 1;
     octree.nodeCount = octree.brickCount = 0;
-    grow(stream, octree, octree.room());
+    grow(stream, octree, 1);
     BrickNode root{};
     root.brick = NO_BRICK;
     stream.upload(octree.nodes, std::as_bytes(std::span(&root, 1)));
@@ -114,12 +113,6 @@ void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Se
         octree.brickCount += flagged;
         stream.finish();
     }
-}
-
-uint64_t BrickOctreeBuilder::scratchBytes(const BrickOctreeCount& count) {
-    uint64_t nodes = 0;
-    for (const BrickOctreeCount::Level& level : count.levels) nodes = std::max(nodes, level.nodes);
-    return nodes * kScratchWordsANode * sizeof(uint32_t) + PrefixSum::scratchBytes(uint32_t(nodes));
 }
 
 }  // namespace voxray

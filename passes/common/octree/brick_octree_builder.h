@@ -2,7 +2,6 @@
 
 #include "passes/common/compute/prefix_sum.h"
 #include "passes/common/octree/brick_octree.h"
-#include "passes/common/octree/brick_octree_count.h"
 
 namespace voxray {
 
@@ -16,15 +15,12 @@ class BrickOctreeBuilder {
 
     /// Builds the static section in place of all that was there. Waits for the device once a level.
     /// @param cells a uint for each fragment: its voxel, 10 bits an axis. More than one may be in a voxel.
-    /// The pool begins with octree.room() and grows where nodes are more.
+    /// The pool grows level by level.
     void build(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells,
                uint32_t fragments) const;
     /// Builds the dynamic section in place of the one that was there. Likewise.
     void rebuildDynamic(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells,
                         uint32_t fragments) const;
-
-    /// Bytes that either takes while it runs, for an octree with such nodes.
-    static uint64_t scratchBytes(const BrickOctreeCount& count);
 
  private:
     enum class Section { Static, Dynamic };

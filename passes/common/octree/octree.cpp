@@ -47,9 +47,6 @@ uint64_t OctreeSize::tableBytes() const {
 uint64_t OctreeSize::nodeBytes() const {
     return uint64_t(first().front()) * sizeof(uint32_t);
 }
-uint64_t OctreeSize::bytes() const {
-    return sizeof(OctreeHeader) + tableBytes() + nodeBytes();
-}
 
 Octree allocateOctree(CommandStream& stream, const OctreeSize& size) {
     if (size.levels() > OCTREE_MAX_LEVELS)

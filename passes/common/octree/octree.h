@@ -23,9 +23,6 @@ struct OctreeSize {
     uint32_t tableLevel() const;
 
     uint64_t tableBytes() const, nodeBytes() const;
-    uint64_t leafBytes() const { return uint64_t(nodes.front()) * sizeof(uint32_t); }
-    /// Of all that allocateOctree() makes; exact. leafBytes() come on top where leaves are listed.
-    uint64_t bytes() const;
 };
 
 /// Which voxels there are on each level, without any values: those are arrays of their own, by a node's
@@ -42,8 +39,7 @@ struct Octree {
 
 /// An octree without a list of its leaves. Nodes are undefined; the table holds the level above the root and
 /// nothing else.
-/// @throws Error for more than OCTREE_MAX_LEVELS or OCTREE_MAX_NODES, and over the memory limit, naming the
-/// number needed.
+/// @throws Error for more than OCTREE_MAX_LEVELS or OCTREE_MAX_NODES.
 Octree allocateOctree(CommandStream& stream, const OctreeSize& size);
 
 }  // namespace voxray

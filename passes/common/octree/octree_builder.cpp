@@ -81,14 +81,4 @@ std::vector<Buffer> OctreeBuilder::flag(CommandStream& stream, const SurfaceVoxe
     return flags;
 }
 
-uint64_t OctreeBuilder::scratchBytes(const OctreeSize& size) {
-    if (size.levels() == 1) return 0;
-    uint64_t bytes = size.levels() * sizeof(uint32_t);
-    for (uint32_t level = 1; level < size.levels(); ++level)
-        bytes += flagWords(levelResolution(size.resolution, level)) * sizeof(uint32_t);
-    // The step from level 1 to the leaves takes most: masks and ranks a word of four nodes, voxels a node.
-    const uint64_t words = (size.nodes[1] + 3) / 4, blocks = (words + 1023) / 1024 + 1;
-    return bytes + (2 * words + blocks + size.nodes[1]) * sizeof(uint32_t);
-}
-
 }  // namespace voxray

@@ -15,11 +15,7 @@ class OctreeBuilder {
     explicit OctreeBuilder(ProgramOwner& owner);
 
     /// The octree over `voxels`, which are held whole, with the list of its leaves. Waits for the device.
-    /// @throws Error over the memory limit, with the bytes needed, before it allocates the octree.
     Octree build(CommandStream& stream, const SurfaceVoxels& voxels) const;
-
-    /// Bytes that build() takes only while it runs, besides what it returns.
-    static uint64_t scratchBytes(const OctreeSize& size);
 
  private:
     /// The flags of each level above the leaves; sets size.nodes.

@@ -17,12 +17,12 @@ class DominantAxisWalk final : public RasterWalk {
  public:
     explicit DominantAxisWalk(uint32_t samples) : samples_(samples) {}
 
-    void plan(PassPlan& plan, const gpu::VoxelGrid& grid) override {
+    void plan(PassPlan& plan) override {
         if (!plan.device.geometryShader)
             throw Error("{} needs geometry shaders (geometryShader), which device '{}' lacks; use {}",
                         samples_ > 0 ? "voxelize_octree" : "voxelize: method dominant_axis", plan.device.name,
                         samples_ > 0 ? "voxelize and filter_voxels" : "method exact");
-        RasterWalk::plan(plan, grid);
+        RasterWalk::plan(plan);
     }
 
     std::unique_ptr<PassProgram> makeVisitor(ProgramOwner& owner, const std::string& shader,

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <string>
 
 #include "passes/common/triangle_walk/triangle_tiles.h"
@@ -13,16 +11,6 @@ namespace {
 /// Sutherland and Hodgman 1974 (clipping).
 class ExactWalk final : public TriangleWalk {
  public:
-    void plan(PassPlan& plan, const gpu::VoxelGrid& grid) override {
-        const glm::vec3& o = grid.origin;
-        const glm::uvec3& r = grid.resolution;
-        const std::string key = fmt::format("tiles for {} x {} x {} voxels of {} m from {} {} {} on", r.x,
-                                            r.y, r.z, grid.voxelSize, o.x, o.y, o.z);
-        plan.reserveScratch("tiles of triangles", plan.ofScene(key, [&] {
-            return TriangleTiles::bytes(plan.frame.scene->geometry, grid);
-        }));
-    }
-
     std::unique_ptr<PassProgram> makeVisitor(ProgramOwner& owner, const std::string& shader,
                                              const Defines& defines) const override {
         return std::make_unique<Kernel>(owner, shader + ".comp", defines);

@@ -4,7 +4,7 @@
 
 namespace voxray {
 
-void RasterWalk::plan(PassPlan& plan, const gpu::VoxelGrid&) {
+void RasterWalk::plan(PassPlan& plan) {
     const size_t triangles = plan.frame.scene->geometry.triangles.size();
     plan.scratchBuffer(drawn_, "triangles to draw", std::max<size_t>(triangles, 1) * sizeof(uint32_t));
 }

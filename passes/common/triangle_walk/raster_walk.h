@@ -7,7 +7,7 @@ namespace voxray {
 /// A walk that draws triangles: vertex shaders number the corners of `drawnTriangles`.
 class RasterWalk : public TriangleWalk {
  public:
-    void plan(PassPlan& plan, const gpu::VoxelGrid& grid) override;
+    void plan(PassPlan& plan) override;
     void select(PassContext& context, const gpu::VoxelGrid& grid, const VoxelRegion& region,
                 const std::vector<uint32_t>& triangles) override;
 

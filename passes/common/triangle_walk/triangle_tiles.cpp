@@ -1,7 +1,6 @@
 #include "passes/common/triangle_walk/triangle_tiles.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -53,16 +52,6 @@ TriangleTiles::TriangleTiles(CommandStream& stream, const Geometry& geometry, co
     buffer_ =
         Buffer(stream.device(), "tiles of triangles", std::max<size_t>(tiles.size(), 1) * sizeof(glm::uvec2));
     if (!tiles.empty()) stream.upload(buffer_, tiles);
-}
-
-uint64_t TriangleTiles::bytes(const Geometry& geometry, gpu::VoxelGrid grid) {
-    uint64_t tiles = 0;
-    grid.side = std::bit_ceil(std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z}));
-    grid.first = {};
-    const VoxelRegion region(grid);
-    for (uint32_t t = 0; t < geometry.triangles.size(); ++t)
-        forEachTile(geometry, grid, region, t, [&](uint32_t) { ++tiles; });
-    return tiles * sizeof(glm::uvec2);
 }
 
 }  // namespace voxray

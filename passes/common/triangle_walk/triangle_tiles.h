@@ -19,9 +19,6 @@ class TriangleTiles {
     const Buffer& buffer() const { return buffer_; }
     uint32_t count() const { return count_; }
 
-    /// Bytes of the tiles of all triangles, as if all of the grid were held.
-    static uint64_t bytes(const Geometry& geometry, gpu::VoxelGrid grid);
-
  private:
     Buffer buffer_;
     uint32_t count_ = 0;

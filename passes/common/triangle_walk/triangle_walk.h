@@ -20,9 +20,9 @@ namespace voxray {
 class TriangleWalk {
  public:
     virtual ~TriangleWalk() = default;
-    /// Reserves scratch memory for all triangles of the scene. @throws Error naming a feature that the device
-    /// lacks.
-    virtual void plan(PassPlan& plan, const gpu::VoxelGrid& grid) = 0;
+    /// Describes scratch memory for all triangles of the scene. @throws Error naming a feature that the
+    /// device lacks.
+    virtual void plan(PassPlan&) {}
     /// Makes a visitor for this method, a program of the owner. @param shader its path from "passes/" on
     /// without the extension: `shader`.comp includes triangle_walk/exact.glsl, `shader`.frag
     /// triangle_walk/raster.glsl.

@@ -26,11 +26,6 @@ class RegionMerge {
     void materials(CommandStream& stream, const PrefixSum& prefixSum, const SurfaceVoxels& rebuilt,
                    SurfaceVoxels& previous);
 
-    /// Bytes of scratch memory, besides the materials of the voxels: five words for every two of theirs.
-    static uint64_t scratchBytes(const SurfaceVoxels& voxels) {
-        return 5 * voxels.words() * sizeof(uint32_t);
-    }
-
  private:
     Kernel bits_, merge_, materials_;
     Buffer merged_;  ///< Occupancy, between the two steps.

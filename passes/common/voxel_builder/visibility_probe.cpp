@@ -90,12 +90,4 @@ Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels,
     return counts;
 }
 
-uint64_t VisibilityProbe::bytes(uint32_t voxelCount, uint32_t pointsPerFace) {
-    const uint64_t counts = uint64_t(voxelCount) * kCounts * sizeof(uint32_t);
-    if (pointsPerFace == 0) return counts;
-    return counts + sizeof(uint32_t) +
-           kBatchPoints * (2 * sizeof(glm::uvec2) /* with their staging */ + sizeof(ProbePoint) +
-                           2 * (sizeof(Ray) + sizeof(Hit)));
-}
-
 }  // namespace voxray

@@ -39,8 +39,6 @@ class VisibilityProbe {
     /// @return 9 uints a voxel, as visibility_count.comp adds them up; all 0 without points.
     Buffer run(PassContext& context, const SurfaceVoxels& voxels, const std::vector<uint32_t>& triangles,
                uint32_t pointsPerFace) const;
-    /// Bytes of scratch memory of run(), with what it returns.
-    static uint64_t bytes(uint32_t voxelCount, uint32_t pointsPerFace);
 
  private:
     Kernel emit_, count_;

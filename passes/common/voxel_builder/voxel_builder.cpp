@@ -5,13 +5,6 @@
 #include "passes/common/voxel_builder/surface_accumulator.h"
 
 namespace voxray {
-namespace {
-
-uint64_t materialBytes(const SurfaceVoxels& voxels) {
-    return voxels.voxelCount * sizeof(gpu::PackedVoxelMaterial);
-}
-
-}  // namespace
 
 VoxelBuilder::VoxelBuilder(ProgramOwner& owner, std::unique_ptr<TriangleWalk> walk, uint32_t visibilityRays)
     : walk_(std::move(walk)),
@@ -26,23 +19,10 @@ VoxelBuilder::VoxelBuilder(ProgramOwner& owner, std::unique_ptr<TriangleWalk> wa
 void VoxelBuilder::planVoxels(PassPlan& plan, SurfaceVoxels& voxels) {
     plan.buffer(voxels.occupancy, "voxel occupancy", voxels.words() * sizeof(uint32_t));
     plan.buffer(voxels.rank, "voxel ranks", voxels.words() * sizeof(uint32_t));
-    plan.reserve("surface voxels (estimated)", materialBytes(voxels));
 }
 
-uint64_t VoxelBuilder::bytes(const SurfaceVoxels& voxels) {
-    return 2 * voxels.words() * sizeof(uint32_t) + materialBytes(voxels);
-}
-
-void VoxelBuilder::planWork(PassPlan& plan, const SurfaceVoxels& voxels, bool updates) {
-    const uint64_t count = voxels.voxelCount;
-    plan.reserveScratch("surface accumulator (estimated)", count * ACCUMULATOR_UINTS * sizeof(uint32_t));
-    plan.reserveScratch("visibility probes (estimated)",
-                        VisibilityProbe::bytes(voxels.voxelCount, visibilityRays_));
-    // A region's voxels are held together with the previous ones: at worst all of them twice.
-    if (updates)
-        plan.reserveScratch("update of a region (at most)",
-                            RegionMerge::scratchBytes(voxels) + materialBytes(voxels));
-    walk_->plan(plan, voxels.grid);
+void VoxelBuilder::planWork(PassPlan& plan) {
+    walk_->plan(plan);
     largestEmission_ = 0;
     for (const Material& material : plan.frame.scene->scene->materials)
         for (int c = 0; c < 3; ++c) largestEmission_ = std::max(largestEmission_, material.emission[c]);
@@ -50,7 +30,6 @@ void VoxelBuilder::planWork(PassPlan& plan, const SurfaceVoxels& voxels, bool up
 
 void VoxelBuilder::build(PassContext& context, SurfaceVoxels& voxels) {
     voxelize(context, VoxelRegion(voxels.grid), voxels, nullptr);
-    ++voxels.version;
 }
 
 SurfaceVoxels VoxelBuilder::update(PassContext& context, const VoxelRegion& region, SurfaceVoxels& voxels) {
@@ -61,7 +40,6 @@ SurfaceVoxels VoxelBuilder::update(PassContext& context, const VoxelRegion& regi
     rebuilt.rank = Buffer(context.device, "voxel ranks", voxels.rank.bytes());
     voxelize(context, region, rebuilt, &voxels);
     merge_.materials(context.stream, prefixSum_, rebuilt, voxels);
-    ++voxels.version;
     return rebuilt;
 }
 
@@ -77,8 +55,7 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
     if (previous) merge_.occupancy(stream, region, *previous, target);
     target.voxelCount = prefixSum_.run(stream, target.occupancy, target.rank, uint32_t(target.words()));
     const uint64_t count = std::max(target.voxelCount, 1u);
-    target.materials =
-        LargeBuffer(context.device, "voxel materials", count * sizeof(gpu::PackedVoxelMaterial));
+    makeOrKeep(target.materials, context.device, "voxel materials", count * sizeof(gpu::PackedVoxelMaterial));
     if (target.voxelCount == 0) stream.fill(target.materials, 0);
 
     // Accumulate the surfaces' materials in fixed point, probe their visibility, and turn sums into averages.

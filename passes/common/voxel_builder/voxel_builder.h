@@ -39,13 +39,10 @@ class VoxelBuilder {
     /// @param visibilityRays visibility probes for as much area as a voxel's face has.
     VoxelBuilder(ProgramOwner& owner, std::unique_ptr<TriangleWalk> walk, uint32_t visibilityRays);
 
-    /// Describes the memory of `voxels`, whose grid is known and whose number is estimated.
+    /// Describes the memory of `voxels` that their grid tells.
     static void planVoxels(PassPlan& plan, SurfaceVoxels& voxels);
-    /// Bytes of the voxels that update() returns, where the region is all of the grid.
-    static uint64_t bytes(const SurfaceVoxels& voxels);
-    /// Reserves scratch memory for building them.
-    /// @param updates whether update() will be called.
-    void planWork(PassPlan& plan, const SurfaceVoxels& voxels, bool updates);
+    /// Describes what building them takes. @throws Error naming a feature that the device lacks.
+    void planWork(PassPlan& plan);
 
     /// Builds all voxels that the grid holds.
     void build(PassContext& context, SurfaceVoxels& voxels);

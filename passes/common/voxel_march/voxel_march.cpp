@@ -70,19 +70,12 @@ void VoxelMarch::plan(MemoryPlan& plan, const SurfaceVoxels& voxels) {
     for (Kernel* kernel : {&cells_, &along_[0], &along_[1], &along_[2]})
         kernel->compileIf(hasDistances(walk_));
     plan.buffer(counts_, "voxel march counts", kCountBytes);
+    if (walk_ != VoxelWalk::Bricks) return;
     const glm::uvec3 resolution = voxels.grid.resolution;
-    if (walk_ == VoxelWalk::Bricks) {
-        const uint64_t bytes = distanceBytes(resolution, kBrickLevel);
-        plan.buffer(bricks_, "bricks of voxels", brickBytes(resolution));
-        plan.buffer(distances_, kDistances, bytes);
-        plan.scratchBuffer(fewerAxes_, kFewerAxes, bytes);
-    }
-    if (!isOctree(walk_)) return;
-    const OctreeSize size{resolution, voxels.expectedCounts};
-    const uint64_t bytes = hasDistances(walk_) ? distanceBytes(resolution, distanceLevel(size)) : 0;
-    plan.reserve("octree (estimated)", size.bytes() - size.tableBytes() + bytes);
-    plan.reserveScratch("building (estimated)",
-                        size.tableBytes() + size.leafBytes() + OctreeBuilder::scratchBytes(size) + bytes);
+    const uint64_t bytes = distanceBytes(resolution, kBrickLevel);
+    plan.buffer(bricks_, "bricks of voxels", brickBytes(resolution));
+    plan.buffer(distances_, kDistances, bytes);
+    plan.scratchBuffer(fewerAxes_, kFewerAxes, bytes);
 }
 
 void VoxelMarch::begin(CommandStream& stream, const SurfaceVoxels& voxels) {

@@ -6,8 +6,8 @@ FaceIrradiance::FaceIrradiance(ProgramOwner& owner) : program_(owner, "face_irra
 
 void FaceIrradiance::update(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& area,
                             const LargeBuffer& flux, const LargeBuffer* added) {
-    makeOrKeep(faces_, stream.device(), "face irradiance", bytes(voxels.voxelCount));
     const uint32_t faces = voxels.voxelCount * kFaces;
+    makeOrKeep(faces_, stream.device(), "face irradiance", uint64_t(faces) * 4 * sizeof(float));
     stream.dispatch(program_, faces,
                     {{"FluxAt", flux.at()},
                      {"AddedAt", (added ? *added : flux).at()},

@@ -10,8 +10,6 @@ class FaceIrradiance {
  public:
     explicit FaceIrradiance(ProgramOwner& owner);
 
-    /// Bytes that update() allocates.
-    static uint64_t bytes(uint32_t voxelCount) { return uint64_t(voxelCount) * 4 * kFaces * sizeof(float); }
     /// Divides flux, and with `added` the sum of both, by area; allocates on the first call and where the
     /// number of voxels has changed. @param area, flux: as VoxelIrradiance holds them.
     void update(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& area,

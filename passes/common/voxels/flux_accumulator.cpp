@@ -9,7 +9,8 @@ FluxAccumulator::FluxAccumulator(ProgramOwner& owner) : resolve_(owner, "flux_ac
 
 void FluxAccumulator::begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels,
                             double power) {
-    sums_ = LargeBuffer(device, "flux accumulator", std::max(voxels.voxelCount, 1u) * kBytesPerVoxel);
+    const uint64_t sums = uint64_t(std::max(voxels.voxelCount, 1u)) * kFaces * 3;
+    sums_ = LargeBuffer(device, "flux accumulator", sums * sizeof(uint64_t));
     stream.fill(sums_, 0);
     unitsPerWatt_ = float(std::ldexp(1.0, 56) / power);
 }

@@ -11,8 +11,6 @@ namespace voxray {
 /// bindings().
 class FluxAccumulator {
  public:
-    static constexpr uint64_t kBytesPerVoxel = kFaces * 3 * sizeof(uint64_t);
-
     explicit FluxAccumulator(ProgramOwner& owner);
 
     /// Allocates and clears. @param power W of all light together. It makes 2^56 units, so that even all of

@@ -28,15 +28,12 @@ BytesPerVoxel bytesPerVoxel(Write write) {
 VoxelAccumulator::VoxelAccumulator(ProgramOwner& owner, const WriteParams& params)
     : params_(params), resolve_(owner, "voxel_accumulator_resolve.comp", defines(params.write)) {}
 
-uint64_t VoxelAccumulator::plan(const PassPlan& plan, const std::string& pass, const WriteParams& params,
-                                const SurfaceVoxels& voxels) {
+void VoxelAccumulator::plan(const PassPlan& plan, const std::string& pass, const WriteParams& params) {
     if (params.write == Write::Average && !plan.device.shaderInt64Atomics)
         throw Error(
             "{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics), which 'write: "
             "average' needs; choose another 'write'",
             pass, plan.device.name);
-    const BytesPerVoxel bytes = bytesPerVoxel(params.write);
-    return voxels.voxelCount * (bytes.sums + bytes.weights);
 }
 
 Defines VoxelAccumulator::defines(Write write) {
@@ -56,10 +53,7 @@ void VoxelAccumulator::begin(Device& device, CommandStream& stream, const Surfac
                              float typicalIrradiance) {
     const BytesPerVoxel bytes = bytesPerVoxel(params_.write);
     const auto clear = [&](Buffer& buffer, const char* name, uint64_t size) {
-        if (!buffer || buffer.bytes() != size) {
-            buffer = {};
-            buffer = Buffer(device, name, size);
-        }
+        makeOrKeep(buffer, device, name, size);
         stream.fill(buffer, 0);
     };
     clear(sums_, "voxel irradiance sums", voxels.voxelCount * bytes.sums);

@@ -54,10 +54,8 @@ class VoxelAccumulator {
  public:
     VoxelAccumulator(ProgramOwner& owner, const WriteParams& params);
 
-    /// Bytes that begin() allocates, for the pass to reserve. @throws Error where the device lacks 64-bit
-    /// atomics that `average` needs.
-    static uint64_t plan(const PassPlan& plan, const std::string& pass, const WriteParams& params,
-                         const SurfaceVoxels& voxels);
+    /// @throws Error naming `pass` where the device lacks 64-bit atomics that `average` needs.
+    static void plan(const PassPlan& plan, const std::string& pass, const WriteParams& params);
     /// Selects the write for a shader that includes shaders/voxels/voxel_accumulator.glsl.
     static Defines defines(Write write);
 

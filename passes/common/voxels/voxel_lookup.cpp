@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "passes/common/view/frame_image.h"
 
 namespace voxray {
 
@@ -30,7 +29,7 @@ void VoxelLookupPass::plan(PassPlan& plan) {
             "to {}; set the 'reach' of gather_clusters to {}",
             reach(), *known, reach());
     if (flux_ == &VoxelIrradiance::indirect) plan[reflected_].lightBounces = plan[irradiance_].lightBounces;
-    plan.image(plan[reflected_].image, portName_, frameImageDesc(plan.frame));
+    plan.frameImage(reflected_);
 }
 
 void VoxelLookupPass::record(PassContext& context) {

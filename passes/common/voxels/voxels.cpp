@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "base/error.h"
+#include "scene/region_split.h"
 
 namespace voxray {
 
@@ -15,7 +17,6 @@ std::vector<Binding> SurfaceVoxels::bindings(std::vector<Binding> more) const {
 }
 
 void VoxelIrradiance::allocate(Device& device, uint32_t voxelCount) {
-    ++version;
     const uint64_t fluxBytes = uint64_t(voxelCount) * kFluxWords * sizeof(uint32_t);
     if (direct && direct.bytes() == fluxBytes) return;
     direct = {}, indirect = {}, area = {};  // The previous ones go first.
@@ -58,6 +59,21 @@ gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t 
     grid.side = std::bit_ceil(resolution);
     grid.directions = 6;
     return grid;
+}
+
+double estimateVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
+    double area = 0;
+    for (uint32_t t = 0; t < geometry.triangles.size(); ++t) {
+        if (!isInRegion(geometry, t)) continue;
+        const glm::uvec3 v = geometry.triangles[t];
+        const glm::dvec3 a = geometry.positions[v.x], b = geometry.positions[v.y],
+                         c = geometry.positions[v.z];
+        area += 0.5 * glm::length(glm::cross(b - a, c - a));
+    }
+    // A plane of the area of one voxel's face passes through |nx| + |ny| + |nz| voxels: 3/2 on average over
+    // all directions.
+    const double voxels = 1.5 * area / (double(grid.voxelSize) * grid.voxelSize);
+    return std::min(voxels, double(grid.resolution.x) * grid.resolution.y * grid.resolution.z);
 }
 
 }  // namespace voxray

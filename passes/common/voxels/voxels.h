@@ -25,17 +25,11 @@ struct SurfaceVoxels : Resource {
     gpu::VoxelGrid grid{};
     /// Areas count only sides of surfaces with open space in front of them, and so must the light on them.
     bool unoccludedOnly = false;
-    uint32_t voxelCount = 0;  ///< Occupied voxels; known once the voxelizing pass has run.
-    /// About as many voxels as surfaces will pass through, by level of ever larger ones, those of the grid
-    /// first: known from plan() on (voxel_count.h).
-    std::vector<uint32_t> expectedCounts;
-    /// Where surfaces move: about as many voxels as what stays passes through, the same at all times; known
-    /// from plan() on.
-    std::optional<uint32_t> stillCount;
-    uint64_t version = 0;   ///< Another one whenever the content is.
-    Buffer occupancy;       ///< 1 bit a voxel of the grid.
-    Buffer rank;            ///< 1 uint a word of `occupancy`: occupied voxels before it.
-    LargeBuffer materials;  ///< PackedVoxelMaterial a surface voxel.
+    uint32_t voxelCount = 0;    ///< Occupied voxels; known once the voxelizing pass has run.
+    double estimatedCount = 0;  ///< About as many, for estimates of memory; known from plan() on.
+    Buffer occupancy;           ///< 1 bit a voxel of the grid.
+    Buffer rank;                ///< 1 uint a word of `occupancy`: occupied voxels before it.
+    LargeBuffer materials;      ///< PackedVoxelMaterial a surface voxel.
 
     uint64_t words() const {
         const glm::uvec3 held = heldVoxels(grid).size;
@@ -65,7 +59,6 @@ struct VoxelIrradiance : Resource {
     LargeBuffer direct;    ///< W, straight from the lights: kFluxWords a voxel.
     LargeBuffer indirect;  ///< W, after one bounce or more; likewise.
     Buffer area;           ///< In units of a voxel's face: kAreaWords a voxel.
-    uint64_t version = 0;  ///< Another one whenever the light has been measured again.
     /// Of voxels that lie as many along each axis round what the camera sees alone; nullopt: no such bound.
     /// Set in plan().
     std::optional<uint32_t> reach;
@@ -87,5 +80,8 @@ void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const Voxe
 /// The smallest grid of cubic voxels round a box, `resolution` voxels along its longest side, with an eighth
 /// of a voxel to spare, so that no surface lies on its border.
 gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t resolution);
+
+/// About how many voxels of a grid surfaces pass through, by their area.
+double estimateVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid);
 
 }  // namespace voxray

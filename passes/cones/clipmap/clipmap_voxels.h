@@ -13,7 +13,7 @@ namespace voxray {
 /// below.
 struct ClipmapVoxels : Resource {
     struct Level {
-        SurfaceVoxels voxels;         ///< All that the window holds; about their number is planned.
+        SurfaceVoxels voxels;         ///< All that the window holds.
         std::vector<VoxelBox> boxes;  ///< What was built again in this frame.
         SurfaceVoxels updated;  ///< The voxels of `boxes` alone; without content where these are the window.
     };

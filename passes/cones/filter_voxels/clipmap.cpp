@@ -1,5 +1,3 @@
-#include <utility>
-
 #include "passes/cones/clipmap/radiance_clipmap.h"
 #include "passes/cones/filter_voxels/radiance_storage.h"
 
@@ -26,8 +24,7 @@ class ClipmapStorage final : public RadianceStorage {
     void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
              RadianceVoxels& radiance, float emission) override {
         // Move the windows.
-        const std::pair version{voxels.version, light.version};
-        const bool keep = !windows_.empty() && version == version_;
+        const bool keep = !context.changed(voxels) && !light.isNew;
         const std::vector<gpu::ClipmapWindow> windows = clipmap_.follow(context, radiance);
 
         // Fill what is new in them; where surfaces or their light are, everything.
@@ -53,7 +50,6 @@ class ClipmapStorage final : public RadianceStorage {
         }
         context.report(kUpdatedVoxels, double(updated));
         windows_ = windows;
-        version_ = version;
     }
 
  private:
@@ -61,7 +57,6 @@ class ClipmapStorage final : public RadianceStorage {
     RadianceClipmap clipmap_;
     Kernel fill_;
     std::vector<gpu::ClipmapWindow> windows_;  ///< As they were in the last run.
-    std::pair<uint64_t, uint64_t> version_{};  ///< Of the voxels and their light, likewise.
 };
 
 }  // namespace

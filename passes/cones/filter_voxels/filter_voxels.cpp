@@ -75,7 +75,7 @@ void FilterVoxels::plan(PassPlan& plan) {
                      grid.resolution, gridLevels(grid.resolution),
                      grid.directions, radianceUnit(*plan.frame.scene)};
     storage_->plan(plan, plan[voxels_], radiance);
-    if (params_.bounces > 0) bounces_.plan(plan, radiance, plan[voxels_].voxelCount, eachFrame_);
+    if (params_.bounces > 0) bounces_.plan(plan, radiance);
 }
 
 void FilterVoxels::prepare(PassSetup& setup) {
@@ -88,8 +88,9 @@ void FilterVoxels::record(PassContext& context) {
     const VoxelIrradiance& irradiance = context[irradiance_];
     RadianceVoxels& radiance = context[radiance_];
     const auto fill = [&](const LargeBuffer& indirect, bool last) {
-        storage_->run(context, voxels, {irradiance.direct, indirect, irradiance.area, irradiance.version},
-                      radiance, last && params_.emission ? 1.0f : 0.0f);
+        storage_->run(context, voxels,
+                      {irradiance.direct, indirect, irradiance.area, context.changed(irradiance_)}, radiance,
+                      last && params_.emission ? 1.0f : 0.0f);
     };
 
     // Each bounce carries all light of the last one on: one more of each order. What surfaces emit is not

@@ -13,7 +13,7 @@ struct SurfaceLight {
     const LargeBuffer& direct;
     const LargeBuffer& indirect;
     const Buffer& area;
-    uint64_t version;  ///< Another one whenever the light has been measured again.
+    bool isNew;  ///< Whether it has been measured again since the pass ran last.
 
     /// Of passes/cones/radiance/surface_radiance.glsl, besides the voxels'.
     std::vector<Binding> bindings() const {

@@ -1,6 +1,3 @@
-#include <algorithm>
-
-#include "base/error.h"
 #include "passes/common/octree/octree_builder.h"
 #include "passes/cones/filter_voxels/radiance_storage.h"
 #include "passes/cones/filter_voxels/svo_collapse.h"
@@ -18,20 +15,9 @@ class SvoStorage final : public RadianceStorage {
 
     void plan(PassPlan& plan, const SurfaceVoxels& voxels, RadianceVoxels& radiance) override {
         radiance.grid.unit = 1;  // Values have an exponent of their own.
-        const OctreeSize size{radiance.grid.resolution, voxels.expectedCounts};
-        const uint64_t octree = size.bytes() + svoValueBytes(size, radiance.grid.directions);
-        plan.reserve("octree (estimated)", octree);
-        const uint64_t lists = size.leafBytes() + SvoFilter::changedBytes(size);
-        const uint64_t building = OctreeBuilder::scratchBytes(size);
-        if (plan.phase == Phase::Frame) {
-            plan.reserve("leaves and changes (estimated)", lists);
-            plan.reserveScratch("building (estimated)", building);
-        } else {
-            // A collapsed octree next to the first one.
-            const uint64_t collapsing = octree + SvoCollapse::scratchBytes(size);
-            plan.reserveScratch("leaves and changes (estimated)", lists);
-            plan.reserveScratch("building, then collapsing (at most)", std::max(building, collapsing));
-        }
+        // Values of all levels, and a table of a word or so a voxel.
+        plan.estimate(voxels.estimatedCount * (4.0 / 3 * radiance.grid.directions + 0.5) *
+                      sizeof(glm::uvec2));
     }
 
     void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
@@ -76,7 +62,7 @@ class SvoStorage final : public RadianceStorage {
     OctreeBuilder builder_;
     SvoFilter filter_;
     SvoCollapse collapse_;
-    std::optional<uint64_t> version_;  ///< Of the voxels that it is built of.
+    std::optional<uint64_t> version_;  ///< Of the voxels that it is built of; none once it is closed.
     Buffer changed_;
 };
 

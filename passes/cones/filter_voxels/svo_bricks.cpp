@@ -26,15 +26,13 @@ class SvoBricksStorage final : public RadianceStorage {
                 "filter_voxels: layout svo_bricks is as published: one value a voxel for all directions; "
                 "here are {}. Set voxelize's 'directions' to 1, or set 'layout' to svo",
                 radiance.grid.directions);
-        octree_.expected = countBrickOctree(metVoxels(plan.frame.scene->geometry, voxels.grid), neighbors_);
         octree_.grid = voxels.grid;
         octree_.moves = !movingRuns(plan.frame.scene->geometry).empty();
-        const BrickOctreeCount& count = octree_.expected;
-        plan.reserveCounted("octree nodes (estimated)", octree_.room() * kBrickNodeBytes);
-        plan.reserveScratch("nodes' flags (estimated)",
-                            BrickOctreeBuilder::scratchBytes(count) + octree_.copyBytes() +
-                                (count.levels[0].opaque + 1) * sizeof(uint32_t) + sizeof(VkDeviceAddress));
-        BrickRadiance::plan(plan, radiance, count);
+        // With its neighbours a surface is some two layers thick at the grid's border, three elsewhere; each
+        // level has a quarter of the one below, and eight nodes for each brick of the one above.
+        plan.estimate(voxels.estimatedCount * (neighbors_ ? 8.0 / 3 : 4.0 / 3) *
+                      (2 * kBrickNodeBytes + kBrickBytes));
+        BrickRadiance::plan(plan, radiance);
         leaves_.define(radiance.defines());
     }
 

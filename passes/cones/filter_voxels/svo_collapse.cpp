@@ -84,11 +84,4 @@ RadianceVoxels SvoCollapse::shrink(CommandStream& stream, const RadianceVoxels& 
     return result;
 }
 
-uint64_t SvoCollapse::scratchBytes(const OctreeSize& size) {
-    // Marks, and the step of the largest level: masks and ranks a word of four nodes, place and voxel a node.
-    const uint64_t marks = (uint64_t(size.nodeCount()) + 31) / 32 + size.levels();
-    const uint64_t words = (uint64_t(size.nodes.front()) + 3) / 4, blocks = (words + 1023) / 1024 + 1;
-    return (marks + 2 * words + blocks + 2 * uint64_t(size.nodes.front()) + 2) * sizeof(uint32_t);
-}
-
 }  // namespace voxray

@@ -16,9 +16,6 @@ class SvoCollapse {
     /// device.
     void run(CommandStream& stream, RadianceVoxels& radiance) const;
 
-    /// Bytes that run() takes only while it runs, at most, besides a second, smaller octree.
-    static uint64_t scratchBytes(const OctreeSize& size);
-
  private:
     RadianceVoxels shrink(CommandStream& stream, const RadianceVoxels& radiance, const Buffer& uniform,
                           const OctreeSize& smaller) const;

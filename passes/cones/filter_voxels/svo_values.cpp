@@ -12,15 +12,7 @@ struct OctreeHeader {
 };
 static_assert(sizeof(gpu::RadianceGrid) % sizeof(VkDeviceAddress) == 0);
 
-uint64_t arrayBytes(const OctreeSize& size, uint32_t directions) {
-    return uint64_t(size.nodeCount()) * directions * sizeof(glm::uvec2);
-}
-
 }  // namespace
-
-uint64_t svoValueBytes(const OctreeSize& size, uint32_t directions) {
-    return sizeof(OctreeHeader) + arrayBytes(size, directions);
-}
 
 void allocateSvoValues(CommandStream& stream, Octree octree, RadianceVoxels& radiance) {
     Device& device = stream.device();
@@ -28,8 +20,8 @@ void allocateSvoValues(CommandStream& stream, Octree octree, RadianceVoxels& rad
     radiance.storage.clear();
     radiance.octree = std::move(octree);
     const OctreeSize& size = radiance.octree.size;
-    const Buffer& values =
-        radiance.storage.emplace_back(device, "octree values", arrayBytes(size, directions));
+    const Buffer& values = radiance.storage.emplace_back(
+        device, "octree values", uint64_t(size.nodeCount()) * directions * sizeof(glm::uvec2));
     radiance.header = Buffer(device, "octree values' header", sizeof(OctreeHeader));
     const OctreeHeader header{radiance.grid, values.address()};
     stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));

@@ -8,11 +8,7 @@ namespace voxray {
 /// Radiance of an octree's nodes: RadianceVoxels whose `octree` has the structure, with 64 bits by direction
 /// and node in `storage` (passes/cones/radiance/radiance_texel.glsl).
 
-/// Bytes of values and header over an octree; exact.
-uint64_t svoValueBytes(const OctreeSize& size, uint32_t directions);
-
 /// Gives `radiance`, whose grid is set, an octree and values for its nodes, which are left undefined.
-/// @throws Error over the memory limit, naming the number needed.
 void allocateSvoValues(CommandStream& stream, Octree octree, RadianceVoxels& radiance);
 
 /// Values of inner nodes from those of their children, from the leaves up.

@@ -1,6 +1,5 @@
 #include "base/error.h"
 #include "graph/registry.h"
-#include "passes/common/view/frame_image.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/cones/gather_cones/near_field.h"
 #include "passes/cones/gather_cones/specular_cones.h"
@@ -87,7 +86,7 @@ void GatherCones::plan(PassPlan& plan) {
     plan.buffer(cones_, "cones", coneSet(params_.cones).size() * sizeof(gpu::Cone));
     plan[indirect_].lightBounces = radiance.lightBounces;
     plan[indirect_].hasSpecularLobes = params_.specular > 0;
-    plan.image(plan[indirect_].image, "indirect", frameImageDesc(plan.frame));
+    plan.frameImage(indirect_);
     const ImageDesc traced = tracedImage(plan.frame, plan[gbuffer_].samples, params_.stride);
     plan.image(irradiance_, "gathered irradiance", traced);
     if (near_) {

@@ -1,6 +1,5 @@
 #include "passes/cones/gather_cones/specular_cones.h"
 
-#include "passes/common/view/frame_image.h"
 #include "passes/cones/gather_cones/lobe_types.h"
 
 namespace voxray {

@@ -12,11 +12,6 @@
 #include "passes/cones/radiance/cone_bounces.h"
 
 namespace voxray {
-namespace {
-
-constexpr uint64_t kLitAreaBytes = kFaces * sizeof(uint32_t);
-
-}  // namespace
 
 /// The layouts of radiance voxels that it can fill.
 enum class ClipmapLayout {
@@ -110,18 +105,7 @@ void LightClipmap::plan(PassPlan& plan) {
     storage_.plan(plan, kName, radiance);
     shadowMaps_.plan(plan, sources_, params_.shadowResolution);
 
-    // One level at a time; with bounces all of them
-    uint64_t largest = 0, sum = 0;
-    for (const ClipmapVoxels::Level& level : clipmap.levels) {
-        largest = std::max<uint64_t>(largest, level.voxels.voxelCount);
-        sum += level.voxels.voxelCount;
-    }
-    plan.reserveScratch("light of a level (estimated)",
-                        largest * (FluxAccumulator::kBytesPerVoxel + kLitAreaBytes));
-    plan.reserveScratch("irradiance (estimated)",
-                        VoxelIrradiance::bytes(uint32_t(params_.bounces > 0 ? sum : largest)));
-    if (params_.bounces > 0) bounces_.plan(plan, radiance, sum, false);
-    walk_->plan(plan, clipmap.levels[0].voxels.grid);
+    if (params_.bounces > 0) bounces_.plan(plan, radiance);
     for (Kernel* kernel : {&window_, &level_}) kernel->define(radiance.defines());
 }
 
@@ -189,18 +173,18 @@ VoxelIrradiance LightClipmap::light(PassContext& context, const SurfaceVoxels& v
                                     const std::vector<VoxelBox>& boxes) {
     CommandStream& stream = context.stream;
     const Geometry& geometry = context.frame.scene->geometry;
-    const uint32_t count = std::max(voxels.voxelCount, 1u);
+    const uint64_t count = std::max(voxels.voxelCount, 1u);
 
     // Light that arrives at the clipped fragments in the boxes
     const VoxelRegion region(voxels.grid, boxes);
     walk_->select(context, voxels.grid, region, region.triangles(geometry));
-    const Buffer litArea(context.device, "lit area", count * kLitAreaBytes);
+    const Buffer litArea(context.device, "lit area", count * kFaces * sizeof(uint32_t));
     stream.fill(litArea, 0);
     flux_.begin(context.device, stream, voxels, totalPower(sources_));
     const Bindings bindings{voxels, flux_.bindings(), shadowMaps_.bindings(), {"litArea", litArea}};
     walk_->run(context, *light_, voxels.grid, bindings.all(), flux_.unitsPerWatt());
     VoxelIrradiance irradiance;
-    irradiance.allocate(context.device, count);
+    irradiance.allocate(context.device, uint32_t(count));
     stream.fill(irradiance.indirect, 0);
     flux_.resolve(stream, voxels, irradiance.direct);
     context.dispatch(

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "graph/registry.h"
+#include "passes/common/compute/large_buffer.h"
 #include "passes/cones/radiance/cone_sets.h"
 #include "passes/cones/radiance/radiance_voxels.h"
 #include "passes/surfels/surfels.h"
@@ -53,9 +54,6 @@ class ProbeIrradiance final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Every so many-th surfel is a point. Odd, so that both sides of surfaces have their turn.
-    uint32_t stride(const Surfels& surfels) const;
-
     const Params params_;
     In<Surfels> surfels_{*this, "surfels", "points on surfaces, some of which are probed"};
     In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales"};
@@ -64,10 +62,6 @@ class ProbeIrradiance final : public Pass {
     std::vector<glm::vec4> last_;  ///< As `irradiance_` was in the last frame.
 };
 
-uint32_t ProbeIrradiance::stride(const Surfels& surfels) const {
-    return uint32_t((surfels.maxCount + params_.maxPoints - 1) / params_.maxPoints) | 1u;
-}
-
 void ProbeIrradiance::plan(PassPlan& plan) {
     if (!movingRuns(plan.frame.scene->geometry).empty())
         throw Error(
@@ -75,9 +69,6 @@ void ProbeIrradiance::plan(PassPlan& plan) {
             "take out scene.moving_spheres",
             kName);
     plan.buffer(cones_, "cones", coneSet(params_.cones).size() * sizeof(gpu::Cone));
-    const Surfels& surfels = plan[surfels_];
-    plan.buffer(irradiance_, "irradiance of points",
-                (surfels.maxCount / stride(surfels) + 1) * sizeof(glm::vec4));
     gather_.define(plan[radiance_].defines());
 }
 
@@ -86,8 +77,14 @@ void ProbeIrradiance::prepare(PassSetup& setup) {
 }
 
 void ProbeIrradiance::record(PassContext& context) {
-    // Gather at the points.
+    // Gather at the points: every so many-th surfel by its number, of which there are two for each point that
+    // was spread. An odd stride, so that both sides of surfaces have their turn.
     const Surfels& surfels = context[surfels_];
+    const uint64_t numbers = 2 * surfels.pointCount;
+    const uint32_t stride = uint32_t((numbers + params_.maxPoints - 1) / params_.maxPoints) | 1u;
+    makeOrKeep(irradiance_, context.device, "irradiance of points",
+               (numbers / stride + 1) * sizeof(glm::vec4));
+    if (context.changed(surfels_)) last_.clear();
     context.stream.fill(irradiance_, 0);
     for (const Surfels::Chunk& chunk : surfels.chunks)
         context.dispatch(gather_, chunk.count,
@@ -96,7 +93,7 @@ void ProbeIrradiance::record(PassContext& context) {
                           {"surfels", chunk.surfels},
                           {"irradiance", irradiance_},
                           {"count", chunk.count},
-                          {"stride", stride(surfels)},
+                          {"stride", stride},
                           {"coneCount", params_.cones},
                           {"samples", params_.coneSets}});
     const std::vector<glm::vec4> now =

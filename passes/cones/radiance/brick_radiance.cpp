@@ -23,11 +23,10 @@ Defines ofLayout() {
 BrickRadiance::BrickRadiance(ProgramOwner& owner)
     : transfer_(owner, "brick_transfer.comp", ofLayout()), filter_(owner, "brick_filter.comp", ofLayout()) {}
 
-void BrickRadiance::plan(PassPlan& plan, RadianceVoxels& radiance, const BrickOctreeCount& expected) {
+void BrickRadiance::plan(PassPlan& plan, RadianceVoxels& radiance) {
     radiance.grid.unit = 1;  // BrickScale has it.
     radiance.storage = std::vector<Buffer>(2);
     plan.buffer(radiance.storage[0], "bricks' scale", sizeof(uint32_t));
-    plan.reserveCounted("octree bricks (estimated)", expected.bricks() * kBrickBytes);
     plan.buffer(radiance.header, "octree of bricks' header", sizeof(Header));
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "passes/common/octree/brick_octree.h"
-#include "passes/common/octree/brick_octree_count.h"
 #include "passes/cones/radiance/radiance_voxels.h"
 
 namespace voxray {
@@ -13,8 +12,8 @@ class BrickRadiance {
  public:
     explicit BrickRadiance(ProgramOwner& owner);
 
-    /// Describes memory but for the nodes'; layout and grid of `radiance` are there, its unit is set.
-    static void plan(PassPlan& plan, RadianceVoxels& radiance, const BrickOctreeCount& expected);
+    /// Describes memory but for nodes and bricks; layout and grid of `radiance` are there, its unit is set.
+    static void plan(PassPlan& plan, RadianceVoxels& radiance);
     /// Where the octree changed: makes room for its bricks, and leads the shaders to them and to its nodes.
     void follow(CommandStream& stream, const BrickOctree& octree, RadianceVoxels& radiance) const;
     /// All that leaves' bricks lead to: values that adjacent bricks share made equal, then level by level the

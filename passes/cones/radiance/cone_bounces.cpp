@@ -7,14 +7,6 @@ namespace {
 
 constexpr uint32_t kBatchPairs = 1u << 18;  // Bounds the time of a dispatch.
 
-uint64_t coordinateBytes(uint64_t voxels) {
-    return voxels * sizeof(glm::uvec3);
-}
-
-uint64_t fluxBytes(uint64_t voxels) {
-    return voxels * kFluxWords * sizeof(uint32_t);
-}
-
 }  // namespace
 
 ConeBounces::ConeBounces(ProgramOwner& owner, uint32_t cones)
@@ -24,15 +16,10 @@ ConeBounces::ConeBounces(ProgramOwner& owner, uint32_t cones)
     for (Kernel* kernel : {&list_, &gather_}) kernel->compileIf(false);
 }
 
-void ConeBounces::plan(PassPlan& plan, const RadianceVoxels& radiance, uint64_t voxels, bool keeps) {
+void ConeBounces::plan(PassPlan& plan, const RadianceVoxels& radiance) {
     for (Kernel* kernel : {&list_, &gather_}) kernel->compileIf(true);
     gather_.define(radiance.defines());
     plan.buffer(coneSet_, "cones", coneSet(cones_).size() * sizeof(gpu::Cone));
-    const uint64_t light = coordinateBytes(voxels) + fluxBytes(voxels);
-    if (keeps)
-        plan.reserve("bounced light (estimated)", light);
-    else
-        plan.reserveScratch("bounced light (estimated)", light);
 }
 
 void ConeBounces::prepare(PassSetup& setup) {
@@ -41,14 +28,9 @@ void ConeBounces::prepare(PassSetup& setup) {
 
 void ConeBounces::list(PassContext& context, const SurfaceVoxels& voxels) {
     const uint64_t count = voxels.voxelCount;
-    if (!voxelCoordinates_ || voxelCoordinates_.bytes() != coordinateBytes(count)) {
-        voxelCoordinates_ = {};
-        voxelCoordinates_ = Buffer(context.device, "coordinates of surface voxels", coordinateBytes(count));
-    }
-    if (!flux_ || flux_.bytes() != fluxBytes(count)) {
-        flux_ = {};
-        flux_ = LargeBuffer(context.device, "bounced flux", fluxBytes(count));
-    }
+    makeOrKeep(voxelCoordinates_, context.device, "coordinates of surface voxels",
+               count * sizeof(glm::uvec3));
+    makeOrKeep(flux_, context.device, "bounced flux", count * kFluxWords * sizeof(uint32_t));
     const uint32_t words = uint32_t(voxels.words());
     context.dispatch(list_, words, {voxels, {"voxelCoordinates", voxelCoordinates_}, {"words", words}});
 }

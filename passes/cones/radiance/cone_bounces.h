@@ -33,9 +33,7 @@ class ConeBounces {
     ConeBounces(ProgramOwner& owner, uint32_t cones);
 
     /// Where light bounces: without it nothing is compiled. @param radiance with its layout.
-    /// @param voxels in all lists that light is gathered for.
-    /// @param keeps whether memory is kept from frame to frame; else it is scratch, for release() to free.
-    void plan(PassPlan& plan, const RadianceVoxels& radiance, uint64_t voxels, bool keeps);
+    void plan(PassPlan& plan, const RadianceVoxels& radiance);
     /// Likewise.
     void prepare(PassSetup& setup);
     /// Flux that arrives at the voxels' faces from what `radiance` holds now, into `flux()`.
@@ -46,7 +44,7 @@ class ConeBounces {
     const LargeBuffer& flux() const { return flux_; }
     /// The same, to keep: the next gather() begins again.
     LargeBuffer takeFlux() { return std::move(flux_); }
-    /// Frees what gather() took. Waits for the device.
+    /// Frees what gather() took and would keep for the next one. Waits for the device.
     void release(CommandStream& stream);
 
  private:

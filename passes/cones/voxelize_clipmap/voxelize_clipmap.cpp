@@ -1,12 +1,9 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "base/error.h"
 #include "graph/registry.h"
 #include "passes/common/voxel_builder/voxel_builder.h"
 #include "passes/common/voxels/grid_levels.h"
-#include "passes/common/voxels/voxel_count.h"
 #include "passes/cones/clipmap/clipmap_voxels.h"
 
 namespace voxray {
@@ -70,23 +67,14 @@ void VoxelizeClipmap::plan(PassPlan& plan) {
                     finest.directions, 1};
     clipmap.windows = ClipmapWindows(clipmap.grid, params_.clipmapResolution);
 
-    const std::vector<uint32_t> counts = plan.ofScene(
-        fmt::format("voxels of {} in windows of {}", params_.resolution, params_.clipmapResolution),
-        [&] { return countWindowVoxels(geometry, finest, params_.clipmapResolution); });
     clipmap.levels.resize(clipmap.windows.firstWhole() + 1);
-    SurfaceVoxels largest;
     for (uint32_t level = 0; level < clipmap.levels.size(); ++level) {
         SurfaceVoxels& voxels = clipmap.levels[level].voxels;
         voxels.unoccludedOnly = params_.visibilityRays > 0;
         voxels.grid = levelGrid(finest, level, params_.clipmapResolution);
-        voxels.voxelCount = counts[level];
         VoxelBuilder::planVoxels(plan, voxels);
-        // Known as updated up to the next frame.
-        plan.reserve("updated voxels (at most)", VoxelBuilder::bytes(voxels));
-        largest.voxelCount = std::max(largest.voxelCount, voxels.voxelCount);
     }
-    largest.grid = clipmap.levels[0].voxels.grid;
-    builder_.planWork(plan, largest, true);
+    builder_.planWork(plan);
 }
 
 void VoxelizeClipmap::record(PassContext& context) {

@@ -1,5 +1,4 @@
 #include <array>
-#include <optional>
 #include <utility>
 
 #include "graph/registry.h"
@@ -63,8 +62,7 @@ class GatherRays final : public Pass {
     In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
     FinalGather gather_{*this};
     FaceIrradiance faces_{*this};
-    std::optional<std::pair<uint64_t, uint64_t>> facesVersion_;  ///< Of the voxels and the light in them.
-    Buffer grid_;                                                ///< gpu::VoxelGrid
+    Buffer grid_;  ///< gpu::VoxelGrid
 };
 
 void GatherRays::plan(PassPlan& plan) {
@@ -75,17 +73,15 @@ void GatherRays::plan(PassPlan& plan) {
     settings.storedBounces = plan[irradiance_].lightBounces;
     gather_.plan(plan, settings);
     plan.buffer(grid_, "grid of voxels", sizeof(gpu::VoxelGrid));
-    plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(plan[voxels_].voxelCount));
 }
 
 void GatherRays::record(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
-    const VoxelIrradiance& light = context[irradiance_];
-    if (const std::pair version{voxels.version, light.version}; facesVersion_ != version) {
+    if (context.changed(voxels_) || context.changed(irradiance_)) {
+        const VoxelIrradiance& light = context[irradiance_];
         faces_.update(context.stream, voxels, light.area, light.indirect,
                       shadowRays() ? nullptr : &light.direct);
         context.stream.upload(grid_, std::vector{voxels.grid});
-        facesVersion_ = version;
     }
     gather_.record(context, voxels.bindings({faces_.binding(), {"grid", grid_}}));
 }

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -19,7 +17,6 @@
 #include "passes/common/voxels/voxels.h"
 #include "passes/hybrid_leaves/build_hybrid_leaves/cell_size.h"
 #include "passes/hybrid_leaves/build_hybrid_leaves/kept_leaves.h"
-#include "passes/hybrid_leaves/build_hybrid_leaves/leaf_counts.h"
 #include "passes/hybrid_leaves/build_hybrid_leaves/leaf_grids.h"
 #include "passes/hybrid_leaves/hybrid_leaves.h"
 
@@ -165,8 +162,7 @@ class BuildHybridLeaves final : public Pass {
     uint32_t pairCount_ = 0;
     uint32_t itemCount_ = 0;  ///< Of all lists.
     uint32_t builtLeaves_ = 0;
-    float cellUnit_ = 0;               ///< Units of area for a cell's face.
-    std::optional<uint64_t> version_;  ///< Of the voxels that it is built over.
+    float cellUnit_ = 0;  ///< Units of area for a cell's face.
 };
 
 uint32_t BuildHybridLeaves::gridLevels() const {
@@ -175,59 +171,23 @@ uint32_t BuildHybridLeaves::gridLevels() const {
 }
 
 void BuildHybridLeaves::plan(PassPlan& plan) {
-    const SurfaceVoxels& voxels = plan[voxels_];
-    const gpu::VoxelGrid& grid = voxels.grid;
+    const gpu::VoxelGrid& grid = plan[voxels_].grid;
     if (grid.side < std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z}))
         throw Error(
             "build_hybrid_leaves needs all voxels, and this grid holds a window of them: take voxelize");
     const Geometry& geometry = plan.frame.scene->geometry;
-    const std::string key = fmt::format("triangles of leaves {}", grid.voxelSize);
-    const auto counted =
-        plan.ofScene(key, [&] { return std::make_shared<const LeafCounts>(countLeaves(geometry, grid)); });
-    const LeafCounts& counts = *counted;
-    const uint64_t items = counts.items(params_.primitives);
-    const uint64_t grids = counts.grids(params_.primitives);
-    const uint64_t gridWords = grids * wordsPerGrid(params_.grid, gridLevels());
-    requireLeaves(items, kMaxListItems, "items of lists");
-    requireLeaves(gridWords, kMaxBoundBytes / sizeof(uint32_t) + 1, "words of grids");
-    const uint64_t cells = plan.ofScene(
-        fmt::format("cells {} {} {} {}", key, params_.primitives, params_.grid, gridLevels()), [&] {
-            return countGridCells(geometry, grid, counts, params_.primitives, params_.grid, gridLevels());
-        });
-    requireLeaves(cells, kMaxGridCells, "cells of grids");
-
     plan.buffer(plan[leaves_].header, "hybrid leaves' header", hybridHeaderBytes());
-    plan.reserve("hybrid leaves (estimated)", wordBytes(voxels.voxelCount));
-    if (!maskedTriangles(*plan.frame.scene).empty())
-        plan.reserve("voxels with masks", 2 * wordBytes(voxels.words()));
-    const CellSize size = cellSize(*plan.frame.scene->scene);
-    const uint64_t listBytes = wordBytes(items * LIST_ITEM_WORDS);
-    const uint64_t gridBytes = 2 * wordBytes(gridWords) + wordBytes(cells * size.words);
-    plan.reserve("lists of triangles (at most)", listBytes);
     plan.buffer(plan[leaves_].corners, "corners of triangles",
                 std::max<uint64_t>(geometry.triangles.size(), 1) * sizeof(std::array<glm::vec3, 3>));
-    plan.reserve("grids (at most)", gridBytes);
-    plan.reserveScratch("triangles of each leaf (estimated)", 4 * wordBytes(voxels.voxelCount));
-    plan.reserveScratch("triangles in grids (at most)",
-                        3 * wordBytes(counts.pairsInGrids(params_.primitives)));
-    plan.reserveScratch("sums of cells (at most)",
-                        cells * size.sums * sizeof(uint32_t) + PrefixSum::scratchBytes(uint32_t(gridWords)));
-    walk_->plan(plan, grid);
-    if (movingRuns(geometry).empty()) return;
-    kept_.emplace(*this);
-    plan.reserve("leaves of the last build (estimated)",
-                 2 * wordBytes(voxels.words()) + wordBytes(voxels.voxelCount));
-    plan.reserveScratch(
-        "update of a region (at most)",
-        2 * wordBytes(voxels.words()) + 3 * wordBytes(voxels.voxelCount) + listBytes + gridBytes);
+    walk_->plan(plan);
+    if (!movingRuns(geometry).empty()) kept_.emplace(*this).plan(plan, plan[voxels_]);
 }
 
 void BuildHybridLeaves::record(PassContext& context) {
+    if (!context.inputsChanged()) return;
     const SurfaceVoxels& surface = context[voxels_];
-    if (version_ == surface.version) return;
     const std::optional<std::vector<Box>>& changed = context.frame.changed;
-    const bool updates = kept_ && changed && version_ && *version_ + 1 == surface.version;
-    version_ = surface.version;
+    const bool updates = kept_ && changed && !context.isFirstRun();
     HybridLeaves& leaves = context[leaves_];
     if (updates) {
         const VoxelRegion region(surface.grid, changedVoxels(surface.grid, *changed));
@@ -240,7 +200,6 @@ void BuildHybridLeaves::record(PassContext& context) {
     }
     if (kept_) kept_->remember(context.stream, leaves.voxels(surface), std::move(counts_));
     counts_ = {};
-    ++leaves.version;
     const uint32_t lists = leaves.shape.leaves - leaves.gridCount - leaves.emptyCount;
     context.report("leaves with a list", lists);
     context.report("leaves with a grid", leaves.gridCount);
@@ -322,7 +281,10 @@ void BuildHybridLeaves::number(PassContext& context, const SurfaceVoxels& voxels
                      ofLeaves.all()});
     leaves.words = Buffer(context.device, "hybrid leaves", wordBytes(count));
     itemCount_ = sum_.run(stream, sizes, leaves.words, count);
+    requireLeaves(itemCount_, kMaxListItems, "items of lists");
     leaves.gridCount = sum_.run(stream, grids, grids, count);
+    requireLeaves(uint64_t(leaves.gridCount) * wordsPerGrid(params_.grid, gridLevels()),
+                  kMaxBoundBytes / sizeof(uint32_t) + 1, "words of grids");
     const Found numbers = stream.readAs<Found>(found, 1)[0];
     cellUnit_ = unitsPerFace(numbers.maxTriangles);
     pairCount_ = numbers.pairs;

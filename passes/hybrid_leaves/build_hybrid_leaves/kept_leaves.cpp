@@ -11,14 +11,15 @@ KeptLeaves::KeptLeaves(ProgramOwner& owner)
       bits_(owner, "keep_bits.comp"),
       cells_(owner, "keep_cells.comp") {}
 
+void KeptLeaves::plan(MemoryPlan& plan, const SurfaceVoxels& voxels) {
+    plan.buffer(occupancy_, "occupancy of the last leaves", voxels.words() * sizeof(uint32_t));
+    plan.buffer(rank_, "ranks of the last leaves", voxels.words() * sizeof(uint32_t));
+}
+
 void KeptLeaves::remember(CommandStream& stream, const SurfaceVoxels& numbered, Buffer counts) {
     previousCounts_ = std::move(counts);
-    const auto copy = [&](Buffer& to, const Buffer& from, const char* name) {
-        if (!to) to = Buffer(stream.device(), name, from.bytes());
-        stream.copy(from, to, from.bytes());
-    };
-    copy(occupancy_, numbered.occupancy, "occupancy of the last leaves");
-    copy(rank_, numbered.rank, "ranks of the last leaves");
+    stream.copy(numbered.occupancy, occupancy_, occupancy_.bytes());
+    stream.copy(numbered.rank, rank_, rank_.bytes());
     stream.finish();
 }
 

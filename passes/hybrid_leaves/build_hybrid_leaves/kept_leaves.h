@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "graph/memory_plan.h"
 #include "passes/hybrid_leaves/hybrid_leaves.h"
 #include "vulkan/commands.h"
 #include "vulkan/kernel.h"
@@ -19,6 +20,8 @@ class KeptLeaves {
  public:
     explicit KeptLeaves(ProgramOwner& owner);
 
+    /// Describes what leaves are numbered by.
+    void plan(MemoryPlan& plan, const SurfaceVoxels& voxels);
     /// After a build: what its leaves are numbered by, and the triangles of each.
     void remember(CommandStream& stream, const SurfaceVoxels& numbered, Buffer counts);
     /// Takes the last build's arrays out of `leaves`, all but the header. @param region a bit for each voxel

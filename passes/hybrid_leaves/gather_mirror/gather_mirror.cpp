@@ -11,7 +11,6 @@
 #include "graph/registry.h"
 #include "passes/common/compute/compaction.h"
 #include "passes/common/compute/random_seed.h"
-#include "passes/common/view/frame_image.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/view/specular_lobes.h"
 #include "passes/common/voxels/face_irradiance.h"
@@ -172,7 +171,6 @@ class GatherMirror final : public Pass {
     Kernel resolve_{*this, "resolve.comp"};
     Compaction compaction_{*this};
     FaceIrradiance faces_{*this};
-    std::optional<std::pair<uint64_t, uint64_t>> facesVersion_;  ///< Of the voxels and the light in them.
     std::vector<LightSource> sources_;
     std::optional<SurfelLight> hitLight_;  ///< With shadow rays.
     std::optional<HybridTracer> hybrid_;   ///< With a walk through hybrid leaves.
@@ -208,9 +206,8 @@ void GatherMirror::plan(PassPlan& plan) {
 
     plan.buffer(grid_, "grid of voxels", sizeof(gpu::VoxelGrid));
     plan.buffer(grazing_, "what a dielectric layer takes", GRAZING_COSINES * sizeof(float));
-    plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(plan[voxels_].voxelCount));
-    plan.image(plan[direct_].image, "direct", frameImageDesc(plan.frame));
-    plan.image(plan[indirect_].image, "indirect", frameImageDesc(plan.frame));
+    plan.frameImage(direct_);
+    plan.frameImage(indirect_);
     plan.image(plan[ends_].parts, "ends of mirror rays", frameImageDesc(plan.frame));
     // What voxels hold is reflected once more where rays end; an empty number counts as none.
     std::optional<uint32_t> bounces = oneMore(plan[irradiance_].lightBounces);
@@ -231,7 +228,6 @@ void GatherMirror::plan(PassPlan& plan) {
     }
     plan.buffer(hits_, "hits of mirror rays", slots * sizeof(Hit));
     plan.buffer(surfels_, "surfels at hits", (shadowRays() ? slots : 1) * sizeof(gpu::Surfel));
-    plan.reserveScratch("listing mirror rays", Compaction::scratchBytes(flagWords(slots)));
     wide_.compileIf(widens());
     if (widens()) wide_.define(plan[radiance_].defines());
     shade_.specialize({{"kShadowRays", shadowRays()}});
@@ -286,13 +282,11 @@ void GatherMirror::record(PassContext& context) {
 }
 
 void GatherMirror::updateFaces(PassContext& context) {
+    if (!context.changed(voxels_) && !context.changed(irradiance_)) return;
     const SurfaceVoxels& voxels = context[voxels_];
     const VoxelIrradiance& light = context[irradiance_];
-    const std::pair version{voxels.version, light.version};
-    if (facesVersion_ == version) return;
     faces_.update(context.stream, voxels, light.area, light.indirect, shadowRays() ? nullptr : &light.direct);
     context.stream.upload(grid_, std::vector{voxels.grid});
-    facesVersion_ = version;
 }
 
 void GatherMirror::gather(PassContext& context, const gpu::MirrorBatch& batch) {

@@ -1,4 +1,3 @@
-#include <optional>
 #include <vector>
 
 #include "graph/registry.h"
@@ -9,13 +8,6 @@
 #include "passes/surfels/surfels.h"
 
 namespace voxray {
-namespace {
-
-uint64_t faceBytes(const SurfaceVoxels& voxels) {
-    return uint64_t(voxels.voxelCount) * sizeof(uint32_t);
-}
-
-}  // namespace
 
 /// Lights only the faces of voxels that the frame's gather rays will read, each by paths from points on
 /// it: shadow rays to the lights, a diffuse ray on, and so on. Source: Magalhães 2020, section 6.1 (light
@@ -64,17 +56,13 @@ class InjectGatherHits final : public Pass {
     Buffer selected_, count_;  ///< Of a chunk's surfels, those to light.
     Buffer faces_;             ///< A bit for each face that is read, in a word for each voxel.
     Buffer measured_;          ///< The same for each face that has surfels.
-    std::optional<uint64_t> measuredVersion_;  ///< Of the voxels; surfels change with them.
 };
 
 void InjectGatherHits::plan(PassPlan& plan) {
     plan[irradiance_].lightBounces = params_.bounces;
     sources_ = requireLightSources(*plan.frame.scene, kName);
-    const SurfaceVoxels& voxels = plan[voxels_];
     injection_.plan(plan, kName, params_, {Surfels::kChunk, true, params_.bounces > 0, params_.lightSamples},
-                    voxels);
-    plan.reserve("faces to light (estimated)", faceBytes(voxels));
-    plan.reserve("faces with surfels (estimated)", faceBytes(voxels));
+                    plan[voxels_]);
     plan.buffer(count_, "number of surfels to light", sizeof(uint32_t));
     plan.buffer(selected_, "surfels to light", Surfels::kChunk * sizeof(gpu::Surfel));
 }
@@ -91,19 +79,15 @@ void InjectGatherHits::markFaces(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
     const GatherHits& hits = context[hits_];
     const auto clear = [&](Buffer& buffer, const char* name) {
-        if (!buffer || buffer.bytes() != faceBytes(voxels)) {
-            buffer = {};
-            buffer = Buffer(context.device, name, faceBytes(voxels));
-        }
+        makeOrKeep(buffer, context.device, name, uint64_t(voxels.voxelCount) * sizeof(uint32_t));
         context.stream.fill(buffer, 0);
     };
     clear(faces_, "faces to light");
-    if (measuredVersion_ != voxels.version) {
+    if (context.changed(voxels_) || context.changed(surfels_)) {
         clear(measured_, "faces with surfels");
         for (const Surfels::Chunk& chunk : context[surfels_].chunks)
             context.dispatch(measure_, chunk.count,
                              {{"surfels", chunk.surfels}, {"measured", measured_}, {"count", chunk.count}});
-        measuredVersion_ = voxels.version;
     }
     for (uint32_t b = 0; b < hits.batches.size(); ++b) {
         const uint32_t rays = hits.batchBlocks(b) * hits.layout.raysPerBlock;

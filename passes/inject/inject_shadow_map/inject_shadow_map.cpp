@@ -56,8 +56,6 @@ void InjectShadowMap::plan(PassPlan& plan) {
     sources_ = requireViewpoints(*plan.frame.scene, kName);
     injection_.plan(plan, kName, params_, {Surfels::kChunk, false, params_.bounces > 0}, plan[voxels_]);
     shadowMap_.plan(plan, params_.shadowResolution);
-    plan.reserveScratch("surfels' direct irradiance (estimated)",
-                        plan[surfels_].maxCount * 4 * sizeof(float));
 }
 
 void InjectShadowMap::record(PassContext& context) {

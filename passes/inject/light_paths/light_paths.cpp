@@ -52,12 +52,9 @@ void LightPaths::plan(PassPlan& plan, const std::string& pass, uint32_t batch, c
         if (!plan.device.shaderInt64Atomics)
             throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", pass,
                         plan.device.name);
-        plan.reserveScratch("flux accumulator (estimated)",
-                            targets() * uint64_t(voxels.voxelCount) * FluxAccumulator::kBytesPerVoxel);
     } else {
         checkBeams(pass, params_, sources);
-        plan.reserveScratch("voxel samples (estimated)",
-                            targets() * VoxelAccumulator::plan(plan, pass, params_, voxels));
+        VoxelAccumulator::plan(plan, pass, params_);
     }
     plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
@@ -65,7 +62,7 @@ void LightPaths::plan(PassPlan& plan, const std::string& pass, uint32_t batch, c
     tint_.plan(plan, batch);
     plan.scratchBuffer(visibilityRays_, "visibility rays", batch * sizeof(Ray));
     plan.scratchBuffer(hidden_, "visibility results", batch * sizeof(uint32_t));
-    plan.reserve("irradiance (estimated)", VoxelIrradiance::bytes(voxels.voxelCount));
+    plan.estimate(voxels.estimatedCount * VoxelIrradiance::bytes(1));
 }
 
 void LightPaths::begin(PassContext& context, const SurfaceVoxels& voxels,

@@ -56,7 +56,7 @@ class LightPaths {
  public:
     LightPaths(ProgramOwner& owner, const LightPathParams& params);
 
-    /// Describes the memory, the result's included. @param batch rays that are followed at once, at most.
+    /// Describes the memory of rays and estimates the result's. @param batch rays followed at once, at most.
     /// @throws Error naming `pass` for what these parameters, lights or the device can't do.
     void plan(PassPlan& plan, const std::string& pass, uint32_t batch, const SurfaceVoxels& voxels,
               const std::vector<LightSource>& sources);

@@ -81,14 +81,9 @@ void InjectRadiosity::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
     injection_.plan(plan, kName, params_, {Surfels::kChunk, false, false}, plan[voxels_]);
     light_.plan(plan, Surfels::kChunk);
-    const uint64_t surfels = plan[surfels_].maxCount;
-    plan.lightRays = surfels * plan.frame.scene->lights.size();
+    plan.lightRays = uint64_t(plan[surfels_].estimatedCount) * plan.frame.scene->lights.size();
     // A ray's is about 1.
     plan[surfelIrradiance_].relativeVariance = 1.0f / float(plan[links_].raysPerSurfel);
-    if (plan[surfelIrradiance_].isRead)
-        plan.reserve("indirect irradiance of surfels (estimated)", surfels * kLitBytes);
-    plan.reserveScratch("light of surfels (estimated)",
-                        surfels * 2 * (kSurfelIrradianceBytes + kRadiosityBytes));
 }
 
 void InjectRadiosity::record(PassContext& context) {
@@ -160,9 +155,8 @@ void InjectRadiosity::bounce(PassContext& context, uint32_t number, const std::v
 void InjectRadiosity::keep(PassContext& context, const std::vector<ChunkLight>& light) {
     const SurfelsByVoxel& byVoxel = context[byVoxel_];
     SurfelIrradiance& kept = context[surfelIrradiance_];
-    kept.lit = {};
-    kept.lit = LargeBuffer(context.device, "indirect irradiance of surfels",
-                           std::max(byVoxel.slotCount, 1u) * kLitBytes);
+    makeOrKeep(kept.lit, context.device, "indirect irradiance of surfels",
+               std::max(byVoxel.slotCount, 1u) * kLitBytes);
     const std::vector<Surfels::Chunk>& chunks = context[surfels_].chunks;
     uint32_t first = 0;
     for (size_t i = 0; i < chunks.size(); ++i) {

@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <limits>
-#include <optional>
-#include <vector>
 
 #include "base/error.h"
 #include "graph/registry.h"
@@ -72,38 +70,29 @@ class LinkSurfels final : public Pass {
 };
 
 void LinkSurfels::plan(PassPlan& plan) {
-    const uint64_t surfels = plan[surfels_].maxCount, voxels = plan[voxels_].voxelCount;
     plan[links_].raysPerSurfel = params_.raysPerSurfel;
-    plan.reserve("surfel links (estimated)", surfels * params_.raysPerSurfel * sizeof(uint32_t));
-    plan.reserve("packed surfels (estimated)", surfels * kPackedSurfelBytes);
-    plan.reserveScratch("inverse distances of surfels (estimated)", surfels * sizeof(float));
+    plan.estimate(plan[surfels_].estimatedCount *
+                  (params_.raysPerSurfel * sizeof(uint32_t) + sizeof(gpu::SortedSurfel)));
     plan.scratchBuffer(rays_, "link rays", uint64_t(kBatchRays) * sizeof(Ray));
     plan.scratchBuffer(hits_, "link hits", uint64_t(kBatchRays) * sizeof(Hit));
     plan.scratchBuffer(probes_, "rays that tell covered hits", uint64_t(kBatchRays) * sizeof(Ray));
     plan.scratchBuffer(covered_, "link hits on covered sides", uint64_t(kBatchRays) * sizeof(uint32_t));
     plan.scratchBuffer(unlinked_, "number of hits without surfel", sizeof(uint32_t));
-    SurfelSort::plan(plan, plan[surfels_], voxels, plan[byVoxel_]);
     plan[byVoxel_].coveredSides = plan[surfels_].coveredSides;
-    if (plan[neighbours_].isRead) NeighbourSearch::plan(plan, plan[byVoxel_], voxels, plan[neighbours_]);
 }
 
 void LinkSurfels::record(PassContext& context) {
+    if (!context.inputsChanged()) return;  // Light alone has changed.
     SurfelLinks& links = context[links_];
-    const std::optional<std::vector<Box>>& changed = context.frame.changed;
-    if (changed && changed->empty() && links.links) return;  // Light alone has changed.
-
     const Surfels& surfels = context[surfels_];
-    uint64_t count = 0;
-    for (const Surfels::Chunk& chunk : surfels.chunks) count += chunk.count;
+    const uint64_t count = surfels.count;
     if (count * params_.raysPerSurfel >= std::numeric_limits<uint32_t>::max())
         throw Error(
             "{}: {} surfels with {} rays each are more links than can be numbered (2^32); lower "
             "'rays_per_surfel', or place_surfels's 'points_per_voxel'",
             kName, count, params_.raysPerSurfel);
     links.surfelCount = uint32_t(count);
-    links.links = {};
-    links.links =
-        LargeBuffer(context.device, "surfel links", count * params_.raysPerSurfel * sizeof(uint32_t));
+    makeOrKeep(links.links, context.device, "surfel links", count * params_.raysPerSurfel * sizeof(uint32_t));
 
     sort_.run(context.stream, surfels, context[voxels_].voxelCount, context[byVoxel_]);
     pack(context);
@@ -117,9 +106,9 @@ void LinkSurfels::record(PassContext& context) {
     }
     packDistance(context, inverseDistances);
     if (context[neighbours_].isRead)
-        context.report(
-            "radius of neighbours, voxels",
-            neighbourSearch_.run(context.stream, context[voxels_], context[byVoxel_], context[neighbours_]));
+        context.report("radius of neighbours, voxels",
+                       neighbourSearch_.run(context.stream, context[voxels_], surfels.pointCount,
+                                            context[byVoxel_], context[neighbours_]));
     const uint32_t unlinked = context.stream.readAs<uint32_t>(unlinked_, 1)[0];
     context.report("links", double(count) * params_.raysPerSurfel);
     context.report("hits without surfel, % of rays",
@@ -129,9 +118,8 @@ void LinkSurfels::record(PassContext& context) {
 void LinkSurfels::pack(PassContext& context) const {
     const SurfaceVoxels& voxels = context[voxels_];
     SurfelsByVoxel& byVoxel = context[byVoxel_];
-    byVoxel.packed = {};
-    byVoxel.packed =
-        LargeBuffer(context.device, "packed surfels", std::max(byVoxel.slotCount, 1u) * kPackedSurfelBytes);
+    makeOrKeep(byVoxel.packed, context.device, "packed surfels",
+               std::max(byVoxel.slotCount, 1u) * kPackedSurfelBytes);
     context.dispatch(pack_, voxels.voxelCount,
                      {voxels,
                       {"SortedAt", byVoxel.sorted.at()},

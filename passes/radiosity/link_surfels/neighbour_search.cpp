@@ -9,6 +9,14 @@ namespace {
 
 constexpr uint64_t kPairBytes = 2 * sizeof(uint32_t);
 
+/// Pairs on flat surfaces with so many points. A plane cuts through up to the root of 3 voxels for each
+/// square of their size, and a disk whose radius is a voxel's size is pi of these.
+uint64_t pairsOnPlanes(uint64_t points, uint32_t voxels) {
+    const double around = std::numbers::pi * std::numbers::sqrt3 * double(points) / std::max(voxels, 1u);
+    return std::min(uint64_t(2 * double(points) * around) + 2 * points,
+                    uint64_t(std::numeric_limits<uint32_t>::max()));
+}
+
 }  // namespace
 
 NeighbourSearch::NeighbourSearch(ProgramOwner& owner)
@@ -16,29 +24,16 @@ NeighbourSearch::NeighbourSearch(ProgramOwner& owner)
       list_(owner, "neighbours.comp"),
       prefixSum_(owner, PrefixSum::Of::Values) {}
 
-void NeighbourSearch::plan(PassPlan& plan, const SurfelsByVoxel& surfels, uint64_t voxels,
-                           SurfelNeighbours& to) {
-    // Half of the surfels at most look to one side. A plane cuts through up to the root of 3 voxels for each
-    // square of their size, and a disk whose radius is a voxel's size is pi of these.
-    const double around = std::numbers::pi * std::numbers::sqrt3 / 2 * double(surfels.maxCount) /
-                          double(std::max<uint64_t>(voxels, 1));
-    to.maxCount = std::min(uint64_t(double(surfels.maxCount) * around) + surfels.maxCount,
-                           uint64_t(std::numeric_limits<uint32_t>::max()));
-    plan.reserve("neighbours of surfels (estimated)",
-                 (surfels.maxCount + 1) * sizeof(uint32_t) + to.maxCount * kPairBytes);
-    plan.reserveScratch("counts of neighbours (estimated)",
-                        PrefixSum::scratchBytes(uint32_t(surfels.maxCount + 1)) + sizeof(uint32_t));
-}
-
-float NeighbourSearch::run(CommandStream& stream, const SurfaceVoxels& voxels, const SurfelsByVoxel& surfels,
-                           SurfelNeighbours& to) const {
+float NeighbourSearch::run(CommandStream& stream, const SurfaceVoxels& voxels, uint64_t points,
+                           const SurfelsByVoxel& surfels, SurfelNeighbours& to) const {
     Device& device = stream.device();
     const uint32_t slots = surfels.slotCount;
     to.begins = {}, to.pairs = {};
     to.begins = Buffer(device, "first neighbour of each surfel", (uint64_t(slots) + 1) * sizeof(uint32_t));
+    const uint64_t most = pairsOnPlanes(points, voxels.voxelCount);
     float radius = 1;
     uint64_t pairs = count(stream, voxels, surfels, radius * voxels.grid.voxelSize, to);
-    while (pairs > to.maxCount) {  // At radius 0 there are none.
+    while (pairs > most) {  // At radius 0 there are none.
         radius = radius > 0.01f ? kShrink * radius : 0;
         pairs = count(stream, voxels, surfels, radius * voxels.grid.voxelSize, to);
     }

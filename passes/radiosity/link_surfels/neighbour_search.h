@@ -12,13 +12,11 @@ class NeighbourSearch {
  public:
     explicit NeighbourSearch(ProgramOwner& owner);
 
-    /// Reserves what a flat surface has that cuts through as many voxels as one can.
-    static void plan(PassPlan& plan, const SurfelsByVoxel& surfels, uint64_t voxels, SurfelNeighbours& to);
-
-    /// Lists those within a voxel's size; where these are more than were planned for, within the largest of
-    /// the radii that shrink by kShrink that has no more. @return the radius, in voxels.
-    float run(CommandStream& stream, const SurfaceVoxels& voxels, const SurfelsByVoxel& surfels,
-              SurfelNeighbours& to) const;
+    /// Lists those within a voxel's size. Where these are more than a flat surface has that cuts through as
+    /// many voxels as one can: within the largest of the radii that shrink by kShrink that has no more.
+    /// @param points that surfels were placed at (Surfels::pointCount). @return the radius, in voxels.
+    float run(CommandStream& stream, const SurfaceVoxels& voxels, uint64_t points,
+              const SurfelsByVoxel& surfels, SurfelNeighbours& to) const;
 
  private:
     static constexpr float kShrink = 0.8f;

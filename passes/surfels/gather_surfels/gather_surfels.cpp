@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "graph/registry.h"
-#include "passes/common/view/frame_image.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/voxels/voxels.h"
 #include "passes/surfels/gather_surfels/undecided.h"
@@ -56,7 +55,7 @@ void GatherSurfels::plan(PassPlan& plan) {
         plan.scratchBuffer(probes_, "rays that tell covered surfaces", surfaces * sizeof(Ray));
         plan.scratchBuffer(covered_, "covered surfaces", surfaces * sizeof(uint32_t));
     }
-    plan.image(plan[indirect_].image, "indirect", frameImageDesc(plan.frame));
+    plan.frameImage(indirect_);
     for (Kernel* kernel : {&gather_, &resolve_})
         kernel->define({{"SAMPLES", std::to_string(samples)}, {"PROBED", probed_ ? "1" : "0"}});
     resolve_.compileIf(probed_);

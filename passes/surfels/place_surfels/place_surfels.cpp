@@ -9,6 +9,7 @@
 #include "graph/registry.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/voxels/voxels.h"
+#include "passes/surfels/still_voxels.h"
 #include "passes/surfels/surface_points.h"
 #include "passes/surfels/surfels.h"
 
@@ -65,37 +66,35 @@ class PlaceSurfels final : public Pass {
 
  private:
     /// The same at all times, where anything stays.
-    PointDensity density(const SurfaceVoxels& voxels, const SurfaceAreas& area) const;
+    PointDensity density(const Geometry& geometry, const SurfaceVoxels& voxels);
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
     Out<Surfels> surfels_{*this, "surfels", "points that measure irradiance"};
     Kernel place_{*this, "place.comp"};
     Kernel keep_{*this, "keep.comp"};
+    std::optional<uint32_t> stillVoxels_;  ///< Those that what stays passes through, where surfaces move.
     Buffer triangles_, rays_, occluded_, candidates_, kept_, count_;  ///< Scratch, of a batch of points.
 };
 
-PointDensity PlaceSurfels::density(const SurfaceVoxels& voxels, const SurfaceAreas& area) const {
+PointDensity PlaceSurfels::density(const Geometry& geometry, const SurfaceVoxels& voxels) {
+    const SurfaceAreas area = surfaceAreas(geometry);
     const double perVoxel = params_.pointsPerVoxel;
-    if (!voxels.stillCount) return {perVoxel * voxels.voxelCount, area.still};
+    if (movingRuns(geometry).empty()) return {perVoxel * voxels.voxelCount, area.still};
+    if (!stillVoxels_) stillVoxels_ = countStillVoxels(geometry, voxels.grid);
     // A plane of the area of one voxel's face passes through |nx| + |ny| + |nz| voxels, at most the root
     // of 3.
     const double known = area.still > 0 ? area.still : area.moving;
     const double most = std::sqrt(3.0) * known / (double(voxels.grid.voxelSize) * voxels.grid.voxelSize);
-    return {perVoxel * (area.still > 0 ? std::min(double(*voxels.stillCount), most) : most), known};
+    return {perVoxel * (area.still > 0 ? std::min(double(*stillVoxels_), most) : most), known};
 }
 
 void PlaceSurfels::plan(PassPlan& plan) {
     const SurfaceVoxels& voxels = plan[voxels_];
-    // What moves may grow.
-    const SurfaceAreas area = surfaceAreas(plan.frame.scene->geometry);
-    const PointDensity d = density(voxels, area);
-    double points = d.points;
-    if (voxels.stillCount && d.area > 0) points *= (area.still + 2 * area.moving) / d.area;
     Surfels& surfels = plan[surfels_];
-    surfels.maxCount = 2 * uint64_t(std::min(points, double(kMaxPoints)));
+    surfels.estimatedCount = 2.0 * params_.pointsPerVoxel * voxels.estimatedCount;
     surfels.coveredSides = params_.sides == SurfelSides::All && voxels.unoccludedOnly;
-    plan.reserve("surfels (estimated)", surfels.maxCount * sizeof(gpu::Surfel));
+    plan.estimate(surfels.estimatedCount * sizeof(gpu::Surfel));
     plan.scratchBuffer(triangles_, "surfels' triangles", kBatchPoints * sizeof(uint32_t));
     plan.scratchBuffer(rays_, "visibility rays", Surfels::kChunk * sizeof(Ray));
     plan.scratchBuffer(occluded_, "visibility results", Surfels::kChunk * sizeof(uint32_t));
@@ -109,14 +108,17 @@ void PlaceSurfels::record(PassContext& context) {
     Surfels& surfels = context[surfels_];
     CommandStream& stream = context.stream;
     const std::optional<std::vector<Box>>& changed = context.frame.changed;
-    if (changed && changed->empty() && !surfels.chunks.empty()) return;  // Light alone has changed.
+    if (changed && changed->empty() && !surfels.chunks.empty()) {  // Light alone has changed.
+        context.keepOutputs();
+        return;
+    }
     surfels.chunks.clear();
-    // No more than planned: the number of voxels was estimated.
+    surfels.count = 0;
     const Geometry& geometry = context.frame.scene->geometry;
-    PointDensity d = density(voxels, surfaceAreas(geometry));
-    if (!voxels.stillCount) d.points = std::min(d.points, double(surfels.maxCount / 2));
-    const std::vector<uint32_t> triangles = spreadPoints(geometry, d, surfels.maxCount / 2);
-    const uint64_t points = triangles.size();
+    PointDensity d = density(geometry, voxels);
+    d.points = std::min(d.points, double(kMaxPoints));
+    const std::vector<uint32_t> triangles = spreadPoints(geometry, d, kMaxPoints);
+    const uint64_t points = surfels.pointCount = triangles.size();
     for (uint64_t first = 0; first < points; first += kBatchPoints) {
         const uint32_t batch = uint32_t(std::min<uint64_t>(kBatchPoints, points - first));
         stream.upload(triangles_, std::as_bytes(std::span(triangles).subspan(first, batch)));
@@ -146,6 +148,7 @@ void PlaceSurfels::record(PassContext& context) {
         if (count == 0) continue;
         surfels.chunks.push_back({Buffer(context.device, "surfels", count * sizeof(gpu::Surfel)), count});
         stream.copy(kept_, surfels.chunks.back().surfels, count * sizeof(gpu::Surfel));
+        surfels.count += count;
     }
     stream.finish();
     if (surfels.chunks.empty())

@@ -44,10 +44,7 @@ class SmoothSurfels final : public Pass {
 };
 
 void SmoothSurfels::plan(PassPlan& plan) {
-    const uint64_t slots = plan[surfels_].maxCount;
     plan[smooth_].relativeVariance = plan[light_].relativeVariance;
-    plan.reserve("smooth irradiance of surfels (estimated)", slots * kLitBytes);
-    plan.reserveScratch("surroundings of surfels (estimated)", slots * (kSurroundingsBytes + kLitBytes));
 }
 
 void SmoothSurfels::record(PassContext& context) {
@@ -55,8 +52,7 @@ void SmoothSurfels::record(PassContext& context) {
     const uint32_t count = surfels.slotCount;
     const uint64_t slots = std::max(count, 1u);
     LargeBuffer& result = context[smooth_].lit;
-    result = {};
-    result = LargeBuffer(context.device, "smooth irradiance of surfels", slots * kLitBytes);
+    makeOrKeep(result, context.device, "smooth irradiance of surfels", slots * kLitBytes);
     LargeBuffer other(context.device, "irradiance one step before", slots * kLitBytes);
     const LargeBuffer surroundings(context.device, "surroundings of surfels", slots * kSurroundingsBytes);
 

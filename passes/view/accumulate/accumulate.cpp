@@ -1,7 +1,6 @@
 #include "graph/registry.h"
 #include "passes/common/filter/irradiance_resolve.h"
 #include "passes/common/filter/noisy_irradiance.h"
-#include "passes/common/view/frame_image.h"
 #include "passes/common/view/surface_motion.h"
 
 namespace voxray {
@@ -83,7 +82,7 @@ void Accumulate::plan(PassPlan& plan) {
     if (noisy.blockSize > 0) plan.buffer(result.moments, "moments of rays", noisy.momentsBytes(texels));
     FrameImage& indirect = plan[indirect_];
     indirect.lightBounces = noisy.lightBounces;
-    if (indirect.isRead) plan.image(indirect.image, "accumulated indirect", frameImageDesc(plan.frame));
+    if (indirect.isRead) plan.frameImage(indirect_);
 
     plan.image(frames_, "length of history", descOf(texels, VK_FORMAT_R32_SFLOAT));
     plan.image(historyLight_, "history of irradiance", descOf(texels, kWide));

@@ -1,5 +1,4 @@
 #include "graph/registry.h"
-#include "passes/common/view/frame_image.h"
 #include "passes/common/view/gbuffer.h"
 
 namespace voxray {
@@ -21,9 +20,7 @@ class Composite final : public Pass {
     };
     explicit Composite(const Params& params) : params_(params) {}
 
-    void plan(PassPlan& plan) override {
-        plan.image(plan[final_].image, "final", frameImageDesc(plan.frame));
-    }
+    void plan(PassPlan& plan) override { plan.frameImage(final_); }
     void record(PassContext& context) override {
         context.dispatch(kernel_, context.frame.pixels(),
                          {context[gbuffer_],

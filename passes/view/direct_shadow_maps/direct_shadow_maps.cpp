@@ -1,7 +1,6 @@
 #include "graph/registry.h"
 #include "passes/common/lights/pane_tint.h"
 #include "passes/common/lights/rsm.h"
-#include "passes/common/view/frame_image.h"
 #include "passes/common/view/gbuffer.h"
 
 namespace voxray {
@@ -20,7 +19,7 @@ class DirectShadowMaps final : public Pass {
 
     void plan(PassPlan& plan) override {
         requireClearPanes(*plan.frame.scene, kName);
-        plan.image(plan[direct_].image, "direct", frameImageDesc(plan.frame));
+        plan.frameImage(direct_);
     }
     void record(PassContext& context) override {
         const Rsm& rsm = context[rsm_];

@@ -5,7 +5,6 @@
 #include "graph/registry.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/lights/pane_tint.h"
-#include "passes/common/view/frame_image.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/voxel_march/voxel_tracer.h"
 
@@ -87,7 +86,7 @@ void DirectShadowRays::plan(PassPlan& plan) {
     tint_.plan(plan, rays);
     plan.lightRays = uint64_t(plan.frame.width) * plan.frame.height * gbuffer.samples * gbuffer.samples *
                      plan.frame.scene->lights.size();
-    plan.image(plan[direct_].image, "direct", frameImageDesc(plan.frame));
+    plan.frameImage(direct_);
     if (meetsVoxels()) voxelTracer_.emplace(*this, VoxelWalk::Bricks).plan(plan, plan[voxels_]);
     aim_.specialize({{"kMeetVoxels", meetsVoxels()}});
 }

@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "graph/registry.h"
 #include "passes/common/filter/noisy_irradiance.h"
-#include "passes/common/view/frame_image.h"
 #include "passes/view/filter_irradiance/filter_types.h"
 #include "scene/camera_rays.h"
 
@@ -94,7 +93,7 @@ void FilterIrradiance::plan(PassPlan& plan) {
             "with gaps; raise 'levels' to {2} or the gather's rays",
             noisy.spacing, params_.levels, minLevels);
     plan[indirect_].lightBounces = noisy.lightBounces;
-    plan.image(plan[indirect_].image, "filtered indirect", frameImageDesc(plan.frame));
+    plan.frameImage(indirect_);
     const ImageDesc values = elementsDesc(plan.frame, samples, VK_FORMAT_R32G32B32A32_SFLOAT);
     plan.image(surfaces_, "surfaces of pixels",
                elementsDesc(plan.frame, samples, VK_FORMAT_R32G32B32A32_UINT));

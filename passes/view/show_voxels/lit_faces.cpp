@@ -14,10 +14,6 @@ uint64_t ofFaces(uint64_t count) {
 LitFaces::LitFaces(ProgramOwner& owner)
     : countLit_(owner, "count_lit.comp"), countSeen_(owner, "count_seen.comp") {}
 
-uint64_t LitFaces::bytes(uint64_t voxels) {
-    return ofFaces(voxels) + ofFaces(kSidesPerVoxel * voxels);
-}
-
 void LitFaces::count(CommandStream& stream, uint32_t voxels, const VoxelPatches& patches,
                      const ClusterVisibility& visibility, const ClusterLight& light) {
     makeOrKeep(litOfParts_, stream.device(), "lit faces of parts", ofFaces(patches.partCount));

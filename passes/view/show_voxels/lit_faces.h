@@ -12,8 +12,6 @@ class LitFaces {
  public:
     explicit LitFaces(ProgramOwner& owner);
 
-    /// Bytes that it keeps, about.
-    static uint64_t bytes(uint64_t voxels);
     /// Counts again.
     void count(CommandStream& stream, uint32_t voxels, const VoxelPatches& patches,
                const ClusterVisibility& visibility, const ClusterLight& light);

@@ -4,7 +4,6 @@
 
 #include "base/error.h"
 #include "graph/registry.h"
-#include "passes/common/view/frame_image.h"
 #include "passes/common/voxel_march/voxel_march.h"
 #include "passes/common/voxels/face_irradiance.h"
 #include "passes/cones/radiance/radiance_voxels.h"
@@ -85,10 +84,9 @@ class ShowVoxels final : public Pass {
     In<ClusterLight> clusterLight_{*this, "cluster_light", "which patches are lit", showsLitFaces()};
     Out<FrameImage> final_{*this, "final", "voxels, as cubes"};
     Kernel program_{*this, showsLevel() ? "show_levels.comp" : "show_voxels.comp"};
-    std::optional<VoxelMarch> march_;                            ///< Of surface voxels.
-    std::optional<FaceIrradiance> faces_;                        ///< Where light is shown.
-    std::optional<LitFaces> litFaces_;                           ///< Where lit faces are shown.
-    std::optional<std::pair<uint64_t, uint64_t>> facesVersion_;  ///< Of the voxels or lists, and of light.
+    std::optional<VoxelMarch> march_;      ///< Of surface voxels.
+    std::optional<FaceIrradiance> faces_;  ///< Where light is shown.
+    std::optional<LitFaces> litFaces_;     ///< Where lit faces are shown.
 };
 
 ShowVoxels::ShowVoxels(const Params& params) : params_(params) {
@@ -98,7 +96,7 @@ ShowVoxels::ShowVoxels(const Params& params) : params_(params) {
 }
 
 void ShowVoxels::plan(PassPlan& plan) {
-    plan.image(plan[final_].image, "voxels", frameImageDesc(plan.frame));
+    plan.frameImage(final_);
     if (showsLevel()) {
         const RadianceVoxels& radiance = plan[radiance_];
         if (params_.level >= radiance.grid.levels)
@@ -110,14 +108,8 @@ void ShowVoxels::plan(PassPlan& plan) {
     const SurfaceVoxels& voxels = plan[voxels_];
     march_->plan(plan, voxels);
     Defines defines = march_->defines();
-    if (showsLight()) {
-        plan.reserve("face irradiance (estimated)", FaceIrradiance::bytes(voxels.voxelCount));
-        defines.emplace("SHOW_IRRADIANCE", "1");
-    }
-    if (showsLitFaces()) {
-        plan.reserve("lit faces (estimated)", LitFaces::bytes(voxels.voxelCount));
-        defines.emplace("SHOW_LIT_FACES", "1");
-    }
+    if (showsLight()) defines.emplace("SHOW_IRRADIANCE", "1");
+    if (showsLitFaces()) defines.emplace("SHOW_LIT_FACES", "1");
     program_.define(defines);
 }
 
@@ -143,21 +135,16 @@ void ShowVoxels::record(PassContext& context) {
 
 Binding ShowVoxels::faces(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
-    const auto isNew = [&](uint64_t of, uint64_t light) {
-        const std::pair version{of, light};
-        return std::exchange(facesVersion_, version) != version;
-    };
     if (showsLight()) {
         const VoxelIrradiance& light = context[irradiance_];
-        if (isNew(voxels.version, light.version))
+        if (context.changed(voxels_) || context.changed(irradiance_))
             faces_->update(context.stream, voxels, light.area, light.indirect, &light.direct);
         return faces_->binding();
     }
     if (showsLitFaces()) {
-        const ClusterVisibility& visibility = context[visibility_];
-        const ClusterLight& light = context[clusterLight_];
-        if (isNew(visibility.version, light.version))
-            litFaces_->count(context.stream, voxels.voxelCount, context[patches_], visibility, light);
+        if (context.changed(visibility_) || context.changed(clusterLight_))
+            litFaces_->count(context.stream, voxels.voxelCount, context[patches_], context[visibility_],
+                             context[clusterLight_]);
         return {"seenByFaces", litFaces_->seenByFaces()};
     }
     return {"VoxelMaterialsAt", voxels.materials.at()};

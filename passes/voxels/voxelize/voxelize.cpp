@@ -1,9 +1,6 @@
-#include <fmt/format.h>
-
 #include "base/error.h"
 #include "graph/registry.h"
 #include "passes/common/voxel_builder/voxel_builder.h"
-#include "passes/common/voxels/voxel_count.h"
 
 namespace voxray {
 
@@ -75,15 +72,10 @@ void VoxelizePass::plan(PassPlan& plan) {
     v.unoccludedOnly = params_.visibilityRays > 0;
     v.grid = makeVoxelGrid(geometry.region.min, geometry.region.max, params_.resolution);
     v.grid.directions = params_.directions;
-    v.expectedCounts = plan.ofScene(fmt::format("voxels of {}", params_.resolution),
-                                    [&] { return countSurfaceVoxels(geometry, v.grid); });
-    v.voxelCount = v.expectedCounts.front();
-    const bool moves = !movingRuns(geometry).empty();
-    if (moves)
-        v.stillCount = plan.ofScene(fmt::format("still voxels of {}", params_.resolution),
-                                    [&] { return countStillVoxels(geometry, v.grid); });
+    v.estimatedCount = estimateVoxels(geometry, v.grid);
+    plan.estimate(v.estimatedCount * sizeof(gpu::PackedVoxelMaterial));
     VoxelBuilder::planVoxels(plan, v);
-    builder_.planWork(plan, v, moves);
+    builder_.planWork(plan);
 }
 
 void VoxelizePass::record(PassContext& context) {
@@ -93,6 +85,8 @@ void VoxelizePass::record(PassContext& context) {
         builder_.build(context, v);
     else if (!changed->empty())
         builder_.update(context, VoxelRegion(v.grid, changedVoxels(v.grid, *changed)), v);
+    else
+        context.keepOutputs();
     if (v.voxelCount == 0)
         throw Error(
             "voxelize: no surface meets the grid of {}x{}x{} voxels; the scene needs triangles with an area, "

@@ -34,7 +34,6 @@ void VplCompensation::plan(PassPlan& plan, const Settings& settings, glm::uvec2 
     plan.scratchBuffer(rays_, "rays within the bound", uint64_t(batch) * sizeof(Ray));
     plan.scratchBuffer(hits_, "their hits", uint64_t(batch) * sizeof(Hit));
     plan.scratchBuffer(flags_, "flags of rays that hit", (uint64_t(batch) + 31) / 32 * sizeof(uint32_t));
-    plan.reserveScratch("compaction of rays that hit", Compaction::scratchBytes((batch + 31) / 32));
     plan.scratchBuffer(list_, "list of rays that hit", uint64_t(batch) * sizeof(uint32_t));
     plan.scratchBuffer(arriving_, "irradiance within the bound", uint64_t(batch) * 4 * sizeof(float));
 }

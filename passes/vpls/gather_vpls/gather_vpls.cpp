@@ -6,7 +6,6 @@
 #include "graph/registry.h"
 #include "passes/common/filter/irradiance_resolve.h"
 #include "passes/common/filter/noisy_irradiance.h"
-#include "passes/common/view/frame_image.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/voxel_march/voxel_tracer.h"
 #include "passes/hybrid_leaves/hybrid_tracer.h"
@@ -205,7 +204,7 @@ void GatherVpls::plan(PassPlan& plan) {
     plan.image(sums_, "sums over virtual point lights", NoisyIrradiance::desc(plan.frame, samples));
     plan.buffer(noisy.moments, "moments of virtual point lights", noisy.momentsBytes(texels));
     if (FrameImage& indirect = plan[indirect_]; indirect.isRead) {
-        plan.image(indirect.image, "indirect", frameImageDesc(plan.frame));
+        plan.frameImage(indirect_);
         resolve_.emplace(*this);
     }
     if (voxelTracer_) voxelTracer_->plan(plan, plan[voxels_]);

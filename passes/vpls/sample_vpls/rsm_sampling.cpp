@@ -20,9 +20,8 @@ void RsmSampling::plan(PassPlan& plan, const Rsm& rsm) {
     uint32_t views = 0;
     for (size_t s = 0; s < rsm.sources.size(); ++s)
         views = std::max(views, rsm.firstView[s + 1] - rsm.firstView[s]);
-    const uint32_t texels = views * rsm.texelsPerView();
-    plan.scratchBuffer(weights_, "weights of shadow maps' texels", uint64_t(texels) * sizeof(uint32_t));
-    plan.reserveScratch("prefix sums (estimated)", PrefixSum::scratchBytes(texels));
+    const uint64_t texels = uint64_t(views) * rsm.texelsPerView();
+    plan.scratchBuffer(weights_, "weights of shadow maps' texels", texels * sizeof(uint32_t));
 }
 
 void RsmSampling::emit(PassContext& context, const Rsm& rsm, size_t source, const Target& target) const {

@@ -156,8 +156,6 @@ void SampleVpls::plan(PassPlan& plan) {
     plan.buffer(vpls.list, "list of virtual point lights", points * sizeof(uint32_t));
     plan.buffer(order_, "order of light paths", vpls.paths * sizeof(uint32_t));
     plan.buffer(flags_, "flags of virtual point lights", (points + 31) / 32 * sizeof(uint32_t));
-    plan.reserveScratch("compaction of virtual point lights",
-                        Compaction::scratchBytes(uint32_t((points + 31) / 32)));
     plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
     plan.scratchBuffer(paths_, "light paths", batch * sizeof(gpu::LightPath));

@@ -1,5 +1,4 @@
 #include "graph/registry.h"
-#include "passes/common/view/frame_image.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/voxel_march/voxel_march.h"
 
@@ -22,7 +21,7 @@ class MutualVisibility final : public Pass {
 
     void plan(PassPlan& plan) override {
         march_.plan(plan, plan[voxels_]);
-        plan.image(plan[seen_].image, "seen", frameImageDesc(plan.frame));
+        plan.frameImage(seen_);
     }
     void record(PassContext& context) override {
         const SurfaceVoxels& voxels = context[voxels_];

@@ -2,7 +2,6 @@
 
 #include "graph/registry.h"
 #include "passes/common/compute/random_seed.h"
-#include "passes/common/view/frame_image.h"
 #include "passes/common/view/gbuffer.h"
 
 namespace voxray {
@@ -36,7 +35,7 @@ class AmbientOcclusion final : public Pass {
         const uint64_t rays = uint64_t(batchPixels_) * raysPerPixel_;
         plan.scratchBuffer(rays_, "ambient rays", rays * sizeof(Ray));
         plan.scratchBuffer(occluded_, "ambient rays' answers", rays * sizeof(uint32_t));
-        plan.image(plan[indirect_].image, "ambient light", frameImageDesc(plan.frame));
+        plan.frameImage(indirect_);
     }
 
     void record(PassContext& context) override {

@@ -1,5 +1,4 @@
 #include "graph/registry.h"
-#include "passes/common/view/frame_image.h"
 
 namespace voxray {
 
@@ -19,9 +18,7 @@ class Tint final : public Pass {
     };
     explicit Tint(const Params& params) : params_(params) {}
 
-    void plan(PassPlan& plan) override {
-        plan.image(plan[final_].image, "tinted image", frameImageDesc(plan.frame));
-    }
+    void plan(PassPlan& plan) override { plan.frameImage(final_); }
     void record(PassContext& context) override {
         context.dispatch(kernel_, context.frame.pixels(),
                          {{"source", context[source_].image},

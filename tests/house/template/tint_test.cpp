@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "graph/graph.h"
-#include "passes/common/view/frame_image.h"
 #include "scene/load.h"
 #include "tests/support/device.h"
 #include "tests/support/places.h"
@@ -15,9 +14,7 @@ class KnownImage final : public Pass {
     static constexpr const char* kName = "known_image";
     static constexpr const char* kHelp = "An image of radiance (1, 2, 3).";
     Phase phase() const override { return Phase::Frame; }
-    void plan(PassPlan& plan) override {
-        plan.image(plan[source_].image, "known", frameImageDesc(plan.frame));
-    }
+    void plan(PassPlan& plan) override { plan.frameImage(source_); }
     void record(PassContext& context) override {
         context.stream.clear(context[source_].image, VkClearColorValue{{1.0f, 2.0f, 3.0f, 1.0f}});
     }

@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -18,11 +17,6 @@ struct Header {
     VkDeviceAddress words;
     gpu::IrradianceTreeGrid grid;
 };
-
-/// Of a tree with a leaf for each face of each voxel: leaves, and splits.
-uint64_t maxBytes(uint32_t voxelCount) {
-    return uint64_t(voxelCount) * kFaces * (TREE_LEAF_WORDS + 1) * sizeof(uint32_t);
-}
 
 }  // namespace
 
@@ -70,25 +64,23 @@ class MergeVoxels final : public Pass {
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
     In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
     Out<IrradianceTree> tree_{*this, "irradiance_tree", "the same light, voxels that are alike merged"};
-    std::optional<std::pair<uint64_t, uint64_t>> version_;  ///< Of the voxels and the light in them.
 };
 
 void MergeVoxels::plan(PassPlan& plan) {
-    const SurfaceVoxels& voxels = plan[voxels_];
-    plan[tree_].lightBounces = plan[irradiance_].lightBounces;
-    plan[tree_].holdsDirect = params_.light == MergedLight::All;
-    plan.buffer(plan[tree_].header, "header of the irradiance tree", sizeof(Header));
-    plan.reserve("irradiance tree (at most)", maxBytes(voxels.voxelCount));
-    plan.reserve("occupancy and known faces", 2 * voxels.words() * sizeof(uint32_t) + voxels.voxelCount + 4);
+    IrradianceTree& tree = plan[tree_];
+    tree.lightBounces = plan[irradiance_].lightBounces;
+    tree.holdsDirect = params_.light == MergedLight::All;
+    const uint64_t bitBytes = plan[voxels_].words() * sizeof(uint32_t);
+    plan.buffer(tree.header, "header of the irradiance tree", sizeof(Header));
+    plan.buffer(tree.occupancy, "occupancy of merged voxels", bitBytes);
+    plan.buffer(tree.rank, "rank of merged voxels", bitBytes);
 }
 
 void MergeVoxels::record(PassContext& context) {
+    if (!context.inputsChanged()) return;
     const SurfaceVoxels& voxels = context[voxels_];
     const VoxelIrradiance& light = context[irradiance_];
     IrradianceTree& tree = context[tree_];
-    const std::pair version{voxels.version, light.version};
-    if (version_ == version) return;
-    version_ = version;
 
     // A tree for each face
     VoxelFaces all = readVoxelFaces(context.stream, voxels, light, tree.holdsDirect);
@@ -119,16 +111,9 @@ void MergeVoxels::record(PassContext& context) {
     context.stream.upload(tree.header, std::as_bytes(std::span(&header, 1)));
 
     // The voxels that they are for
-    const auto copied = [&](const Buffer& from, const char* name) {
-        Buffer copy(context.device, name, from.bytes());
-        context.stream.copy(from, copy, from.bytes());
-        return copy;
-    };
-    tree.occupancy = {};
-    tree.rank = {};
+    context.stream.copy(voxels.occupancy, tree.occupancy, tree.occupancy.bytes());
+    context.stream.copy(voxels.rank, tree.rank, tree.rank.bytes());
     tree.faces = {};
-    tree.occupancy = copied(voxels.occupancy, "occupancy of merged voxels");
-    tree.rank = copied(voxels.rank, "rank of merged voxels");
     tree.faces = Buffer(context.device, "faces of merged voxels", all.known.size() * sizeof(uint32_t));
     context.stream.upload(tree.faces, all.known);
     context.stream.finish();

@@ -1,5 +1,4 @@
 #include "graph/registry.h"
-#include "passes/common/view/frame_image.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/cones/radiance/radiance_voxels.h"
 
@@ -32,7 +31,7 @@ class GatherSteppedCones final : public Pass {
 
     void plan(PassPlan& plan) override {
         plan[indirect_].lightBounces = plan[radiance_].lightBounces;
-        plan.image(plan[indirect_].image, "indirect", frameImageDesc(plan.frame));
+        plan.frameImage(indirect_);
         trace_.define(plan[radiance_].defines());
     }
     void record(PassContext& context) override {

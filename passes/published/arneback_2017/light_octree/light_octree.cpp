@@ -2,6 +2,7 @@
 #include "passes/common/lights/pane_tint.h"
 #include "passes/common/lights/rsm.h"
 #include "passes/common/voxels/grid_levels.h"
+#include "passes/common/voxels/voxels.h"
 #include "passes/cones/radiance/brick_radiance.h"
 
 namespace voxray {
@@ -39,10 +40,9 @@ class LightOctree final : public Pass {
     Kernel scatter_{*this, "scatter.comp"};
     Kernel resolve_{*this, "resolve.comp"};
     Kernel write_{*this, "write.comp"};
-    LargeBuffer sums_;                 ///< gpu::LeafSum a leaf, of one light.
-    LargeBuffer leafRadiance_;         ///< W/(m² sr), three floats a leaf.
-    Buffer brightest_;                 ///< Of what a texel of a light brings, as the bits of a float.
-    std::optional<uint64_t> version_;  ///< Of the octree.
+    LargeBuffer sums_;          ///< gpu::LeafSum a leaf, of one light.
+    LargeBuffer leafRadiance_;  ///< W/(m² sr), three floats a leaf.
+    Buffer brightest_;          ///< Of what a texel of a light brings, as the bits of a float.
 };
 
 void LightOctree::plan(PassPlan& plan) {
@@ -53,11 +53,10 @@ void LightOctree::plan(PassPlan& plan) {
     radiance.layout = RadianceLayout::SvoBricks;
     const gpu::VoxelGrid& grid = octree.grid;
     radiance.grid = {grid.origin, grid.voxelSize, grid.resolution, gridLevels(grid.resolution), 1, 1};
-    BrickRadiance::plan(plan, radiance, octree.expected);
+    // With `brick_neighbors`; half as many without.
+    plan.estimate(estimateVoxels(plan.frame.scene->geometry, grid) * 8 / 3 * kBrickBytes);
+    BrickRadiance::plan(plan, radiance);
     plan.buffer(brightest_, "brightest texel", sizeof(uint32_t));
-    const uint64_t leaves = octree.expected.levels[0].nodes;
-    plan.reserveScratch("light of leaves (estimated)",
-                        (octree.moves ? 2 : 1) * leaves * (kLeafSumBytes + kLeafRadianceBytes));
     write_.define(radiance.defines());
 }
 
@@ -65,8 +64,7 @@ void LightOctree::record(PassContext& context) {
     const BrickOctree& octree = context[octree_];
     RadianceVoxels& radiance = context[radiance_];
     CommandStream& stream = context.stream;
-    if (version_ != octree.version) bricks_.follow(stream, octree, radiance);
-    version_ = octree.version;
+    if (context.changed(octree_)) bricks_.follow(stream, octree, radiance);
 
     // Light of each leaf
     const uint32_t leaves = nodesOf(octree.levels[0]);

@@ -10,8 +10,6 @@ struct FragmentList {
     LargeBuffer cells;    ///< Voxel, 10 bits an axis.
     LargeBuffer colors;   ///< Diffuse albedo, RGBA8.
     LargeBuffer normals;  ///< 0.5 n + 0.5 of the front-side normal n, RGBA8.
-
-    static uint64_t bytes(uint64_t fragments) { return 3 * fragments * sizeof(uint32_t); }
 };
 
 }  // namespace voxray

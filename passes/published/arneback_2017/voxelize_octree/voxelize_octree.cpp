@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -84,13 +82,10 @@ void VoxelizeOctree::plan(PassPlan& plan) {
     const Geometry& geometry = plan.frame.scene->geometry;
     BrickOctree& octree = plan[octree_];
     octree.grid = cubeRound(geometry.region.min, geometry.region.max, params_.resolution);
-    octree.expected =
-        plan.ofScene(fmt::format("octree of bricks, {} voxels, {} samples, neighbors {}", params_.resolution,
-                                 params_.samples, params_.brickNeighbors),
-                     [&] {
-                         return countBrickOctree(rasterizedVoxels(geometry, octree.grid, params_.samples),
-                                                 params_.brickNeighbors);
-                     });
+    // With its neighbours a surface is some two layers thick at the grid's border, three elsewhere; each
+    // level has a quarter of the one below, and eight nodes for each brick of the one above.
+    plan.estimate(estimateVoxels(geometry, octree.grid) * (params_.brickNeighbors ? 16.0 / 3 : 8.0 / 3) *
+                  kBrickNodeBytes);
 
     // What stays and what moves
     still_.clear();
@@ -101,27 +96,18 @@ void VoxelizeOctree::plan(PassPlan& plan) {
         triangles.resize(before + instance.triangleCount);
         std::iota(triangles.begin() + ptrdiff_t(before), triangles.end(), instance.firstTriangle);
     }
-
-    const BrickOctreeCount& expected = octree.expected;
-    plan.reserveCounted("octree nodes (estimated)", octree.room() * kBrickNodeBytes);
     octree.moves = !moving_.empty();
-
-    // What moves may turn more of itself towards an axis, and leave what stays
-    const uint64_t fragments =
-        plan.ofScene(fmt::format("fragments, {} voxels, {} samples", params_.resolution, params_.samples),
-                     [&] { return countFragments(geometry, octree.grid, params_.samples); });
-    plan.reserveScratch("fragments, and flags of nodes (estimated)",
-                        (octree.moves ? 2 : 1) * (FragmentList::bytes(fragments) +
-                                                  BrickOctreeBuilder::scratchBytes(expected)) +
-                            octree.copyBytes());
-    walk_->plan(plan, octree.grid);
+    walk_->plan(plan);
 }
 
 void VoxelizeOctree::record(PassContext& context) {
     BrickOctree& octree = context[octree_];
     CommandStream& stream = context.stream;
     const std::optional<std::vector<Box>>& changed = context.frame.changed;
-    if (hasStatic_ && changed && changed->empty()) return;
+    if (hasStatic_ && changed && changed->empty()) {
+        context.keepOutputs();
+        return;
+    }
     if (!hasStatic_ || !changed) {
         const FragmentList fragments = voxelize(context, still_);
         builder_.build(stream, octree, fragments.cells, fragments.count);
@@ -140,7 +126,6 @@ void VoxelizeOctree::record(PassContext& context) {
         assign(context, fragments);
         stream.finish();
     }
-    ++octree.version;
     context.report("dynamic nodes", double(octree.nodeCount - octree.staticNodes));
 }
 

@@ -2,7 +2,6 @@
 #include <utility>
 
 #include "graph/registry.h"
-#include "passes/common/view/frame_image.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/published/magalhaes_2020/packed_voxels.h"
 
@@ -39,7 +38,7 @@ class DirectPackedVoxels final : public Pass {
     explicit DirectPackedVoxels(const Params& params) : params_(params) {}
     void plan(PassPlan& plan) override {
         plan[direct_].lightBounces = plan[light_].lightBounces;
-        plan.image(plan[direct_].image, "direct", frameImageDesc(plan.frame));
+        plan.frameImage(direct_);
         program_.specialize({{"kSevenTap", params_.lookup == PackedLookup::SevenTap}});
     }
     void record(PassContext& context) override {

@@ -42,7 +42,7 @@ class VoxelizePacked final : public Pass {
         voxels.grid = makeVoxelGrid(geometry.region.min, geometry.region.max, params_.resolution);
         plan.buffer(voxels.normals, "packed normals", voxels.bytes());
         plan.buffer(voxels.albedos, "packed albedos", voxels.bytes());
-        walk_->plan(plan, voxels.grid);
+        walk_->plan(plan);
     }
     void record(PassContext& context) override {
         const PackedVoxels& voxels = context[voxels_];

@@ -1,8 +1,7 @@
-#include "passes/common/octree/brick_octree_count.h"
+#include "tests/support/brick_octree_count.h"
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <span>
 #include <utility>
 
@@ -58,22 +57,15 @@ void visitFragments(const std::array<glm::dvec3, 3>& corners, glm::ivec3 resolut
         }
 }
 
-/// Calls `visit` with the corners of each triangle, in voxels; from several threads.
-template <typename Visit>
-void visitTriangles(const Geometry& geometry, const gpu::VoxelGrid& grid, const Visit& visit) {
-    parallelRanges(geometry.triangles.size(), 1024, [&](size_t begin, size_t end) {
-        for (size_t t = begin; t < end; ++t) visit(cornersInVoxels(geometry, grid, uint32_t(t)));
-    });
-}
-
 /// The voxels that `visitOf(corners, mark)` finds of each triangle.
 template <typename VisitOf>
 VoxelBits voxelsOf(const Geometry& geometry, const gpu::VoxelGrid& grid, const VisitOf& visitOf) {
     VoxelBits bits(grid.resolution);
-    visitTriangles(geometry, grid, [&](const std::array<glm::dvec3, 3>& corners) {
-        visitOf(corners, [&](glm::ivec3 voxel) {
-            if (bits.isInside(voxel)) bits.mark(voxel);
-        });
+    parallelRanges(geometry.triangles.size(), 1024, [&](size_t begin, size_t end) {
+        for (size_t t = begin; t < end; ++t)
+            visitOf(cornersInVoxels(geometry, grid, uint32_t(t)), [&](glm::ivec3 voxel) {
+                if (bits.isInside(voxel)) bits.mark(voxel);
+            });
     });
     return bits;
 }
@@ -96,19 +88,12 @@ uint64_t BrickOctreeCount::bricks() const {
     return sum;
 }
 
-std::vector<VoxelBits> brickLevels(VoxelBits voxels, bool neighbors) {
-    std::vector<VoxelBits> levels;
-    while (true) {
-        levels.push_back(neighbors ? voxels.withNeighbors() : voxels);
-        if (voxels.size() == glm::uvec3(1)) return levels;
-        voxels = voxels.coarser();
-    }
-}
-
 BrickOctreeCount countBrickOctree(VoxelBits voxels, bool neighbors) {
     BrickOctreeCount count;
-    for (const VoxelBits& bricks : brickLevels(voxels, neighbors)) {
-        count.levels.push_back({voxels.count(), bricks.count(), 0});
+    while (true) {
+        const uint32_t bricks = (neighbors ? voxels.withNeighbors() : voxels).count();
+        count.levels.push_back({voxels.count(), bricks, 0});
+        if (voxels.size() == glm::uvec3(1)) break;
         voxels = voxels.coarser();
     }
     for (size_t level = 0; level + 1 < count.levels.size(); ++level)
@@ -121,17 +106,6 @@ VoxelBits rasterizedVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid,
     return voxelsOf(geometry, grid, [&](const std::array<glm::dvec3, 3>& corners, const auto& mark) {
         visitFragments(corners, glm::ivec3(grid.resolution), samplePoints(samples), mark);
     });
-}
-
-uint64_t countFragments(const Geometry& geometry, const gpu::VoxelGrid& grid, uint32_t samples) {
-    std::atomic<uint64_t> sum = 0;
-    visitTriangles(geometry, grid, [&](const std::array<glm::dvec3, 3>& corners) {
-        uint64_t fragments = 0;
-        visitFragments(corners, glm::ivec3(grid.resolution), samplePoints(samples),
-                       [&](glm::ivec3) { ++fragments; });
-        sum += fragments;
-    });
-    return sum;
 }
 
 VoxelBits metVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {

@@ -1,0 +1,112 @@
+// What passes are told of changes of their inputs.
+#include <gtest/gtest.h>
+
+#include "config/yaml.h"
+#include "graph/graph.h"
+#include "scene/load.h"
+#include "tests/support/places.h"
+
+namespace voxray {
+namespace {
+
+struct Number : Resource {
+    uint32_t value = 0;
+};
+
+/// Writes the scene's version; keeps what it has where the scene has not changed.
+struct Write final : Pass {
+    static constexpr const char* kName = "write";
+    static constexpr const char* kHelp = "Writes a number.";
+    void plan(PassPlan&) override {}
+    void record(PassContext& context) override {
+        if (!context.isFirstRun() && context[number_].value == context.frame.sceneVersion)
+            return context.keepOutputs();
+        context[number_].value = uint32_t(context.frame.sceneVersion);
+    }
+    Out<Number> number_{*this, "number", "a number"};
+};
+
+/// Writes twice the number where that is another one.
+struct Double final : Pass {
+    static constexpr const char* kName = "double";
+    static constexpr const char* kHelp = "Doubles a number.";
+    void plan(PassPlan&) override {}
+    void record(PassContext& context) override {
+        if (!context.inputsChanged()) return;
+        context[twice_].value = 2 * context[number_].value;
+        context.report("runs", ++runs_);
+    }
+    In<Number> number_{*this, "number", "a number"};
+    Out<Number> twice_{*this, "twice", "its double"};
+    uint32_t runs_ = 0;
+};
+
+/// Reports which of its inputs have changed.
+struct Watch final : Pass {
+    static constexpr const char* kName = "watch";
+    static constexpr const char* kHelp = "Watches numbers.";
+    void plan(PassPlan&) override {}
+    void record(PassContext& context) override {
+        context.report("first run", context.isFirstRun());
+        context.report("number", context.changed(number_));
+        context.report("twice", context.changed(context[twice_]));
+        context.report("absent", context.changed(absent_));
+    }
+    In<Number> number_{*this, "number", "a number"};
+    In<Number> twice_{*this, "twice", "its double"};
+    InOptional<Number> absent_{*this, "absent", "nothing"};
+};
+
+class GraphChanges : public testing::Test {
+ protected:
+    GraphChanges() {
+        registry_.add<Write>();
+        registry_.add<Double>();
+        registry_.add<Watch>();
+        graph_ = std::make_unique<Graph>(
+            registry_, parseYaml("[{pass: write}, {pass: double}, {pass: watch}]", "g.yaml"));
+        frame_.scene = &state_;
+        graph_->plan(frame_, device_.info(), device_.memoryLimitBytes());
+        graph_->prepare(frame_, device_, compiler_, stream_);
+    }
+    /// What Watch reports of a run, as "first run number twice absent".
+    std::string run() {
+        samples_ = graph_->run(Phase::Build, frame_, device_, stream_, *tracer_, scene_, 0, false);
+        std::string text;
+        for (const PassContext::Value& value : samples_.at(2).reported) text += value.value != 0 ? '1' : '0';
+        return text;
+    }
+
+    Device device_{{.name = "", .validation = true}};
+    ShaderCompiler compiler_{test::sourceRoot(), {}};
+    CommandStream stream_{device_};
+    const SceneState state_ = evaluate(makeBuiltinScene("cornell", Value()), 0.0);
+    const GpuScene scene_ = makeGpuScene(device_, stream_, state_);
+    const std::unique_ptr<RayTracer> tracer_ = makeRayTracer(TracerKind::Embree, device_, compiler_, state_);
+    Registry registry_;
+    Frame frame_;
+    std::unique_ptr<Graph> graph_;
+    std::vector<PassSample> samples_;
+};
+
+TEST_F(GraphChanges, AreToldOncePerReader) {
+    EXPECT_EQ(run(), "1110");
+    EXPECT_EQ(run(), "0000");
+    ++frame_.sceneVersion;
+    EXPECT_EQ(run(), "0110");
+    EXPECT_EQ(run(), "0000");
+}
+
+TEST_F(GraphChanges, WhoSeesNoneLeavesItsOutputs) {
+    run();
+    EXPECT_EQ(samples_.at(1).reported.size(), 1u);
+    run();
+    EXPECT_EQ(samples_.at(1).reported.size(), 0u);
+    frame_.sceneVersion += 3;
+    run();
+    EXPECT_EQ(samples_.at(1).reported.at(0).value, 2);
+    EXPECT_EQ(graph_->resource<Number>("twice")->value, 6u);
+}
+
+}  // namespace
+}  // namespace voxray
