@@ -10,7 +10,6 @@ import docs
 import hygiene
 import layers
 import skips
-import words
 
 
 class Tree(unittest.TestCase):
@@ -294,33 +293,6 @@ class Skips(Tree):
         self.assertEqual(len(self.run_of("[  SKIPPED ] Scenes.Small: no file\n")[1]), 1)
         self.assertEqual(len(self.run_of("test_a (x.Y.test_a) ... skipped 'no reason'")[1]), 1)
         self.assertEqual(len(self.run_of("not installed", '<skipped message="SKIP_RETURN_CODE=77"/>')[1]), 1)
-
-
-class Words(Tree):
-    def problems(self, text, path="passes/x.cpp"):
-        self.write(path, "int fine;\n" + text + "\n")
-        return words.check(self.root)
-
-    def test_words_of_our_own(self):
-        for text in ("// In the middle of a voxel.", "vec3 voxelMiddle;", "int MIDDLE_VOXEL;", "// The sphere's Centre.",
-                     "glm::vec3 sceneCentre;", "float formerLevel;", "// Formerly dark.", "// Voxels are renewed.",
-                     "constexpr int kMostRays = 3;", "int LEAST_LEVEL;", "FluxSums sums;", "int rays_at_least;",
-                     "// Built anew.", "// The file beside it.", "// What judges.", "// The lobe's cells.", "vec4 cover;",
-                     "// Radiance and cover.", "// Its share of light.", "float diffuseShare;", "// A voxel's side.",
-                     "// Many pieces.", "// A turned box.", "// Exposed faces.", "int levelAhead;"):
-            problems = self.problems(text)
-            self.assertEqual(len(problems), 1, (text, problems))
-            self.assertTrue(problems[0].startswith("passes/x.cpp:2: "), problems)
-        for path in ("docs/x.md", "configs/x.yaml", "shaders/x.glsl", "tests/x.py"):
-            found = [p for p in self.problems("# the middle", path) if p.startswith(path)]
-            self.assertEqual(len(found), 1, path)
-            os.remove(os.path.join(self.root, path))
-
-    def test_words_of_the_field_and_of_english(self):
-        for text in ("// Triangles cover it; they share a voxel. Surfaces covered by both sides.", "// All in one piece.",
-                     "// A cell of the octree; the exposure.", "bool sharesMemory;", "vec3 center;", "// At most three rays, at least one.", "int maxRays;",
-                     "// performer, transformed, reformer"):
-            self.assertEqual(self.problems(text), [], text)
 
 
 if __name__ == "__main__":
