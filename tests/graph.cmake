@@ -11,7 +11,7 @@ voxray_tests(regions
 
 # All others of passes, and the passes that the documentation shows: a new one is found by its place.
 file(GLOB CHAIN_TESTS CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}
-  gpu/*_test.cpp physics/*_test.cpp house/march/*.cpp house/occlusion/*.cpp)
+  gpu/*_test.cpp physics/*_test.cpp ../docs/examples/ambient_occlusion/*.cpp ../docs/examples/mutual_visibility/*.cpp)
 list(REMOVE_ITEM CHAIN_TESTS ${REGION_TESTS} ${PATH_TRACE_TESTS})
 voxray_tests(chain SHARDS 12
   SOURCES ${CHAIN_TESTS} support/brick_octree_count.cpp support/watched_device.cpp

@@ -17,5 +17,5 @@ set_tests_properties(house.tidy PROPERTIES SKIP_RETURN_CODE 77 ENVIRONMENT VOXRA
 
 # The template of docs/writing-a-pass.md, built and run as a real pass.
 voxray_tests(template
-  SOURCES house/template/tint.cpp house/template/tint_test.cpp support/watched_device.cpp
+  SOURCES ../docs/examples/tint/tint.cpp ../docs/examples/tint/tint_test.cpp support/watched_device.cpp
   DEPENDS voxray_graph)

@@ -72,16 +72,19 @@ THIRD_PARTY = {
     r"(glslang|SPIRV|spirv_cross)/": ["framework/vulkan/"],
     r"CLI/": ["framework/app/"],
     r"xxhash\.h": ["framework/base/"],
-    r"gtest/": ["tests/"],
+    r"gtest/": ["tests/", "docs/examples/"],
     r"benchmark/": ["tests/"],
 }
+
+# What nothing of the program includes.
+OUTER = ("tests/", "docs/examples/")
 
 SOURCE = re.compile(r"\.(h|hpp|cpp|glsl|comp|vert|geom|frag|rgen|rmiss|rchit|rahit)$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
 def sources(root):
-    for top in ("framework", "passes", "shaders", "tests"):
+    for top in ("framework", "passes", "shaders", "tests", "docs/examples"):
         for folder, folders, files in os.walk(os.path.join(root, top)):
             folders.sort()
             for name in sorted(files):
@@ -187,8 +190,8 @@ def problem_of_own(root, includer, included):
         problem = problem_of_families(root, includer, included)
         if problem:
             return problem
-    if included.startswith("tests/") and not includer.startswith("tests/"):
-        return f"{includer} includes {included}: nothing but tests includes tests"
+    if included.startswith(OUTER) and not includer.startswith(OUTER):
+        return f"{includer} includes {included}: nothing but tests and examples includes these"
     return None
 
 

@@ -103,7 +103,7 @@ class Layers(Tree):
                                          ("passes/view/one/x.cpp", "one.comp", True),
                                          ("passes/view/one/x.cpp", "passes/view/two/two.comp", False),
                                          ("passes/view/one/x.cpp", "../two/two.comp", False),
-                                         ("passes/view/one/x.cpp", "tests/house/template/tint.comp", False)):
+                                         ("passes/view/one/x.cpp", "docs/examples/tint/tint.comp", False)):
             self.write(path, f'    Kernel kernel_{{*this, "{shader}"}};\n')
             self.assertEqual(layers.check(self.root) == [], is_allowed, shader)
 

@@ -14,7 +14,7 @@ Chain boxOf(uint32_t size, const std::string& parameters, uint64_t seed = 1,
             const std::string& gbuffer = "gbuffer") {
     return Chain("cornell", "{lights: point, boxes: false}",
                  graphYaml({gbuffer, "ambient_occlusion" + parameters}), size, size, seed,
-                 [](Registry& registry) { addRegistered(registry, "tests/house/occlusion/"); });
+                 [](Registry& registry) { addRegistered(registry, "docs/examples/ambient_occlusion/"); });
 }
 
 float centerOf(const ImageF& image) {

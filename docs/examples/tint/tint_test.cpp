@@ -26,7 +26,7 @@ class KnownImage final : public Pass {
 Registry registryWithTint() {
     Registry registry;
     registry.add<KnownImage>();
-    addRegistered(registry, "tests/house/template/");
+    addRegistered(registry, "docs/examples/tint/");
     return registry;
 }
 

@@ -16,7 +16,8 @@ TEST(MutualVisibility, IsThatOfShadowRaysButForAFewVoxels) {
     Chain chain("cornell", "{lights: point}",
                 graphYaml({"gbuffer", "voxelize, resolution: 128",
                            fmt::format("mutual_visibility, x: {}, y: {}", x, y)}),
-                kSide, kSide, 1, [](Registry& registry) { addRegistered(registry, "tests/house/march/"); });
+                kSide, kSide, 1,
+                [](Registry& registry) { addRegistered(registry, "docs/examples/mutual_visibility/"); });
     const ImageF seen = chain.image("seen");
     const glm::vec4 from =
         chain.readImage<glm::vec4>(chain.graph().resource<GBuffer>("gbuffer")->position)[y * kSide + x];

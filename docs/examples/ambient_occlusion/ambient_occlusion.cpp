@@ -51,7 +51,7 @@ class AmbientOcclusion final : public Pass {
                                  {"radius", params_.radius},
                                  {"seed", randomSeed(context.frame, context.frameIndex)},
                                  {"ambient", params_.ambient}};
-            context.dispatch(aim_, rays, batch);
+            context.dispatch(generateRays_, rays, batch);
             context.tracer.occluded(context.stream, rays_, occluded_, rays);
             context.dispatch(average_, count,
                              {batch.all(), {"occluded", occluded_}, {"indirect", context[indirect_].image}});
@@ -65,7 +65,7 @@ class AmbientOcclusion final : public Pass {
     const Params params_;
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of ambient light"};
-    Kernel aim_{*this, "aim.comp"};
+    Kernel generateRays_{*this, "generate_occlusion_rays.comp"};
     Kernel average_{*this, "average.comp"};
     uint32_t raysPerPixel_ = 0, batchPixels_ = 0;
     Buffer rays_, occluded_;  ///< Of a batch of pixels.
