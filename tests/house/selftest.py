@@ -316,6 +316,14 @@ class Words(Tree):
             self.assertEqual(len(found), 1, path)
             os.remove(os.path.join(self.root, path))
 
+    def test_names_of_shaders(self):
+        self.assertEqual(self.problems("", "passes/view/one/aim.comp"),
+                         ["passes/view/one/aim.comp:1: 'aim': say generate_..., and what"])
+        os.remove(os.path.join(self.root, "passes/view/one/aim.comp"))
+        self.assertEqual(len(self.problems("", "passes/common/lights/pane_begin.glsl")), 1)
+        os.remove(os.path.join(self.root, "passes/common/lights/pane_begin.glsl"))
+        self.assertEqual(self.problems("", "passes/view/one/replace_history.comp"), [])
+
     def test_words_of_the_field_and_of_english(self):
         for text in ("// Triangles cover it; they share a voxel. Surfaces covered by both sides.", "// All in one piece.",
                      "// A cell of the octree; the exposure.", "bool sharesMemory;", "vec3 center;", "// At most three rays, at least one.", "int maxRays;",

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Checks the words of identifiers, parameters, comments and documentation: one meaning each, the field's own.
+"""Checks the words of identifiers, parameters, comments and documentation: one meaning each, the field's own. Names of
+shaders say what these do.
 
 words.py [ROOT]: prints "file:line: 'word': say ..."; exit status 1 where there is one. Identifiers are read word by
 word: `kMostRays` and `most_rays` hold "most rays".
@@ -47,6 +48,17 @@ IDENTIFIERS = [
     (r"shares?$", "fraction, weight or part", ()),
 ]
 
+# Words that names of shaders do without.
+SHADERS = {
+    "aim": "generate_..., and what",
+    "spread": "dilate, propagate_..., or scatter_..., and what",
+    "keep": "store_... or compact_..., and what",
+    "begin": "init_..., and what",
+    "place": "what it does",
+    "join": "what it joins",
+}
+SHADER_FOLDERS = ("passes/common/", "passes/view/", "passes/voxels/")  # Whose shaders have their names.
+
 IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
 
 
@@ -82,11 +94,20 @@ def problems_of(line):
                 yield f"'{name}': say {instead}"
 
 
+def problems_of_name(path):
+    name, ending = os.path.splitext(os.path.basename(path))
+    if path.startswith(SHADER_FOLDERS) and ending in (".glsl", ".comp", ".vert", ".geom", ".frag"):
+        for word in name.split("_"):
+            if word in SHADERS:
+                yield f"'{word}': say {SHADERS[word]}"
+
+
 def check(root):
     problems = []
     for path in hygiene.tracked(root):
         if not path.endswith(ENDINGS) or path == HERE or path == "tests/house/selftest.py":
             continue
+        problems += [f"{path}:1: {text}" for text in problems_of_name(path)]
         with open(os.path.join(root, path), encoding="utf-8", errors="replace") as file:
             for number, line in enumerate(file, 1):
                 problems += [f"{path}:{number}: {text}" for text in problems_of(line)]
