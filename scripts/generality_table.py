@@ -83,7 +83,7 @@ def table(rows, text):
     yield "|" + " --- |" * (1 + len(columns))
     for variant, inject in lines:
         found = [cells.get((variant, inject, *column), "") for column in columns]
-        yield f"| `{inject}`{', ' + variant if variant else ''} | " + " | ".join(found) + " |"
+        yield f"| {inject}{', ' + variant if variant else ''} | " + " | ".join(found) + " |"
 
 
 if __name__ == "__main__":

@@ -24,14 +24,14 @@ SHARED = {"gbuffer", "filter_irradiance"}
 LIGHT = {"inject", "few_rays", "inject_radiosity", "smooth_surfels", "update_radiance_cache", "sample_vpls", "select_vpls"}
 ERRORS = ("indirect_nrmse", "indirect_relmse")
 
-# Of each column: its title, the pass that its methods have, whether a build pass counts, and what does not count.
+# Of each column: its title, the id of a pass that its methods have, whether a build pass counts, and what does not count.
 COLUMNS = (("looked up", "inject_radiosity", lambda name: False, LEFT_OUT),
            ("looked up, new light", "inject_radiosity", lambda name: name in LIGHT, LEFT_OUT),
            ("voxels", "gather_rays", lambda name: False, LEFT_OUT),
            ("voxels, rays alone", "gather_rays", lambda name: False, LEFT_OUT | SHARED),
-           ("cache", "gather_cached_rays", lambda name: False, LEFT_OUT),
+           ("cache", "cached_rays", lambda name: False, LEFT_OUT),
            ("voxels, new light", "gather_rays", lambda name: name in LIGHT, LEFT_OUT),
-           ("cache, new light", "gather_cached_rays", lambda name: name in LIGHT, LEFT_OUT),
+           ("cache, new light", "cached_rays", lambda name: name in LIGHT, LEFT_OUT),
            ("voxels, new geometry", "gather_rays", lambda name: True, LEFT_OUT),
            ("virtual lights", "gather_vpls", lambda name: name in LIGHT, LEFT_OUT))
 
@@ -112,7 +112,7 @@ def best(folder):
     for scene, found in variants(folder).items():
         rivals = front([(frame_time(passes), float(row["indirect_nrmse"]))
                         for passes, row in found if samples_of(passes, row)])
-        for title, gather in (("looked up", "inject_radiosity"), ("voxels", "gather_rays"), ("cache", "gather_cached_rays")):
+        for title, gather in (("looked up", "inject_radiosity"), ("voxels", "gather_rays"), ("cache", "cached_rays")):
             mine = [(float(row["indirect_nrmse"]), frame_time(passes), row)
                     for passes, row in found if any(p["pass"] == gather for p in passes)]
             fast = [entry for entry in mine if is_no_slower(entry[1], entry[0], rivals)]

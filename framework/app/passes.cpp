@@ -35,10 +35,11 @@ std::string wrapped(const std::string& text, size_t firstColumn, size_t indent) 
     return out;
 }
 
-void printList(const Registry& registry) {
+void printList(const Registry& registry, bool withExperiments) {
     size_t widest = 0;
     for (const PassKind& kind : registry.kinds()) widest = std::max(widest, kind.name.size());
     for (const Family& family : kFamilies) {
+        if (family.isForExperiments && !withExperiments) continue;
         fmt::print("{}: {}\n", family.folder, family.title);
         for (const PassKind& kind : registry.kinds()) {
             if (kind.family != family.folder) continue;
@@ -47,6 +48,8 @@ void printList(const Registry& registry) {
         }
     }
     fmt::print("\nvoxray passes NAME tells a pass's ports and parameters.\n");
+    if (!withExperiments)
+        fmt::print("voxray passes --experiments adds those that measure for experiments.\n");
 }
 
 /// A name and what it is, in two columns.
@@ -94,11 +97,14 @@ void addPassesCommand(CLI::App& app, int&) {
     CLI::App* command = app.add_subcommand("passes", "List passes, or one pass's ports and parameters.");
     auto name = std::make_shared<std::string>();
     command->add_option("NAME", *name, "A pass.");
-    command->callback([name] {
+    auto withExperiments = std::make_shared<bool>(false);
+    command->add_flag("--experiments", *withExperiments, "List passes that measure for experiments, too.")
+        ->excludes("NAME");
+    command->callback([name, withExperiments] {
         Registry registry;
         registerPasses(registry);
         if (name->empty())
-            printList(registry);
+            printList(registry, *withExperiments);
         else
             printPass(registry.require(*name, {}));
     });

@@ -278,8 +278,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
 
         // Time the pass on the device; the Embree backend's host work falls between the stamps.
         PassContext context(node.resources, node.seenVersions ? &*node.seenVersions : nullptr, frame, device,
-                            stream, tracer, scene, frameIndex);
-        context.black = &impl_->black;
+                            stream, tracer, scene, impl_->black, frameIndex);
         const StreamCounts before = stream.counts();
         uint32_t begin = 0, end = 0;
         const auto record = [&] {

@@ -94,9 +94,11 @@ class PassSetup : public PortAccess {
 /// For running.
 class PassContext : public PortAccess {
  public:
-    /// @param seenVersions of the resources when the pass recorded last; null in its first run.
+    /// @param seenVersions of the resources when the pass recorded last; null in its first run
+    /// @param black a texel, for inputs that nothing writes
     PassContext(const std::vector<Resource*>& resources, const std::vector<uint64_t>* seenVersions,
-                const Frame& f, Device& d, CommandStream& s, RayTracer& t, const GpuScene& g, uint32_t index)
+                const Frame& f, Device& d, CommandStream& s, RayTracer& t, const GpuScene& g,
+                const Image& black, uint32_t index)
         : PortAccess(resources),
           frame(f),
           device(d),
@@ -104,7 +106,8 @@ class PassContext : public PortAccess {
           tracer(t),
           scene(g),
           frameIndex(index),
-          seenVersions_(seenVersions) {}
+          seenVersions_(seenVersions),
+          black_(black) {}
     const Frame& frame;
     Device& device;
     CommandStream& stream;
@@ -135,9 +138,8 @@ class PassContext : public PortAccess {
     /// The image of an input, or one black texel where nothing writes it.
     const Image& orBlack(const InOptional<FrameImage>& port) const {
         const FrameImage* image = (*this)[port];
-        return image ? image->image : *black;
+        return image ? image->image : black_;
     }
-    const Image* black = nullptr;  ///< Of the graph.
     /// Rays traced outside of `tracer` (the reference traces on its own).
     uint64_t extraRays = 0;
     /// Counts of walks through voxels (shaders/voxel_march), which the graph reads when all passes have run:
@@ -155,6 +157,7 @@ class PassContext : public PortAccess {
 
  private:
     const std::vector<uint64_t>* seenVersions_;
+    const Image& black_;
     bool outputsKept_ = false;
 };
 

@@ -105,6 +105,10 @@ void Registry::add(const char* name, const std::string& family, const char* help
                       needsDevice, type});
 }
 
+void Registry::renamed(std::string oldName, std::string advice) {
+    renamed_.emplace(std::move(oldName), std::move(advice));
+}
+
 const PassKind* Registry::find(const std::string& name) const {
     for (const PassKind& kind : kinds_)
         if (kind.name == name) return &kind;
@@ -126,6 +130,8 @@ std::vector<std::string> Registry::writersOf(const std::string& port) const {
 
 const PassKind& Registry::require(const std::string& name, const TextLocation& where) const {
     if (const PassKind* kind = find(name)) return *kind;
+    if (const auto old = renamed_.find(name); old != renamed_.end())
+        throw UsageError(where, "'{}' is now {}", name, old->second);
     std::vector<std::string> names;
     for (const PassKind& kind : kinds_) names.push_back(kind.name);
     throw UsageError(where, "unknown pass '{}'{}", name, didYouMean(name, names));

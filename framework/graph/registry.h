@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -80,9 +81,12 @@ class Registry {
                 typeOf<NoParams>([](const void*) { return make<P>(); }));
     }
 
+    /// A name of before, and what stands in its place: renamed("gather_all", "gather with 'light: all'").
+    void renamed(std::string oldName, std::string advice);
+
     const std::vector<PassKind>& kinds() const { return kinds_; }
     const PassKind* find(const std::string& name) const;
-    /// @throws UsageError with "did you mean" at `where`.
+    /// @throws UsageError at `where`: what to write in place of a name of before, or "did you mean".
     const PassKind& require(const std::string& name, const TextLocation& where) const;
 
     /// Names of passes that write a port of this name out of others. Those that change what they read under
@@ -107,6 +111,7 @@ class Registry {
              const PassType& type);
 
     std::vector<PassKind> kinds_;
+    std::map<std::string, std::string> renamed_;
 };
 
 /// Makes a pass known, at the end of its file: VOXRAY_REGISTER_PASS(Composite).

@@ -11,6 +11,7 @@ namespace voxray {
 struct Family {
     std::string_view folder;
     std::string_view title;
+    bool isForExperiments = false;  ///< Listed where asked for alone.
 };
 
 /// In the order of the pipeline.
@@ -28,6 +29,7 @@ inline constexpr std::array kFamilies{
     Family{"hybrid_leaves", "Voxels with triangles as leaves; mirrors"},
     Family{"published", "As published, for comparison"},
     Family{"path_trace", "Reference"},
+    Family{"experiments", "Measures for experiments; no image depends on them", true},
 };
 
 /// Adds every technique under passes/, by family, and the path tracer as the registry's preview.

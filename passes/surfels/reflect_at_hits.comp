@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
 layout(scalar) readonly buffer Direct { vec4 data[]; } direct;
 layout(scalar) buffer Light { vec4 data[]; } light;
-layout(scalar) readonly buffer GoesOn { uvec2 data[]; } goesOn;  // hit.glsl
+layout(scalar) readonly buffer GoesOn { uvec2 data[]; } goesOn;  // By surfel: 1 where its ray does, and the geometric normal.
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(push_constant) uniform Push {
     uint count;

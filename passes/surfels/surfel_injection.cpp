@@ -8,18 +8,12 @@ SurfelInjection::SurfelInjection(ProgramOwner& owner)
       fillUnknown_(owner, "passes/common/voxels/fill_unknown.comp") {}
 
 void SurfelInjection::plan(PassPlan& plan, const std::string& pass, const WriteParams& params,
-                           const Rays& rays, const SurfaceVoxels& voxels) {
+                           const SurfaceVoxels& voxels) {
     VoxelAccumulator::plan(plan, pass, params);
     write_.define(VoxelAccumulator::defines(params.write));
     directSums_.emplace(owner_, params);
     indirectSums_.emplace(owner_, params);
-    const uint64_t irradianceBytes = uint64_t(rays.batch) * 4 * sizeof(float);
     plan.estimate(voxels.estimatedCount * VoxelIrradiance::bytes(1));
-    if (rays.shadow) plan.buffer(direct_, "surfels' direct irradiance", irradianceBytes);
-    if (rays.paths) plan.buffer(indirect_, "surfels' indirect irradiance", irradianceBytes);
-    if (!rays.shadow && !rays.paths) return;
-    paths_.emplace(owner_);
-    paths_->plan(plan, rays.batch, rays.lightSamples, rays.paths);
 }
 
 void SurfelInjection::begin(PassContext& context, const PathScene& scene, VoxelIrradiance& irradiance) {
@@ -31,28 +25,14 @@ void SurfelInjection::begin(PassContext& context, const PathScene& scene, VoxelI
     indirectSums_->begin(context.device, context.stream, voxels, typicalIrradiance);
 }
 
-void SurfelInjection::light(PassContext& context, const PathScene& scene, const Buffer& surfels,
-                            uint32_t count, const SurfelParams& params, uint32_t seed) {
-    paths_->measure(context, scene, surfels, count, seed, direct_);
-    lightIndirect(context, scene, surfels, count, params, seed, direct_);
+void SurfelInjection::writeDirect(PassContext& context, const Buffer& surfels, uint32_t count,
+                                  const Buffer& irradiance) const {
+    write(context, *directSums_, surfels, count, irradiance);
 }
 
-void SurfelInjection::lightIndirect(PassContext& context, const PathScene& scene, const Buffer& surfels,
-                                    uint32_t count, const SurfelParams& params, uint32_t seed,
-                                    const Buffer& direct) {
-    write(context, *directSums_, surfels, count, direct);
-    for (uint32_t path = 0; path < params.pathsPerPoint && params.bounces > 0; ++path) {
-        paths_->begin(context, surfels, count, seed + (path + 1) * 0xc2b2ae35u, indirect_);
-        for (uint32_t bounce = 0; bounce < params.bounces; ++bounce)
-            paths_->extend(context, scene, indirect_);
-        write(context, *indirectSums_, surfels, count, indirect_);
-    }
-}
-
-void SurfelInjection::write(PassContext& context, const Buffer& surfels, uint32_t count, const Buffer& direct,
-                            const Buffer& indirect) const {
-    write(context, *directSums_, surfels, count, direct);
-    write(context, *indirectSums_, surfels, count, indirect);
+void SurfelInjection::writeIndirect(PassContext& context, const Buffer& surfels, uint32_t count,
+                                    const Buffer& irradiance) const {
+    write(context, *indirectSums_, surfels, count, irradiance);
 }
 
 void SurfelInjection::write(PassContext& context, const VoxelAccumulator& sums, const Buffer& surfels,

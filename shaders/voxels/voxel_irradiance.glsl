@@ -36,7 +36,7 @@ void addVoxels(VoxelGrid g, vec3 position, vec3 weightByAxis, uvec3 face, float 
 // A voxel knows the flux that its surfaces catch and their area, both split by face. Both are interpolated
 // with tent weights of `radius` voxels, and their ratio taken last: a voxel that a surface only grazes weighs little, and
 // a half-lit one is half bright. The ratio is only as good as the area below it, which was sampled: under a tenth of a
-// voxel's face the reach doubles, up to twice (VoxelLookupPass::reach() counts on it). In a grid of one direction all six faces of a voxel count alike.
+// voxel's face the reach doubles, up to twice (GatherIrradiance::reach() counts on it). In a grid of one direction all six faces of a voxel count alike.
 //
 // `sevenTap` adds up seven places instead of one: the point and its neighbours at one voxel's distance along the axes.
 vec3 voxelIrradiance(VoxelGrid g, vec3 position, vec3 normal, float radius, bool sevenTap) {

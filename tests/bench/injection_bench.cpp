@@ -30,8 +30,8 @@ std::unique_ptr<test::Chain> sponza(uint32_t width, uint32_t height) {
     return std::make_unique<test::Chain>(
         scene,
         test::graphYaml({"gbuffer", "voxelize, resolution: 128",
-                         "inject_light_rays, rays_per_light: 1048576, secondary: none", "direct_voxels",
-                         "composite"}),
+                         "inject_light_rays, rays_per_light: 1048576, secondary: none",
+                         "gather_irradiance, light: direct", "composite"}),
         width, height, 1);
 }
 

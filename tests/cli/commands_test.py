@@ -50,6 +50,16 @@ class Passes(CommandTest):
         families = [out.index(f"\n{name}: ") for name in ("voxels", "inject", "final_gather", "path_trace")]
         self.assertEqual(families, sorted(families))
 
+    def test_list_with_measures(self):
+        listed, schema = self.expect(0, "passes").stdout, self.expect(0, "schema").stdout
+        with_measures = self.expect(0, "passes", "--experiments").stdout
+        for name in ("compare_voxels", "probe_irradiance"):
+            self.assertNotIn(name, listed)
+            self.assertRegex(with_measures, rf"(?s)\n  gbuffer .*\nexperiments: .*\n  {name} ")
+            self.assertIn(f"{name}\n", self.expect(0, "passes", name).stdout)
+            self.assertIn(f'"{name}"', schema)
+        self.expect(2, "passes", "--experiments", "gbuffer")
+
     def test_one(self):
         out = self.expect(0, "passes", "inject_light_rays").stdout
         self.assertRegex(" ".join(out.split()), r"rays_per_light Rays .* Default 1048576; integer from 1 to 67108864\.")
@@ -148,8 +158,8 @@ class Validate(CommandTest):
                    "rays": "[trace_gather_rays, gather_rays, filter_irradiance]",
                    "cones": "[filter_voxels, gather_cones]",
                    "more cones": "[{pass: inject_light_rays, bounces: 1}, {pass: filter_voxels, bounces: 1}, gather_cones]",
-                   "merged": "[merge_voxels, trace_gather_rays, gather_merged_rays]",
-                   "cache": "[{pass: update_radiance_cache, bounces: 2}, trace_gather_rays, gather_cached_rays]",
+                   "merged": "[merge_voxels, trace_gather_rays, {pass: gather_rays, source: merged_voxels}]",
+                   "cache": "[{pass: update_radiance_cache, bounces: 2}, trace_gather_rays, {pass: gather_rays, source: radiance_cache}]",
                    "vpls": "[{pass: sample_vpls, bounces: 3}, gather_vpls]",
                    "mirrors": "[{pass: inject_light_rays, bounces: 2}, {pass: gather_irradiance, id: below}, gather_mirror]",
                    "paths": "[{pass: path_trace, bounces: 3, light: indirect}, filter_irradiance]"}

@@ -102,7 +102,7 @@ MISTAKES = {
     "a camera that sees nothing": ("target: [0, 1, 0]", "target: [0, 1, 9]", 4, "no surface lies in its view"),
     "a parameter without effect": ("resolution: 16", "resolution: 16, samples_per_voxel_edge: 4", 11,
                                    "only with method: three_axis"),
-    "a sweep without effect": ("inject.rays_per_light: [4096, 8192]", "gather.light_samples: [1, 2]\n  gather.near_field_voxels: [0]", 20,
+    "a sweep without effect": ("inject.rays_per_light: [4096, 8192]", "gather.light_samples: [1, 2]\n  gather.near_field_cells: [0]", 20,
                                "changes nothing in any variant"),
     "a key twice": ("seed: 7", "seed: 7\nseed: 8", 9, "appears twice"),
     "a line is indented too far": ("seed: 7", "  seed: 7", 8, "'seed' is indented unlike 'image' in line 7"),

@@ -31,12 +31,13 @@ FAMILIES = {
     "radiosity": {"surfels"},
     "clusters": {"surfels"},
     "cones": {"surfels"},
-    "final_gather": {"surfels"},
-    "cache": {"surfels", "final_gather"},
+    "final_gather": {"surfels", "cache"},
+    "cache": {"surfels"},
     "vpls": {"surfels", "inject", "hybrid_leaves"},
     "hybrid_leaves": {"surfels", "cones"},
     "published": {"cones"},
     "path_trace": set(),
+    "experiments": {"cones", "surfels"},
 }
 
 # What families share: passes/common/<module> and shaders/<module>. A module may use itself and what stands here.

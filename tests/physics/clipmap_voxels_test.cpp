@@ -201,7 +201,7 @@ TEST(ClipmapVoxels, HoldWhatAGridOfTheSceneHolds) {
               8, 8);
     Chain whole("cornell", scene,
                 graphYaml({"voxelize, resolution: 48", "place_surfels, points_per_voxel: 64",
-                           "inject_shadow_map, bounces: 0, shadow_resolution: 1024",
+                           "inject_voxel_rays, direct: shadow_maps, bounces: 0, shadow_resolution: 1024",
                            "filter_voxels, layout: clipmap, clipmap_resolution: 64"}),
                 8, 8);
     const std::vector<glm::dvec4> a = finestLevel(own), b = finestLevel(whole);

@@ -95,7 +95,8 @@ TEST(VoxelRays, AreDeterministic) {
         return chain.image("indirect").data;
     };
     for (const std::string inject :
-         {"inject_voxel_rays, bounces: 2", "inject_gather_hits", "inject_camera_rays, rays_per_image: 8192"})
+         {"inject_voxel_rays, bounces: 2", "inject_voxel_rays, points: gather_hits",
+          "inject_camera_rays, rays_per_image: 8192"})
         EXPECT_EQ(run(inject), run(inject)) << inject;
 }
 
@@ -167,7 +168,7 @@ TEST(FinalGather, ShadowRaysAtHitsKnowNoVoxels) {
     const auto error = [&](const std::string& gather) {
         Chain chain("white_room", "{albedo: 0.5}",
                     gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 0", "rays_per_block: 256",
-                                {"gather_rays, near_field_voxels: 0, direct_at_hits: " + gather},
+                                {"gather_rays, near_field_cells: 0, direct_at_hits: " + gather},
                                 "resolution: 3, visibility_rays: 0", "2"));
         return difference(chain.image("indirect"), reference.image("indirect"));
     };
@@ -183,7 +184,7 @@ TEST(FinalGather, FilterKeepsAUniformImage) {
         Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
                     gatherGraph("inject_light_rays, rays_per_light: 524288, bounces: 2",
                                 "rays_per_block: 16, block: 4",
-                                filtered(levels, "gather_rays, near_field_voxels: 0"), "resolution: 4"));
+                                filtered(levels, "gather_rays, near_field_cells: 0"), "resolution: 4"));
         return chain.image("indirect");
     };
     EXPECT_LT(difference(image(5), image(1)), 0.01);
@@ -269,10 +270,11 @@ TEST(FinalGather, SubPixelsAreAveraged) {
 
 TEST(FinalGather, MorePathsOnDemandLowerTheNoise) {
     const auto image = [](const std::string& rays) {
-        Chain chain("cornell", "{lights: point}",
-                    graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels, points_per_voxel: 2",
-                               "trace_gather_rays, rays_per_block: 64",
-                               "inject_gather_hits, paths_per_point: " + rays, "gather_rays"}));
+        Chain chain(
+            "cornell", "{lights: point}",
+            graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels, points_per_voxel: 2",
+                       "trace_gather_rays, rays_per_block: 64",
+                       "inject_voxel_rays, points: gather_hits, paths_per_point: " + rays, "gather_rays"}));
         return chain.image("indirect");
     };
     const ImageF expected = image("64");
@@ -287,9 +289,9 @@ TEST(FinalGather, BadInputIsNamed) {
     EXPECT_CONTAINS(
         messageOf(scene, gatherGraph("inject_light_rays", "rays_per_block: 2, block: 4", filtered(1))),
         "raise 'levels' to 3");
-    EXPECT_CONTAINS(
-        messageOf(scene, graphYaml({"gbuffer", "voxelize", "place_surfels", "inject_gather_hits"})),
-        "gather_hits");
+    EXPECT_CONTAINS(messageOf(scene, graphYaml({"gbuffer", "voxelize", "place_surfels",
+                                                "inject_voxel_rays, points: gather_hits"})),
+                    "gather_hits");
     EXPECT_CONTAINS(
         messageOf("white_room", gatherGraph("inject_voxel_rays", "rays_per_block: 4", kRaw, "resolution: 1")),
         "raise voxelize's 'resolution'");
@@ -314,7 +316,7 @@ TEST(FinalGather, RaysGoOnFromNearHits) {
         Chain chain(state,
                     gatherGraph("inject_light_rays, rays_per_light: 2097152, bounces: 7",
                                 "rays_per_block: 128, block: 2",
-                                {"gather_rays, near_field_voxels: " + nearField}, "resolution: 64", "2"),
+                                {"gather_rays, near_field_cells: " + nearField}, "resolution: 64", "2"),
                     64, 36, 1);
         return chain.image("indirect");
     };
@@ -339,7 +341,7 @@ TEST(FinalGather, RaysGoOnWhereNoLightWasInjected) {
     const auto ratio = [&](const std::string& nearField) {
         Chain chain("white_room", "{albedo: 0.5}",
                     gatherGraph("inject_camera_rays, rays_per_image: 256, bounces: 3", "rays_per_block: 64",
-                                {"gather_rays, near_field_voxels: " + nearField}));
+                                {"gather_rays, near_field_cells: " + nearField}));
         return mean(chain.image("indirect")) / mean(reference.image("indirect"));
     };
     EXPECT_LT(ratio("0"), 0.8);
@@ -353,7 +355,7 @@ TEST(FinalGather, ReportsHowManyHitsAreOnUnlitFaces) {
         return Chain(
             "furnace", "{shape: box, albedo: 0.6, emission: 1}",
             gatherGraph("inject_camera_rays, rays_per_image: " + rays + ", bounces: 0, light_samples: 64",
-                        "rays_per_block: 64", {"gather_rays, near_field_voxels: " + nearField}));
+                        "rays_per_block: 64", {"gather_rays, near_field_cells: " + nearField}));
     };
     const auto unlit = [](const Chain& chain) {
         return reported(chain.frameSamples.back(), "hits on unlit faces, % of rays") / 100;
@@ -381,7 +383,7 @@ TEST(FinalGather, GridOfOneVoxel) {
                     graphYaml({"gbuffer", "voxelize, resolution: 1, visibility_rays: 0",
                                "place_surfels, points_per_voxel: 256", "link_surfels",
                                "trace_gather_rays, rays_per_block: 16", injection.withBounces(3),
-                               "gather_rays, near_field_voxels: 0", "composite"}));
+                               "gather_rays, near_field_cells: 0", "composite"}));
         const double ratio = mean(chain.image("indirect")) / mean(reference.image("indirect"));
         std::printf("%s: %.4f\n", injection.pass.c_str(), ratio);
         EXPECT_NEAR(ratio, injection.pass.starts_with("inject_camera_rays") ? 1.0 : 0.5, 0.04)

@@ -211,7 +211,7 @@ TEST(GatherMirror, VarnishTakesFromTheDiffuseLobe) {
     Chain reference(state, graphYaml({"path_trace, spp: 1024, bounces: 1"}), 32, 32, 1);
     Chain chain(state,
                 roomGraph("bounces: 1", {"trace_gather_rays, rays_per_block: 64",
-                                         "gather_rays, direct_at_hits: shadow_rays, near_field_voxels: 0"}),
+                                         "gather_rays, direct_at_hits: shadow_rays, near_field_cells: 0"}),
                 32, 32, 1);
     const auto [difference, ratio] = errorAt(chain, "indirect", reference.image("indirect"), -0.999f);
     std::printf("%.4f, ratio %.4f\n", difference, ratio);

@@ -45,10 +45,11 @@ TEST(Injection, BouncesSumToTheGeometricSeries) {
 TEST(Injection, EmissiveFurnaceReachesItsClosedForm) {
     // Every surface emits e and reflects a: the irradiance is pi e / (1 - a) everywhere, of which pi e is
     // direct.
-    Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
-                graphYaml({"gbuffer", "voxelize, resolution: 16, samples_per_voxel_edge: 4",
-                           "inject_light_rays, rays_per_light: 1048576, bounces: 24",
-                           "gather_irradiance, radius: 2", "direct_voxels, radius: 2", "composite"}));
+    Chain chain(
+        "furnace", "{shape: box, albedo: 0.6, emission: 1}",
+        graphYaml({"gbuffer", "voxelize, resolution: 16, samples_per_voxel_edge: 4",
+                   "inject_light_rays, rays_per_light: 1048576, bounces: 24", "gather_irradiance, radius: 2",
+                   "gather_irradiance, id: direct, light: direct, radius: 2", "composite"}));
     EXPECT_NEAR(mean(chain.image("direct")), 0.6, 0.02 * 0.6);
     EXPECT_NEAR(mean(chain.image("final")), 1 / (1 - 0.6), 0.02 / (1 - 0.6));
 }
@@ -151,13 +152,14 @@ TEST(DirectShadowRays, EnvironmentConvergesToTheReference) {
     EXPECT_LT(mean(truth), 0.95);  // The surfaces are seen, not the sky alone.
 }
 
-TEST(DirectVoxels, ApproachShadowRaysAsVoxelsShrink) {
+TEST(VoxelLookup, OfDirectLightApproachesShadowRaysAsVoxelsShrink) {
     const auto error = [](uint32_t resolution) {
         Chain chain(
             "plane", "{light: point}",
-            graphYaml(
-                {"gbuffer", "voxelize, samples_per_voxel_edge: 4, resolution: " + std::to_string(resolution),
-                 "inject_light_rays, rays_per_light: 1048576, bounces: 0", "direct_voxels", "composite"}));
+            graphYaml({"gbuffer",
+                       "voxelize, samples_per_voxel_edge: 4, resolution: " + std::to_string(resolution),
+                       "inject_light_rays, rays_per_light: 1048576, bounces: 0",
+                       "gather_irradiance, light: direct", "composite"}));
         Chain exact("plane", "{light: point}", graphYaml({"gbuffer", "direct_shadow_rays", "composite"}));
         const ImageF a = chain.image("final"), b = exact.image("final");
         double sum = 0;
@@ -175,7 +177,7 @@ TEST(VoxelLookup, SevenTapKeepsAConstantAndBlursAnEdge) {
         Chain chain(scene, parameters,
                     graphYaml({"gbuffer", "voxelize, resolution: 16, samples_per_voxel_edge: 4",
                                "inject_light_rays, rays_per_light: 1048576, bounces: 0",
-                               "direct_voxels, lookup: " + lookup}),
+                               "gather_irradiance, light: direct, lookup: " + lookup}),
                     48, 48);
         return chain.image("direct");
     };

@@ -35,7 +35,8 @@ const Case kCases[] = {
                 "inject_radiosity, bounces: 1", "smooth_surfels", "gather_surfels", "filter_voxels"})},
     {"shadow_map",
      graphYaml({"gbuffer", "voxelize, resolution: 48, method: dominant_axis",
-                "place_surfels, points_per_voxel: 2", "inject_shadow_map, shadow_resolution: 128",
+                "place_surfels, points_per_voxel: 2",
+                "inject_voxel_rays, direct: shadow_maps, shadow_resolution: 128",
                 "filter_voxels, layout: clipmap, clipmap_resolution: 16", "gather_cones"}),
      "{lights: point}"},
     {"rsm",
@@ -112,7 +113,8 @@ TEST(Memory, RaysOfBouncesAreForThoseWhoHaveThem) {
         return device().memoryByResource();
     };
     for (const std::string rays : {"shadow rays", "shadow ray irradiance", "path rays", "ends of paths"}) {
-        const std::string map = "inject_shadow_map, shadow_resolution: 64, paths_per_point: 1, bounces: ";
+        const std::string map =
+            "inject_voxel_rays, direct: shadow_maps, shadow_resolution: 64, paths_per_point: 1, bounces: ";
         EXPECT_EQ(held(map + "0").count(rays), 0u) << rays;
         EXPECT_EQ(held(map + "1").count(rays), 1u) << rays;
         const bool isShadow = rays.starts_with("shadow");

@@ -145,7 +145,7 @@ std::string gatherGraph(const std::string& inject, const std::vector<std::string
     return graphYaml(passes);
 }
 std::vector<std::string> merged(const std::string& parameters, const std::string& gather = "") {
-    return {"merge_voxels, " + parameters, "gather_merged_rays" + gather};
+    return {"merge_voxels, " + parameters, "gather_rays, source: merged_voxels" + gather};
 }
 const std::string kLightRays = "inject_light_rays, rays_per_light: 131072, bounces: 2";
 
@@ -172,7 +172,7 @@ TEST(MergedVoxels, WithoutToleranceGiveWhatVoxelsGive) {
     // nearby.
     for (const Injection& injection : kInjections)
         for (const std::string near : {"0", "2"}) {
-            const std::string inject = injection.withBounces(2), nearField = ", near_field_voxels: " + near;
+            const std::string inject = injection.withBounces(2), nearField = ", near_field_cells: " + near;
             const ImageF voxels = gatherIn("cornell", "{lights: point}", inject, {"gather_rays" + nearField});
             const ImageF tree =
                 gatherIn("cornell", "{lights: point}", inject, merged("tolerance: 0", nearField));
@@ -241,7 +241,7 @@ TEST(MergedVoxels, LeakNoMoreThanVoxels) {
     // Rooms without any light, in the sun: all that is seen has leaked through walls.
     for (const std::string scene : {"shell_room", "thin_wall"}) {
         const std::string inject = "inject_light_rays, rays_per_light: 262144, bounces: 3";
-        for (const std::string near : {", near_field_voxels: 0", ""}) {
+        for (const std::string near : {", near_field_cells: 0", ""}) {
             const double voxels = rms(gatherIn(scene, "{}", inject, {"gather_rays" + near}));
             const double tree = rms(gatherIn(scene, "{}", inject, merged("tolerance: 0.3", near)));
             std::printf("%s%s: %g, merged %g\n", scene.c_str(), near.c_str(), voxels, tree);
@@ -255,7 +255,7 @@ TEST(MergedVoxels, RefuseWhatMakesNoSense) {
         return errorOf([&] { Chain("cornell", "{lights: point}", gatherGraph(kLightRays, gather)); });
     };
     EXPECT_CONTAINS(message(merged("tolerance: -1")), "tolerance");
-    EXPECT_CONTAINS(message({"gather_merged_rays"}), "irradiance_tree");
+    EXPECT_CONTAINS(message({"gather_rays, source: merged_voxels"}), "irradiance_tree");
 }
 
 }  // namespace

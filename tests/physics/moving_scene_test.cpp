@@ -51,8 +51,9 @@ void expectAsMadeThere(const std::string& graph) {
 
 TEST(MovingScene, EveryLayoutIsAsMadeThere) {
     for (const TestedLayout& layout : kRadianceLayouts)
-        expectAsMadeThere(graphOf("inject_shadow_map, shadow_resolution: 64, paths_per_point: 2, bounces: 1",
-                                  "layout: " + layout.filter));
+        expectAsMadeThere(graphOf(
+            "inject_voxel_rays, direct: shadow_maps, shadow_resolution: 64, paths_per_point: 2, bounces: 1",
+            "layout: " + layout.filter));
 }
 
 TEST(MovingScene, EveryInjectionIsAsMadeThere) {
@@ -79,9 +80,9 @@ TEST(MovingScene, LightsMoveWithoutSurfaces) {
     const auto there = at(scene, 0);
     lightAt(*there);
     for (const TestedLayout& layout : kRadianceLayouts) {
-        const std::string graph =
-            graphOf("inject_shadow_map, shadow_resolution: 64, paths_per_point: 2, bounces: 1",
-                    "layout: " + layout.filter);
+        const std::string graph = graphOf(
+            "inject_voxel_rays, direct: shadow_maps, shadow_resolution: 64, paths_per_point: 2, bounces: 1",
+            "layout: " + layout.filter);
         Chain moved(at(scene, 0), graph, 16, 16, 1);
         moved.update(lightAt);
         EXPECT_TRUE(sameImage(moved.image("final"), Chain(there, graph, 16, 16, 1).image("final")))

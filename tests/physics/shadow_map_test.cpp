@@ -13,6 +13,7 @@ namespace voxray::test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+const std::string kMaps = "inject_voxel_rays, direct: shadow_maps";
 
 std::string injectGraph(const std::string& inject, const std::string& resolution = "24") {
     return graphYaml({"voxelize, resolution: " + resolution, "place_surfels, points_per_voxel: 16", inject});
@@ -54,7 +55,7 @@ TEST(ShadowMap, ClosedRoomCatchesAllLight) {
     // A point light of 2 W/sr in a closed room: 8 pi W arrive, and the albedo's part of that again with each
     // bounce.
     Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
-                injectGraph("inject_shadow_map, paths_per_point: 4, bounces: 2"));
+                injectGraph(kMaps + ", paths_per_point: 4, bounces: 2"));
     EXPECT_NEAR(sum(directFlux(chain)) / (8 * kPi), 1.0, 0.01);
     const auto* irradiance = chain.graph().resource<VoxelIrradiance>("irradiance");
     double indirect = 0;
@@ -65,7 +66,7 @@ TEST(ShadowMap, ClosedRoomCatchesAllLight) {
 TEST(ShadowMap, SpotsTakeOneMapOrTheCube) {
     // A uniform cone: 2 pi (1 - cos) I, narrower and wider than a side of the cube.
     for (const double degrees : {30.0, 80.0}) {
-        Chain chain(roomWithSpot(degrees), injectGraph("inject_shadow_map, bounces: 0"), 8, 8, 1);
+        Chain chain(roomWithSpot(degrees), injectGraph(kMaps + ", bounces: 0"), 8, 8, 1);
         const double center = degrees * kPi / 180 - 0.005;
         EXPECT_NEAR(sum(directFlux(chain)) / (2 * kPi * (1 - std::cos(center))), 1.0, 0.01) << degrees;
     }
@@ -77,7 +78,7 @@ TEST(ShadowMap, FlatSurfacesDoNotShadeThemselves) {
     for (const std::string resolution : {"64", "1024"}) {
         Chain chain("plane", "{}",
                     graphYaml({"voxelize, resolution: 24", "place_surfels, points_per_voxel: 256",
-                               "inject_shadow_map, bounces: 0, shadow_resolution: " + resolution}));
+                               kMaps + ", bounces: 0, shadow_resolution: " + resolution}));
         const auto& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
         const std::vector<float> area =
             readAreas(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->area);
@@ -115,7 +116,7 @@ TEST(ShadowMap, AgreesWithShadowRays) {
          {std::pair{"cornell", "{lights: point}"}, std::pair{"spheres", "{moving: false}"},
           std::pair{"plane", "{light: directional}"}, std::pair{"thin_wall", "{}"}}) {
         const std::vector<double> rays = flux("inject_voxel_rays", scene, parameters);
-        const std::vector<double> map = flux("inject_shadow_map", scene, parameters);
+        const std::vector<double> map = flux(kMaps, scene, parameters);
         EXPECT_NEAR(sum(map) / sum(rays), 1.0, 0.005) << scene;
         EXPECT_LT(difference(map, rays), 0.01) << scene;
     }
@@ -131,7 +132,7 @@ TEST(ShadowMap, WhatAMaskCutsCastsNoShadow) {
     }
     state.scene = std::make_shared<Scene>(scene);
     const auto shared = std::make_shared<SceneState>(state);
-    Chain map(shared, injectGraph("inject_shadow_map, bounces: 0"), 8, 8, 1);
+    Chain map(shared, injectGraph(kMaps + ", bounces: 0"), 8, 8, 1);
     Chain rays(shared, injectGraph("inject_voxel_rays, bounces: 0"), 8, 8, 1);
     EXPECT_LT(difference(directFlux(map), directFlux(rays)), 1e-3);
 }
@@ -143,7 +144,7 @@ TEST(ShadowMap, IndirectLightOfCornellIsThatOfVoxelRays) {
                                inject + ", bounces: 4", "gather_irradiance"}));
         return mean(chain.image("indirect"));
     };
-    EXPECT_NEAR(indirect("inject_shadow_map") / indirect("inject_voxel_rays"), 1.0, 0.02);
+    EXPECT_NEAR(indirect(kMaps) / indirect("inject_voxel_rays"), 1.0, 0.02);
 }
 
 ImageF directImage(const std::string& scene, const std::string& parameters, const std::string& pass,
@@ -197,17 +198,19 @@ TEST(ShadowMap, BadInputIsNamed) {
     };
     const auto expectError = [](const std::shared_ptr<const SceneState>& scene, const std::string& parameters,
                                 const std::string& text) {
-        const std::string graph = injectGraph("inject_shadow_map" + parameters, "8");
+        const std::string graph = injectGraph(kMaps + parameters, "8");
         EXPECT_CONTAINS(errorOf([&] { Chain(scene, graph, 8, 8, 1); }), text);
     };
-    expectError(state("cornell", "{lights: area}"), "",
-                "inject_shadow_map: emissive surfaces have no single viewpoint");
+    expectError(
+        state("cornell", "{lights: area}"), "",
+        "inject_voxel_rays: emissive surfaces have no single viewpoint to render a shadow map from; use "
+        "'direct: shadow_rays'");
     SceneState sky = *state("white_room", "{}");
     Scene scene = *sky.scene;
     scene.environment.radiance = glm::vec3(1.0f);
     sky.scene = std::make_shared<Scene>(scene);
     expectError(std::make_shared<SceneState>(sky), "", "an environment has no single viewpoint");
-    expectError(state("white_room", "{intensity: 0}"), "", "inject_shadow_map: the scene has no lights");
+    expectError(state("white_room", "{intensity: 0}"), "", "inject_voxel_rays: the scene has no lights");
     expectError(state("white_room", "{}"), ", shadow_resolution: 0", "out of range");
     expectError(state("white_room", "{}"), ", paths_per_point: 0", "out of range");
 }

@@ -104,10 +104,11 @@ TEST(VoxelizeMethods, LookupsMixInNoEmptyVoxels) {
     // Inside a glowing sphere the irradiance is the same everywhere. A lookup that filtered across voxels
     // without data would darken where the surface cuts voxels' corners.
     for (const std::string method : kMethods) {
-        Chain chain("furnace", "{shape: sphere, albedo: 0.5, emission: 1}",
-                    graphYaml({"gbuffer", "voxelize, resolution: 10, method: " + method,
-                               "inject_light_rays, rays_per_light: 131072, bounces: 0", "direct_voxels",
-                               "gather_irradiance", "composite"}));
+        Chain chain(
+            "furnace", "{shape: sphere, albedo: 0.5, emission: 1}",
+            graphYaml({"gbuffer", "voxelize, resolution: 10, method: " + method,
+                       "inject_light_rays, rays_per_light: 131072, bounces: 0",
+                       "gather_irradiance, id: direct, light: direct", "gather_irradiance", "composite"}));
         const ImageF direct = chain.image("direct");
         const double expected = mean(direct);
         EXPECT_NEAR(expected, 0.5, 0.015) << method;
@@ -160,10 +161,11 @@ TEST(VoxelizeMethods, RefuseGridsBeyondMemoryBeforeAllocation) {
 TEST(VoxelizeMethods, OneDirectionLetsLightThroughThinWalls) {
     // A room without light behind a wall of 2 cm, at voxels of 13 cm: one value a voxel mixes both sides.
     const auto leak = [](int directions) {
-        Chain chain("thin_wall", "{thickness: 0.02}",
-                    graphYaml({"gbuffer", "voxelize, directions: " + std::to_string(directions),
-                               "inject_light_rays, rays_per_light: 262144, bounces: 2", "direct_voxels",
-                               "gather_irradiance", "composite"}));
+        Chain chain(
+            "thin_wall", "{thickness: 0.02}",
+            graphYaml({"gbuffer", "voxelize, directions: " + std::to_string(directions),
+                       "inject_light_rays, rays_per_light: 262144, bounces: 2",
+                       "gather_irradiance, id: direct, light: direct", "gather_irradiance", "composite"}));
         Chain bright("thin_wall", "{thickness: 0.02, view: lit}",
                      graphYaml({"path_trace, spp: 64, bounces: 2"}));
         return mean(chain.image("final")) / mean(bright.image("final"));

@@ -15,7 +15,6 @@ inline constexpr TestDefault kTestDefaults[] = {
     {"inject_light_rays", "rays_per_light", "65536"},
     {"inject_voxel_rays", "paths_per_point", "1"},
     {"link_surfels", "rays_per_surfel", "16"},
-    {"inject_shadow_map", "paths_per_point", "1"},
 };
 
 /// A graph as YAML. Each entry is a pass and its parameters, such as "voxelize, resolution: 24"; empty

@@ -19,10 +19,10 @@ inline const Injection kInjections[] = {
     {"inject_light_rays, rays_per_light: 131072", true},
     {"inject_voxel_rays, paths_per_point: 2", true},
     {"inject_radiosity", true},
-    {"inject_gather_hits, paths_per_point: 2", true, true},
+    {"inject_voxel_rays, points: gather_hits, paths_per_point: 2", true, true},
     {"inject_camera_rays, rays_per_image: 65536", true, true},
     {"inject_rsm, rsm_resolution: 128", false},
-    {"inject_shadow_map, shadow_resolution: 256, paths_per_point: 2", false},
+    {"inject_voxel_rays, direct: shadow_maps, shadow_resolution: 256, paths_per_point: 2", false},
 };
 
 }  // namespace voxray::test

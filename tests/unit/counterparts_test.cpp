@@ -80,6 +80,17 @@ TEST(Families, SummariesFitALine) {
     }
 }
 
+TEST(Families, NamesOfBeforeTellWhatToWrite) {
+    const Registry registry = allPasses();
+    const auto message = [&](const std::string& name) {
+        return errorOf<UsageError>([&] { registry.require(name, {"x.yaml", 4}); });
+    };
+    EXPECT_EQ(message("inject_gather_hits"),
+              "x.yaml:4: 'inject_gather_hits' is now inject_voxel_rays with 'points: gather_hits'");
+    EXPECT_EQ(message("inject_shadow_map"),
+              "x.yaml:4: 'inject_shadow_map' is now inject_voxel_rays with 'direct: shadow_maps'");
+}
+
 TEST(Counterparts, GatherRays) {
     const SwapPlan plan = planOf(configOf(std::string(kLightRays) + kRays));
     EXPECT_EQ(stagesOf(plan), (Names{"injection", "gather", "voxelization", "filter", "upsampling"}));
@@ -106,15 +117,15 @@ TEST(Counterparts, OtherMethods) {
     EXPECT_EQ(stages("{pass: path_trace, spp: 1, light: indirect}, {pass: filter_irradiance}"),
               (Names{"gather", "filter", "upsampling"}));
     EXPECT_EQ(stages("{pass: update_radiance_cache, rays_per_image: 65536}, " + trace +
-                     "{pass: gather_cached_rays}"),
+                     "{pass: gather_rays, source: radiance_cache}"),
               (Names{"injection", "gather", "voxelization", "upsampling"}));
-    EXPECT_EQ(stages(voxels + "{pass: merge_voxels}, " + trace + "{pass: gather_merged_rays}"),
-              (Names{"injection", "gather", "voxelization", "upsampling"}));
+    EXPECT_EQ(
+        stages(voxels + "{pass: merge_voxels}, " + trace + "{pass: gather_rays, source: merged_voxels}"),
+        (Names{"injection", "gather", "voxelization", "upsampling"}));
     EXPECT_EQ(
         stages("{pass: sample_vpls, vpls_per_bounce: 64}, {pass: gather_vpls, visibility: exact, bound: 0}"),
         (Names{"injection", "gather", "upsampling"}));
-    for (const char* inject :
-         {"inject_rsm", "inject_shadow_map", "inject_voxel_rays", "inject_camera_rays"}) {
+    for (const char* inject : {"inject_rsm", "inject_voxel_rays", "inject_camera_rays"}) {
         const SwapPlan plan =
             planOf(configOf("{pass: voxelize}, {pass: place_surfels}, {pass: " + std::string(inject) +
                             ", bounces: 5}, {pass: gather_irradiance}"));

@@ -133,6 +133,7 @@ Registry registry() {
     r.add<TwoOutputs>();
     r.add<CountVoxels>();
     r.add<ChangeLight>();
+    r.renamed("light_all_voxels", "light_voxels with 'which: all'");
     return r;
 }
 
@@ -262,6 +263,11 @@ TEST(GraphWiring, NamesPlaceAndNearestWord) {
     EXPECT_CONTAINS(wiringError("[{pass: make_voxels, resolution: many}]"),
                     "expected a whole number, not 'many'");
     EXPECT_CONTAINS(wiringError("[{pass: make_voxels, fine: 1}]"), "expected true or false");
+}
+
+TEST(GraphWiring, TellsWhatStandsInPlaceOfANameOfBefore) {
+    EXPECT_EQ(wiringError("- {pass: make_voxels}\n- {pass: light_all_voxels}\n"),
+              "g.yaml:2: 'light_all_voxels' is now light_voxels with 'which: all'");
 }
 
 TEST(GraphWiring, RefusesBadGraphs) {

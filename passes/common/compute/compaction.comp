@@ -1,4 +1,4 @@
-// The indices of the bits that are set, in ascending order. A thread takes a word.
+// The indices of the bits that are set, in ascending order.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

@@ -22,13 +22,13 @@ void requireClearPanes(const SceneState& state, const std::string& pass) {
 }
 
 PaneTint::PaneTint(ProgramOwner& owner)
-    : begin_(owner, "pane_begin.comp"),
-      beginAtHits_(owner, "pane_begin.comp", {{"AT_HITS", "1"}}),
+    : initRays_(owner, "init_pane_rays.comp"),
+      initRaysAtHits_(owner, "init_pane_rays.comp", {{"AT_HITS", "1"}}),
       cross_(owner, "pane_cross.comp") {}
 
 void PaneTint::plan(PassPlan& plan, uint64_t rays) {
     const bool isUsed = dimsLight(*plan.frame.scene);
-    for (Kernel* kernel : {&begin_, &beginAtHits_, &cross_}) kernel->compileIf(isUsed);
+    for (Kernel* kernel : {&initRays_, &initRaysAtHits_, &cross_}) kernel->compileIf(isUsed);
     if (!isUsed) return;
     plan.scratchBuffer(rays_, "rays on to the next pane", rays * sizeof(Ray));
     plan.scratchBuffer(hits_, "panes that rays cross", rays * sizeof(Hit));
@@ -40,11 +40,11 @@ void PaneTint::apply(PassContext& context, const Buffer& rays, const Buffer& car
     RayTracer* panes = context.tracer.panes();
     if (!panes) return;
     CommandStream& stream = context.stream;
-    const Bindings beginning{{"rays", rays}, {"paneRays", rays_}, {"count", count}};
+    const Bindings ofRays{{"rays", rays}, {"paneRays", rays_}, {"count", count}};
     if (hits)
-        stream.dispatch(beginAtHits_, count, {beginning.all(), {"hits", *hits}});
+        stream.dispatch(initRaysAtHits_, count, {ofRays.all(), {"hits", *hits}});
     else
-        stream.dispatch(begin_, count, beginning);
+        stream.dispatch(initRays_, count, ofRays);
 
     // One pane after the other.
     for (uint32_t pane = 0; pane < kMaxPanes; ++pane) {

@@ -23,7 +23,7 @@ class PaneTint {
                uint32_t count, const Buffer* hits = nullptr) const;
 
  private:
-    Kernel begin_, beginAtHits_, cross_;
+    Kernel initRays_, initRaysAtHits_, cross_;
     Buffer rays_, hits_, active_;
 };
 

@@ -1,5 +1,5 @@
 // Forgets the dynamic section (Arnebäck 2017, section 3.2.2, "Dynamic Geometry"): no node of the static one points there any more, and
-// leaves without surfaces that stay are empty. A thread takes a node of the static section.
+// leaves without surfaces that stay are empty.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/brick_octree.glsl"
 layout(local_size_x = 64) in;

@@ -1,5 +1,5 @@
 // Pass "Flag Nodes" (Arnebäck 2017, section 3.2.2): flags the nodes of a level that fragments fall into and, where they have none yet,
-// are to get a brick, and with them the 26 round each. A thread takes a fragment. The first one in a node does that for all of it.
+// are to get a brick, and with them the 26 round each. The first fragment in a node does that for all of it.
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/brick_octree.glsl"

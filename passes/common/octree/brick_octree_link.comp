@@ -1,4 +1,4 @@
-// Pass "Find Neighbors" (Arnebäck 2017, section 3.2.2): the six neighbours of each node of a level, by descent. A thread takes a node.
+// Pass "Find Neighbors" (Arnebäck 2017, section 3.2.2): the six neighbours of each node of a level, by descent.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/brick_octree.glsl"
 layout(local_size_x = 64) in;

@@ -1,5 +1,5 @@
 // Flags the cells of a level that hold an occupied cell of the finer level, and counts them: a bit a cell, rows along x padded
-// to whole words, as in SurfaceVoxels. A thread makes a word.
+// to whole words, as in SurfaceVoxels.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

@@ -1,5 +1,5 @@
 // Numbers the children of a level's nodes: they follow each other in the order of the masks' bits. Writes the nodes' words, in the
-// table too, and the voxels of the children. A thread takes four nodes.
+// table too, and the voxels of the children.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/octree.glsl"
 layout(local_size_x = 64) in;

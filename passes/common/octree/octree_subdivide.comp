@@ -1,4 +1,4 @@
-// The masks of the children of a level's nodes, from the flags of the finer level. A thread makes the masks of four nodes.
+// The masks of the children of a level's nodes, from the flags of the finer level.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/octree_cells.glsl"
 layout(local_size_x = 64) in;

@@ -1,5 +1,5 @@
-// Every voxel that a triangle overlaps, by separating axes. A thread takes a tile of 8x8 columns of one triangle. Entry point of
-// compute shaders that define visitFragment().
+// Every voxel of a tile of 8x8 columns that a triangle overlaps, by separating axes. Entry point of compute shaders that define
+// visitFragment().
 #include "passes/common/triangle_walk/clipped_area.glsl"
 #include "passes/common/triangle_walk/clipped_fragment.glsl"
 #include "passes/common/triangle_walk/walk_push.glsl"

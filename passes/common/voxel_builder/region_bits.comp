@@ -1,4 +1,4 @@
-// A bit for each voxel of a region that is made of boxes of slots. A work group's z is a box, a thread takes a word in it.
+// A bit for each voxel of a region that is made of boxes of slots. A work group's z is a box.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

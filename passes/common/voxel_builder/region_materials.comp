@@ -1,5 +1,5 @@
 // Materials under the numbers that voxels have once a rebuilt region is merged: of rebuilt voxels the rebuilt ones, of all others the
-// previous ones. A thread takes a word.
+// previous ones.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;

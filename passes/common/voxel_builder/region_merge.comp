@@ -1,5 +1,5 @@
 // Occupancy of a grid in which a region was built again: within the region the rebuilt voxels, elsewhere the previous ones. Rebuilt
-// voxels beyond the region are dropped. A thread takes a word.
+// voxels beyond the region are dropped.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

@@ -1,4 +1,4 @@
-// Turns the fixed-point sums of the surface accumulator into area-weighted averages. A thread takes a voxel.
+// Turns the fixed-point sums of the surface accumulator into area-weighted averages.
 #include "passes/common/voxel_builder/surface_accumulator.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"

@@ -1,5 +1,5 @@
 // Distances between cells that are not empty (shaders/voxel_march/distances.glsl): first which ones are, of voxels or of an octree's
-// nodes; then along one axis after the other, each time from the distances along those before. A thread takes a cell.
+// nodes; then along one axis after the other, each time from the distances along those before.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxel_march/distances.glsl"
 #include "shaders/voxels/voxel_types.h"

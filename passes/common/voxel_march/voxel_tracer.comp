@@ -1,4 +1,4 @@
-// A stream of rays through voxels: one thread a ray.
+// A stream of rays through voxels.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/voxel_march/voxel_march.glsl"

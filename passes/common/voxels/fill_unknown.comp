@@ -1,5 +1,5 @@
 // Gives a face on which nothing was measured the mean irradiance of the same face of the voxels around it, over its own
-// unoccluded area. Where those know nothing either it stays unknown. A thread takes a word of the occupancy bits.
+// unoccluded area. Where those know nothing either it stays unknown.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/packed_flux.glsl"
 #include "shaders/voxels/voxels.glsl"

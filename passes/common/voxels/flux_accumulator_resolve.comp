@@ -1,4 +1,4 @@
-// Fixed-point sums to watts. A thread takes the two faces across an axis of a voxel.
+// Fixed-point sums to watts.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/flux_accumulator.glsl"
 #include "shaders/voxels/packed_flux.glsl"

@@ -1,4 +1,4 @@
-// The coordinates of each surface voxel, by the voxel's number. A thread takes a word of the occupancy bits.
+// The coordinates of each surface voxel, by the voxel's number.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;

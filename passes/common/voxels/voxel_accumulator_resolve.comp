@@ -1,4 +1,4 @@
-// Merged irradiance to flux over the unoccluded area of each face, and that area where a sample fell. A thread takes a voxel.
+// Merged irradiance to flux over the unoccluded area of each face, and that area where a sample fell.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/packed_flux.glsl"
 #include "shaders/voxels/voxel_accumulator.glsl"

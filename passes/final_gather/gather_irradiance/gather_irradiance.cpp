@@ -1,22 +1,110 @@
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
 #include "graph/registry.h"
-#include "passes/common/voxels/voxel_lookup.h"
+#include "passes/common/view/gbuffer.h"
+#include "passes/common/voxels/voxels.h"
 
 namespace voxray {
 
-/// Indirect light per pixel from the voxels at the surface: albedo / pi times the irradiance that the voxels
-/// hold there. Source: Magalhães 2020, section 3.4.
-class GatherIrradiance final : public VoxelLookupPass {
+enum class GatheredLight { Indirect, Direct };
+template <>
+struct EnumNames<GatheredLight> {
+    static constexpr std::array names{std::pair{GatheredLight::Indirect, "indirect"},
+                                      std::pair{GatheredLight::Direct, "direct"}};
+};
+
+enum class VoxelLookup { Trilinear, SevenTap, BilinearFace };
+template <>
+struct EnumNames<VoxelLookup> {
+    static constexpr std::array names{std::pair{VoxelLookup::Trilinear, "trilinear"},
+                                      std::pair{VoxelLookup::SevenTap, "seven_tap"},
+                                      std::pair{VoxelLookup::BilinearFace, "bilinear_face"}};
+};
+
+/// Light per pixel from the voxels at the surface: albedo / pi times the irradiance that the voxels hold
+/// there. Source: Magalhães 2020, section 3.4.
+class GatherIrradiance final : public Pass {
  public:
     static constexpr const char* kName = "gather_irradiance";
     static constexpr const char* kHelp =
-        "Looks indirect light up in the voxels' irradiance at each pixel. The irradiance is interpolated at "
-        "the pixel's surface, for the surface's normal. Biased by: voxel size (detail below it is lost, "
-        "light creeps round thin edges). Lambert surfaces only. Source: Magalhães 2020, section 3.4.";
+        "Looks light up in the voxels' irradiance at each pixel. The irradiance is interpolated at the "
+        "pixel's surface, for the surface's normal; no ray is traced. Biased by: voxel size (detail below it "
+        "is lost, shadows too with `light: direct`; light creeps round thin edges). Noisy by: the "
+        "injection's rays. Lambert surfaces only. Source: Magalhães 2020, section 3.4.";
+    struct Params {
+        GatheredLight light = GatheredLight::Indirect;
+        float radius = 1.0f;
+        VoxelLookup lookup = VoxelLookup::Trilinear;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("light", &Params::light,
+                      "indirect: light that was reflected before it arrived. direct: light from its sources, "
+                      "in place of direct_shadow_rays."),
+                field("radius", &Params::radius,
+                      "Reach of the interpolation in voxels; 1 is trilinear, more is smoother and blurs.",
+                      0.5f, 8.0f)
+                    .onlyWith(noneOf(&Params::lookup, {VoxelLookup::BilinearFace})),
+                field("lookup", &Params::lookup,
+                      "trilinear: at the surface. seven_tap: there and at one voxel's distance along each "
+                      "axis, which hides holes in the voxels and blurs (Magalhães 2020, listing 4.8; there "
+                      "empty voxels count as black, here they are left out). bilinear_face: the face most "
+                      "like the normal alone, between four voxels of one layer (Cosin and Patow 2022).")};
+        }
+    };
 
-    explicit GatherIrradiance(const Params& params)
-        : VoxelLookupPass(params, "indirect", "radiance reflected of indirect light",
-                          &VoxelIrradiance::indirect) {}
+    explicit GatherIrradiance(const Params& params) : params_(params) {}
+    void plan(PassPlan& plan) override;
+    void record(PassContext& context) override;
+
+ private:
+    bool isDirect() const { return params_.light == GatheredLight::Direct; }
+    /// Voxels along each axis round that of a point that are read for it, at most.
+    uint32_t reach() const;
+
+    const Params params_;
+    In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
+    In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
+    In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
+    Out<FrameImage> reflected_{*this, enumName(params_.light),
+                               "radiance reflected of " + enumName(params_.light) + " light"};
+    Kernel lookup_{*this, "gather_irradiance.comp"};
 };
+
+uint32_t GatherIrradiance::reach() const {
+    const float radius = params_.lookup == VoxelLookup::BilinearFace ? 1.0f : params_.radius;
+    const uint32_t tap = params_.lookup == VoxelLookup::SevenTap ? 1 : 0;
+    // Of voxels whose centers are nearer than the radius, which voxel_irradiance.glsl doubles twice, to a
+    // point anywhere in its own
+    return uint32_t(std::ceil(4 * radius + 0.5f)) - 1 + tap;
+}
+
+void GatherIrradiance::plan(PassPlan& plan) {
+    const std::optional<uint32_t> known = plan[irradiance_].reach;
+    if (known && *known < reach())
+        throw Error(
+            "the lookup reads voxels up to {} from what the camera sees, and light is gathered for those up "
+            "to {}; set the 'reach' of gather_clusters to {}",
+            reach(), *known, reach());
+    if (!isDirect()) plan[reflected_].lightBounces = plan[irradiance_].lightBounces;
+    plan.frameImage(reflected_);
+}
+
+void GatherIrradiance::record(PassContext& context) {
+    const VoxelIrradiance& irradiance = context[irradiance_];
+    context.dispatch(lookup_, context.frame.pixels(),
+                     {context[gbuffer_],
+                      context[voxels_],
+                      {"VoxelFluxAt", (isDirect() ? irradiance.direct : irradiance.indirect).at()},
+                      {"voxelArea", irradiance.area},
+                      {"result", context[reflected_].image},
+                      {"radius", params_.radius},
+                      {"lookup", params_.lookup}});
+}
+
 VOXRAY_REGISTER_PASS(GatherIrradiance);
 
 }  // namespace voxray

@@ -1,5 +1,4 @@
-// What voxels hold, for the final gather (passes/final_gather/hit.glsl).
-#include "passes/final_gather/hit.glsl"
+// Light in voxels, by face (stored_light.glsl).
 #include "shaders/voxels/face_irradiance.glsl"
 
 layout(scalar) readonly buffer Grid { VoxelGrid data; } grid;

@@ -13,7 +13,8 @@ constexpr uint32_t kGatherBatchRays = 1u << 18;  // Bounds what gather_rays need
 }  // namespace
 
 /// The rays of a hybrid final gather: geometry from rays, light at their hits from voxels. Tracing stands
-/// apart from shading, so that an injection pass can light just what the rays hit (inject_gather_hits).
+/// apart from shading, so that an injection pass can light just what the rays hit (inject_voxel_rays with
+/// points: gather_hits).
 /// Source: Magalhães 2020, section 6.1 (rays for detail below a voxel); sampling: Ahmed and Wonka 2020.
 class TraceGatherRays final : public Pass {
  public:

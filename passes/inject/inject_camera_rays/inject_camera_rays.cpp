@@ -63,6 +63,7 @@ class InjectCameraRays final : public Pass {
     Out<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
     std::vector<LightSource> sources_;
     SurfelInjection injection_{*this};
+    SurfelPaths paths_{*this};
     ImageRays imageRays_{*this};
     Kernel arrive_{*this, "arrive.comp"};
     Buffer rays_, hits_, count_;
@@ -73,7 +74,8 @@ void InjectCameraRays::plan(PassPlan& plan) {
     plan[irradiance_].lightBounces = params_.bounces;
     sources_ = requireLightSources(*plan.frame.scene, kName);
     const uint32_t batch = std::min(params_.raysPerImage, kCameraBatchRays);
-    injection_.plan(plan, kName, params_, {batch, false, true, params_.lightSamples}, plan[voxels_]);
+    injection_.plan(plan, kName, params_, plan[voxels_]);
+    paths_.plan(plan, batch, params_.lightSamples, true);
     plan.buffer(rays_, "camera rays", batch * sizeof(Ray));
     plan.buffer(hits_, "camera hits", batch * sizeof(Hit));
     plan.buffer(count_, "number of surfels", sizeof(uint32_t));
@@ -120,30 +122,31 @@ void InjectCameraRays::emit(PassContext& context, uint32_t firstRay, uint32_t ra
 }
 
 void InjectCameraRays::light(PassContext& context, const PathScene& scene) {
-    SurfelPaths& paths = injection_.paths();
     CommandStream& stream = context.stream;
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
 
     // The first surfels, and one ray on from each to the second ones.
-    paths.measure(context, scene, first_.surfels, first_.count, seed, first_.direct);
-    paths.begin(context, first_.surfels, first_.count, seed, first_.indirect);
-    paths.extend(context, scene, first_.indirect, SurfelPaths::Normals::Geometric);
+    paths_.measure(context, scene, first_.surfels, first_.count, seed, first_.direct);
+    paths_.begin(context, first_.surfels, first_.count, seed, first_.indirect);
+    paths_.extend(context, scene, first_.indirect, SurfelPaths::Normals::Geometric);
     if (params_.bounces == 0) stream.fill(first_.indirect, 0);
-    second_.count = paths.count();
+    second_.count = paths_.count();
     if (second_.count > 0) {
-        stream.copy(paths.ends(), second_.surfels, second_.count * sizeof(gpu::Surfel));
-        stream.copy(paths.direct(), second_.direct, second_.count * kPathIrradianceBytes);
+        stream.copy(paths_.ends(), second_.surfels, second_.count * sizeof(gpu::Surfel));
+        stream.copy(paths_.direct(), second_.direct, second_.count * kPathIrradianceBytes);
 
         // Paths on from the second ones. Their last bounce would be one too many for the first ones.
-        paths.begin(context, second_.surfels, second_.count, seed + 0x2545f491u, second_.indirect);
+        paths_.begin(context, second_.surfels, second_.count, seed + 0x2545f491u, second_.indirect);
         for (uint32_t bounce = 1; bounce <= params_.bounces; ++bounce) {
             if (bounce == params_.bounces)
-                paths.reflect(context, second_.surfels, second_.count, second_.indirect, first_.indirect);
-            paths.extend(context, scene, second_.indirect);
+                paths_.reflect(context, second_.surfels, second_.count, second_.indirect, first_.indirect);
+            paths_.extend(context, scene, second_.indirect);
         }
-        injection_.write(context, second_.surfels, second_.count, second_.direct, second_.indirect);
+        injection_.writeDirect(context, second_.surfels, second_.count, second_.direct);
+        injection_.writeIndirect(context, second_.surfels, second_.count, second_.indirect);
     }
-    injection_.write(context, first_.surfels, first_.count, first_.direct, first_.indirect);
+    injection_.writeDirect(context, first_.surfels, first_.count, first_.direct);
+    injection_.writeIndirect(context, first_.surfels, first_.count, first_.indirect);
 }
 
 VOXRAY_REGISTER_PASS(InjectCameraRays);

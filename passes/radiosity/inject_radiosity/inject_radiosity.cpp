@@ -79,7 +79,7 @@ class InjectRadiosity final : public Pass {
 void InjectRadiosity::plan(PassPlan& plan) {
     plan[irradiance_].lightBounces = params_.bounces;
     sources_ = requireLightSources(*plan.frame.scene, kName);
-    injection_.plan(plan, kName, params_, {Surfels::kChunk, false, false}, plan[voxels_]);
+    injection_.plan(plan, kName, params_, plan[voxels_]);
     light_.plan(plan, Surfels::kChunk);
     plan.lightRays = uint64_t(plan[surfels_].estimatedCount) * plan.frame.scene->lights.size();
     // A ray's is about 1.
@@ -97,8 +97,10 @@ void InjectRadiosity::record(PassContext& context) {
 
     // Into the voxels.
     const std::vector<Surfels::Chunk>& chunks = context[surfels_].chunks;
-    for (size_t i = 0; i < chunks.size(); ++i)
-        injection_.write(context, chunks[i].surfels, chunks[i].count, light[i].direct, light[i].indirect);
+    for (size_t i = 0; i < chunks.size(); ++i) {
+        injection_.writeDirect(context, chunks[i].surfels, chunks[i].count, light[i].direct);
+        injection_.writeIndirect(context, chunks[i].surfels, chunks[i].count, light[i].indirect);
+    }
     if (context[surfelIrradiance_].isRead) keep(context, light);
     injection_.finish(context, scene.voxels, irradiance);
     radiosity_[0] = {}, radiosity_[1] = {};

@@ -39,9 +39,9 @@ class PlaceSurfels final : public Pass {
  public:
     static constexpr const char* kName = "place_surfels";
     static constexpr const char* kHelp =
-        "Spreads points (surfels) evenly over the surfaces. There inject_voxel_rays, inject_gather_hits, "
-        "inject_shadow_map and inject_radiosity measure the irradiance of voxels. Depends on geometry alone. "
-        "Noisy by: points_per_voxel. Misses: voxels that hold little surface may get no point.";
+        "Spreads points (surfels) evenly over the surfaces. There inject_voxel_rays and inject_radiosity "
+        "measure the irradiance of voxels. Depends on geometry alone. Noisy by: points_per_voxel. Misses: "
+        "voxels that hold little surface may get no point.";
     struct Params {
         uint32_t pointsPerVoxel = 4;
         SurfelSides sides = SurfelSides::Open;

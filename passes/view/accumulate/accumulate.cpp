@@ -57,7 +57,7 @@ class Accumulate final : public Pass {
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of it"};
     Kernel findCells_{*this, "cells.comp"};
     Kernel accumulate_{*this, "accumulate.comp", params_.clamp > 0 ? Defines{{"CLAMP", "1"}} : Defines{}};
-    Kernel keep_{*this, "keep.comp"};
+    Kernel storeHistory_{*this, "store_history.comp"};
     IrradianceResolve resolve_{*this};
     Image cellLight_, cellSurface_;  ///< cells.comp; where history is clamped.
     Image frames_;  ///< R32F: in how many frames the texel's surface was seen, this one included.
@@ -131,7 +131,7 @@ void Accumulate::record(PassContext& context) {
                       {"spacing", noisy.spacing}});
 
     // For the next frame
-    context.dispatch(keep_, texels,
+    context.dispatch(storeHistory_, texels,
                      {gbuffer,
                       {"result", result.irradiance},
                       {"frames", frames_},

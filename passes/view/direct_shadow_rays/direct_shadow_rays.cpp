@@ -12,7 +12,7 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays and what they carry to 52 MiB.
-enum TargetKind : uint32_t { kPunctual = 0, kEmitters = 1, kEnvironment = 2 };  // As in aim.comp.
+enum TargetKind : uint32_t { kPunctual = 0, kEmitters = 1, kEnvironment = 2 };  // SOURCE_* of lights.glsl.
 
 /// Pixels whose rays are traced together.
 uint32_t batchPixels(const Frame& frame, const GBuffer& gbuffer) {
@@ -40,7 +40,7 @@ class DirectShadowRays final : public Pass {
         "directional lights; noisy by `light_samples` for emissive surfaces (picked by power, uniform over "
         "area) and for the environment (by cosine). Mirrors reflect no lamp and no environment: "
         "gather_mirror brings what they show of these. With `visibility: voxels` biased by voxel size. "
-        "Compare with direct_voxels.";
+        "Compare with gather_irradiance with `light: direct`.";
     struct Params {
         uint32_t lightSamples = 4;
         Visibility visibility = Visibility::Exact;
@@ -70,7 +70,7 @@ class DirectShadowRays final : public Pass {
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     In<SurfaceVoxels> voxels_{*this, "voxels", "what shadow rays meet", meetsVoxels()};
     Out<FrameImage> direct_{*this, "direct", "radiance reflected of direct light"};
-    Kernel aim_{*this, "aim.comp"};
+    Kernel generateRays_{*this, "generate_shadow_rays.comp"};
     Kernel add_{*this, "add.comp"};
     Buffer rays_, carried_, occluded_;
     PaneTint tint_{*this};
@@ -88,7 +88,7 @@ void DirectShadowRays::plan(PassPlan& plan) {
                      plan.frame.scene->lights.size();
     plan.frameImage(direct_);
     if (meetsVoxels()) voxelTracer_.emplace(*this, VoxelWalk::Bricks).plan(plan, plan[voxels_]);
-    aim_.specialize({{"kMeetVoxels", meetsVoxels()}});
+    generateRays_.specialize({{"kMeetVoxels", meetsVoxels()}});
 }
 
 void DirectShadowRays::record(PassContext& context) {
@@ -115,7 +115,7 @@ void DirectShadowRays::record(PassContext& context) {
     const auto shadowRays = [&](TargetKind kind, uint32_t light) {
         for (uint32_t first = 0; first < pixels; first += batch) {
             const uint32_t count = std::min(batch, pixels - first), rays = count * perPixel;
-            context.dispatch(aim_, rays,
+            context.dispatch(generateRays_, rays,
                              {context.scene,
                               gbuffer,
                               {"rays", rays_},

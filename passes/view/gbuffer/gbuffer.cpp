@@ -132,7 +132,8 @@ class GBufferPass final : public Pass {
     const Params params_;
     Out<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     Out<SurfaceMotion> motion_{*this, "motion", "where it was in the frame before"};
-    Kernel aim_{*this, "aim.comp"}, shade_{*this, "shade.comp"};        ///< Of rays.
+    Kernel generateRays_{*this, "generate_camera_rays.comp"};           ///< Of rays.
+    Kernel shade_{*this, "shade.comp"};                                 ///< Of rays.
     Buffer rays_, hits_;                                                ///< Of rays.
     Kernel background_{*this, "background.comp"};                       ///< Of raster.
     RasterPipeline surfaces_{*this, {"gbuffer.vert", "gbuffer.frag"}};  ///< Of raster.
@@ -180,7 +181,7 @@ void GBufferPass::plan(PassPlan& plan) {
     state.depthFormat = VK_FORMAT_D32_SFLOAT;
     state.depthCompare = VK_COMPARE_OP_GREATER;
     surfaces_.setState(state);
-    aim_.compileIf(params_.method == GBufferMethod::Rays);
+    generateRays_.compileIf(params_.method == GBufferMethod::Rays);
     shade_.compileIf(params_.method == GBufferMethod::Rays);
     background_.compileIf(params_.method == GBufferMethod::Raster);
     surfaces_.compileIf(params_.method == GBufferMethod::Raster);
@@ -235,7 +236,7 @@ void GBufferPass::trace(PassContext& context) {
     const uint32_t texels = extent.x * extent.y;
     for (uint32_t first = 0; first < texels; first += kRaysAtOnce) {
         const uint32_t batch = std::min(kRaysAtOnce, texels - first);
-        context.dispatch(aim_, batch,
+        context.dispatch(generateRays_, batch,
                          {{"rays", rays_}, {"view", view}, {"firstTexel", first}, {"batchRays", batch}});
         context.tracer.closestHit(context.stream, rays_, hits_, batch, Coherence::Coherent);
         context.dispatch(shade_, batch,

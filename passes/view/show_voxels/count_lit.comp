@@ -1,4 +1,4 @@
-// How many patches at each face of each part of a cluster light arrives at straight from the lights. A thread takes a part.
+// How many patches at each face of each part of a cluster light arrives at straight from the lights.
 #include "passes/view/show_voxels/lit_patch.glsl"
 #include "passes/clusters/side_patches.glsl"
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,5 @@
 // How many lit patches each face of a voxel sees: those that its list names, and of each part's face that it names all that are lit. Of
-// several open sides in a voxel the one that sees the most counts. A thread takes a side.
+// several open sides in a voxel the one that sees the most counts.
 #include "passes/view/show_voxels/lit_patch.glsl"
 #include "passes/clusters/seen_list.glsl"
 #include "passes/clusters/side_patches.glsl"

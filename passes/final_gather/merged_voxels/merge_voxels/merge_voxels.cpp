@@ -34,10 +34,10 @@ class MergeVoxels final : public Pass {
     static constexpr const char* kName = "merge_voxels";
     static constexpr const char* kHelp =
         "Merges neighbouring voxels of nearly the same light into k-d trees. Each face has its own tree, "
-        "whose leaves stand for merged voxels. The trees are for gather_merged_rays. The tree is grown down "
-        "to voxels and pruned where leaves are not worth their memory. Runs on the host. Biased by: "
-        "tolerance; flux is kept. Source: cost-complexity pruning (Breiman et al. 1984; Chou, Lookabaugh and "
-        "Gray 1989).";
+        "whose leaves stand for merged voxels. The trees are for gather_rays. The tree is grown down to "
+        "voxels and pruned where leaves are not worth their memory. Runs on the host. Biased by: tolerance; "
+        "flux is kept. Source: cost-complexity pruning (Breiman et al. 1984; Chou, Lookabaugh and Gray "
+        "1989).";
     struct Params {
         float tolerance = 0.3f;
         MergedLight light = MergedLight::All;
@@ -50,8 +50,8 @@ class MergeVoxels final : public Pass {
                       "black alone.",
                       0.0f, 30.0f),
                 field("light", &Params::light,
-                      "all: direct and indirect light. indirect: gather_merged_rays measures direct light at "
-                      "each hit.")};
+                      "all: direct and indirect light. indirect: gather_rays measures direct light at each "
+                      "hit.")};
         }
     };
 

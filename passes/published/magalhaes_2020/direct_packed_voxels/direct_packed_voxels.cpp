@@ -22,9 +22,9 @@ class DirectPackedVoxels final : public Pass {
     static constexpr const char* kHelp =
         "Looks light up in packed voxels, filtered between voxels. A voxel's light is what its one word "
         "holds. Of light that secondary rays left there it shows that, too. As published in Magalhães 2020 "
-        "(section 4.4), for comparison: direct_voxels is the method to use. Biased by: voxel size; empty "
-        "voxels, which are filtered in as black; light from all sides of a surface in one. No noise of its "
-        "own. Source: Magalhães 2020, sections 3.4.1 and 4.4.";
+        "(section 4.4), for comparison: gather_irradiance with `light: direct` is the method to use. Biased "
+        "by: voxel size; empty voxels, which are filtered in as black; light from all sides of a surface in "
+        "one. No noise of its own. Source: Magalhães 2020, sections 3.4.1 and 4.4.";
     struct Params {
         PackedLookup lookup = PackedLookup::SevenTap;
         static constexpr auto schema() {

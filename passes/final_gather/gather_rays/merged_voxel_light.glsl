@@ -1,5 +1,4 @@
-// What an irradiance tree holds, for the final gather (passes/final_gather/hit.glsl).
-#include "passes/final_gather/hit.glsl"
+// Light in merged voxels (stored_light.glsl).
 #include "passes/final_gather/merged_voxels/irradiance_tree.glsl"
 
 StoredLight storedLight(vec3 position, vec3 normal) {

@@ -1,5 +1,4 @@
-// What a radiance cache holds, for the final gather (passes/final_gather/hit.glsl).
-#include "passes/final_gather/hit.glsl"
+// Light in a radiance cache (stored_light.glsl).
 #include "passes/cache/radiance_cache.glsl"
 
 layout(constant_id = 0) const uint minSamples = 1u;

@@ -1,20 +1,10 @@
-// What a ray that gathers light finds at its hit. Needs the bindings of shaders/scene/scene.glsl. Whoever includes it defines
-// before where light is stored, as storedLight() below.
+// What a ray that gathers light finds at its hit. Needs the bindings of shaders/scene/scene.glsl.
 #ifndef VOXRAY_FINAL_GATHER_HIT_GLSL
 #define VOXRAY_FINAL_GATHER_HIT_GLSL
 
-#include "shaders/scene/octahedral.glsl"
+#include "passes/final_gather/gather_rays/stored_light.glsl"
 #include "passes/surfels/surfel_at_hit.glsl"
-
-// What is stored for a point of a surface.
-struct StoredLight {
-    vec3 irradiance;  // W/m²
-    float cellSize;   // m: edge of the cell that it is the mean of.
-    bool known;       // False where no light was stored.
-};
-
-// Of a surface with unit normal `normal`, on the side that it points to. Defined by the shader that includes this.
-StoredLight storedLight(vec3 position, vec3 normal);
+#include "shaders/scene/octahedral.glsl"
 
 layout(scalar) buffer Light { vec4 data[]; } light;
 // The hits where direct light is to be measured, in any order; `parent` is the ray.

@@ -1,5 +1,5 @@
-// The ends of rays that went on. A shader that includes this defines storedLight() of hit.glsl.
-#include "passes/final_gather/hit.glsl"
+// The ends of rays that went on.
+#include "passes/final_gather/gather_rays/hit.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

@@ -1,0 +1,93 @@
+#include "passes/final_gather/gather_rays/continued_paths.h"
+
+#include "passes/common/compute/random_seed.h"
+
+namespace voxray {
+namespace {
+
+/// As in hit.glsl.
+struct ListCounts {
+    uint32_t surfels, unlit;
+};
+
+}  // namespace
+
+ContinuedPaths::ContinuedPaths(ProgramOwner& owner, const Defines& stored)
+    : owner_(owner),
+      reflect_(owner, "passes/surfels/reflect_at_hits.comp"),
+      continue_(owner, "continue_paths.comp", stored) {}
+
+void ContinuedPaths::plan(PassPlan& plan, const Settings& settings, const SpecializationConstants& constants,
+                          uint32_t rays) {
+    settings_ = settings;
+    continue_.define(defines());
+    continue_.specialize(constants);
+    reflect_.compileIf(isUsed());
+    continue_.compileIf(isUsed());
+    plan.buffer(surfels_[0], "surfels at hits", rays * sizeof(gpu::Surfel));
+    plan.buffer(goesOn_, "surfels whose rays go on", rays * 2 * sizeof(uint32_t));
+    plan.buffer(counts_, "counts of hits", sizeof(ListCounts));
+    if (!isUsed()) return;
+    sources_ = lightSources(*plan.frame.scene);
+    hitLight_.emplace(owner_).plan(plan, rays);
+    plan.buffer(surfels_[1], "surfels one step before", rays * sizeof(gpu::Surfel));
+    plan.buffer(direct_, "direct light at hits", rays * 4 * sizeof(float));
+    plan.buffer(rays_, "next rays", rays * sizeof(Ray));
+    plan.buffer(hits_, "next hits", rays * sizeof(Hit));
+}
+
+Defines ContinuedPaths::defines() const {
+    return settings_.measuresDirect ? Defines{{"SHADOW_RAYS", "1"}} : Defines{};
+}
+
+std::vector<Binding> ContinuedPaths::begin(CommandStream& stream) const {
+    stream.fill(counts_, 0);
+    return {{"surfels", surfels_[0]}, {"goesOn", goesOn_}, {"counts", counts_}};
+}
+
+ContinuedPaths::Counts ContinuedPaths::follow(PassContext& context, const std::vector<Binding>& stored,
+                                              const Buffer& light) const {
+    CommandStream& stream = context.stream;
+    Counts all;
+    for (uint32_t step = 0; step <= settings_.maxSteps; ++step) {
+        const ListCounts listed = stream.readAs<ListCounts>(counts_, 1)[0];
+        all.unlit += listed.unlit;
+        if (listed.surfels == 0) break;
+
+        // Direct light at the surfels, and rays on.
+        const Buffer &from = surfels_[step % 2], &to = surfels_[(step + 1) % 2];
+        const uint32_t seed = randomSeed(context.frame, context.frameIndex) + 0x51u + step * 0x9e3779b9u;
+        hitLight_->measure(context, sources_, from, listed.surfels, settings_.lightSamples, seed, direct_);
+        context.dispatch(reflect_, listed.surfels,
+                         {context.scene,
+                          {"surfels", from},
+                          {"direct", direct_},
+                          {"light", light},
+                          {"goesOn", goesOn_},
+                          {"rays", rays_},
+                          {"count", listed.surfels},
+                          {"seed", seed + 0xa3u}});
+        if (settings_.nearField == 0 || step == settings_.maxSteps) break;
+
+        // Where those end.
+        context.tracer.closestHit(stream, rays_, hits_, listed.surfels);
+        all.rays += listed.surfels;
+        stream.fill(counts_, 0);
+        const bool isLast = step + 1 == settings_.maxSteps;
+        context.dispatch(continue_, listed.surfels,
+                         {context.scene,
+                          stored,
+                          {"from", from},
+                          {"rays", rays_},
+                          {"hits", hits_},
+                          {"light", light},
+                          {"surfels", to},
+                          {"goesOn", goesOn_},
+                          {"counts", counts_},
+                          {"rays", listed.surfels},
+                          {"nearField", isLast ? 0.0f : settings_.nearField}});
+    }
+    return all;
+}
+
+}  // namespace voxray

@@ -1,0 +1,58 @@
+#include "passes/final_gather/gather_rays/stored_light.h"
+
+namespace voxray {
+
+StoredLight::StoredLight(Pass& pass, GatherSource source, bool voxelsBringDirect, uint32_t minSamples)
+    : source_(source),
+      voxelsBringDirect_(voxelsBringDirect),
+      minSamples_(minSamples),
+      voxels_(pass, "voxels", "surface voxels", source == GatherSource::Voxels),
+      irradiance_(pass, "irradiance", "light that arrives at the voxels' surfaces",
+                  source == GatherSource::Voxels),
+      tree_(pass, "irradiance_tree", "light of merged voxels", source == GatherSource::MergedVoxels),
+      cache_(pass, "radiance_cache", "light that arrives at surfaces, by hashed cells",
+             source == GatherSource::RadianceCache) {
+    if (source == GatherSource::Voxels) faces_.emplace(pass);
+}
+
+void StoredLight::plan(PassPlan& plan) {
+    if (faces_) plan.buffer(grid_, "grid of voxels", sizeof(gpu::VoxelGrid));
+}
+
+bool StoredLight::holdsDirect(const PassPlan& plan) const {
+    if (source_ == GatherSource::MergedVoxels) return plan[tree_].holdsDirect;
+    return source_ == GatherSource::RadianceCache || voxelsBringDirect_;
+}
+
+std::optional<uint32_t> StoredLight::bounces(const PassPlan& plan) const {
+    if (source_ == GatherSource::MergedVoxels) return plan[tree_].lightBounces;
+    if (source_ == GatherSource::RadianceCache) return plan[cache_].lightBounces;
+    return plan[irradiance_].lightBounces;
+}
+
+Defines StoredLight::defines() const {
+    if (source_ == GatherSource::MergedVoxels) return {{"STORED_IN_MERGED_VOXELS", "1"}};
+    if (source_ == GatherSource::RadianceCache) return {{"STORED_IN_RADIANCE_CACHE", "1"}};
+    return {{"STORED_IN_VOXELS", "1"}};
+}
+
+SpecializationConstants StoredLight::constants() const {
+    if (source_ != GatherSource::RadianceCache) return {};
+    return {{"minSamples", minSamples_}};
+}
+
+std::vector<Binding> StoredLight::bindings(PassContext& context) {
+    if (source_ == GatherSource::MergedVoxels) return context[tree_].bindings();
+    if (source_ == GatherSource::RadianceCache) return context[cache_].bindings();
+
+    const SurfaceVoxels& voxels = context[voxels_];
+    if (context.changed(voxels_) || context.changed(irradiance_)) {
+        const VoxelIrradiance& light = context[irradiance_];
+        faces_->update(context.stream, voxels, light.area, light.indirect,
+                       voxelsBringDirect_ ? &light.direct : nullptr);
+        context.stream.upload(grid_, std::vector{voxels.grid});
+    }
+    return voxels.bindings({faces_->binding(), {"grid", grid_}});
+}
+
+}  // namespace voxray
