@@ -135,6 +135,8 @@ class PassContext : public PortAccess {
     void dispatch(const Program& program, const Invocations& invocations, const Bindings& bindings) {
         stream.dispatch(program, invocations, bindings);
     }
+    /// One black texel.
+    const Image& black() const { return black_; }
     /// The image of an input, or one black texel where nothing writes it.
     const Image& orBlack(const InOptional<FrameImage>& port) const {
         const FrameImage* image = (*this)[port];

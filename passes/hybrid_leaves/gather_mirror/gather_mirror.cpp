@@ -379,7 +379,7 @@ void GatherMirror::resolve(PassContext& context, const gpu::MirrorBatch& batch) 
     const SpecularLobes* lobes = context[lobes_];
     context.dispatch(resolve_, batch.pixels,
                      {context[gbuffer_],
-                      {"lobes", lobes ? lobes->reflected : *context.black},
+                      {"lobes", lobes ? lobes->reflected : context.black()},
                       {"direct", context.orBlack(otherDirect_)},
                       {"indirect", context.orBlack(otherIndirect_)},
                       {"grazing", grazing_},
