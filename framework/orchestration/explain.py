@@ -85,7 +85,7 @@ def main(program: Program, options: SimpleNamespace) -> int:
 
     from report import explain_page
     from report.pages import write_whole
-    from report.load import ReportError
+    from report.results import ReportError
 
     write_whole(out / "explain.json", json.dumps(swaps.listed(), indent=2, ensure_ascii=False))
     try:

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 from orchestration.errors import Mistake
 from orchestration.program import Program
 from report import pareto_page
-from report.load import ReportError
+from report.results import ReportError
 
 
 def main(_: Program, options: SimpleNamespace) -> int:

@@ -136,7 +136,7 @@ def main(program: Program, options: SimpleNamespace) -> int:
         return status
 
     from report import stability_page
-    from report.load import ReportError
+    from report.results import ReportError
 
     try:
         tables = stability_page.write(matrix.out, matrix.next_to(".csv"))

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from report import exr_pixels
-from report.load import ReportError, Results
+from report.results import ReportError, Results
 
 AXIS = "explained"  # the sweep's key, as framework/experiment/counterparts.cpp writes it
 RELMSE_OFFSET = 0.01  # as framework/image/metrics.h has it

@@ -15,7 +15,8 @@ from report import images as pictures
 from report import explain, pages, text
 from report.explain import Explained, Images, percent, sentence
 from report.images import Picture
-from report.load import IMAGES, Results, load
+from report.load import load
+from report.results import IMAGES, Results
 from report.style import CATEGORY_COLORS
 from report.svg import STAND_INS, drawing, to_svg
 

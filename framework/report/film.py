@@ -6,10 +6,9 @@ import io
 import re
 from pathlib import Path
 
-from PIL import Image
 
 from report import images, pages
-from report.load import IMAGES, Results
+from report.results import IMAGES, Results
 
 _QUALITY = 90  # of WebP, 0 to 100: frames pass by, so that they need not be exact
 _MILLISECONDS = 100  # a frame

@@ -10,8 +10,8 @@ import matplotlib
 import numpy as np
 from PIL import Image, UnidentifiedImageError
 
-from report.load import ReportError
 from report.pages import data_uri
+from report.results import ReportError
 
 ERROR_COLORS = "magma"  # as FLIP's authors show it: black is no error, light yellow is the largest
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 
 from report import bars, charts, details, images, pages, parts, style, table, text, values
-from report.load import IMAGES, Metric, Results, section
 from report.names import Names, families_of, names_of
+from report.results import IMAGES, Metric, Results, section
 from report.selection import selected
 from report.setting import setting_of
 from report.summary import summary, unfinished

@@ -9,9 +9,10 @@ from matplotlib.figure import Figure
 
 from report import pages, pareto, text
 from report.charts import set_up_axis
-from report.load import Metric, ReportError, Results, load
+from report.load import load
 from report.pareto import COSTS, TRACED, Factor, Measured, Scene
 from report.ranking import pareto_front
+from report.results import Metric, ReportError, Results
 from report.style import CATEGORY_COLORS, MARKERS, Style
 from report.svg import STAND_INS, drawing, to_svg
 

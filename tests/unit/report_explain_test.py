@@ -17,7 +17,8 @@ sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "framework"), str(Path
 import report_results as made_up  # noqa: E402
 from exr_writer import exr  # noqa: E402
 from report import explain, explain_page  # noqa: E402
-from report.load import ReportError, load  # noqa: E402
+from report.load import load  # noqa: E402
+from report.results import ReportError  # noqa: E402
 from report_support import Page  # noqa: E402
 
 SIZE = (64, 48)

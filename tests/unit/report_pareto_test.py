@@ -12,7 +12,8 @@ sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "framework"), str(Path
 
 import report_results as made_up  # noqa: E402
 from report import pareto, pareto_page  # noqa: E402
-from report.load import ReportError, load  # noqa: E402
+from report.load import load  # noqa: E402
+from report.results import ReportError  # noqa: E402
 
 RAYS = ("gbuffer", "voxelize", "inject_light_rays", "gather_rays", "filter_irradiance")
 PATHS = ("gbuffer", "path_trace", "filter_irradiance")
