@@ -6,7 +6,6 @@ import io
 import re
 from pathlib import Path
 
-
 from report import images, pages
 from report.results import IMAGES, Results
 
