@@ -15,8 +15,9 @@ import pandas as pd
 
 root = Path(__file__).resolve().parents[1] if "__file__" in globals() else Path.cwd().parent
 sys.path.append(str(root / "framework"))
+from report.load import load  # noqa: E402
 from report.ranking import pareto_front  # noqa: E402
-from report.load import interval_of, load  # noqa: E402
+from report.results import interval_of  # noqa: E402
 
 arguments = [a for a in sys.argv[1:] if not a.startswith("-")] if "__file__" in globals() else []
 directory = Path(arguments[0]) if arguments else root / "results" / "quickstart"

@@ -4,26 +4,24 @@
 accumulation_table.py DIR: for each gather and length of history, the nRMSE of indirect light, the mean over frames, and its
 flicker, while the camera moves and while a light moves, and in how many frames a light that is switched off is still seen.
 """
-import csv
 import os
 import sys
+
+sys.dont_write_bytecode = True
+sys.path.append(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "framework"))
+from report.rows import read_rows  # noqa: E402
 
 COLUMNS = (("camera moves", "nRMSE"), ("camera moves", "flicker"), ("light moves", "nRMSE"), ("light moves", "flicker"),
            ("light off", "nRMSE"), ("light off", "frames lit"))
 
 
-def read(*parts):
-    with open(os.path.join(*parts), newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
 def table(folder):
     """Rows of cells."""
     frames = {}
-    for row in read(folder, "frames.csv"):
+    for row in read_rows(folder, "frames.csv"):
         frames.setdefault(row["variant"], []).append(row)
     cells, order = {}, []
-    for row in read(folder, "results.csv"):
+    for row in read_rows(folder, "results.csv"):
         key = (row["gather"], row["accumulate"])
         if key not in order:
             order.append(key)

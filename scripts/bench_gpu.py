@@ -26,7 +26,7 @@ from bench.clocks import ClockWatch  # noqa: E402
 from bench.parts import PARTS, Bench, Ending, PartError  # noqa: E402
 from bench.processes import Clock  # noqa: E402
 from bench.runs import SHORTEST, Program  # noqa: E402
-from report.files import write_whole  # noqa: E402
+from report.pages import write_whole  # noqa: E402
 
 KEPT = ("result.json", "reference.json")  # of the images folder of a run
 PICTURES = ("indirect.png", "final.png")  # of runs that are compared

@@ -6,7 +6,6 @@ ratio, relMSE and nRMSE of the indirect light; where the reference is black, the
 radiance, W/(m² sr), alone. Then comes how much light leaks into shell_room, and last what a black image and a constant
 image of the right mean score in each scene.
 """
-import csv
 import json
 import math
 import os
@@ -14,6 +13,7 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "framework"))
 from report import exr_pixels  # noqa: E402
+from report.rows import read_rows  # noqa: E402
 
 VOXELS = "voxelize.resolution"
 COLUMNS = ("indirect_mean_ratio", "indirect_relmse", "indirect_nrmse")
@@ -55,16 +55,11 @@ def name_of(folder):
     return os.path.basename(os.path.normpath(folder)).replace("generality_", "")
 
 
-def rows_of(folder):
-    with open(os.path.join(folder, "results.csv"), newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
 def baselines(folder):
     """A row for each reference: what images score that know nothing of the scene but, at best, its mean."""
     with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
         references = json.load(file)["references"]
-    variants = {row["variant"]: swept(row) for row in rows_of(folder)}
+    variants = {row["variant"]: swept(row) for row in read_rows(folder, "results.csv")}
     for reference in references:
         scores = reference["baselines"]
         if scores["black"]["indirect_nrmse"] == 0:
@@ -89,8 +84,8 @@ def table(rows, text):
 if __name__ == "__main__":
     for results in sys.argv[1:]:
         print(f"\n### {name_of(results)}\n")
-        print("\n".join(table(rows_of(results), cell)))
-        black = [row for row in rows_of(results) if row["status"] == "ok" and is_black(row)]
+        print("\n".join(table(read_rows(results, "results.csv"), cell)))
+        black = [row for row in read_rows(results, "results.csv") if row["status"] == "ok" and is_black(row)]
         if name_of(results) == "shell_room" and black:
             print("\nLight inside over light outside, %:\n")
             print("\n".join(table(black, lambda row, folder=results: f"{leak(folder, row):.2g}")))

@@ -13,8 +13,9 @@ import textwrap
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.realpath(__file__))), "framework"))
 from matplotlib import font_manager
 from PIL import Image, ImageDraw, ImageFont
-from report.load import ReportError, load
+from report.load import load
 from report.names import names_of
+from report.results import ReportError
 
 GAP, LINE, FONT_SIZE, COLORS = 4, 17, 13, 256  # pixels, pixels, pixels, of the palette
 

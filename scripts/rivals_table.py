@@ -13,11 +13,14 @@ logarithm.
 `>` where the fastest of them already has less error, `-` where none has as little. Direct light is in neither.
 With --best: the least error of each method in no more time than filtered path tracing takes to it.
 """
-import csv
 import math
 import os
 import re
 import sys
+
+sys.dont_write_bytecode = True
+sys.path.append(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "framework"))
+from report.rows import read_rows  # noqa: E402
 
 LEFT_OUT = {"direct", "composite"}
 SHARED = {"gbuffer", "filter_irradiance"}
@@ -36,18 +39,13 @@ COLUMNS = (("looked up", "inject_radiosity", lambda name: False, LEFT_OUT),
            ("virtual lights", "gather_vpls", lambda name: name in LIGHT, LEFT_OUT))
 
 
-def read(*parts):
-    with open(os.path.join(*parts), newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
 def variants(folder):
     """By scene: (passes, result row) of each variant."""
     passes = {}
-    for row in read(folder, "passes.csv"):
+    for row in read_rows(folder, "passes.csv"):
         passes.setdefault(row["variant"], []).append(row)
     scenes = {}
-    for row in read(folder, "results.csv"):
+    for row in read_rows(folder, "results.csv"):
         if row["status"] == "ok":
             scenes.setdefault(row["scene"], []).append((passes[row["variant"]], row))
     return scenes

@@ -27,21 +27,15 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
 sys.dont_write_bytecode = True
 sys.path.append(os.path.join(ROOT, "framework"))
-from trials.yaml_text import yaml_lines  # noqa: E402
+from orchestration.errors import Mistake  # noqa: E402
+from orchestration.yaml_text import yaml_lines  # noqa: E402
+from report.rows import read_rows  # noqa: E402
 
 PROGRAM = os.environ.get("VOXRAY_PROGRAM", os.path.join(ROOT, "voxray"))
 
 
-class Mistake(Exception):
-    """What the user has to change."""
-
-
 def rows(folder, name):
-    path = os.path.join(folder, name)
-    if not os.path.exists(path):
-        return []
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+    return read_rows(folder, name) if os.path.exists(os.path.join(folder, name)) else []
 
 
 def number(text):

@@ -9,5 +9,5 @@ voxray_tests(experiment
 
 # Every config that is shipped, against the real passes; the reference's noise.
 voxray_tests(configs
-  SOURCES unit/counterparts_test.cpp unit/experiment_configs_test.cpp unit/idle_parameters_test.cpp unit/noise_parameters_test.cpp unit/reference_noise_test.cpp unit/value_sets_test.cpp unit/view_check_test.cpp
+  SOURCES unit/experiment_configs_test.cpp unit/families_test.cpp unit/idle_parameters_test.cpp unit/noise_parameters_test.cpp unit/reference_noise_test.cpp unit/value_sets_test.cpp unit/view_check_test.cpp
   DEPENDS voxray_experiment voxray_passes)

@@ -27,6 +27,14 @@ inline void addConfigOptions(CLI::App& command, ConfigArguments& arguments) {
         ->type_name("PATH=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        .add_option(
+            "--only", arguments.config.only,
+            "AXIS=VALUE: run this value of an axis of the sweep, and others that are named so. May be "
+            "given many times.")
+        ->type_name("AXIS=VALUE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_option("--scenes", arguments.scenes, "Folder in which scene files are looked for first.")
         ->type_name("DIR")
         ->check(CLI::ExistingDirectory.description(""));

@@ -8,6 +8,7 @@
 #include "app/config_options.h"
 #include "app/planning.h"
 #include "experiment/parts.h"
+#include "experiment/results_folder.h"
 
 namespace voxray {
 
@@ -18,7 +19,17 @@ struct JobsArguments : ConfigArguments {
     RunOptions options;
     uint32_t referenceParts = 1;
     bool json = false;
+    std::filesystem::path claim;
 };
+
+/// @throws UsageError where the folder holds anything but parts of this experiment.
+void claimForParts(const PreparedExperiment& prepared, const std::filesystem::path& results) {
+    const ResultsFolder folder(results, prepared.experiment().setup.general.name, FolderUse::Part,
+                               ProcessLock::IfHeld::Wait);
+    ManifestData manifest = prepared.manifest();
+    manifest.warnings = prepared.warnings();
+    folder.claim(manifest);
+}
 
 }  // namespace
 
@@ -36,11 +47,17 @@ void addJobsCommand(CLI::App& app, int&) {
         ->type_name("N")
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
+    command
+        ->add_option("--claim", arguments->claim,
+                     "Make this results folder, and keep it for the parts of this experiment.")
+        ->type_name("DIR");
     addConfigOptions(*command, *arguments);
     addDeviceOptions(*command, arguments->options);
     command->callback([arguments] {
         planExperiment(arguments->file, *arguments, arguments->options, [&](PreparedExperiment& prepared) {
-            fmt::print("{}", describeParts(prepared, arguments->referenceParts, arguments->json));
+            const std::string parts = describeParts(prepared, arguments->referenceParts, arguments->json);
+            if (!arguments->claim.empty()) claimForParts(prepared, arguments->claim);
+            fmt::print("{}", parts);
         });
     });
 }

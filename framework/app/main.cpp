@@ -87,6 +87,7 @@ int main(int argc, char** argv) {
     addExplainCommand(app, status);
     addStabilityCommand(app, status);
     addTuneCommand(app, status);
+    addPlanCommand(app, status);
     addPassesCommand(app, status);
     addDevicesCommand(app, status);
     addDoctorCommand(app, status);

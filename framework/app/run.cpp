@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/config_options.h"
+#include "app/planning.h"
 #include "app/run_summary.h"
 #include "app/source_root.h"
 #include "base/thread_limit.h"
@@ -55,7 +56,7 @@ int run(const RunArguments& arguments) {
     // Nothing runs while any of the configs is wrong.
     std::vector<WiredExperiment> experiments;
     for (const std::filesystem::path& config : arguments.configs) {
-        experiments.push_back(wireExperiment(loadExperiment(config, arguments.config), registry));
+        experiments.push_back(wireConfig(config, arguments.config, registry));
         for (const std::string& profile : profileNames(config))
             wireExperiment(loadExperiment(config, {profile, {}}), registry);
     }

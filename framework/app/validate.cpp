@@ -14,6 +14,7 @@
 
 #include "app/commands.h"
 #include "app/config_options.h"
+#include "app/planning.h"
 #include "app/source_root.h"
 #include "base/thread_limit.h"
 #include "experiment/plan_checks.h"
@@ -58,8 +59,7 @@ void validate(const std::filesystem::path& config, const ConfigOptions& options,
     for (const std::string& profile : profiles) {
         const std::string under =
             profile.empty() || profile == options.profile ? "" : fmt::format(" (with --profile {})", profile);
-        WiredExperiment wired =
-            wireExperiment(loadExperiment(config, {profile, options.assignments}), registry);
+        WiredExperiment wired = wireConfig(config, {profile, options.assignments, options.only}, registry);
         for (const std::string& warning : checkPlans(wired, loader, capableDevice(), registry).warnings)
             if (said.insert(warning).second)
                 outcome.messages += fmt::format("voxray: warning: {}{}\n", warning, under);

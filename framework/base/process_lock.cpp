@@ -73,10 +73,6 @@ ProcessLock::ProcessLock(std::filesystem::path file, Kind kind, const std::files
     throw Error("{}: cannot be locked: other processes take it again and again", file_.string());
 }
 
-void ProcessLock::keepAcrossExec() {
-    ::fcntl(descriptor_, F_SETFD, 0);
-}
-
 ProcessLock::~ProcessLock() {
     // Who can have it alone is the last one
     struct flock lock = wholeFile(Kind::Alone);

@@ -23,9 +23,6 @@ class ProcessLock {
     ProcessLock(const ProcessLock&) = delete;
     ProcessLock& operator=(const ProcessLock&) = delete;
 
-    /// Hands the lock on to the program that takes this process over with exec(); it ends with that.
-    void keepAcrossExec();
-
  private:
     std::filesystem::path file_;
     int descriptor_ = -1;

@@ -102,7 +102,11 @@ std::vector<ParameterDoc> describeParams(const Schema& schema, const void* defau
                          parameter.type->min(),
                          parameter.type->max(),
                          parameter.type->choices(),
-                         parameter.isLessNoise};
+                         parameter.isLessNoise,
+                         {}};
+        for (const Parameter::Condition& condition : parameter.conditions)
+            doc.conditions.push_back(
+                {parameterAt(schema, condition.offset).name, condition.values, condition.isOneOf});
         if (parameter.isLessNoise) doc.help += " Larger: less noise.";
         if (const std::string needs = conditionsText(schema, parameter); !needs.empty())
             doc.help += " Only with " + needs + ".";

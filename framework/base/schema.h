@@ -18,6 +18,13 @@ struct ParameterDoc {
     std::string min, max;  ///< Empty where there is no range.
     std::vector<std::string> choices;  ///< The only values; empty: any of the type and range.
     bool isLessNoise = false;          ///< Larger values lower the pass's noise.
+    /// Values of another parameter: one of them, or none of them.
+    struct Condition {
+        std::string parameter;
+        std::vector<std::string> values;
+        bool isOneOf;
+    };
+    std::vector<Condition> conditions;  ///< One of these holds where it has an effect; empty: everywhere.
 };
 
 /// A parameter that is written where it has no effect.

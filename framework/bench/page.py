@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import base64
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import jinja2
-
 from bench import processes
-from report import text
+from report import pages, text
 
 _HERE = Path(__file__).resolve().parent
 _FAR = 0.01  # a mean ratio so far from 1 is marked
@@ -208,11 +205,8 @@ def summary(data: dict) -> str:
 
 def render(data: dict, tables: list[Table]) -> str:
     """The whole page, self-contained."""
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True,
-                                     undefined=jinja2.StrictUndefined)
-    style = (_HERE.parent / "report" / "style.css").read_text(encoding="utf-8")
-    return environment.get_template("gpu.html.j2").render(style_css=style, title=title(data), summary=summary(data), data=data,
-                                                          tables=tables, strips=_strips(data), devices=data.get("devices", []))
+    return pages.render("gpu.html.j2", folder=_HERE, title=title(data), summary=summary(data), data=data, tables=tables,
+                        strips=_strips(data), devices=data.get("devices", []))
 
 
 def _strips(data: dict) -> list[tuple[str, list[tuple[str, str]]]]:
@@ -222,5 +216,5 @@ def _strips(data: dict) -> list[tuple[str, list[tuple[str, str]]]]:
         for run, path in zip(row["pair"].split(" against "), row.get("pictures", [])):
             if Path(path).is_file() and not run.endswith(" again"):
                 strips.setdefault(row["method"].removeprefix("indirect-"), {}).setdefault(run, path)
-    return [(method, [(run, "data:image/png;base64," + base64.b64encode(Path(path).read_bytes()).decode("ascii"))
+    return [(method, [(run, pages.data_uri(Path(path).read_bytes()))
                       for run, path in pictures.items()]) for method, pictures in strips.items()]

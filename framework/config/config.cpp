@@ -4,6 +4,7 @@
 
 #include "base/suggest.h"
 #include "config/overrides.h"
+#include "config/sweep.h"
 #include "config/yaml.h"
 
 namespace voxray {
@@ -214,6 +215,7 @@ Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
     Value config = root;
     if (!options.profile.empty()) applyProfile(config, options.profile);
     for (const std::string& assignment : options.assignments) applyAssignment(config, assignment);
+    keepOnly(config, options.only);
     Experiment experiment = readExperiment(std::move(config));
     checkEmptyBlocks(root, experiment.config);
     experiment.warnings = idleAxes(root, experiment);

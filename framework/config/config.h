@@ -31,6 +31,7 @@ struct Experiment {
 struct ConfigOptions {
     std::string profile;                   ///< Empty: none.
     std::vector<std::string> assignments;  ///< "path=value" of --set, applied in order after the profile.
+    std::vector<std::string> only = {};    ///< "axis=value" of --only: values of the sweep that stay.
 };
 
 /// Reads a config. Everything but the graph's passes and the contents of scene files is checked, all its

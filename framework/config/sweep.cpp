@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/files.h"
+#include "base/suggest.h"
 #include "config/overrides.h"
 #include "config/value_labels.h"
 
@@ -145,6 +146,35 @@ std::vector<std::string> sweepLabels(const Value& axis) {
     std::vector<std::string> names;
     for (const auto& member : axis.members) names.push_back(member.key);
     return names;
+}
+
+void keepOnly(Value& config, const std::vector<std::string>& choices) {
+    std::map<std::string, std::set<std::string>> chosen;
+    for (const std::string& choice : choices) {
+        const size_t equals = choice.find('=');
+        if (equals == std::string::npos)
+            throw UsageError("--only {}: expected AXIS=VALUE, as in voxelize.resolution=64", choice);
+        chosen[choice.substr(0, equals)].insert(choice.substr(equals + 1));
+    }
+    for (const auto& [path, values] : chosen) {
+        Value* sweep = config.find("sweep");
+        Value* axis = sweep ? sweep->find(path) : nullptr;
+        std::vector<std::string> names;
+        for (const auto& member : sweep ? sweep->members : std::vector<Value::Member>())
+            names.push_back(member.key);
+        if (!axis) throw UsageError("--only: the sweep has no axis '{}'{}", path, didYouMean(path, names));
+        const std::vector<std::string> labels = sweepLabels(*axis);
+        for (const std::string& value : values)
+            if (std::ranges::count(labels, value) == 0)
+                throw UsageError("--only: '{}' has no value '{}'{}", path, value, didYouMean(value, labels));
+        for (size_t i = labels.size(); i-- > 0;) {
+            if (values.contains(labels[i])) continue;
+            if (axis->isMap())
+                axis->members.erase(axis->members.begin() + ptrdiff_t(i));
+            else
+                axis->items.erase(axis->items.begin() + ptrdiff_t(i));
+        }
+    }
 }
 
 std::vector<Variant> expandSweep(const Experiment& experiment) {

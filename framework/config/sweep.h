@@ -25,6 +25,11 @@ std::vector<Value> sweepValues(const Value& axis);
 /// Short texts of these values, as in Variant::values: the names that a map gives them, else valueLabels().
 std::vector<std::string> sweepLabels(const Value& axis);
 
+/// Takes all values out of a config's sweep but the chosen ones; axes without a choice stay whole.
+/// @param choices "axis=value", the value as sweepLabels() has it. @throws UsageError for one that isn't
+/// there.
+void keepOnly(Value& config, const std::vector<std::string>& choices);
+
 /// In place of the value of an axis that a variant does not have.
 inline constexpr const char* kNoValue = "-";
 

@@ -73,6 +73,15 @@ Value parameterSchema(const ParameterDoc& doc) {
         schema.set("minimum", literal(doc.min));
         schema.set("maximum", literal(doc.max));
     }
+    if (!doc.conditions.empty()) {
+        // Not JSON Schema's: editors leave it alone, `voxray explain` drops parameters by it
+        Value conditions = Value::list();
+        for (const ParameterDoc::Condition& condition : doc.conditions)
+            conditions.items.push_back(
+                object({{"parameter", text(condition.parameter)},
+                        {condition.isOneOf ? "in" : "not_in", listOf(condition.values)}}));
+        schema.set("x-only-with", conditions);
+    }
     if (isTriple)
         schema.set("default", numbers(doc.defaults));
     else if (isNumber || doc.type == "boolean")

@@ -17,23 +17,22 @@ extern char** environ;
 namespace voxray {
 namespace {
 
-/// The interpreter that the Debian packages of numpy, pandas and matplotlib belong to.
-constexpr const char* kPython = "/usr/bin/python3";
-
 std::string lastLine(std::string text) {
     while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
     const size_t start = text.rfind('\n');
     return start == std::string::npos ? text : text.substr(start + 1);
 }
 
-}  // namespace
+/// What a script said last, and its exit status.
+struct ScriptEnd {
+    std::string lastLine;
+    int status = 0;
+};
 
-ScriptEnd runReportScript(const std::filesystem::path& sourceRoot, const std::string& script,
-                          const std::vector<std::string>& arguments, OnInterrupt onInterrupt) {
-    const std::string path = (sourceRoot / "framework/report" / script).string();
-    std::vector<const char*> words{kPython, path.c_str()};
-    for (const std::string& argument : arguments) words.push_back(argument.c_str());
-    words.push_back(nullptr);
+/// Runs a script in a process of its own and waits for it. Ctrl-C is for the caller's InterruptScope, which
+/// ends the script at the second.
+ScriptEnd runScript(const std::string& script, const std::string& argument) {
+    const char* words[] = {kPython, script.c_str(), argument.c_str(), nullptr};
 
     // Its output goes into a pipe
     int ends[2];
@@ -44,14 +43,14 @@ ScriptEnd runReportScript(const std::filesystem::path& sourceRoot, const std::st
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
-    if (onInterrupt == OnInterrupt::Finish) posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     pid_t child = 0;
-    const int failure = ::posix_spawn(&child, kPython, &actions, &attributes,
-                                      const_cast<char* const*>(words.data()), environ);
+    const int failure =
+        ::posix_spawn(&child, kPython, &actions, &attributes, const_cast<char* const*>(words), environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     ::close(ends[1]);
-    const InterruptedChild interruptedChild(onInterrupt == OnInterrupt::Finish ? child : 0);
+    const InterruptedChild interruptedChild(failure == 0 ? child : 0);
 
     std::string said;
     char buffer[4096];
@@ -69,16 +68,16 @@ ScriptEnd runReportScript(const std::filesystem::path& sourceRoot, const std::st
     return {lastLine(said), WIFEXITED(status) ? WEXITSTATUS(status) : 1};
 }
 
+}  // namespace
+
 void makeReport(const std::filesystem::path& sourceRoot, const std::filesystem::path& results) {
-    constexpr const char* kScript = "make_report.py";
-    const std::string advice =
-        fmt::format("the results are kept; make it later with {} {} {}", kPython,
-                    (sourceRoot / "framework/report" / kScript).string(), results.string());
+    const std::string script = (sourceRoot / "framework/report/make_report.py").string();
     try {
-        const ScriptEnd end = runReportScript(sourceRoot, kScript, {results.string()}, OnInterrupt::Finish);
+        const ScriptEnd end = runScript(script, results.string());
         if (end.status != 0) throw Error("{}", end.lastLine);
     } catch (const Error& error) {
-        throw Error("report: {}; {}", error.what(), advice);
+        throw Error("report: {}; the results are kept; make it later with {} {} {}", error.what(), kPython,
+                    script, results.string());
     }
 }
 

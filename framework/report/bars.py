@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from report import text
-from report.load import Results
 from report.names import Names
+from report.results import Results
 
 
 @dataclass(frozen=True)

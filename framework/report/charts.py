@@ -10,9 +10,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.ranking import pareto_front, pareto_layers
-from report.load import BASELINES, LIGHTS, Metric, Results, interval_ends
 from report.names import Names
+from report.ranking import pareto_front, pareto_layers
+from report.results import BASELINES, LIGHTS, Metric, Results, interval_ends
 from report.style import Style
 from report.svg import FONT_SIZE, STAND_INS, drawing, to_svg
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 
-from report.load import Results
+from report.results import Results
 from report.setting import scenes_of
 
 

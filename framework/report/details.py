@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import pandas as pd
 
 from report import film, images, text
-from report.load import IMAGES, LIGHTS, ReportError, Results, section
 from report.names import Names
+from report.results import IMAGES, LIGHTS, ReportError, Results, section
 
 
 @dataclass(frozen=True)

@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 
 from report import text
-from report.load import LIGHTS, Metric, Results, interval_ends
 from report.names import Family, Names
 from report.ranking import all_beaten, pareto_front
+from report.results import LIGHTS, Metric, Results, interval_ends
 
 _RIVAL = "path_trace"  # the pass that a user would pick instead
 

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from report import exr_pixels
-from report.load import ReportError, Results
+from report.results import ReportError, Results
 
-AXIS = "explained"  # the sweep's key, as framework/experiment/counterparts.cpp writes it
+AXIS = "explained"  # the sweep's key, as orchestration/explain.py writes it
 RELMSE_OFFSET = 0.01  # as framework/image/metrics.h has it
 _RESAMPLES, _OUTSIDE = 999, 25
 _TILE_EDGE, _FEW_TILES = 16, 64  # as framework/image/bootstrap.cpp has them

@@ -6,21 +6,20 @@ import io
 from dataclasses import dataclass
 from pathlib import Path
 
-import jinja2
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 from PIL import Image
 
 from report import images as pictures
-from report import text
+from report import explain, pages, text
 from report.explain import Explained, Images, percent, sentence
 from report.images import Picture
-from report.load import IMAGES, Results
+from report.load import load
+from report.results import IMAGES, Results
 from report.style import CATEGORY_COLORS
 from report.svg import STAND_INS, drawing, to_svg
 
-_HERE = Path(__file__).resolve().parent
 _SIGNED_COLORS = "RdBu_r"  # blue: the stage takes light away, red: it adds light
 _SMALL = 0.1  # of the whole error: a rest that needs no word
 
@@ -34,14 +33,23 @@ class Shown:
     note: str
 
 
+def write(directory: Path) -> str:
+    """Makes explain.html and explain.csv of a run of `voxray explain`. @return what brings the largest part
+    @throws ReportError where the folder is no such run"""
+    results = load(directory)
+    stages, shown = explain.read(results)
+    explained = [explain.explain(stages, shown, label) for label in explain.METRICS]
+    pages.write_whole(directory / "explain.html", render(results, shown, explained))
+    pages.write_whole(directory / "explain.csv", pages.csv_text(csv_lines(explained)))
+    return sentence(explained[0])
+
+
 def render(results: Results, images: Images, explained: list[Explained]) -> str:
     """The whole page, self-contained."""
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True,
-                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     scale = _scale(images)
     config = results.manifest.get("config", {})
-    return environment.get_template("explain.html.j2").render(
-        style_css=(_HERE / "style.css").read_text(encoding="utf-8"), name=str(config.get("name", "")).removeprefix("explain_"),
+    return pages.render(
+        "explain.html.j2", name=str(config.get("name", "")).removeprefix("explain_"),
         sentences=[line for one in explained for line in _sentences(one)],
         charts=[_waterfall(one, f"waterfall-{i}") for i, one in enumerate(explained)],
         tables=[(one.label, _rows(one)) for one in explained], stages=[part.stage for part in explained[0].parts],
@@ -132,7 +140,7 @@ def _signed(difference: np.ndarray, scale: float) -> Picture:
     colored = (matplotlib.colormaps[_SIGNED_COLORS](shade)[..., :3] * 255).round().astype(np.uint8)
     out = io.BytesIO()
     Image.fromarray(colored).save(out, "PNG", optimize=True)
-    return Picture(pictures.data_uri(out.getvalue()), colored.shape[1], colored.shape[0])
+    return Picture(pages.data_uri(out.getvalue()), colored.shape[1], colored.shape[0])
 
 
 def _part_images(images: Images, one: Explained, scale: float) -> list[Shown]:

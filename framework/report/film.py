@@ -6,10 +6,8 @@ import io
 import re
 from pathlib import Path
 
-from PIL import Image
-
-from report import images
-from report.load import IMAGES, Results
+from report import images, pages
+from report.results import IMAGES, Results
 
 _QUALITY = 90  # of WebP, 0 to 100: frames pass by, so that they need not be exact
 _MILLISECONDS = 100  # a frame
@@ -37,4 +35,4 @@ def film(paths: list[Path]) -> images.Picture:
     frames = [images.open_png(path).convert("RGB") for path in paths]
     out = io.BytesIO()
     frames[0].save(out, "WEBP", save_all=True, append_images=frames[1:], duration=_MILLISECONDS, loop=0, quality=_QUALITY)
-    return images.Picture(images.data_uri(out.getvalue(), "image/webp"), *frames[0].size)
+    return images.Picture(pages.data_uri(out.getvalue(), "image/webp"), *frames[0].size)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import io
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,7 +10,8 @@ import matplotlib
 import numpy as np
 from PIL import Image, UnidentifiedImageError
 
-from report.load import ReportError
+from report.pages import data_uri
+from report.results import ReportError
 
 ERROR_COLORS = "magma"  # as FLIP's authors show it: black is no error, light yellow is the largest
 
@@ -60,8 +60,3 @@ def open_png(path: Path, data: bytes | None = None) -> Image.Image:
         return image
     except (UnidentifiedImageError, OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
         raise ReportError(f"{path}: is not a whole PNG file") from error
-
-
-def data_uri(data: bytes, kind: str = "image/png") -> str:
-    """An image file to embed."""
-    return f"data:{kind};base64," + base64.b64encode(data).decode("ascii")

@@ -10,8 +10,9 @@ sys.dont_write_bytecode = True
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from report import page  # noqa: E402
-from report.files import write_whole  # noqa: E402
-from report.load import ReportError, load  # noqa: E402
+from report.load import load  # noqa: E402
+from report.pages import write_whole  # noqa: E402
+from report.results import ReportError  # noqa: E402
 
 
 def main(arguments: list[str]) -> int:
@@ -32,7 +33,7 @@ def main(arguments: list[str]) -> int:
     try:
         write_whole(target, source)
     except OSError as error:
-        print(f"report: {target}: cannot write: {error.strerror or error}", file=sys.stderr)
+        print(f"report: {error.filename}: {error.strerror}", file=sys.stderr)
         return 1
     print(target)
     return 0

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from report import text
-from report.load import Results, number, section
+from report.results import Results, number, section
 
 _KEYS = ("move", "off_at", "time_step", "moving_spheres")  # of a config
 _PLACES = {"point": "m", "spot": "m", "directional": "of its direction"}  # kinds of lights -> what `move` is in

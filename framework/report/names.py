@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from report.load import Results
 from report.ranking import is_numeric
+from report.results import Results
 
 
 @dataclass(frozen=True)

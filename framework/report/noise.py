@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from report import text
-from report.load import LIGHTS, Results, section
 from report.names import Names
+from report.results import LIGHTS, Results, section
 
 _IMAGES = {"total": "final", "indirect": "indirect"}  # light -> image, as the manifest calls it
 _FILTERS = {"filter_irradiance", "accumulate"}  # passes whose bias may fall with the noise of what they filter

@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
-import jinja2
-
-from report import bars, charts, details, images, parts, style, table, text, values
-from report.load import IMAGES, Metric, Results, section
+from report import bars, charts, details, images, pages, parts, style, table, text, values
 from report.names import Names, families_of, names_of
+from report.results import IMAGES, Metric, Results, section
 from report.selection import selected
 from report.setting import setting_of
 from report.summary import summary, unfinished
 
-_HERE = Path(__file__).parent
 _SCRIPTS = ("state.js", "table.js", "viewer.js", "pair.js", "keys.js")  # in the order in which they run
 _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's row numbers
 _MAX_NAMED_POINTS = 12
@@ -43,11 +39,8 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
     variants = details.variants(shown, lights, colors, names, anchors, warnings)
     thumbnails = details.thumbnails(shown, lights, variants)
     manifest = _manifest_of(results, shown)
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True,
-                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters["breakable"] = text.breakable
-    return environment.get_template("template.html.j2").render(
-        title=_title(results), setting=setting_of(results), lights=lights, light=lights[-1],
+    return pages.render(
+        "template.html.j2", scripts=_SCRIPTS, title=_title(results), setting=setting_of(results), lights=lights, light=lights[-1],
         unfinished=unfinished(results),
         summaries={light: summary(results, light, families, names) for light in lights},
         columns=columns, metrics=[*results.metrics, *_split(results, columns)],
@@ -68,8 +61,7 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
         error_gradient=images.error_gradient(), provenance=_provenance(results),
         config=text.yaml_like(results.manifest["config"]) if results.manifest.get("config") else "",
         manifest=json.dumps(manifest, indent=2, ensure_ascii=False) if manifest else "",
-        warnings=warnings, style_css=(_HERE / "style.css").read_text(encoding="utf-8"),
-        scripts="\n".join((_HERE / name).read_text(encoding="utf-8") for name in _SCRIPTS))
+        warnings=warnings)
 
 
 def _anchors(names: Names, shown: Results) -> dict[str, str]:

@@ -7,8 +7,8 @@ import statistics
 from dataclasses import dataclass, field
 
 from report.equal_error import Reached, time_to_reach
-from report.load import LIGHTS, Metric, Results, interval_of, number, section
 from report.ranking import beaten_by, pareto_front
+from report.results import LIGHTS, Metric, Results, interval_of, number, section
 from report.setting import scene_of
 
 TRACED = "path_trace"

@@ -5,23 +5,38 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-import jinja2
 from matplotlib.figure import Figure
 
-from report import pareto, text
+from report import pages, pareto, text
 from report.charts import set_up_axis
-from report.load import Metric, Results
+from report.load import load
 from report.pareto import COSTS, TRACED, Factor, Measured, Scene
 from report.ranking import pareto_front
+from report.results import Metric, ReportError, Results
 from report.style import CATEGORY_COLORS, MARKERS, Style
 from report.svg import STAND_INS, drawing, to_svg
 
-_HERE = Path(__file__).resolve().parent
 _SAMPLES = (4, 16)  # of filtered path tracing, at whose errors the best method is looked for
 _MAX_ON_FRONT = 3  # methods that are named
 _WORST_OF = ("nrmse", "relmse")  # the metric that shows least gain counts
 _QUALITY = ("ssim", "nrmse", "relmse", "mean_ratio")
 CHARTED = (*pareto.TIMES, "memory")
+
+
+def write(page: Path, folders: list[Path], error: str, light: str) -> Path:
+    """Makes the page, and next to it a table of the same name. @return the table
+    @throws ReportError where there are no results with that metric"""
+    runs = [load(folder) for folder in folders]
+    usable = {metric.key: metric for metric in runs[0].metrics if metric.better == "low"}
+    if error not in usable:
+        raise ReportError(f"--error: '{error}' is none of {', '.join(usable)}")
+    metric, table = usable[error], page.with_suffix(".csv")
+    rows = list(csv_lines(runs, metric, light))
+    if len(rows) < 2:
+        raise ReportError(f"no variant has {metric.label} of the {light} light")
+    pages.write_whole(page, render(runs, metric, light))
+    pages.write_whole(table, pages.csv_text(rows))
+    return table
 
 
 def render(runs: list[Results], metric: Metric, light: str) -> str:
@@ -36,10 +51,8 @@ def render(runs: list[Results], metric: Metric, light: str) -> str:
     charts = [(scene.name, [chart for c, cost in enumerate(CHARTED)
                             if (chart := _chart(scene, cost, metric, light, styles, f"scene{s}-{c}"))])
               for s, scene in enumerate(scenes)]
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True,
-                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    return environment.get_template("pareto.html.j2").render(
-        style_css=(_HERE / "style.css").read_text(encoding="utf-8"), metric=metric, light=light, charts=charts,
+    return pages.render(
+        "pareto.html.j2", metric=metric, light=light, charts=charts,
         legend=list(styles.items()), markers=MARKERS, tables=[(cost, _savings(rivalled, cost)) for cost in pareto.TIMES],
         equal_time=_equal_time(rivalled, "frame"), best_points=_best_points(rivalled), gains=_gains(scenes, both),
         worst_of=_WORST_OF, scene_names=[scene.name for scene in rivalled], words={cost: _words_of(cost) for cost in pareto.TIMES},

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from report import images, table, text
 from report.line_chart import line_chart
-from report.load import LIGHTS, Results, number, section
 from report.names import Names
+from report.results import LIGHTS, Results, number, section
 from report.style import Style
 
 

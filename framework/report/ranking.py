@@ -9,7 +9,7 @@ from collections.abc import Mapping
 import pandas as pd
 
 from report.comparisons import comparisons
-from report.load import BASELINES, Metric, Results, interval_ends, interval_of
+from report.results import BASELINES, Metric, Results, interval_ends, interval_of
 
 COST_COLUMNS = ("build_ms", "frame_ms_median", "memory_bytes")
 

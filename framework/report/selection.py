@@ -6,9 +6,9 @@ import math
 
 from report.comparisons import comparisons
 from report.film import film_bytes
-from report.load import IMAGES, LIGHTS, ReportError, Results, interval_ends
 from report.names import Names
 from report.ranking import pareto_front
+from report.results import IMAGES, LIGHTS, ReportError, Results, interval_ends
 
 FRONT, ALL = "front", "all"
 _MAX_BYTES = 50e6  # of images and rows in a page: charts and the text of some hundred variants take less than 10 MB

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from report import motion, text
-from report.load import Results, section
+from report.results import Results, section
 
 _SOURCES = ("file", "builtin")
 _OWN_WORDS = ("camera", "lights", "environment", "add", "override", "keep_file_lights", "time_step")

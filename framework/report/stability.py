@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from report import exr_pixels
-from report.load import IMAGES, ReportError, Results, load, number
+from report.load import load
+from report.results import IMAGES, ReportError, Results, number
 
 _LIMIT_COLUMNS = ("profile", "scene", "measure", "methods", "limit", "scale", "why")
 _REASON_COLUMNS = ("scene", "measure", "methods", "reason")

@@ -2,16 +2,42 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
-import jinja2
-
-from report import images, text
+from report import images, pages, stability, text
 from report.stability import MEASURES, UNKNOWN, Cell, Row
 
-_HERE = Path(__file__).resolve().parent
+
+@dataclass(frozen=True)
+class Tables:
+    """failing: scenes of cells that fail but run, by profile and method."""
+
+    summary: str
+    markdown: str
+    failing: dict[str, dict[str, list[str]]]
+
+
+def write(directory: Path, limits: Path, with_remedies: bool = False) -> Tables:
+    """Makes stability.html, stability.csv, stability.md and failing.json of the runs in a folder, one folder a profile.
+
+    @param limits what is measured in each scene and its limit; known reasons stand next to it, in LIMITS_reasons.csv
+    @param with_remedies say what the runs in directory/remedies change
+    @throws ReportError where there are no results or limits"""
+    reasons = stability.read_reasons(limits.with_name(limits.stem + "_reasons.csv"))
+    rows = stability.read_limits(limits)
+    cells = stability.cells_of(directory, rows, reasons)
+    if with_remedies:
+        cells = stability.with_remedies(cells, directory, rows)
+    tables = Tables(summary(cells), "\n".join(markdown(cells)) + "\n", stability.failing_of(cells))
+    pages.write_whole(directory / "stability.html", render(cells, directory))
+    pages.write_whole(directory / "stability.csv", pages.csv_text(csv_lines(cells)))
+    pages.write_whole(directory / "stability.md", tables.markdown)
+    pages.write_whole(directory / "failing.json", json.dumps(tables.failing, indent=1) + "\n")
+    return tables
 
 
 def percent(value: float) -> str:
@@ -86,14 +112,12 @@ def _table(cells: list[Cell]) -> list[tuple[Row, str, list[tuple[str, str, str]]
 
 def render(cells: list[Cell], directory: Path) -> str:
     """The whole page, self-contained. @throws ReportError where an image is no PNG."""
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_HERE), autoescape=True, trim_blocks=True,
-                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     failing = [cell for cell in cells if cell.fails]
     tally = [(method, sum(cell.method == method for cell in failing), sum(cell.method == method for cell in cells))
              for method in methods_of(cells)]
     embedded = {path: images.embed(path) for cell in failing for path in (cell.picture, cell.truth) if path}
-    return environment.get_template("stability.html.j2").render(
-        style_css=(_HERE / "style.css").read_text(encoding="utf-8"), summary=summary(cells), tally=tally,
+    return pages.render(
+        "stability.html.j2", summary=summary(cells), tally=tally,
         methods=methods_of(cells), table=_table(cells), directory=str(directory),
         measures=[(name, meaning) for name, (_, meaning) in MEASURES.items() if any(cell.row.measure == name for cell in cells)],
         failing=[(cell, reason(cell), percent(cell.value), percent(cell.limit), embedded.get(cell.picture), embedded.get(cell.truth))

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from report.load import Results
 from report.names import Family
 from report.ranking import is_numeric
+from report.results import Results
 
 CATEGORY_COLORS = tuple(f"c{i}" for i in range(8))
 RAMP_COLORS = tuple(f"s{i}" for i in range(7))  # for numbers: from little to much

@@ -6,9 +6,9 @@ import math
 
 from report import equal_error, noise, text
 from report.comparisons import comparisons
-from report.load import LIGHTS, Results
 from report.names import Family, Names, families_of, names_of
 from report.ranking import all_beaten, score_marks
+from report.results import LIGHTS, Results
 
 _TENTH_DB = 10.0  # a tenth of a squared error, in dB
 _MAX_MISSING = 6  # variants that are listed by name

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from report import ranking, text
-from report.load import BASELINES, LIGHTS, Metric, Results, interval_columns
 from report.names import Names
+from report.results import BASELINES, LIGHTS, Metric, Results, interval_columns
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ import pandas as pd
 
 from report import text
 from report.line_chart import line_chart
-from report.load import Results
 from report.names import Names
+from report.results import Results
 from report.style import Style
 
 

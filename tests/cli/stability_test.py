@@ -79,7 +79,7 @@ class Stability(CommandTest):
                             (["--scenario", "furnance"], "no scenario 'furnance'; did you mean 'furnace'?"),
                             (["--profile", "leek"], "no profile 'leek'; did you mean 'leak'?")):
             self.assertIn(part, self.expect(2, "stability", "--dry-run", *words).stderr)
-        plain = self.write("plain.yaml", "name: plain\nscene: {builtin: cornell}\ngraph: [{pass: gbuffer}]\nprofiles: {a: {seed: 1}}\n")
+        plain = self.write("plain.yaml", "name: plain\nscene: {builtin: cornell}\ngraph: [{pass: path_trace, spp: 1}]\nprofiles: {a: {seed: 1}}\n")
         self.assertIn("needs an axis 'scene'", self.expect(2, "stability", "--config", plain).stderr)
 
 

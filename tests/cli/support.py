@@ -77,9 +77,11 @@ class CommandTest(unittest.TestCase):
         schema = json.loads(self.expect(0, "schema").stdout)
         return schema["properties"]["measure"]["properties"]["metrics"]["items"]["enum"]
 
-    def start_until(self, ready, *arguments, **options):
-        """Starts the program and returns it once ready() is true. Fails where it ends before that."""
-        process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, env=self.environment,
+    def start_until(self, ready, *arguments, through=(), **options):
+        """Starts the program and returns it once ready() is true. Fails where it ends before that.
+
+        @param through words of a command that becomes the program"""
+        process = subprocess.Popen([*through, PROGRAM, *arguments], cwd=self.folder, env=self.environment,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                    stdin=subprocess.DEVNULL, **options)
         self.addCleanup(process.stderr.close)

@@ -119,27 +119,6 @@ TEST_F(SharedFolder, WhoWaitsGetsTheLockWhenItsHolderEnds) {
     end(holder, SIGKILL);
 }
 
-TEST_F(SharedFolder, ALockGoesOnInTheProgramThatTakesTheProcessOver) {
-    int ready[2];
-    ASSERT_EQ(::pipe(ready), 0);
-    const pid_t process = ::fork();
-    if (process == 0) {
-        ProcessLock lock(file(), Kind::Alone, folder_);
-        lock.keepAcrossExec();
-        ::dup2(ready[1], STDOUT_FILENO);
-        ::execlp("sh", "sh", "-c", "echo; exec sleep 60", nullptr);
-        ::_exit(1);
-    }
-    holders_.push_back(process);
-    char byte = 0;
-    EXPECT_EQ(::read(ready[0], &byte, 1), 1);
-    EXPECT_FALSE(canTake(Kind::Alone));
-    end(process, SIGKILL);
-    EXPECT_TRUE(canTake(Kind::Alone));
-    ::close(ready[0]);
-    ::close(ready[1]);
-}
-
 TEST_F(SharedFolder, FoldersAreReplacedWhole) {
     const fs::path target = folder_ / "images";
     const auto write = [&](const std::string& text) {

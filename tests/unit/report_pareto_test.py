@@ -11,8 +11,9 @@ sys.dont_write_bytecode = True
 sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "framework"), str(Path(__file__).resolve().parent)]
 
 import report_results as made_up  # noqa: E402
-from report import make_pareto, pareto, pareto_page  # noqa: E402
+from report import pareto, pareto_page  # noqa: E402
 from report.load import load  # noqa: E402
+from report.results import ReportError  # noqa: E402
 
 RAYS = ("gbuffer", "voxelize", "inject_light_rays", "gather_rays", "filter_irradiance")
 PATHS = ("gbuffer", "path_trace", "filter_irradiance")
@@ -168,7 +169,7 @@ class Pareto(unittest.TestCase):
     def test_the_page_and_its_table(self):
         folder = self.run_of("room", {"p": (PATHS, 100, 0.1), "r": (RAYS, 10, 0.05)})
         out = self.root / "out.html"
-        self.assertEqual(make_pareto.main(["--out", str(out), str(folder)]), 0)
+        self.assertEqual(pareto_page.write(out, [folder], "nrmse", "indirect"), out.with_suffix(".csv"))
         page = out.read_text(encoding="utf-8")
         for words in ("Speed-up over filtered path tracing", "room", "1 of 1", "<svg"):
             self.assertIn(words, page)
@@ -200,8 +201,9 @@ class Pareto(unittest.TestCase):
 
     def test_what_cannot_be_read(self):
         folder = self.run_of("room", {"p": (PATHS, 100, 0.1)})
-        for arguments in (["nowhere"], [str(folder), "--error", "ssim"]):
-            self.assertEqual(make_pareto.main(["--out", str(self.root / "x.html"), *arguments]), 2)
+        for results, error, words in (("nowhere", "nrmse", "no such file"), (folder, "ssim", "'ssim' is none of")):
+            with self.assertRaisesRegex(ReportError, words):
+                pareto_page.write(self.root / "x.html", [results], error, "indirect")
         self.assertFalse((self.root / "x.html").exists())
 
 

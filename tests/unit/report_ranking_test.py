@@ -8,7 +8,8 @@ import unittest
 from report_support import FLIP, NRMSE, Page, ReportTest, made_up
 
 from report import equal_error, names, page, ranking, summary, table
-from report.load import Metric, interval_of, load
+from report.load import load
+from report.results import Metric, interval_of
 
 
 class Comparing(ReportTest):

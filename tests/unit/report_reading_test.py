@@ -11,7 +11,8 @@ from unittest import mock
 from report_support import ReportTest, made_up
 
 from report import images, text
-from report.load import ReportError, load
+from report.load import load
+from report.results import ReportError
 from PIL import Image
 
 

@@ -1,8 +1,6 @@
 """Tests of the tables of `voxray stability`, on runs whose numbers are known. Needs Debian's Python with pandas and Jinja2."""
 
-import contextlib
 import csv
-import io
 import json
 import sys
 import tempfile
@@ -16,8 +14,8 @@ sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "framework"), str(Path
 
 import report_results as made_up  # noqa: E402
 from exr_writer import exr  # noqa: E402
-from report import make_stability, stability, stability_page  # noqa: E402
-from report.load import ReportError  # noqa: E402
+from report import stability, stability_page  # noqa: E402
+from report.results import ReportError  # noqa: E402
 from report_support import Page  # noqa: E402
 
 SHIPPED = Path(__file__).resolve().parents[2] / "configs" / "stability"
@@ -123,9 +121,8 @@ class Stability(unittest.TestCase):
             self.profile(f"remedies/{name}/rays/bias", {("room", "rays"): (1.0, {"indirect_bias_nrmse": rays})})
             self.profile(f"remedies/{name}/cones/bias", {("room", "cones"): (1.0, {"indirect_bias_nrmse": cones})})
         self.profile("remedies/finer_voxels/rays/moving", {})  # begun, nothing finished
-        with contextlib.redirect_stdout(io.StringIO()) as said:
-            self.assertEqual(make_stability.main([str(self.root), str(self.limits), "--remedies"]), 0)
-        self.assertEqual(said.getvalue(), "2 of 4 cells fail; 2 are empty; a remedy lowers 1 of these, 1 of them below their limit\n")
+        tables = stability_page.write(self.root, self.limits, with_remedies=True)
+        self.assertEqual(tables.summary, "2 of 4 cells fail; 2 are empty; a remedy lowers 1 of these, 1 of them below their limit")
         with open(self.root / "stability.csv", newline="", encoding="utf-8") as file:
             reasons = {(row["scene"], row["method"]): row["reason"] for row in csv.DictReader(file)}
         self.assertEqual(reasons, {("room", "rays"): "5.0 % with more rays, 10 % with finer voxels",
@@ -137,9 +134,7 @@ class Stability(unittest.TestCase):
     def test_the_tables_show_every_cell(self):
         self.profile("leak", {("wall", "rays"): (0.001, {}), ("wall", "cones"): ("out of memory", {})})
         self.profile("bias", {("room", "rays"): (1.0, {"indirect_bias_nrmse": 0.05})})
-        with contextlib.redirect_stdout(io.StringIO()) as said:
-            self.assertEqual(make_stability.main([str(self.root), str(self.limits)]), 0)
-        self.assertEqual(said.getvalue(), "2 of 3 cells fail; 1 are empty\n")
+        self.assertEqual(stability_page.write(self.root, self.limits).summary, "2 of 3 cells fail; 1 are empty")
         self.assertEqual((self.root / "stability.md").read_text(encoding="utf-8"),
                          "| scene | measure | limit, % | rays | cones |\n| --- | --- | --- | --- | --- |\n"
                          "| wall | leak | 0.010; 0.10 for cones | **0.050** | **does not run** |\n"
@@ -163,9 +158,8 @@ class Stability(unittest.TestCase):
             with self.assertRaisesRegex(ReportError, part):
                 stability.read_limits(self.limits)
         self.limits.write_text(LIMITS, encoding="utf-8")
-        with contextlib.redirect_stderr(io.StringIO()) as said:
-            self.assertEqual(make_stability.main([str(self.root), str(self.limits)]), 2)
-        self.assertIn("no profile of the limits has results there", said.getvalue())
+        with self.assertRaisesRegex(ReportError, "no profile of the limits has results there"):
+            stability_page.write(self.root, self.limits)
 
     def test_the_shipped_limits_and_reasons_fit_together(self):
         rows = stability.read_limits(SHIPPED / "matrix.csv")

@@ -16,7 +16,7 @@ sys.path += [str(ROOT / "framework"), str(ROOT / "tests" / "unit")]
 
 import report_results as made_up  # noqa: E402
 from report import make_report  # noqa: E402
-from report.load import Metric  # noqa: E402
+from report.results import Metric  # noqa: E402
 
 NRMSE = Metric("nrmse", "nRMSE", "", "low", "", True)
 FLIP = Metric("flip", "HDR-FLIP", "", "low", "")

@@ -1,15 +1,22 @@
-"""framework/trials: the search on costs made by hand, targets."""
+"""The search of `voxray tune` on costs made by hand, its targets and values."""
 import itertools
 import math
 import os
+import subprocess
 import sys
+import tempfile
 import unittest
+from pathlib import Path
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "framework"))
-from trials.runs import Mistake, Target  # noqa: E402
-from trials.search import Model, Outcome, Search, variants_of  # noqa: E402
+from orchestration import sweep  # noqa: E402
+from orchestration.errors import Mistake, did_you_mean, one_line  # noqa: E402
+from orchestration.trials import Target  # noqa: E402
+from orchestration.tune import values_of  # noqa: E402
+from orchestration.search import Model, Outcome, Search, variants_of  # noqa: E402
 
+COLUMNS = ("flip", "ssim", "psnr_db", "mean_ratio", "indirect_relmse", "indirect_mean_ratio")
 RAYS, SIZES, LEVELS = [4, 8, 16, 32, 64, 128, 256], [16, 32, 64, 128], [1, 2, 3, 4]
 
 
@@ -121,16 +128,60 @@ class Places(unittest.TestCase):
 
 class Targets(unittest.TestCase):
     def test_errors_fall_and_similarity_rises(self):
-        self.assertAlmostEqual(Target.read("indirect_relmse=0.02").excess(0.01), 0.5)
-        self.assertAlmostEqual(Target.read("ssim=0.98").excess(0.96), 2)
-        self.assertAlmostEqual(Target.read("indirect_mean_ratio=1.01").excess(0.98), 2)
-        self.assertAlmostEqual(Target.read("psnr_db=40").excess(60), 0.1)
-        self.assertEqual(Target.read("flip=0.1").excess(math.nan), math.inf)
+        self.assertAlmostEqual(Target.read("indirect_relmse=0.02", COLUMNS).excess(0.01), 0.5)
+        self.assertAlmostEqual(Target.read("ssim=0.98", COLUMNS).excess(0.96), 2)
+        self.assertAlmostEqual(Target.read("indirect_mean_ratio=1.01", COLUMNS).excess(0.98), 2)
+        self.assertAlmostEqual(Target.read("psnr_db=40", COLUMNS).excess(60), 0.1)
+        self.assertEqual(Target.read("flip=0.1", COLUMNS).excess(math.nan), math.inf)
 
     def test_what_no_image_can_meet_is_refused(self):
-        for text in ("flip", "flip=", "flip=x", "flip=0", "ssim=1", "mean_ratio=1", "=3"):
+        for text in ("flip", "flip=", "flip=x", "flip=0", "ssim=1", "mean_ratio=1", "=3", "flip=nan", "flop=1"):
             with self.assertRaises(Mistake):
-                Target.read(text)
+                Target.read(text, COLUMNS)
+
+    def test_parameters_take_halves_and_doubles_within_their_range(self):
+        count = {"type": "integer", "minimum": 4, "maximum": 64}
+        self.assertEqual(values_of(count, 12, "a.n"), ["4", "6", "12", "24", "48", "64"])
+        self.assertEqual(values_of({"type": "number"}, 0.1, "a.n"), ["0.0125", "0.025", "0.05", "0.1", "0.2", "0.4", "0.8"])
+        self.assertEqual(values_of({"type": "boolean"}, True, "a.n"), ["false", "true"])
+        self.assertEqual(values_of({"type": "integer", "enum": [5, 6, 16, 36]}, 16, "a.n"), ["5", "6", "16", "36"])
+        many = [f"c{i}" for i in range(20)]
+        self.assertEqual(values_of({"enum": many}, "c1", "a.n"), many[:5])
+        for schema, own in (({"type": "string"}, "x"), ({"type": "number"}, 0)):
+            with self.assertRaises(Mistake):
+                values_of(schema, own, "a.n")
+
+
+class Lock(unittest.TestCase):
+    """Of `voxray sweep`."""
+
+    def test_it_goes_on_in_the_program_that_takes_the_process_over(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / ".lock"
+            line = ("import os, sys; from pathlib import Path; from orchestration import sweep;"
+                    "os.set_inheritable(sweep.lock(Path(sys.argv[1]), Path('out')), True);"
+                    "os.execvp('sh', ['sh', '-c', 'echo; exec sleep 60'])")
+            with subprocess.Popen([sys.executable, "-c", line, str(path)], stdout=subprocess.PIPE,
+                                  env={**os.environ, "PYTHONPATH": sys.path[0]}) as holder:
+                self.assertEqual(holder.stdout.read(1), b"\n")
+                with self.assertRaisesRegex(Mistake, f"^out: process {holder.pid} is writing results there"):
+                    sweep.lock(path, Path("out"))
+                holder.kill()
+            os.close(sweep.lock(path, Path("out")))
+
+
+class Words(unittest.TestCase):
+    """As the C++ program has them (framework/base)."""
+
+    def test_near_words(self):
+        for word, names, said in (("nrms", ["flip", "nrmse"], "; did you mean 'nrmse'?"), ("ab", ["ba", "x"], "; did you mean 'ba'?"),
+                                  ("rays", ["block", "rays_per_block"], "; did you mean 'rays_per_block'?"),
+                                  ("pos", ["target", "position"], "; did you mean 'position'?"),
+                                  ("zzz", ["a", "b"], "; one of: a, b"), ("a", [], "")):
+            self.assertEqual(did_you_mean(word, names), said)
+
+    def test_what_is_printed_is_one_line(self):
+        self.assertEqual(one_line("a\nb\x1b[2J\udcff\u202e ü\n"), "a b\\x1b[2J\\xff\\xe2\\x80\\xae ü")
 
 
 if __name__ == "__main__":

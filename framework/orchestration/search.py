@@ -40,7 +40,7 @@ class Outcome:
 
 
 def variants_of(space: dict) -> list[Variant]:
-    """Of space.json (framework/experiment/trials.h). Values stand on an axis as the sweep lists them."""
+    """Of space.json (tune.py). Values stand on an axis as the sweep lists them."""
     order: list[list[str]] = [[] for _ in space["axes"]]
     for entry in space["variants"]:
         for values, text in zip(order, entry["values"]):

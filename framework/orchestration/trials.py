@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
-import csv
-import difflib
 import json
 import math
-import subprocess
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 
-from trials.search import Outcome
+from orchestration.errors import Mistake, did_you_mean
+from orchestration.program import Program
+from orchestration.search import Outcome
+from report.rows import read_rows
 
 AXIS = "tuned"  # the pass that trials swap for whole graphs
 SMALL_EDGE, MIN_EDGE = 4, 48  # small images have a fourth of the width and height, but no fewer pixels than these
 HIGHER_IS_BETTER = {"ssim": lambda v: 1 - v, "psnr_db": lambda v: 10 ** (-v / 20)}  # as an error that falls to 0
 NEAR_ONE = ("mean_ratio",)
-ERRORS = ("nrmse", "relmse", "flip", "flip_ldr")
-
-
-class Mistake(Exception):
-    """What the user has to change."""
-
-
-class Stopped(Exception):
-    """The program was interrupted."""
 
 
 @dataclass(frozen=True)
@@ -35,13 +28,16 @@ class Target:
     value: float
 
     @staticmethod
-    def read(text: str) -> Target:
+    def read(text: str, columns: Iterable[str]) -> Target:
+        """@param columns of results.csv, those with numbers"""
         column, _, value = text.rpartition("=")
         try:
             target = Target(column, float(value))
         except ValueError:
             raise Mistake(f"--target {text}: expected NAME=VALUE, as in indirect_relmse=0.02") from None
-        if not column or not math.isfinite(target.value) or not target.error(target.value) > 0:
+        if column not in columns:
+            raise Mistake(f"--target {column}: no such column of results.csv{did_you_mean(column, columns)}")
+        if not math.isfinite(target.value) or not target.error(target.value) > 0:
             raise Mistake(f"--target {text}: a target is above 0 and can be met: ssim below 1, mean_ratio other than 1")
         return target
 
@@ -58,11 +54,11 @@ class Target:
 class Trials:
     """Runs variants at full or small size, each once; both keep a results folder of their own.
 
-    options: out, program, minimize, target (texts), resume, scenes, tracer, device."""
+    options: config, minimize, resume, scenes."""
 
-    def __init__(self, space: dict, options) -> None:
-        self.space, self.options = space, options
-        self.targets = [Target.read(text) for text in options.target]
+    def __init__(self, space: dict, program: Program, out: Path, targets: list[Target], options: SimpleNamespace) -> None:
+        self.space, self.program, self.out, self.targets, self.minimize = space, program, out, targets, options.minimize
+        self.scenes = options.scenes or str(Path(options.config).parent)
         self.graphs = {entry["name"]: entry["graph"] for entry in space["variants"]}
         image = space["config"].get("image", {})
         self.size = {"width": image.get("width", 640), "height": image.get("height", 360)}
@@ -79,10 +75,9 @@ class Trials:
     def config(self, rung: str) -> dict:
         config = dict(self.space["config"])
         config["name"] = f"tune_{rung}"
-        config.pop("profiles", None)
         measure = dict(config.get("measure", {}))
         frames = measure.get("frames", 20)
-        if self.options.minimize != "ms" and not measure.get("compare_every"):
+        if self.minimize != "ms" and not measure.get("compare_every"):
             measure["frames"] = 1
         elif rung == "small" and not measure.get("compare_every"):
             measure["frames"] = max(1, frames // SMALL_EDGE)
@@ -95,51 +90,34 @@ class Trials:
         return config
 
     def run(self, names: list[str], rung: str) -> dict[str, Outcome | None]:
-        """@throws Mistake where the program refuses the config, Stopped where it was interrupted."""
         self.asked[rung] += [name for name in names if name not in self.asked[rung]]
-        out = Path(self.options.out)
-        config = out / f"{rung}.yaml"
+        config = self.out / f"{rung}.yaml"
         config.write_text(json.dumps(self.config(rung), indent=1, ensure_ascii=False), encoding="utf-8")
-        command = [self.options.program, "run", str(config), "--out", str(out / rung), "--no-report", "--quiet",
-                   "--scenes", self.options.scenes]
-        for name in ("tracer", "device"):
-            if getattr(self.options, name):
-                command += [f"--{name}", getattr(self.options, name)]
-        if not self._fresh[rung]:
-            command.append("--resume")
+        self.program.run_quietly(str(config), str(self.out / rung), self.scenes, [] if self._fresh[rung] else ["--resume"])
         self._fresh[rung] = False
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode == 2:
-            raise Mistake((done.stderr.strip().splitlines() or ["the program refused a trial"])[-1])
-        if done.returncode not in (0, 1):
-            raise Stopped()
         return {name: self._outcome(name, rung) for name in names}
 
     def _outcome(self, name: str, rung: str) -> Outcome | None:
-        folder = Path(self.options.out) / rung
+        folder = self.out / rung
         results = {row[AXIS]: row for row in _rows(folder / "results.csv")}
         row = results.get(name)
         if row is None or row["status"] != "ok":
             return None
         for target in self.targets:
-            if target.column not in row or row[target.column] == "":
-                columns = [column for column in row
-                           if column.removeprefix("indirect_") in (*ERRORS, *HIGHER_IS_BETTER, *NEAR_ONE)]
-                near = difflib.get_close_matches(target.column, columns, n=1)
-                raise Mistake(f"--target {target.column}: no such column of results.csv; "
-                              + (f"did you mean '{near[0]}'? " if near else "") + "one of: " + ", ".join(columns))
+            if row.get(target.column, "") == "":
+                raise Mistake(f"--target {target.column}: results.csv has no number there: the graph writes no such image")
         values = [float(row[target.column]) for target in self.targets]
         self.values[rung, name] = values
         excess = max(target.excess(value) for target, value in zip(self.targets, values))
         build, frame = self._cost(row, [p for p in _rows(folder / "passes.csv") if p["variant"] == row["variant"]])
         grows = self.pixels() if rung == "small" else 1
-        if self.options.minimize == "bytes":  # Of which the image's part is not told; time goes with pixels
+        if self.minimize == "bytes":  # Of which the image's part is not told; time goes with pixels
             memory = float(row["memory_bytes"])
             return Outcome(excess, (memory,), memory / grows)
         return Outcome(excess, (build, frame * grows), build + frame)
 
     def _cost(self, row: dict, passes: list[dict]) -> tuple[float, float]:
-        if self.options.minimize == "ms":
+        if self.minimize == "ms":
             return float(row["build_ms"]), float(row["frame_ms_median"])
         of = lambda phase: sum(float(p["rays"]) for p in passes if p["phase"] == phase)
         return of("build"), of("frame")
@@ -149,9 +127,8 @@ class Trials:
                          for target, value in zip(self.targets, self.values[rung, name]))
 
 
-def _rows(path: Path) -> list[dict]:
+def _rows(path: Path) -> list[dict[str, str]]:
     try:
-        with open(path, newline="", encoding="utf-8") as file:
-            return list(csv.DictReader(file))
+        return read_rows(path)
     except FileNotFoundError:
         raise Mistake(f"{path} is missing: the trial did not run") from None

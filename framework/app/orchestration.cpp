@@ -1,0 +1,193 @@
+#include <memory>
+#include <string>
+
+#include "app/commands.h"
+#include "app/config_options.h"
+#include "app/hand_over.h"
+
+/// The options of the commands that framework/orchestration does.
+namespace voxray {
+
+namespace {
+
+/// What shared options are bound to; what was written for them is handed over, not this.
+struct Bound : ConfigArguments {
+    RunOptions run;
+};
+
+CLI::App* handedOver(CLI::App& app, const std::string& name, const std::string& help,
+                     const std::shared_ptr<Bound>& bound = {}) {
+    CLI::App* command = app.add_subcommand(name, help);
+    command->callback([command, bound] { handOver(*command); });
+    return command;
+}
+
+CLI::Option* addText(CLI::App& command, const std::string& name, const std::string& type,
+                     const std::string& help) {
+    return command.add_option(name, help)->type_name(type);
+}
+
+CLI::Option* addTexts(CLI::App& command, const std::string& name, const std::string& type,
+                      const std::string& help) {
+    return addText(command, name, type, help)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void addFlag(CLI::App& command, const std::string& name, const std::string& help) {
+    command.add_flag(name, help);
+}
+
+CLI::Option* addCount(CLI::App& command, const std::string& name, const std::string& help,
+                      int most = 1 << 16) {
+    return addText(command, name, "N", help)->check(CLI::Range(1, most));
+}
+
+CLI::Option* addConfig(CLI::App& command) {
+    return addText(command, "CONFIG", "TEXT", "Config file.")->required();
+}
+
+void addPlaceOptions(CLI::App& command) {
+    addCount(command, "--cores", "Run on this machine, on so many cores.");
+    addFlag(command, "--slurm", "Run as jobs of Slurm.");
+    addText(command, "--partition", "NAME", "Slurm's partition. Default: its own.")->needs("--slurm");
+    addText(command, "--account", "NAME", "Slurm's account. Default: the user's own.")->needs("--slurm");
+    addCount(command, "--jobs", "How many jobs Slurm has at once.")->needs("--slurm")->default_str("100");
+    addText(command, "--snakemake-profile", "NAME",
+            "Run as this profile of Snakemake says: another batch system, a cloud.");
+}
+
+void addPartOptions(CLI::App& command) {
+    addCount(
+        command, "--reference-parts",
+        "How many parts each reference's samples are divided into. Default: one for each of --cores, else "
+        "1.",
+        1 << 20);
+    addFlag(command, "--untimed",
+            "Times don't matter: variants share machines, and a warning on the page says so.");
+    addCount(command, "--threads", "Threads of each part that shares a machine.")->default_str("1");
+    addText(command, "--retries", "N", "How often a part that failed is tried again.")
+        ->check(CLI::Range(0, 1 << 16))
+        ->default_str("2");
+    addText(command, "--paths-per-second", "FLOAT", "Of one thread, for the time limits of references.")
+        ->check(CLI::PositiveNumber)
+        ->default_str("100000");
+    addText(command, "--seconds-per-run", "FLOAT",
+            "Of a variant's graph, built or run for one frame, for the time limits of variants.")
+        ->check(CLI::PositiveNumber)
+        ->default_str("60");
+}
+
+}  // namespace
+
+void addTuneCommand(CLI::App& app, int&) {
+    const auto bound = std::make_shared<Bound>();
+    CLI::App& command =
+        *handedOver(app, "tune",
+                    "Search the variants of a config's sweep for the cheapest one whose error "
+                    "meets a target: small images first, the best of them at the config's own.",
+                    bound);
+    addConfig(command);
+    addTexts(
+        command, "--target", "NAME=VALUE",
+        "Column of results.csv and the value to meet, as in indirect_relmse=0.02. May be given many times.")
+        ->required();
+    addText(command, "--minimize", "TEXT",
+            "What is to be cheap: ms or rays (of one build and one frame) or bytes.")
+        ->check(CLI::IsMember({"ms", "rays", "bytes"}))
+        ->default_str("ms");
+    addTexts(
+        command, "--vary", "ID.PARAMETER",
+        "A pass's parameter that is searched besides the sweep, over halves and doubles of its value, as in "
+        "gather.rays. May be given many times.");
+    addText(command, "--budget", "FLOAT",
+            "What trials may cost, in variants of mean cost; 0: a fifth of the sweep.")
+        ->check(CLI::NonNegativeNumber)
+        ->default_str("0");
+    addFlag(command, "--every",
+            "Run the whole sweep, too, and compare: how good the choice is, what it saved.");
+    addFlag(command, "--resume", "Keep the trials that an earlier search finished.");
+    addDeviceOptions(command, bound->run);
+    addText(command, "--out", "DIR", "Folder of trials; default results/tune_<experiment>.");
+    addConfigOptions(command, *bound);
+}
+
+void addExplainCommand(CLI::App& app, int&) {
+    const auto bound = std::make_shared<Bound>();
+    CLI::App& command = *handedOver(app, "explain",
+                                    "Say where a config's error comes from: render it with each stage "
+                                    "swapped for an exact counterpart, and "
+                                    "give each its part of the error of the indirect light.",
+                                    bound);
+    addConfig(command);
+    addText(command, "--variant", "NAME",
+            "Which variant of the config's sweep is explained, by its name in results.csv or the end of it, "
+            "as in "
+            "lookup for indirect-lookup.");
+    addConfigOptions(command, *bound);
+    addRunOptions(command, bound->run, "Results folder; default results/explain_<experiment>.");
+}
+
+void addStabilityCommand(CLI::App& app, int&) {
+    const auto bound = std::make_shared<Bound>();
+    CLI::App& command = *handedOver(app, "stability",
+                                    "Show where methods fail: run each in scenes that provoke one failure "
+                                    "each (leaks, lost energy, flicker "
+                                    "...), and hold every result against its limit.",
+                                    bound);
+    addText(command, "METHOD", "TEXT", "Methods of the matrix; all by default.")
+        ->expected(1, -1)
+        ->allow_extra_args();
+    addTexts(command, "--scenario", "NAME",
+             "Run this scene of the matrix, and the first of its profile. May be given many times.");
+    addText(command, "--config", "CONFIG",
+            "The matrix, its limits next to it in a .csv of the same name; default "
+            "configs/stability/matrix.yaml.");
+    addFlag(command, "--remedies",
+            "Run what fails again with finer settings, one kind at a time, and say which of them lowers "
+            "each error; they stand next to the matrix, in a file that ends in _remedies.json.");
+    addConfigOptions(command, *bound);
+    addRunOptions(
+        command, bound->run,
+        "Folder of the tables and of a results folder for each profile; default results/stability.");
+}
+
+void addSweepCommand(CLI::App& app, int&) {
+    const auto bound = std::make_shared<Bound>();
+    CLI::App& command = *handedOver(
+        app, "sweep",
+        "Run the parts of an experiment at once, by Snakemake: on this machine's cores, on Slurm, or "
+        "wherever a profile of Snakemake says. Started again, it goes on with what is left.",
+        bound);
+    addConfig(command);
+    addText(command, "SNAKEMAKE", "TEXT", "After --: more options for Snakemake.")
+        ->expected(1, -1)
+        ->allow_extra_args();
+    addText(command, "--out", "DIR", "Results folder; default results/<experiment>.");
+    addPlaceOptions(command);
+    addPartOptions(command);
+    addText(command, "--program", "COMMAND",
+            "What starts Voxray in a job, as in 'apptainer exec voxray.sif voxray'. Default: this program.");
+    addFlag(command, "--print", "Print Snakemake's command line, in place of starting it.");
+    addConfigOptions(command, *bound);
+    addDeviceOptions(command, bound->run);
+}
+
+void addParetoCommand(CLI::App& app, int&) {
+    CLI::App& command = *handedOver(app, "pareto",
+                                    "Chart the methods of many runs, speed against accuracy: which are on "
+                                    "the front, scene by scene, which "
+                                    "are beaten everywhere, and what each saves over filtered path tracing.");
+    addText(command, "RESULTS", "DIR", "Results folders of runs, also of several machines.")
+        ->required()
+        ->expected(1, -1)
+        ->allow_extra_args();
+    addText(command, "--out", "FILE.html", "The page; a table with all numbers gets its name and .csv.")
+        ->default_str("pareto.html");
+    addText(command, "--error", "TEXT", "Metric that methods are compared by.")->default_str("nrmse");
+    addText(command, "--light", "TEXT", "indirect or total.")
+        ->check(CLI::IsMember({"indirect", "total"}))
+        ->default_str("indirect");
+}
+
+}  // namespace voxray

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/config_options.h"
+#include "app/planning.h"
+#include "experiment/results.h"
+#include "passes/common/families.h"
+
+namespace voxray {
+
+namespace {
+
+struct PlanArguments : ConfigArguments {
+    std::filesystem::path file;
+};
+
+Value quotedText(const std::string& word) {
+    return Value::fromScalar(word, true);
+}
+
+Value listOf(const std::vector<std::string>& words) {
+    Value list = Value::list();
+    for (const std::string& word : words) list.items.push_back(quotedText(word));
+    return list;
+}
+
+Value variantValue(const WiredVariant& variant) {
+    Value map = Value::map(), places = Value::list();
+    for (const Value& entry : variant.setup.graph.items)
+        places.items.push_back(quotedText(entry.where.str()));
+    map.set("name", quotedText(variant.name));
+    map.set("values", listOf(variant.values));
+    map.set("config", variant.config);
+    map.set("places", places);
+    map.set("left_out", listOf(variant.leftOut));
+    return map;
+}
+
+/// What docs/programs.md lists.
+Value planValue(const WiredExperiment& wired, const std::filesystem::path& file) {
+    const Experiment& experiment = wired.experiment;
+    Value plan = Value::map(), axes = Value::list(), variants = Value::list();
+    for (const auto& [path, values] : experiment.sweep.members) {
+        Value axis = Value::map();
+        axis.set("path", quotedText(path));
+        axis.set("place", quotedText(values.where.str()));
+        axes.items.push_back(std::move(axis));
+    }
+    for (const WiredVariant& variant : wired.variants) variants.items.push_back(variantValue(variant));
+    plan.set("name", quotedText(experiment.setup.general.name));
+    plan.set("place", quotedText(experiment.config.where.str()));
+    plan.set("profiles", listOf(profileNames(file)));
+    plan.set("config", experiment.config);
+    plan.set("reference", wired.reference.isNull() ? Value() : wired.reference.items.front());
+    plan.set("columns", listOf(numberColumns(experiment.measure)));
+    plan.set("axes", std::move(axes));
+    plan.set("variants", std::move(variants));
+    return plan;
+}
+
+}  // namespace
+
+void addPlanCommand(CLI::App& app, int&) {
+    auto arguments = std::make_shared<PlanArguments>();
+    CLI::App* command = app.add_subcommand("plan",
+                                           "Print as JSON, for other programs, what a config asks for: its "
+                                           "variants with their values and graphs, "
+                                           "the sweep's axes, the columns of results.csv.");
+    command->add_option("CONFIG", arguments->file, "Config file.")->required();
+    addConfigOptions(*command, *arguments);
+    command->callback([arguments] {
+        Registry registry;
+        registerPasses(registry);
+        const WiredExperiment wired = wireConfig(arguments->file, arguments->config, registry);
+        fmt::print("{}\n", planValue(wired, arguments->file).json(-1));
+    });
+}
+
+}  // namespace voxray

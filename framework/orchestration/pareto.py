@@ -1,0 +1,21 @@
+"""`voxray pareto`: charts the methods of many runs, speed against accuracy."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+
+from orchestration.errors import Mistake
+from orchestration.program import Program
+from report import pareto_page
+from report.results import ReportError
+
+
+def main(_: Program, options: SimpleNamespace) -> int:
+    page = Path(options.out)
+    try:
+        table = pareto_page.write(page, [Path(folder) for folder in options.results], options.error, options.light)
+    except ReportError as error:
+        raise Mistake(f"pareto: {error}") from error
+    print(f"{page}\n{table}")
+    return 0

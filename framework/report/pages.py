@@ -1,0 +1,60 @@
+"""How every page is made: from a template, with nothing outside it that it refers to, into a file that appears whole."""
+
+from __future__ import annotations
+
+import base64
+import csv
+import io
+import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+import jinja2
+
+from report import text
+
+_HERE = Path(__file__).resolve().parent
+
+
+def render(template: str, *, scripts: Sequence[str] = (), folder: Path = _HERE, **values) -> str:
+    """The whole page. Templates extend page.html.j2, which has what all pages begin with.
+
+    @param scripts files of this folder, in the order in which they run. @param folder of the template"""
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader([folder, _HERE]), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.filters["breakable"] = text.breakable
+    return environment.get_template(template).render(
+        style_css=_own("style.css"), scripts="\n".join(map(_own, scripts)), **values)
+
+
+def _own(name: str) -> str:
+    return (_HERE / name).read_text(encoding="utf-8")
+
+
+def data_uri(data: bytes, kind: str = "image/png") -> str:
+    """An image file to embed."""
+    return f"data:{kind};base64," + base64.b64encode(data).decode("ascii")
+
+
+def csv_text(rows: Iterable[Iterable]) -> str:
+    lines = io.StringIO()
+    csv.writer(lines, lineterminator="\n").writerows(rows)
+    return lines.getvalue()
+
+
+def write_whole(path: Path, content: str) -> None:
+    """Writes a file that is either the old one or wholly the new one, whatever interrupts the writing.
+
+    @throws OSError that names it"""
+    name = path.with_name(f".{path.stem}.{os.getpid()}.tmp{path.suffix}")
+    try:
+        with open(name, "w", encoding="utf-8", errors="backslashreplace") as out:
+            out.write(content)
+            out.flush()
+            os.fsync(out.fileno())
+        os.replace(name, path)
+    except BaseException as error:
+        name.unlink(missing_ok=True)
+        if isinstance(error, OSError):
+            raise OSError(error.errno, f"cannot write: {error.strerror or error}", str(path)) from error
+        raise
