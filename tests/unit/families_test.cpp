@@ -33,7 +33,7 @@ TEST(Families, SummariesFitALine) {
 TEST(Families, NamesOfBeforeTellWhatToWrite) {
     const Registry registry = allPasses();
     const auto message = [&](const std::string& name) {
-        return test::errorOf<UsageError>([&] { registry.require(name, {"x.yaml", 4}); });
+        return errorOf<UsageError>([&] { registry.require(name, {"x.yaml", 4}); });
     };
     EXPECT_EQ(message("inject_gather_hits"),
               "x.yaml:4: 'inject_gather_hits' is now inject_voxel_rays with 'points: gather_hits'");
