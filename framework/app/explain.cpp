@@ -16,6 +16,7 @@
 #include "experiment/report_process.h"
 #include "experiment/runner.h"
 #include "passes/common/families.h"
+#include "passes/path_trace/preview.h"
 
 namespace voxray {
 
@@ -28,10 +29,10 @@ struct ExplainArguments : ConfigArguments {
 };
 
 /// The variant of that name, or the only one whose name ends so after a '-': `lookup` of `indirect-lookup`.
-const WiredVariant& chosen(const WiredExperiment& wired, const std::string& name) {
+const Variant& chosen(const Study& wired, const std::string& name) {
     std::vector<std::string> names, endings;
-    const WiredVariant* ending = nullptr;
-    for (const WiredVariant& variant : wired.variants) {
+    const Variant* ending = nullptr;
+    for (const Variant& variant : wired.variants) {
         if (variant.name == name || (name.empty() && wired.variants.size() == 1)) return variant;
         names.push_back(variant.name);
         if (name.empty() || !variant.name.ends_with("-" + name)) continue;
@@ -52,13 +53,14 @@ const WiredVariant& chosen(const WiredExperiment& wired, const std::string& name
 int explain(const ExplainArguments& arguments) {
     Registry registry;
     registerPasses(registry);
-    const WiredExperiment wired = wireExperiment(loadExperiment(arguments.file, arguments.config), registry);
+    const Study wired = wireExperiment(loadExperiment(arguments.file, arguments.config), registry);
     const SwapPlan plan = planSwaps(readYaml(sourceRoot() / "passes" / "counterparts.yaml"), wired,
                                     chosen(wired, arguments.variant), registry);
 
     RunOptions options = arguments.options;
     options.scenes = arguments.scenes;
     options.sourceRoot = sourceRoot();
+    options.preview = pathTracedPreview;
     const RunSummary summary = runExperiment(plan.experiment, options, registry);
     if (options.dryRun) return summary.exitStatus();
     if (summary.interrupted)

@@ -5,8 +5,9 @@
 #include <string>
 
 #include "app/source_root.h"
-#include "experiment/validate.h"
+#include "experiment/study.h"
 #include "passes/common/families.h"
+#include "passes/path_trace/preview.h"
 
 namespace voxray {
 
@@ -16,8 +17,8 @@ void planExperiment(const std::filesystem::path& file, const ConfigArguments& ar
     registerPasses(registry);
     options.scenes = arguments.scenes;
     options.sourceRoot = sourceRoot();
-    PreparedExperiment prepared(wireExperiment(loadExperiment(file, arguments.config), registry), options,
-                                registry);
+    options.preview = pathTracedPreview;
+    PreparedExperiment prepared(wireExperiment(loadExperiment(file, arguments.config), registry), options);
     for (const std::string& warning : prepared.warnings())
         fmt::print(stderr, "voxray: warning: {}\n", warning);
     use(prepared);

@@ -20,6 +20,7 @@
 #include "experiment/report_process.h"
 #include "experiment/runner.h"
 #include "passes/common/families.h"
+#include "passes/path_trace/preview.h"
 
 namespace voxray {
 
@@ -36,7 +37,7 @@ struct StabilityArguments : ConfigArguments {
 /// A profile of the matrix, without what is not asked for.
 struct ProfileRun {
     std::string profile;
-    WiredExperiment wired;
+    Study wired;
 };
 
 /// An axis of a config's sweep that names its values.
@@ -145,7 +146,7 @@ std::vector<ProfileRun> profileRuns(const StabilityArguments& arguments, const R
         throw UsageError("{}: none of its profiles has that scene with that method", arguments.file.string());
     std::vector<ProfileRun> runs;
     for (auto& [profile, whole, asked] : experiments) {
-        const WiredExperiment all = wireExperiment(std::move(whole), registry);
+        const Study all = wireExperiment(std::move(whole), registry);
         runs.push_back({profile, wireExperiment(std::move(asked), registry)});
         for (const auto& [id, count] : variantsWithout(runs.back().wired))
             if (runsSomewhere(all, id)) runs.back().wired.deselected.push_back(id);
@@ -170,10 +171,11 @@ Outcome runProfiles(const StabilityArguments& arguments, const Registry& registr
         RunOptions options = arguments.options;
         options.scenes = arguments.scenes;
         options.sourceRoot = sourceRoot();
+        options.preview = pathTracedPreview;
         options.report = false;
         options.out /= run.profile;
         if (!options.quiet) fmt::print("Profile {}\n", run.profile);
-        const RunSummary summary = runExperiment(std::move(run.wired), options, registry);
+        const RunSummary summary = runExperiment(std::move(run.wired), options);
         printSummary(summary, options);
         outcome.status = std::max(outcome.status, summary.exitStatus());
         outcome.interrupted = summary.interrupted;

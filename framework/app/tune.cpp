@@ -38,7 +38,7 @@ void tune(TuneArguments arguments) {
     for (const std::string& path : arguments.vary)
         arguments.config.assignments.push_back(
             axisOfParameter(loadExperiment(arguments.file, arguments.config), path, registry));
-    const WiredExperiment wired = wireExperiment(loadExperiment(arguments.file, arguments.config), registry);
+    const Study wired = wireExperiment(loadExperiment(arguments.file, arguments.config), registry);
     const std::string space = trialsJson(wired);
     checkTargets(arguments.targets, wired.experiment.measure);
     if (arguments.out.empty())

@@ -60,8 +60,8 @@ Value valueOf(const Value& rule, const Value& own, const std::string& name) {
 /// Parameters that the new values leave without effect must not be written.
 void dropIdle(Value& entry, const Registry& registry) {
     const PassKind& kind = registry.require(passOf(entry), entry.where);
-    for (const IdleParameter& idle : kind.idle(entry, passId(entry), Graph::reservedKeys()))
-        entry.erase(idle.name);
+    for (const UnusedSetting& unused : kind.unused(entry, passId(entry), Graph::reservedKeys()))
+        entry.erase(unused.name);
 }
 
 Value withParameters(const Value& entry, const Value& rule, const Registry& registry) {
@@ -124,7 +124,7 @@ std::vector<std::string> changesBetween(const Entries& before, const Entries& af
 
 /// The variant's passes that its image depends on. @throws UsageError where the table knows none of their
 /// counterparts.
-Entries passesOf(const Value& table, const WiredVariant& variant) {
+Entries passesOf(const Value& table, const Variant& variant) {
     std::vector<std::string> known = namesIn(table.find("exact"));
     for (const auto& [name, stage] : required(table, "stages").members)
         for (const auto& rule : required(stage, "passes").members) known.push_back(rule.key);
@@ -146,7 +146,7 @@ std::string labelOf(const std::vector<std::string>& stages) {
     return stages.empty() ? "as it is" : fmt::format("{}", fmt::join(stages, " + "));
 }
 
-Experiment experimentOf(const WiredExperiment& wired, const WiredVariant& variant, const Value& graphs) {
+Experiment experimentOf(const Study& wired, const Variant& variant, const Value& graphs) {
     Value config = variant.config;
     config.set("name", Value::fromScalar(("explain_" + variant.setup.general.name).substr(0, 100), true));
     Value placeholder = Value::map(), graph = Value::list(), sweep = Value::map(), measure = Value::map();
@@ -173,8 +173,7 @@ Value quotedList(const std::vector<std::string>& words) {
 
 }  // namespace
 
-SwapPlan planSwaps(const Value& table, const WiredExperiment& wired, const WiredVariant& variant,
-                   const Registry& registry) {
+SwapPlan planSwaps(const Value& table, const Study& wired, const Variant& variant, const Registry& registry) {
     if (wired.experiment.reference.isNull())
         throw UsageError(wired.experiment.config.where,
                          "there is no 'reference', so there is no error to explain: write one, as in "

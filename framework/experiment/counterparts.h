@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/validate.h"
+#include "experiment/study.h"
 
 namespace voxray {
 
@@ -29,8 +29,7 @@ struct SwapPlan {
 /// @param table passes/counterparts.yaml, which says what its entries mean.
 /// @throws UsageError where a pass of the graph has no counterpart, nothing is left to swap, or there is no
 /// reference.
-SwapPlan planSwaps(const Value& table, const WiredExperiment& wired, const WiredVariant& variant,
-                   const Registry& registry);
+SwapPlan planSwaps(const Value& table, const Study& wired, const Variant& variant, const Registry& registry);
 
 /// Names of all passes that the table knows, also of those that it has no counterpart for.
 /// @throws UsageError where it names one twice as `exact` or `unknown`, or both.

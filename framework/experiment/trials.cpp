@@ -96,7 +96,7 @@ void checkTargets(const std::vector<std::string>& targets, const MeasureSettings
     }
 }
 
-std::string trialsJson(const WiredExperiment& wired) {
+std::string trialsJson(const Study& wired) {
     const Experiment& experiment = wired.experiment;
     if (experiment.reference.isNull())
         throw UsageError(experiment.config.where,
@@ -115,7 +115,7 @@ std::string trialsJson(const WiredExperiment& wired) {
         axes.items.push_back(Value::fromScalar(path, true));
         swaps.items.push_back(Value::fromScalar(path == first ? "true" : "false"));
     }
-    for (const WiredVariant& variant : wired.variants) {
+    for (const Variant& variant : wired.variants) {
         Value entry = Value::map(), values = Value::list();
         for (const std::string& text : variant.values) values.items.push_back(Value::fromScalar(text, true));
         entry.set("name", Value::fromScalar(variant.name, true));

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/validate.h"
+#include "experiment/study.h"
 
 /// What a search for the cheapest variant (framework/trials) needs to know of an experiment.
 namespace voxray {
@@ -24,6 +24,6 @@ void checkTargets(const std::vector<std::string>& targets, const MeasureSettings
 /// whether an axis swaps a pass; `variants` with `name`, `values` (text, "-" where an axis does not reach it)
 /// and `graph`.
 /// @throws UsageError where there is no reference, or the sweep varies more than the graph.
-std::string trialsJson(const WiredExperiment& wired);
+std::string trialsJson(const Study& wired);
 
 }  // namespace voxray

@@ -4,7 +4,7 @@
 
 #include "base/files.h"
 #include "experiment/parts.h"
-#include "experiment/reference_parts.h"
+#include "experiment/reference.h"
 #include "experiment/results_folder.h"
 
 namespace voxray {

@@ -2,8 +2,6 @@
 
 #include <string>
 
-#include "passes/path_trace/path_tracer.h"
-
 namespace voxray {
 
 void registerPasses(Registry& registry) {
@@ -11,12 +9,6 @@ void registerPasses(Registry& registry) {
         const std::string folder(family.folder);
         addRegistered(registry, "passes/" + folder + "/", folder);
     }
-    registry.preview = [](const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
-                          uint32_t width, uint32_t height, uint32_t spp, uint32_t bounces) {
-        const PathTraceOptions options{
-            .width = width, .height = height, .spp = spp, .bounces = bounces, .rays = RaysToCome::Few};
-        return pathTrace(state, tracer, camera, options).total;
-    };
 }
 
 }  // namespace voxray

@@ -30,7 +30,7 @@ inline constexpr std::array kFamilies{
     Family{"path_trace", "Reference"},
 };
 
-/// Adds every technique under passes/, by family, and the path tracer as the registry's preview.
+/// Adds every technique under passes/, by family.
 void registerPasses(Registry& registry);
 
 }  // namespace voxray

@@ -35,7 +35,7 @@ std::string configOf(const std::string& passes, const std::string& rest = kRefer
 
 SwapPlan planOf(const std::string& config) {
     const Registry registry = allPasses();
-    const WiredExperiment wired = wireExperiment(parseExperiment(config, "x.yaml"), registry);
+    const Study wired = wireExperiment(parseExperiment(config, "x.yaml"), registry);
     SwapPlan plan = planSwaps(table(), wired, wired.variants.front(), registry);
     EXPECT_EQ(wireExperiment(plan.experiment, registry).variants.size(), plan.swaps.size());
     return plan;
