@@ -29,7 +29,7 @@ Value listOf(const std::vector<std::string>& words) {
     return list;
 }
 
-Value variantValue(const WiredVariant& variant) {
+Value variantValue(const Variant& variant) {
     Value map = Value::map(), places = Value::list();
     for (const Value& entry : variant.setup.graph.items)
         places.items.push_back(quotedText(entry.where.str()));
@@ -42,8 +42,8 @@ Value variantValue(const WiredVariant& variant) {
 }
 
 /// What docs/programs.md lists.
-Value planValue(const WiredExperiment& wired, const std::filesystem::path& file) {
-    const Experiment& experiment = wired.experiment;
+Value planValue(const Study& study, const std::filesystem::path& file) {
+    const Experiment& experiment = study.experiment;
     Value plan = Value::map(), axes = Value::list(), variants = Value::list();
     for (const auto& [path, values] : experiment.sweep.members) {
         Value axis = Value::map();
@@ -51,12 +51,12 @@ Value planValue(const WiredExperiment& wired, const std::filesystem::path& file)
         axis.set("place", quotedText(values.where.str()));
         axes.items.push_back(std::move(axis));
     }
-    for (const WiredVariant& variant : wired.variants) variants.items.push_back(variantValue(variant));
+    for (const Variant& variant : study.variants) variants.items.push_back(variantValue(variant));
     plan.set("name", quotedText(experiment.setup.general.name));
     plan.set("place", quotedText(experiment.config.where.str()));
     plan.set("profiles", listOf(profileNames(file)));
     plan.set("config", experiment.config);
-    plan.set("reference", wired.reference.isNull() ? Value() : wired.reference.items.front());
+    plan.set("reference", study.reference.isNull() ? Value() : study.reference.items.front());
     plan.set("columns", listOf(numberColumns(experiment.measure)));
     plan.set("axes", std::move(axes));
     plan.set("variants", std::move(variants));
@@ -76,8 +76,8 @@ void addPlanCommand(CLI::App& app, int&) {
     command->callback([arguments] {
         Registry registry;
         registerPasses(registry);
-        const WiredExperiment wired = wireConfig(arguments->file, arguments->config, registry);
-        fmt::print("{}\n", planValue(wired, arguments->file).json(-1));
+        const Study study = wireConfig(arguments->file, arguments->config, registry);
+        fmt::print("{}\n", planValue(study, arguments->file).json(-1));
     });
 }
 

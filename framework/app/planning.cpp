@@ -5,21 +5,21 @@
 #include <string>
 
 #include "app/source_root.h"
-#include "experiment/validate.h"
+#include "experiment/study.h"
 #include "passes/common/families.h"
+#include "passes/path_trace/preview.h"
 
 namespace voxray {
 
-WiredExperiment wireConfig(const std::filesystem::path& file, const ConfigOptions& options,
-                           const Registry& registry) {
-    WiredExperiment wired = wireExperiment(loadExperiment(file, options), registry);
-    if (options.only.empty()) return wired;
+Study wireConfig(const std::filesystem::path& file, const ConfigOptions& options, const Registry& registry) {
+    Study study = wireExperiment(loadExperiment(file, options), registry);
+    if (options.only.empty()) return study;
     ConfigOptions everything = options;
     everything.only.clear();
-    const WiredExperiment whole = wireExperiment(loadExperiment(file, everything), registry);
-    for (const auto& [id, count] : variantsWithout(wired))
-        if (runsSomewhere(whole, id)) wired.deselected.push_back(id);
-    return wired;
+    const Study whole = wireExperiment(loadExperiment(file, everything), registry);
+    for (const auto& [id, count] : variantsWithout(study))
+        if (runsSomewhere(whole, id)) study.deselected.push_back(id);
+    return study;
 }
 
 void planExperiment(const std::filesystem::path& file, const ConfigArguments& arguments, RunOptions options,
@@ -28,7 +28,8 @@ void planExperiment(const std::filesystem::path& file, const ConfigArguments& ar
     registerPasses(registry);
     options.scenes = arguments.scenes;
     options.sourceRoot = sourceRoot();
-    PreparedExperiment prepared(wireConfig(file, arguments.config, registry), options, registry);
+    options.preview = pathTracedPreview;
+    PreparedExperiment prepared(wireConfig(file, arguments.config, registry), options);
     for (const std::string& warning : prepared.warnings())
         fmt::print(stderr, "voxray: warning: {}\n", warning);
     use(prepared);

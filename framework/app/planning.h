@@ -9,8 +9,7 @@
 namespace voxray {
 
 /// Reads a config and wires it. Passes that values which --only leaves out would run are no mistake.
-WiredExperiment wireConfig(const std::filesystem::path& file, const ConfigOptions& options,
-                           const Registry& registry);
+Study wireConfig(const std::filesystem::path& file, const ConfigOptions& options, const Registry& registry);
 
 /// Plans the experiment of a config as a run would, prints what may mislead, and hands it over.
 /// @throws UsageError as loadExperiment(), wireExperiment() and runExperiment().

@@ -14,8 +14,9 @@
 #include "app/source_root.h"
 #include "base/thread_limit.h"
 #include "experiment/runner.h"
-#include "experiment/validate.h"
+#include "experiment/study.h"
 #include "passes/common/families.h"
+#include "passes/path_trace/preview.h"
 
 namespace voxray {
 
@@ -54,7 +55,7 @@ int run(const RunArguments& arguments) {
     registerPasses(registry);
 
     // Nothing runs while any of the configs is wrong.
-    std::vector<WiredExperiment> experiments;
+    std::vector<Study> experiments;
     for (const std::filesystem::path& config : arguments.configs) {
         experiments.push_back(wireConfig(config, arguments.config, registry));
         for (const std::string& profile : profileNames(config))
@@ -74,8 +75,9 @@ int run(const RunArguments& arguments) {
         RunOptions options = arguments.options;
         options.scenes = arguments.scenes;
         options.sourceRoot = sourceRoot();
+        options.preview = pathTracedPreview;
         if (experiments.size() > 1 && !options.out.empty()) options.out /= nameOf(i);
-        const RunSummary summary = runExperiment(std::move(experiments[i]), options, registry);
+        const RunSummary summary = runExperiment(std::move(experiments[i]), options);
         printSummary(summary, options);
         status = std::max(status, summary.exitStatus());
         if (summary.interrupted) break;

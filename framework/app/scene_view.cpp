@@ -12,7 +12,7 @@
 #include <numeric>
 
 #include "app/view_search.h"
-#include "experiment/exposure_check.h"
+#include "experiment/checks/view.h"
 #include "passes/path_trace/path_tracer.h"
 
 namespace voxray {

@@ -17,9 +17,10 @@
 #include "app/planning.h"
 #include "app/source_root.h"
 #include "base/thread_limit.h"
-#include "experiment/plan_checks.h"
+#include "experiment/prepared_experiment.h"
 #include "experiment/scene_files.h"
 #include "passes/common/families.h"
+#include "passes/path_trace/preview.h"
 
 namespace voxray {
 
@@ -50,7 +51,7 @@ struct ConfigCheck {
 /// profiles; what is warned of is said once, with the profile where it holds under one alone.
 /// @throws UsageError for the first fault.
 void validate(const std::filesystem::path& config, const ConfigOptions& options, SceneLoader& loader,
-              const Registry& registry, ConfigCheck& outcome) {
+              ViewChecks& views, const Registry& registry, ConfigCheck& outcome) {
     std::vector<std::string> profiles{options.profile};
     if (options.profile.empty())
         for (const std::string& name : profileNames(config)) profiles.push_back(name);
@@ -59,11 +60,12 @@ void validate(const std::filesystem::path& config, const ConfigOptions& options,
     for (const std::string& profile : profiles) {
         const std::string under =
             profile.empty() || profile == options.profile ? "" : fmt::format(" (with --profile {})", profile);
-        WiredExperiment wired = wireConfig(config, {profile, options.assignments, options.only}, registry);
-        for (const std::string& warning : checkPlans(wired, loader, capableDevice(), registry).warnings)
+        Study study = wireConfig(config, {profile, options.assignments, options.only}, registry);
+        planVariants(study, loader, views, capableDevice());
+        for (const std::string& warning : study.warnings)
             if (said.insert(warning).second)
                 outcome.messages += fmt::format("voxray: warning: {}{}\n", warning, under);
-        const size_t variants = wired.variants.size();
+        const size_t variants = study.variants.size();
         verdict +=
             fmt::format("{}{}: valid, {} variant{}\n", config.string(),
                         profile.empty() ? "" : " --profile " + profile, variants, variants == 1 ? "" : "s");
@@ -111,12 +113,13 @@ int validateAll(const ValidateArguments& arguments) {
     std::atomic<size_t> next = 0;
     const auto work = [&] {
         SceneLoader loader({});
+        ViewChecks views(pathTracedPreview);
         for (size_t group = next++; group < groups.size(); group = next++)
             for (const size_t i : groups[group]) {
                 const std::filesystem::path& config = arguments.configs[i];
                 loader.searchIn(sceneFolders(arguments.scenes, sourceRoot(), config));
                 try {
-                    validate(config, arguments.config, loader, registry, outcomes[i]);
+                    validate(config, arguments.config, loader, views, registry, outcomes[i]);
                 } catch (const Error& error) {
                     outcomes[i].messages += fmt::format("voxray: error: {}\n", error.what());
                 }

@@ -78,7 +78,7 @@ struct Field {
 
     /// The same parameter, which has an effect with certain values of others alone:
     /// field("samples", ...).onlyWith(oneOf(&Params::method, {Method::Sampled})). Written where none of these
-    /// conditions holds it is an error (idleParams()); the pass takes no notice of it there.
+    /// conditions holds it is an error (unusedSettings()); the pass takes no notice of it there.
     template <typename... Others>
     constexpr Field<Owner, T, Others...> onlyWith(Others... others) && {
         return {name,     member,     help, min, max, ranged, std::move(allowed), {std::move(others)...},

@@ -71,8 +71,8 @@ Value writeParams(const Schema& schema, const void* params) {
     return map;
 }
 
-std::vector<IdleParameter> idleParams(const Schema& schema, const void* params, const Value& map) {
-    std::vector<IdleParameter> all;
+std::vector<UnusedSetting> unusedSettings(const Schema& schema, const void* params, const Value& map) {
+    std::vector<UnusedSetting> all;
     for (const Parameter& parameter : schema) {
         const Value* written = map.find(parameter.name);
         if (!written || parameter.conditions.empty()) continue;

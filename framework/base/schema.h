@@ -28,7 +28,7 @@ struct ParameterDoc {
 };
 
 /// A parameter that is written where it has no effect.
-struct IdleParameter {
+struct UnusedSetting {
     std::string name;
     TextLocation where;
     std::string why;  ///< "no effect with method: exact; only with method: three_axis"
@@ -38,7 +38,7 @@ struct IdleParameter {
 void readParams(const Schema& schema, void* params, const Value& map, const std::string& owner,
                 const std::vector<std::string>& alsoAllowed);
 Value writeParams(const Schema& schema, const void* params);
-std::vector<IdleParameter> idleParams(const Schema& schema, const void* params, const Value& map);
+std::vector<UnusedSetting> unusedSettings(const Schema& schema, const void* params, const Value& map);
 std::vector<ParameterDoc> describeParams(const Schema& schema, const void* defaults);
 
 template <typename P>
@@ -68,8 +68,8 @@ void readParam(P& params, T P::*member, const Value& value, const std::string& w
 
 /// The parameters that a map names although others leave them without effect.
 template <typename P>
-std::vector<IdleParameter> idleParams(const P& params, const Value& map) {
-    return idleParams(schemaOf<P>(), &params, map);
+std::vector<UnusedSetting> unusedSettings(const P& params, const Value& map) {
+    return unusedSettings(schemaOf<P>(), &params, map);
 }
 
 /// Every parameter with its value, defaults filled in: what the manifest records.

@@ -177,7 +177,7 @@ void keepOnly(Value& config, const std::vector<std::string>& choices) {
     }
 }
 
-std::vector<Variant> expandSweep(const Experiment& experiment) {
+std::vector<SweepPoint> expandSweep(const Experiment& experiment) {
     const std::vector<Axis> axes = readAxes(experiment);
     size_t count = 1;
     for (const Axis& axis : axes) {
@@ -193,10 +193,10 @@ std::vector<Variant> expandSweep(const Experiment& experiment) {
     std::vector<bool> somewhere(axes.size());
     for (size_t a = 0; a < axes.size(); ++a) somewhere[a] = configs.hasSomewhere(axes[a].path);
 
-    std::vector<Variant> variants;
+    std::vector<SweepPoint> variants;
     for (size_t index = 0; index < count; ++index) {
         const std::vector<size_t> chosen = choose(axes, index);
-        Variant variant;
+        SweepPoint variant;
         variant.config = configs.with(chosen);
         bool isRepeat = false;
         for (size_t a = 0; a < axes.size(); ++a) {
@@ -215,7 +215,7 @@ std::vector<Variant> expandSweep(const Experiment& experiment) {
         variants.push_back(std::move(variant));
     }
     VariantNames names(experiment);
-    for (Variant& variant : variants) variant.name = names.next(variant.values);
+    for (SweepPoint& variant : variants) variant.name = names.next(variant.values);
     return variants;
 }
 

@@ -9,7 +9,7 @@
 namespace voxray {
 
 /// One point of the sweep.
-struct Variant {
+struct SweepPoint {
     std::string name;  ///< Unique, safe as a file name, e.g. "resolution-64_inject-inject_rsm".
     std::vector<std::string> values;  ///< Text of each axis' value, in the order of sweepKeys().
     Value config;  ///< The experiment's config with this variant's values in place, no sweep.
@@ -22,7 +22,8 @@ std::vector<std::string> sweepKeys(const Experiment& experiment);
 /// The values of an axis, which is a list of values, or a map that gives each value a name.
 std::vector<Value> sweepValues(const Value& axis);
 
-/// Short texts of these values, as in Variant::values: the names that a map gives them, else valueLabels().
+/// Short texts of these values, as in SweepPoint::values: the names that a map gives them, else
+/// valueLabels().
 std::vector<std::string> sweepLabels(const Value& axis);
 
 /// Takes all values out of a config's sweep but the chosen ones; axes without a choice stay whole.
@@ -51,6 +52,6 @@ class VariantNames {
 /// `<id>.<parameter>`, `<id>` (swaps the whole pass for another or for a chain), `scene...`, `image...`,
 /// `seed` or `tracer`.
 /// @throws UsageError for another axis, a value that the config can't hold, or over 10,000 variants.
-std::vector<Variant> expandSweep(const Experiment& experiment);
+std::vector<SweepPoint> expandSweep(const Experiment& experiment);
 
 }  // namespace voxray

@@ -31,7 +31,7 @@ void print(const Forecast& forecast) {
 
 }  // namespace
 
-Forecast Forecaster::forecast(WiredVariant& variant) {
+Forecast Forecaster::forecast(Variant& variant) {
     Session& session = prepared_.session();
     if (std::string key = session.loader().key(variant.setup.scene); key != sceneKey_) {
         scene_ = session.loader().prepare(variant.setup.scene, Origin::Scene);
@@ -56,7 +56,7 @@ size_t printForecasts(PreparedExperiment& prepared) {
                count == 1 ? "" : "s", prepared.session().device().info().name);
     size_t failed = 0;
     Forecaster forecaster(prepared);
-    for (WiredVariant& variant : prepared.variants()) {
+    for (Variant& variant : prepared.variants()) {
         if (interruptRequested()) throw Interrupted();
         fmt::print("{} (tracer {}, {} x {})\n", variant.name, prepared.session().tracerName(variant.setup),
                    variant.setup.image.width, variant.setup.image.height);

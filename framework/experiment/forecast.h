@@ -20,7 +20,7 @@ class Forecaster {
  public:
     /// The experiment must outlive this object.
     explicit Forecaster(PreparedExperiment& prepared) : prepared_(prepared) {}
-    Forecast forecast(WiredVariant& variant);
+    Forecast forecast(Variant& variant);
 
  private:
     PreparedExperiment& prepared_;

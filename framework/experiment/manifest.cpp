@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/files.h"
-#include "experiment/json_text.h"
+#include "experiment/results.h"
 #include "image/seed_error.h"
 #include "image/temporal.h"
 
@@ -127,7 +127,7 @@ std::string cpuName() {
 }  // namespace
 
 std::string manifestJson(const ManifestData& data) {
-    const Experiment& experiment = data.wired->experiment;
+    const Experiment& experiment = data.study->experiment;
     Json json;
     json[kIdentity] = identityOf(data);
     json["voxray_version"] = data.version;
@@ -159,11 +159,10 @@ std::string manifestJson(const ManifestData& data) {
     // Names are unique: they are added without a look at the others
     Json::object_t graphs, inputs;
     std::map<std::string, std::map<std::string, std::vector<std::string>>> noise;  // By image and variant.
-    for (const WiredVariant& variant : data.wired->variants) {
+    for (const Variant& variant : data.study->variants) {
         const std::string& name = variant.name;
         graphs.emplace_back(name, Json::parse(variant.resolved.json(-1)));
-        inputs.emplace_back(
-            name, Json{{"scene", data.sceneKeys.at(name)}, {"reference", data.referenceHashes.at(name)}});
+        inputs.emplace_back(name, Json{{"scene", variant.sceneKey}, {"reference", variant.referenceHash}});
         for (const auto& [image, parameters] : variant.noiseParameters) noise[image][name] = parameters;
     }
     json["variants"] = std::move(graphs);
@@ -178,11 +177,9 @@ std::string manifestJson(const ManifestData& data) {
 
 std::string identityOf(const ManifestData& data) {
     Hasher hasher;
-    hasher.add(data.version).add(data.commit).add(data.wired->experiment.config.json());
-    for (const WiredVariant& variant : data.wired->variants)
-        hasher.add(variant.name)
-            .add(data.sceneKeys.at(variant.name))
-            .add(data.referenceHashes.at(variant.name));
+    hasher.add(data.version).add(data.commit).add(data.study->experiment.config.json());
+    for (const Variant& variant : data.study->variants)
+        hasher.add(variant.name).add(variant.sceneKey).add(variant.referenceHash);
     return hasher.hex();
 }
 

@@ -8,7 +8,7 @@
 
 #include "experiment/reference.h"
 #include "experiment/results.h"
-#include "experiment/validate.h"
+#include "experiment/study.h"
 #include "vulkan/device.h"
 
 namespace voxray {
@@ -40,8 +40,8 @@ Sessions sessionsOf(const std::vector<VariantResult>& results);
 
 /// What `manifest.json` records.
 struct ManifestData {
-    const WiredExperiment* wired = nullptr;
-    Value referencePass;  ///< With every default filled in; null: none.
+    const Study* study = nullptr;  ///< With sceneKey and referenceHash of its variants.
+    Value referencePass;           ///< With every default filled in; null: none.
     DeviceInfo device;
     std::string requestedDevice;  ///< Empty: the best.
     std::string tracer;           ///< Of the first variant.
@@ -50,10 +50,8 @@ struct ManifestData {
     std::string started, finished;  ///< UTC, ISO 8601; `finished` is empty until the run is.
     Sessions sessions;
     std::vector<ReferenceEntry> references;
-    std::map<std::string, std::string> sceneKeys;        ///< Variant -> SceneLoader::key() of its scene.
-    std::map<std::string, std::string> referenceHashes;  ///< Variant -> its reference's hash.
-    std::vector<std::string> warnings;                   ///< What may make a result misleading.
-    std::vector<std::string> notes;                      ///< What a reader may want to know besides.
+    std::vector<std::string> warnings;  ///< What may make a result misleading.
+    std::vector<std::string> notes;     ///< What a reader may want to know besides.
 };
 
 /// @return the text of manifest.json.

@@ -13,8 +13,7 @@
 #include "config/sweep.h"
 #include "config/yaml.h"
 #include "experiment/manifest.h"
-#include "experiment/part_record.h"
-#include "experiment/reference_parts.h"
+#include "experiment/reference.h"
 #include "experiment/report_process.h"
 #include "experiment/results_folder.h"
 
@@ -152,7 +151,7 @@ std::vector<VariantResult> failedRows(std::vector<std::string>& missing, const s
     std::vector<VariantResult> rows;
     if (missing.empty()) return rows;
     std::map<std::string, std::vector<std::string>> sweepValues;
-    for (Variant& variant : expandSweep(experiment)) sweepValues[variant.name] = std::move(variant.values);
+    for (SweepPoint& variant : expandSweep(experiment)) sweepValues[variant.name] = std::move(variant.values);
     std::map<std::string, std::string> hashes;  // Of each variant's reference.
     for (const auto& [name, keys] : sources[0].manifest["inputs"].items())
         hashes[name] = keys.at("reference").get<std::string>();

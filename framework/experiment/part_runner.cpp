@@ -8,7 +8,6 @@
 #include "base/interrupt.h"
 #include "base/one_line.h"
 #include "base/thread_limit.h"
-#include "experiment/variant_run.h"
 
 namespace voxray {
 namespace {
@@ -53,8 +52,8 @@ std::string PartRunner::referenceFolder(const std::string& hash) const {
         folders[reference.hash] = reference.folder;
         taken.insert(reference.folder);
     }
-    for (const WiredVariant& variant : prepared_.variants()) {
-        std::string& folder = folders[prepared_.referenceHash(variant)];
+    for (const Variant& variant : prepared_.variants()) {
+        std::string& folder = folders[variant.referenceHash];
         for (int number = 1; folder.empty(); ++number)
             if (const std::string name = number == 1 ? "reference" : fmt::format("reference.{}", number);
                 taken.insert(name).second)
@@ -63,8 +62,8 @@ std::string PartRunner::referenceFolder(const std::string& hash) const {
     return folders.at(hash);
 }
 
-bool PartRunner::hasReferenceImages(const WiredVariant& variant) const {
-    const std::string& hash = prepared_.referenceHash(variant);
+bool PartRunner::hasReferenceImages(const Variant& variant) const {
+    const std::string& hash = variant.referenceHash;
     return hash.empty() ||
            std::ranges::any_of(references_, [&](const ReferenceEntry& r) { return r.hash == hash; });
 }
@@ -74,14 +73,14 @@ void PartRunner::dropReferences() {
     references_.clear();
 }
 
-const PreparedReference* PartRunner::referenceOf(const WiredVariant& variant, Progress& progress) {
+const PreparedReference* PartRunner::referenceOf(const Variant& variant, Progress& progress) {
     if (prepared_.experiment().reference.isNull()) return nullptr;
-    const std::string& hash = prepared_.referenceHash(variant);
+    const std::string& hash = variant.referenceHash;
     if (reference_ && reference_->images.hash == hash) return &*reference_;
 
     Session& session = prepared_.session();
-    std::vector<PixelSelection> masks = session.selectPixels(prepared_.experiment(), variant.setup, 0);
-    const ReferenceImages& images = session.reference(prepared_.wired(), variant.setup, prepared_.registry(),
+    std::vector<PixelSelection> masks = session.selectPixels(prepared_.study(), variant.setup, 0);
+    const ReferenceImages& images = session.reference(prepared_.study(), variant.setup,
                                                       [&](double fraction) { progress.update(fraction); });
 
     const std::vector<float>& radiance = images.final.mean.data;
@@ -96,8 +95,8 @@ const PreparedReference* PartRunner::referenceOf(const WiredVariant& variant, Pr
     return &*reference_;
 }
 
-void PartRunner::writeReference(const WiredVariant& variant, Progress& progress) {
-    const bool isKnown = reference_ && reference_->images.hash == prepared_.referenceHash(variant);
+void PartRunner::writeReference(const Variant& variant, Progress& progress) {
+    const bool isKnown = reference_ && reference_->images.hash == variant.referenceHash;
     if (!isKnown || hasReferenceImages(variant)) return;
     references_ = folder_.references();  // Another process may have been faster.
     if (hasReferenceImages(variant)) return;
@@ -114,72 +113,80 @@ void PartRunner::writeReference(const WiredVariant& variant, Progress& progress)
                                   (folder_.path() / "images" / record.folder / "final.png").string()));
 }
 
-std::optional<VariantResult> PartRunner::runVariant(WiredVariant& variant, Progress& progress) {
-    const Experiment& experiment = prepared_.experiment();
+bool PartRunner::runVariant(Variant& variant, Progress& progress) {
     Session& session = prepared_.session();
-    std::optional<RenderedVariant> rendered;
-    VariantResult failed;
+    std::string failure;
     const auto attempt = [&](const auto& work) {
         try {
             work();
         } catch (const std::bad_alloc&) {
-            failed.error = "out of memory";
+            failure = "out of memory";
         } catch (const std::exception& error) {
-            failed.error = oneLine(error.what());
+            failure = oneLine(error.what());
         }
     };
     const PreparedReference* reference = nullptr;
     attempt([&] {
-        progress.begin(experiment.reference.isNull() ? variant.name : variant.name + ": reference");
+        const bool hasReference = !prepared_.experiment().reference.isNull();
+        progress.begin(hasReference ? variant.name + ": reference" : variant.name);
         reference = referenceOf(variant, progress);
     });
 
     // What can't be written ends the run; what was written stays. The reference comes first, to be looked at
     // while variants render
     if (!interruptRequested()) writeReference(variant, progress);
-    const auto update = [&](double fraction) { progress.update(fraction); };
-    if (failed.error.empty())
+    VariantImages images;
+    if (failure.empty())
         attempt([&] {
             progress.begin(variant.name);
-            std::function<FrameReference(uint32_t)> referenceOfFrame;
-            if (!standsStill(variant.setup.scene))
-                referenceOfFrame = [&](uint32_t number) {
-                    return FrameReference{session.frameReference(prepared_.wired(), variant.setup,
-                                                                 prepared_.registry(), number, update),
-                                          session.selectPixels(experiment, variant.setup, number)};
-                };
-            rendered = renderVariant(variant, experiment, session, reference, referenceOfFrame,
-                                     prepared_.registry(), prepared_.options().aovs, update);
+            images = render(variant, reference, progress);
         });
-    if (!rendered) session.stream().discard();
-    if (interruptRequested()) return {};
-    if (rendered) {
-        rendered->result.session = prepared_.manifest().started;
-        const VariantInputs inputs = prepared_.inputsOf(variant);
-        folder_.writeImages(variant.name, [&](const std::filesystem::path& path) {
-            writeVariantImages(path, *rendered, variant.setup.image.exposureStops);
-            writeFileAtomically(path / "result.json", resultJson(rendered->result, inputs));
-        });
-    } else {
+    if (!failure.empty()) session.stream().discard();
+    if (interruptRequested()) {
+        variant.result.reset();
+        return false;
+    }
+    if (!failure.empty()) {
+        VariantResult& failed = variant.result.emplace();
+        failed.error = failure;
         failed.variant = variant.name;
         failed.device = session.device().info().name;
         failed.tracer = session.tracerName(variant.setup);
         failed.sweepValues = variant.values;
-        failed.session = prepared_.manifest().started;
     }
-    const VariantResult& result = rendered ? rendered->result : failed;
-    progress.end(outcome(result));
-    return result;
+    variant.result->session = prepared_.manifest().started;
+    if (failure.empty()) {
+        const VariantInputs inputs = prepared_.inputsOf(variant);
+        folder_.writeImages(variant.name, [&](const std::filesystem::path& path) {
+            writeVariantImages(path, images, variant.setup.image.exposureStops);
+            writeFileAtomically(path / "result.json", resultJson(*variant.result, inputs));
+        });
+    }
+    progress.end(outcome(*variant.result));
+    return true;
+}
+
+VariantImages PartRunner::render(Variant& variant, const PreparedReference* reference, Progress& progress) {
+    Session& session = prepared_.session();
+    const auto update = [&](double fraction) { progress.update(fraction); };
+    std::function<FrameReference(uint32_t)> referenceOfFrame;
+    if (!standsStill(variant.setup.scene))
+        referenceOfFrame = [&](uint32_t number) {
+            return FrameReference{session.frameReference(prepared_.study(), variant.setup, number, update),
+                                  session.selectPixels(prepared_.study(), variant.setup, number)};
+        };
+    return renderVariant(variant, prepared_.study(), session, reference, referenceOfFrame,
+                         prepared_.options().aovs, update);
 }
 
 void PartRunner::runReference(const Part& part, Progress& progress) {
     progress.begin(part.id);
-    const WiredVariant& variant = prepared_.variants()[part.variant];
+    const Variant& variant = prepared_.variants()[part.variant];
     RenderedPart rendered;
     try {
-        rendered = prepared_.session().referencePart(prepared_.wired(), variant.setup, prepared_.registry(),
-                                                     part.frame, part.samples,
-                                                     [&](double fraction) { progress.update(fraction); });
+        rendered =
+            prepared_.session().referencePart(prepared_.study(), variant.setup, part.frame, part.samples,
+                                              [&](double fraction) { progress.update(fraction); });
     } catch (const Error&) {
         prepared_.session().stream().discard();
         if (interruptRequested()) throw Interrupted();

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "experiment/parts.h"
 #include "experiment/prepared_experiment.h"
-#include "experiment/progress.h"
 #include "experiment/results_folder.h"
-#include "experiment/scoring.h"
+#include "experiment/variant_run.h"
 
 namespace voxray {
 
@@ -21,14 +21,15 @@ class PartRunner {
 
     /// Renders, measures and scores a variant and writes its images with its result, whole, and those of its
     /// reference where they aren't there. What throws is a failed result that is not written.
-    /// @return nothing where it was interrupted. @throws Error where the folder can't be written.
-    std::optional<VariantResult> runVariant(WiredVariant& variant, Progress& progress);
+    /// @return false where it was interrupted, and has no result. @throws Error where the folder can't be
+    /// written.
+    bool runVariant(Variant& variant, Progress& progress);
 
     /// Renders a part of a reference and writes its sums. @throws Error, Interrupted.
     void runReference(const Part& part, Progress& progress);
 
     /// Whether the images of a variant's reference are in the folder, or it has none.
-    bool hasReferenceImages(const WiredVariant& variant) const;
+    bool hasReferenceImages(const Variant& variant) const;
     /// Removes the references in the folder: of an older run of which nothing is kept, and whose masks may
     /// have been others.
     void dropReferences();
@@ -42,9 +43,10 @@ class PartRunner {
     size_t printValidationMessages(Progress& progress);
 
  private:
-    const PreparedReference* referenceOf(const WiredVariant& variant, Progress& progress);
+    const PreparedReference* referenceOf(const Variant& variant, Progress& progress);
+    VariantImages render(Variant& variant, const PreparedReference* reference, Progress& progress);
     std::string referenceFolder(const std::string& hash) const;
-    void writeReference(const WiredVariant& variant, Progress& progress);
+    void writeReference(const Variant& variant, Progress& progress);
 
     PreparedExperiment& prepared_;
     const ResultsFolder& folder_;

@@ -55,7 +55,7 @@ struct PartNeed {
 
 PartNeed partNeedOf(const Part& part, PreparedExperiment& prepared, Forecaster& forecaster) {
     if (part.kind == Part::Kind::Merge) return {};
-    WiredVariant& variant = prepared.variants()[part.variant];
+    Variant& variant = prepared.variants()[part.variant];
     if (part.kind == Part::Kind::Reference) {
         // Total and indirect light of two halves, in double
         const uint64_t pixels = uint64_t(variant.setup.image.width) * variant.setup.image.height;
@@ -120,7 +120,7 @@ std::vector<Part> partsOf(PreparedExperiment& prepared, uint32_t referenceParts)
         variant.variant = v;
         for (const uint32_t frame : referenceFrames(prepared, wired[v].setup)) {
             const std::string hash =
-                prepared.session().referenceHashOf(prepared.wired(), wired[v].setup, frame);
+                prepared.session().referenceHashOf(prepared.study(), wired[v].setup, frame);
             const std::vector<std::string> ids = idsOf(hash, referenceParts);
             variant.after.insert(variant.after.end(), ids.begin(), ids.end());
             if (!listed.insert(hash).second) continue;
@@ -163,7 +163,7 @@ std::vector<std::string> missingBefore(const Part& part, PreparedExperiment& pre
     if (part.kind != Part::Kind::Variant) return missing;
     const Setup& setup = prepared.variants()[part.variant].setup;
     for (const uint32_t frame : referenceFrames(prepared, setup)) {
-        const std::string hash = prepared.session().referenceHashOf(prepared.wired(), setup, frame);
+        const std::string hash = prepared.session().referenceHashOf(prepared.study(), setup, frame);
         const std::string id = ReferenceParts::id(hash, {});
         if (!prepared.session().hasReference(hash)) missing.push_back(id.substr(0, id.rfind('.')));
     }

@@ -144,28 +144,23 @@ std::vector<PixelSelection> selectPixels(const std::vector<MaskSettings>& masks,
     return selections;
 }
 
-std::vector<std::string> maskWarnings(const std::vector<MaskSettings>& masks,
-                                      const std::vector<PixelSelection>& selections,
-                                      const SceneState& state) {
-    std::vector<std::string> warnings;
+Diagnostics maskWarnings(const std::vector<MaskSettings>& masks,
+                         const std::vector<PixelSelection>& selections, const SceneState& state) {
+    Diagnostics found;
     for (size_t m = 0; m < masks.size(); ++m) {
         const std::string name = "measure.masks." + masks[m].name;
         if (selections[m].count == 0)
-            warnings.push_back(
-                UsageError(masks[m].where, "{}: it selects no pixel and has no scores: {}", name,
-                           isMetSomewhere(conditionOf(masks[m], *state.scene), state)
-                               ? "what meets its conditions is out of sight, or fills no whole pixel"
-                               : "no surface of the scene meets all of its conditions")
-                    .what());
+            found.push_back({masks[m].where, name + ": it selects no pixel and has no scores:",
+                             isMetSomewhere(conditionOf(masks[m], *state.scene), state)
+                                 ? "what meets its conditions is out of sight, or fills no whole pixel"
+                                 : "no surface of the scene meets all of its conditions"});
         if (selections[m].count == selections[m].pixels.size())
-            warnings.push_back(
-                UsageError(masks[m].where,
-                           "{}: it selects every pixel, so that its scores are those of the whole image: "
-                           "write a condition that some of what is in view does not meet, or leave it out",
-                           name)
-                    .what());
+            found.push_back(
+                {masks[m].where,
+                 name + ": it selects every pixel, so that its scores are those of the whole image:",
+                 "write a condition that some of what is in view does not meet, or leave it out"});
     }
-    return warnings;
+    return found;
 }
 
 std::string maskKey(const std::string& sceneKey, const ImageSettings& image) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "config/settings.h"
+#include "experiment/checks/diagnostic.h"
 #include "scene/geometry.h"
 #include "trace/embree_scene.h"
 
@@ -33,10 +34,10 @@ void checkMaskNames(const std::vector<MaskSettings>& masks, const Scene& scene);
 std::vector<PixelSelection> selectPixels(const std::vector<MaskSettings>& masks, const SceneState& state,
                                          const Camera& camera, uint32_t width, uint32_t height);
 
-/// What to say, with file and line, of masks that select no pixel of an image, or all.
+/// Masks that select no pixel of an image, or all.
 /// @param selections of these masks, as selectPixels() returns them.
-std::vector<std::string> maskWarnings(const std::vector<MaskSettings>& masks,
-                                      const std::vector<PixelSelection>& selections, const SceneState& state);
+Diagnostics maskWarnings(const std::vector<MaskSettings>& masks,
+                         const std::vector<PixelSelection>& selections, const SceneState& state);
 
 /// What the masks of a config select in the compared frame, by maskKey().
 using MaskSelections = std::map<std::string, std::vector<PixelSelection>>;

@@ -3,18 +3,25 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
+#include <map>
+#include <span>
+#include <tuple>
 
+#include "base/interrupt.h"
+#include "experiment/checks/checks.h"
+#include "experiment/checks/cost.h"
+#include "experiment/checks/unused_settings.h"
 #include "experiment/parts.h"
-#include "experiment/plan_checks.h"
 #include "experiment/scene_files.h"
 
 namespace voxray {
 namespace {
 
 // --tracer overrides the config.
-void applyTracerOption(WiredExperiment& wired, const std::string& name) {
+void applyTracerOption(Study& study, const std::string& name) {
     if (name.empty()) return;
-    Experiment& experiment = wired.experiment;
+    Experiment& experiment = study.experiment;
     if (experiment.sweep.find("tracer"))
         throw UsageError("--tracer {}: this config sweeps over the tracer", name);
     Value value = Value::map();
@@ -22,45 +29,173 @@ void applyTracerOption(WiredExperiment& wired, const std::string& name) {
     value.find("tracer")->where = {"--tracer", 0};
     const TracerKind kind = readParams<GeneralSettings>(value, "").tracer;
     experiment.setup.general.tracer = kind;
-    for (WiredVariant& variant : wired.variants) variant.setup.general.tracer = kind;
+    for (Variant& variant : study.variants) variant.setup.general.tracer = kind;
 }
 
 /// Whether all that the experiment runs does without Vulkan.
-bool runsOnHost(const WiredExperiment& wired, const Registry& registry) {
+bool runsOnHost(const Study& study) {
     const auto doesWithout = [&](const Graph& graph) {
         return std::ranges::none_of(graph.passes(), [&](const Graph::PassInfo& pass) {
-            return registry.find(pass.kind)->needsDevice;
+            return study.registry->find(pass.kind)->needsDevice;
         });
     };
-    return std::ranges::all_of(wired.variants, doesWithout, &WiredVariant::graph) &&
-           (wired.reference.isNull() || doesWithout(referenceGraph(wired.experiment, registry)));
+    return std::ranges::all_of(study.variants, doesWithout, &Variant::graph) &&
+           (study.reference.isNull() || doesWithout(study.referenceGraph()));
 }
+
+constexpr uint64_t kAnySize = std::numeric_limits<uint64_t>::max();
+
+/// The reference's graph, planned once for variants in a row that share scene and size of the image.
+class ReferencePlan {
+ public:
+    ReferencePlan(const Study& study, const DeviceInfo& device) : study_(study), device_(device) {}
+
+    /// @param scene the key of the frame's scene. @throws Error for what the reference refuses.
+    const Graph& in(const Frame& frame, const std::string& scene) {
+        const Place place{scene, frame.width, frame.height};
+        if (graph_ && place == place_) return *graph_;
+        graph_.reset();
+        Graph graph = study_.referenceGraph();
+        graph.plan(frame, device_, kAnySize);
+        place_ = place;
+        return graph_.emplace(std::move(graph));
+    }
+
+ private:
+    using Place = std::tuple<std::string, uint32_t, uint32_t>;
+    const Study& study_;
+    const DeviceInfo& device_;
+    std::optional<Graph> graph_;
+    Place place_;
+};
+
+/// What is said of variants: each thing once, with the first one's name.
+class Notices {
+ public:
+    void add(const Diagnostics& found, const Variant& variant) {
+        for (const Diagnostic& diagnostic : found) variants_[diagnostic.str()].push_back(variant.name);
+    }
+    void appendTo(std::vector<std::string>& lines) const {
+        for (const auto& [text, names] : variants_)
+            lines.push_back(names.size() == 1
+                                ? fmt::format("{} ({})", text, names[0])
+                                : fmt::format("{} ({} and {} more)", text, names[0], names.size() - 1));
+    }
+
+ private:
+    std::map<std::string, std::vector<std::string>> variants_;  ///< By what is said.
+};
+
+/// Plans and looks at variants one after another: those in a row mostly share a scene.
+class Planner {
+ public:
+    Planner(Study& study, SceneLoader& loader, ViewChecks& views, const DeviceInfo& device)
+        : motion(study.experiment.measure),
+          study_(study),
+          loader_(loader),
+          views_(views),
+          device_(device),
+          reference_(study, device) {}
+
+    /// @param keepsMemory whether the prediction is kept in the variant.
+    void plan(Variant& variant, bool keepsMemory) {
+        if (variant.sceneKey.empty()) variant.sceneKey = loader_.key(variant.setup.scene);
+        const PreparedScene& scene = loader_.prepareOnce(variant.setup.scene, variant.sceneKey);
+        const bool isNewScene = variant.sceneKey != key_;
+        if (isNewScene) enter(variant, scene);
+        selectPixels(variant, scene);
+        motion.look(variant, *scene.state.scene);
+        try {
+            const Frame frame = frameOf(variant.setup, scene, variant.setup.general.seed);
+            std::vector<PassMemory> memory = variant.graph.plan(frame, device_, kAnySize);
+            if (keepsMemory) variant.memory = std::move(memory);
+            const bool hasReference = !study_.reference.isNull();
+            const PlannedVariant planned{
+                study_,  variant,     scene,  isNewScene,
+                loader_, *lightRays_, metal_, hasReference ? &reference_.in(frame, key_) : nullptr};
+            Diagnostics found;
+            for (const Check<PlannedVariant> check : kVariantChecks) check(planned, found);
+            notices.add(found, variant);
+        } catch (const Error& error) {
+            throw UsageError("{}{}", error.what(),
+                             study_.variants.size() > 1 ? fmt::format(" (variant {})", variant.name) : "");
+        }
+    }
+
+    Notices notices;
+    UnusedMotion motion;
+
+ private:
+    void enter(const Variant& variant, const PreparedScene& scene) {
+        key_ = variant.sceneKey;
+        lightRays_.emplace(scene.state);
+        checkMaskNames(study_.experiment.measure.masks, *scene.state.scene);
+        const ViewCheck& view = views_.of(variant.setup, key_, scene);
+        metal_ = view.metal;
+        notices.add(view.found, variant);
+    }
+
+    /// Of each scene and size of the image, once.
+    void selectPixels(const Variant& variant, const PreparedScene& scene) {
+        const std::vector<MaskSettings>& masks = study_.experiment.measure.masks;
+        if (masks.empty() || study_.reference.isNull()) return;
+        const ImageSettings& image = variant.setup.image;
+        const auto [selections, isNew] = study_.masks.try_emplace(maskKey(key_, image));
+        if (!isNew) return;
+        selections->second =
+            voxray::selectPixels(masks, scene.state, scene.camera, image.width, image.height);
+        notices.add(maskWarnings(masks, selections->second, scene.state), variant);
+    }
+
+    Study& study_;
+    SceneLoader& loader_;
+    ViewChecks& views_;
+    const DeviceInfo& device_;
+    ReferencePlan reference_;
+    std::string key_;  ///< Of the last scene, likewise what follows.
+    std::optional<LightRays> lightRays_;
+    double metal_ = 0;
+};
 
 }  // namespace
 
-PreparedExperiment::PreparedExperiment(WiredExperiment experiment, const RunOptions& options,
-                                       const Registry& registry)
-    : wired_(std::move(experiment)), options_(options), registry_(registry) {
-    applyTracerOption(wired_, options.tracer);
+void planVariants(Study& study, SceneLoader& loader, ViewChecks& views, const DeviceInfo& device,
+                  std::optional<size_t> only) {
+    Planner planner(study, loader, views, device);
+    const std::span<Variant> all(study.variants);
+    for (Variant& variant : only ? all.subspan(*only, 1) : all) {
+        if (interruptRequested()) throw Interrupted();
+        planner.plan(variant, !only);
+    }
+    if (!only) planner.motion.refuse();
+
+    study.warnings = study.experiment.warnings;
+    Diagnostics found;
+    for (const Check<Study> check : kStudyChecks) check(study, found);
+    for (const Diagnostic& diagnostic : found) study.warnings.push_back(diagnostic.str());
+    planner.notices.appendTo(study.warnings);
+}
+
+PreparedExperiment::PreparedExperiment(Study study, const RunOptions& options)
+    : study_(std::move(study)), options_(options) {
+    applyTracerOption(study_, options.tracer);
     DeviceOptions device;
     device.name = options_.deviceName;
     device.validation = options_.validation;
-    device.isHost = device.name.empty() && !device.validation && runsOnHost(wired_, registry_) &&
+    device.isHost = device.name.empty() && !device.validation && runsOnHost(study_) &&
                     !whyNoDevice(listDevices()).empty();
     session_.emplace(device, options_.sourceRoot,
-                     sceneFolders(options_.scenes, options_.sourceRoot, wired_.experiment.file));
+                     sceneFolders(options_.scenes, options_.sourceRoot, study_.experiment.file));
 
     // Every scene, its parameters and files, before anything is rendered
-    for (const Variant& variant : wired_.variants) {
-        session_->loader().key(variant.setup.scene);
+    for (Variant& variant : study_.variants) {
+        variant.sceneKey = session_->loader().key(variant.setup.scene);
+        variant.referenceHash = session_->referenceHashOf(study_, variant.setup);
         session_->tracerName(variant.setup);
     }
     recordInputs();
-    PlanCheck check =
-        checkPlans(wired_, session_->loader(), session_->device().info(), registry_, ownVariant());
-    warnings_ = std::move(check.warnings);
-    session_->takeMasks(std::move(check.masks));
-    session_->loader().forgetPrepared();
+    ViewChecks views(options_.preview);
+    planVariants(study_, session_->loader(), views, session_->device().info(), ownVariant());
 }
 
 std::optional<size_t> PreparedExperiment::ownVariant() {
@@ -71,23 +206,19 @@ std::optional<size_t> PreparedExperiment::ownVariant() {
 }
 
 void PreparedExperiment::recordInputs() {
-    manifest_.wired = &wired_;
-    for (const WiredVariant& variant : wired_.variants) {
-        manifest_.sceneKeys[variant.name] = session_->loader().key(variant.setup.scene);
-        manifest_.referenceHashes[variant.name] = session_->referenceHashOf(wired_, variant.setup);
-    }
+    manifest_.study = &study_;
     std::vector<std::string> leftOut;
-    for (const auto& [id, count] : variantsWithout(wired_))
-        if (runsSomewhere(wired_, id)) leftOut.push_back(fmt::format("'{}' in {}", id, count));
+    for (const auto& [id, count] : variantsWithout(study_))
+        if (runsSomewhere(study_, id)) leftOut.push_back(fmt::format("'{}' in {}", id, count));
     if (!leftOut.empty())
         manifest_.notes.push_back(
             fmt::format("passes without a use are left out: {} of {} variants: no image that is compared "
                         "depends on them there",
-                        fmt::join(leftOut, ", "), wired_.variants.size()));
-    if (!wired_.reference.isNull()) manifest_.referencePass = wired_.reference.items[0];
+                        fmt::join(leftOut, ", "), study_.variants.size()));
+    if (!study_.reference.isNull()) manifest_.referencePass = study_.reference.items[0];
     manifest_.device = session_->device().info();
     manifest_.requestedDevice = options_.deviceName;
-    manifest_.tracer = session_->tracerName(wired_.variants[0].setup);
+    manifest_.tracer = session_->tracerName(study_.variants[0].setup);
     manifest_.validation = options_.validation;
     manifest_.version = VOXRAY_VERSION;
     manifest_.commit = commitOf(options_.sourceRoot);
@@ -96,21 +227,21 @@ void PreparedExperiment::recordInputs() {
 
 std::vector<std::string> PreparedExperiment::warnings() const {
     std::vector<std::string> lines = session_->warnings();
-    for (const std::string& warning : warnings_)
+    for (const std::string& warning : study_.warnings)
         if (std::ranges::count(lines, warning) == 0) lines.push_back(warning);
     return lines;
 }
 
-VariantInputs PreparedExperiment::inputsOf(const WiredVariant& variant) {
+VariantInputs PreparedExperiment::inputsOf(const Variant& variant) {
     const Value measure = writeParams(experiment().measure);
     std::string masks;
     for (const MaskSettings& mask : experiment().measure.masks)
         masks += mask.name + ": " + writeParams(mask).text() + " ";
     return {{"graph", variant.resolved.text()},
-            {"scene", manifest_.sceneKeys.at(variant.name)},
+            {"scene", variant.sceneKey},
             {"image", writeParams(variant.setup.image).text()},
             {"seed", std::to_string(variant.setup.general.seed)},
-            {"reference", referenceHash(variant)},
+            {"reference", variant.referenceHash},
             {"measure", measure.text()},
             {"masks", masks},
             {"tracer", session_->tracerName(variant.setup)},

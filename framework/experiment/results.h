@@ -1,7 +1,9 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -69,6 +71,17 @@ std::string passesCsv(const std::vector<VariantResult>& results);
 std::string valuesCsv(const std::vector<VariantResult>& results);
 /// `frames.csv`: one row for each variant and compared frame; scores as in results.csv.
 std::string framesCsv(const std::vector<VariantResult>& results, const MeasureSettings& measure);
+
+/// "build" or "frame".
+const char* nameOf(Phase phase);
+
+/// A number; as text where it is infinite, which JSON has not: PSNR of equal images.
+nlohmann::ordered_json numberJson(double value);
+/// Scores by column, each with `suffix` behind it.
+nlohmann::ordered_json scoresJson(const Scores& scores, const std::string& suffix = "");
+/// The text at a path of keys in a JSON object, "" where there is none. What follows it is not read: it may
+/// be of thousands of variants.
+std::string jsonTextAt(std::string_view json, const std::vector<std::string>& path);
 
 /// `images/<variant>/result.json`, the mark of a finished variant; all numbers survive the round trip.
 std::string resultJson(const VariantResult& result, const VariantInputs& inputs);

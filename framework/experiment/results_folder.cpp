@@ -5,16 +5,34 @@
 
 #include "base/files.h"
 #include "config/sweep.h"
-#include "experiment/reference_parts.h"
+#include "experiment/reference.h"
 
 namespace voxray {
 namespace fs = std::filesystem;
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr const char* kLock = ".lock";
 constexpr const char* kManifest = "manifest.json";
+constexpr const char* kRecordEnding = ".json";
 constexpr const char* kParts = ReferenceParts::kFolder;
+
+Json jsonOf(const PartRecord& record) {
+    return {{"warnings", record.warnings},
+            {"error", record.error},
+            {"device", record.device},
+            {"tracer", record.tracer},
+            {"session", record.session}};
+}
+
+/// @throws nlohmann::json::exception.
+PartRecord recordFrom(const Json& json) {
+    const auto text = [&](const char* key) { return json.at(key).get<std::string>(); };
+    return {json.at("warnings").get<std::vector<std::string>>(), text("error"), text("device"),
+            text("tracer"), text("session")};
+}
 
 // Turns the standard library's exceptions into one line that says what to do.
 template <typename Failure = Error, typename Work>
@@ -186,6 +204,35 @@ void ResultsFolder::writeTables(const std::vector<VariantResult>& rows, const Ex
 
 void ResultsFolder::writeText(const std::string& name, const std::string& content) const {
     writeFileAtomically(path_ / name, content);
+}
+
+PartRecords::PartRecords(const fs::path& results) : folder_(results / kParts) {}
+
+void PartRecords::store(const std::string& id, const PartRecord& record) const {
+    const fs::path file = folder_ / (id + kRecordEnding);
+    if (!record.warnings.empty() || !record.error.empty()) {
+        fs::create_directories(folder_);
+        const std::string text = jsonOf(record).dump(1, ' ', false, Json::error_handler_t::replace);
+        writeFileAtomically(file, text + "\n");
+        return;
+    }
+    std::error_code code;
+    fs::remove(file, code);
+    if (code) throw Error("{}: {}", file.string(), code.message());
+}
+
+std::map<std::string, PartRecord> PartRecords::load() const {
+    std::map<std::string, PartRecord> records;
+    std::error_code code;
+    for (const auto& entry : fs::directory_iterator(folder_, code)) {
+        if (entry.path().extension() != kRecordEnding || isTemporaryName(entry.path())) continue;
+        try {
+            records[entry.path().stem().string()] = recordFrom(Json::parse(readTextFile(entry.path())));
+        } catch (const std::exception&) {  // Of a record there is nothing that a merge could not do without.
+            continue;
+        }
+    }
+    return records;
 }
 
 }  // namespace voxray

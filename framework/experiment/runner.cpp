@@ -1,25 +1,24 @@
 #include "experiment/runner.h"
 
 #include <chrono>
-#include <map>
 #include <utility>
 
 #include "base/interrupt.h"
 #include "base/one_line.h"
 #include "config/overrides.h"
-#include "experiment/disturbances.h"
+#include "experiment/checks/timing_outliers.h"
 #include "experiment/forecast.h"
 #include "experiment/merge.h"
-#include "experiment/part_record.h"
 #include "experiment/part_runner.h"
 #include "experiment/report_process.h"
+#include "experiment/results_folder.h"
 
 namespace voxray {
 namespace {
 
 /// Whether each measured frame of a variant does what the one before it did.
-bool isAtRest(PreparedExperiment& prepared, size_t variant) {
-    return prepared.experiment().measure.warmup > 0 && standsStill(prepared.variants()[variant].setup.scene);
+bool isAtRest(const PreparedExperiment& prepared, const Variant& variant) {
+    return prepared.experiment().measure.warmup > 0 && standsStill(variant.setup.scene);
 }
 
 /// One run: the state that its steps share.
@@ -43,17 +42,16 @@ class Run {
     void renderMissing();
     void writeTables();
     void keepTablesFresh();
-    std::string buildOf(size_t variant);
-    std::vector<std::string> disturbedTimes();
+    std::string buildOf(const Variant& variant);
+    std::vector<std::string> timingWarnings();
 
     PreparedExperiment& prepared_;
     RunSummary& summary_;
     ResultsFolder folder_;
     PartRunner parts_;
     ManifestData manifest_;
-    std::map<size_t, VariantResult> results_;            ///< By index of the variant.
     std::chrono::steady_clock::time_point tablesDue_{};  ///< Tables between variants are not written before.
-    std::vector<std::string> disturbed_;                 ///< What is to say of times, once all are known.
+    std::vector<std::string> timing_;                    ///< What is to say of times, once all are known.
 };
 
 void Run::execute() {
@@ -65,15 +63,16 @@ void Run::execute() {
     } catch (const Error& error) {  // What can't be written.
         failure = error.what();
     }
-    for (const auto& [index, result] : results_) ++(result.ok ? summary_.ok : summary_.failed);
+    for (const Variant& variant : prepared_.variants())
+        if (variant.result) ++(variant.result->ok ? summary_.ok : summary_.failed);
     if (!failure.empty()) giveUp(failure);
 
     // Close the books; after an interruption of what there is
     if (!summary_.interrupted) manifest_.finished = utcNow();
-    disturbed_ = disturbedTimes();
-    for (const std::string& text : disturbed_) fmt::print(stderr, "voxray: warning: {}\n", text);
+    timing_ = timingWarnings();
+    for (const std::string& text : timing_) fmt::print(stderr, "voxray: warning: {}\n", text);
     writeTables();
-    if (!options.report || results_.empty()) return;
+    if (!options.report || summary_.ok + summary_.failed == 0) return;
     if (summary_.interrupted && !options.quiet)
         fmt::print(stderr,
                    "voxray: stopped; making the report of what is finished (Ctrl-C again ends that, too)\n");
@@ -102,36 +101,34 @@ void Run::giveUp(const std::string& why) {
 }
 
 void Run::takeOverFinished() {
-    std::vector<WiredVariant>& variants = prepared_.variants();
-    for (size_t i = 0; i < variants.size(); ++i) {
-        auto result = folder_.finished(variants[i].name, prepared_.inputsOf(variants[i]));
-        if (!result || !parts_.hasReferenceImages(variants[i])) continue;
-        results_.emplace(i, std::move(*result));
+    for (Variant& variant : prepared_.variants()) {
+        auto result = folder_.finished(variant.name, prepared_.inputsOf(variant));
+        if (!result || !parts_.hasReferenceImages(variant)) continue;
+        variant.result = std::move(result);
         ++summary_.resumed;
     }
     if (summary_.resumed == 0) parts_.dropReferences();
     if (!prepared_.options().quiet && summary_.resumed > 0)
-        fmt::print("{} of {} variants were finished already\n", summary_.resumed, variants.size());
+        fmt::print("{} of {} variants were finished already\n", summary_.resumed,
+                   prepared_.variants().size());
 }
 
 void Run::renderMissing() {
     writeTables();
-    std::vector<WiredVariant>& variants = prepared_.variants();
-    Progress progress(variants.size() - results_.size(), prepared_.options().quiet);
+    Progress progress(prepared_.variants().size() - summary_.resumed, prepared_.options().quiet);
     parts_.printWarnings(progress);
     for (const std::string& note : manifest_.notes) progress.note(note);
     if (folder_.replaced() > 0)
         progress.note(fmt::format("replaces {} finished variant{} of an earlier run; --resume would keep {}",
                                   folder_.replaced(), folder_.replaced() == 1 ? "" : "s",
                                   folder_.replaced() == 1 ? "it" : "them"));
-    for (size_t i = 0; i < variants.size() && !summary_.interrupted; ++i) {
-        if (results_.count(i)) continue;
-        if (auto result = parts_.runVariant(variants[i], progress)) {
-            results_.emplace(i, std::move(*result));
+    for (Variant& variant : prepared_.variants()) {
+        if (summary_.interrupted) break;
+        if (variant.result) continue;
+        if (parts_.runVariant(variant, progress))
             keepTablesFresh();
-        } else {
+        else
             summary_.interrupted = true;
-        }
         summary_.validationMessages = parts_.printValidationMessages(progress);
     }
     summary_.validationMessages = parts_.printValidationMessages(progress);
@@ -139,10 +136,11 @@ void Run::renderMissing() {
 
 void Run::writeTables() {
     std::vector<VariantResult> rows;
-    for (const auto& [index, result] : results_) rows.push_back(result);
+    for (const Variant& variant : prepared_.variants())
+        if (variant.result) rows.push_back(*variant.result);
     manifest_.sessions = sessionsOf(rows);
     manifest_.warnings = parts_.warnings();
-    manifest_.warnings.insert(manifest_.warnings.end(), disturbed_.begin(), disturbed_.end());
+    manifest_.warnings.insert(manifest_.warnings.end(), timing_.begin(), timing_.end());
     manifest_.references = parts_.references();
     folder_.writeText("manifest.json", manifestJson(manifest_));
     folder_.writeTables(rows, prepared_.experiment());
@@ -159,31 +157,31 @@ void Run::keepTablesFresh() {
 }
 
 /// What the time of a variant's build depends on; "" where its first run is timed, with what comes once.
-std::string Run::buildOf(size_t variant) {
+std::string Run::buildOf(const Variant& variant) {
     if (prepared_.experiment().measure.buildRepeats == 0) return {};
-    const WiredVariant& wired = prepared_.variants()[variant];
     std::string text;
-    for (const PassCost& cost : results_.at(variant).passes)
+    for (const PassCost& cost : variant.result->passes)
         if (cost.phase == Phase::Build)
-            for (const Value& pass : wired.resolved.items)
+            for (const Value& pass : variant.resolved.items)
                 if (passId(pass) == cost.id) text += pass.text() + "\n";
-    for (const auto& [name, value] : prepared_.inputsOf(wired))
+    for (const auto& [name, value] : prepared_.inputsOf(variant))
         if (name == "scene" || name == "image" || name == "seed" || name == "tracer") text += value + "\n";
     return text;
 }
 
-std::vector<std::string> Run::disturbedTimes() {
+std::vector<std::string> Run::timingWarnings() {
     std::vector<TimedVariant> timed;
-    for (const auto& [index, result] : results_)
-        timed.push_back({&result, buildOf(index), isAtRest(prepared_, index)});
-    return disturbances(timed);
+    for (const Variant& variant : prepared_.variants())
+        if (variant.result)
+            timed.push_back({&*variant.result, buildOf(variant), isAtRest(prepared_, variant)});
+    return timingOutliers(timed);
 }
 
 /// Whether an earlier process did a part, with the same inputs.
 bool isFinished(const Part& part, PreparedExperiment& prepared, const ResultsFolder& folder,
                 const PartRunner& parts) {
     if (part.kind == Part::Kind::Reference) return ReferenceParts(folder.path()).has(part.hash, part.samples);
-    const WiredVariant& variant = prepared.variants()[part.variant];
+    const Variant& variant = prepared.variants()[part.variant];
     return folder.finished(variant.name, prepared.inputsOf(variant)) && parts.hasReferenceImages(variant);
 }
 
@@ -216,17 +214,19 @@ void runPart(const Part& part, PreparedExperiment& prepared, const ResultsFolder
     if (const auto missing = missingBefore(part, prepared); !missing.empty())
         throw UsageError("{}: it comes after all parts of '{}', which are not all in {}", part.id, missing[0],
                          folder.path().string());
-    const auto result = parts.runVariant(prepared.variants()[part.variant], progress);
+    Variant& variant = prepared.variants()[part.variant];
+    const bool isDone = parts.runVariant(variant, progress);
     summary.validationMessages = parts.printValidationMessages(progress);
-    if (!result) throw Interrupted();
+    if (!isDone) throw Interrupted();
+    const VariantResult& result = *variant.result;
     std::vector<std::string> warnings = parts.warnings();
-    if (result->ok && !prepared.options().untimed)
-        for (const std::string& text : disturbances({{&*result, "", isAtRest(prepared, part.variant)}})) {
+    if (result.ok && !prepared.options().untimed)
+        for (const std::string& text : timingOutliers({{&result, "", isAtRest(prepared, variant)}})) {
             progress.warn(text);
             warnings.push_back(text);
         }
-    records.store(part.id, {warnings, result->error, result->device, result->tracer, result->session});
-    if (!result->ok) throw Error("{}: {}", part.id, result->error);
+    records.store(part.id, {warnings, result.error, result.device, result.tracer, result.session});
+    if (!result.ok) throw Error("{}: {}", part.id, result.error);
 }
 
 /// Does the part that the options name.
@@ -254,15 +254,14 @@ void executeDry(PreparedExperiment& prepared, RunSummary& summary) {
 
 }  // namespace
 
-RunSummary runExperiment(WiredExperiment experiment, const RunOptions& options, const Registry& registry) {
+RunSummary runExperiment(Study study, const RunOptions& options) {
     const InterruptScope interruptScope;
     RunSummary summary;
-    summary.total = options.part.empty() ? experiment.variants.size() : 0;
-    summary.out = options.out.empty()
-                      ? std::filesystem::path("results") / experiment.experiment.setup.general.name
-                      : options.out;
+    summary.total = options.part.empty() ? study.variants.size() : 0;
+    summary.out = options.out.empty() ? std::filesystem::path("results") / study.experiment.setup.general.name
+                                      : options.out;
     try {
-        PreparedExperiment prepared(std::move(experiment), options, registry);
+        PreparedExperiment prepared(std::move(study), options);
         if (options.dryRun) {
             executeDry(prepared, summary);
         } else if (interruptRequested()) {
@@ -279,7 +278,7 @@ RunSummary runExperiment(WiredExperiment experiment, const RunOptions& options, 
 }
 
 RunSummary runExperiment(const Experiment& experiment, const RunOptions& options, const Registry& registry) {
-    return runExperiment(wireExperiment(experiment, registry), options, registry);
+    return runExperiment(wireExperiment(experiment, registry), options);
 }
 
 }  // namespace voxray

@@ -3,7 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "experiment/validate.h"
+#include "experiment/checks/view.h"
+#include "experiment/study.h"
 
 namespace voxray {
 
@@ -22,6 +23,7 @@ struct RunOptions {
     std::string part;         ///< Do this part of the experiment alone (parts.h); empty: all of them.
     bool untimed = false;     ///< Of a part: it shares its machine with others, and times are warned of.
     std::filesystem::path sourceRoot;
+    Preview preview;  ///< Looks at each view before anything is rendered; empty: views are not looked at.
 };
 
 struct RunSummary {
@@ -47,7 +49,7 @@ struct RunSummary {
 /// throws is recorded as failed and the others go on. Same config and seed: same images and metrics.
 /// @throws UsageError for what can be seen to be wrong before anything runs (missing scenes, a device or
 /// tracer that isn't there); Error where the results folder can't be written: finished variants are kept.
-RunSummary runExperiment(WiredExperiment experiment, const RunOptions& options, const Registry& registry);
+RunSummary runExperiment(Study study, const RunOptions& options);
 /// The same, wired first. @throws UsageError also for graphs and sweeps.
 RunSummary runExperiment(const Experiment& experiment, const RunOptions& options, const Registry& registry);
 

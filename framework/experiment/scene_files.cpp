@@ -3,12 +3,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <optional>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/interrupt.h"
 #include "base/suggest.h"
+#include "experiment/scene_setup.h"
+#include "image/image.h"
+#include "scene/content_hash.h"
 #include "scene/load.h"
 
 namespace voxray {
@@ -22,6 +27,18 @@ std::optional<fs::path> lookUp(const fs::path& name, const std::vector<fs::path>
     for (const fs::path& folder : folders)
         if (fs::exists(folder / name, code)) return folder / name;
     return std::nullopt;
+}
+
+/// What reads a file that the config names: what is wrong with it is told at the config's line.
+template <typename Read>
+auto readAt(const TextLocation& where, const Read& read) {
+    try {
+        return read();
+    } catch (const Interrupted&) {
+        throw;
+    } catch (const Error& error) {
+        throw UsageError(where, "{}", error.what());
+    }
 }
 
 }  // namespace
@@ -105,6 +122,105 @@ void checkMapFormat(const SceneSettings& settings) {
             throw UsageError(settings.environmentWhere,
                              "scene.environment: '{}' holds no radiance: take an .exr file",
                              oneLine(settings.environment->map, 200));
+}
+
+void checkRadiance(const ImageF& map, const std::filesystem::path& path) {
+    if (map.channels != 3) throw Error("{}: an environment map has three channels", path.string());
+    size_t bad = 0, first = 0;
+    for (size_t i = map.data.size(); i-- > 0;)
+        if (!std::isfinite(map.data[i]) || map.data[i] < 0) {
+            ++bad;
+            first = i;
+        }
+    if (bad == 0) return;
+    const size_t pixel = first / 3;
+    throw Error(
+        "{}: its pixel in column {} and row {}, from the upper left, is ({}, {}, {}), and {} of its {} "
+        "values are "
+        "negative or not finite: radiance is neither; repair it in an image editor{}",
+        path.string(), pixel % map.width, pixel / map.width, map.data[3 * pixel], map.data[3 * pixel + 1],
+        map.data[3 * pixel + 2], bad, map.data.size(),
+        std::isinf(map.data[first]) ? "; half floats end at 65504, save a sun in 32 bits" : "");
+}
+
+std::shared_ptr<const Scene> SceneLoader::load(const SceneSource& source) {
+    if (!source.builtin.empty()) {
+        const std::string id = "builtin:" + source.builtin + source.builtinParameters.text();
+        auto& scene = scenes_[id];
+        if (!scene) {
+            checkBuiltin(source, folders_);
+            scene = makeBuiltinScene(source.builtin, source.builtinParameters);
+        }
+        return scene;
+    }
+    checkFormat(source);
+    const fs::path path = findSceneFile(source.file, folders_, source.where);
+    auto& scene = scenes_[path.string()];
+    if (!scene) scene = readAt(source.where, [&] { return loadGltf(path); });
+    return scene;
+}
+
+std::shared_ptr<const ImageF> SceneLoader::loadMap(const SceneSettings& settings) {
+    if (!settings.environment || settings.environment->map.empty()) return nullptr;
+    checkMapFormat(settings);
+    const fs::path path = findSceneFile(settings.environment->map, folders_, settings.environmentWhere);
+    const std::string& layer = settings.environment->layer;
+    auto& map = maps_[{path.string(), layer}];
+    if (!map) {
+        map = readAt(settings.environmentWhere, [&] {
+            LayeredImage read = readLayer(path, layer);
+            checkRadiance(read.image, path);
+            if (layer.empty() && read.layerCount > 1 && !read.layer.empty())
+                mapWarnings_.push_back(fmt::format("{}: its layer '{}' of {} is the environment",
+                                                   path.filename().string(), read.layer, read.layerCount));
+            return std::make_shared<const ImageF>(std::move(read.image));
+        });
+    }
+    return map;
+}
+
+std::string SceneLoader::key(const SceneSettings& settings) {
+    Hasher hasher;
+    hasher.add(load(settings.source)->contentHash);
+    if (settings.placement) hasher.add("transform").add(writeParams(*settings.placement).text());
+    for (const auto& [source, placement, material] : settings.additions)
+        hasher.add("add")
+            .add(load(source)->contentHash)
+            .add(source.name())
+            .add(writeParams(placement).text())
+            .add(material ? writeParams(*material).text() : "");
+    checkOverrides(settings);
+    for (const auto& [name, change, where] : settings.overrides)
+        hasher.add("override")
+            .add(name)
+            .add(writeParams(change.settings).text())
+            .add(fmt::format("{}", fmt::join(change.keys, " ")));
+    for (const HiddenName& hidden : settings.hidden) hasher.add("hide").add(hidden.name);
+    hasher.addPlain(settings.options.keepFileLights).addPlain(settings.options.materials);
+    if (settings.options.subdivide > 0) hasher.add("subdivide").addPlain(settings.options.subdivide);
+    hasher.addPlain(settings.options.time).add(settings.cameraName);
+    // Where all goes from the compared frame on changes nothing in it but the bounds
+    hasher.addPlain(settings.options.timeStep > 0);
+    hasher.add(settings.movingSpheres ? writeParams(*settings.movingSpheres).text() : "");
+    hasher.add(settings.region ? writeParams(*settings.region).text() : "");
+    Value camera = settings.camera ? writeParams(*settings.camera) : Value();
+    camera.erase("move");
+    hasher.add(settings.camera ? camera.text() : "");
+    for (const auto& [light, move, offAt, where] : settings.lights) {
+        hasher.addPlain(light.type)
+            .addPlain(light.intensity)
+            .addPlain(light.position)
+            .addPlain(light.direction);
+        hasher.addPlain(light.innerConeAngle).addPlain(light.outerConeAngle);
+    }
+    hasher.add(settings.environment
+                   ? fmt::format("{}", writeParams(*settings.environment).find("scale")->text())
+                   : "");
+    if (const auto map = loadMap(settings)) {
+        hasher.addPlain(map->width).addPlain(map->height);
+        hasher.add(map->data.data(), map->data.size() * sizeof(float));
+    }
+    return hasher.hex();
 }
 
 }  // namespace voxray

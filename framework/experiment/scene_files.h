@@ -6,6 +6,7 @@
 
 #include "config/scene_additions.h"
 #include "config/settings.h"
+#include "image/image.h"
 
 /// Where the files that a config names are, and whether they are of a kind that can be read.
 namespace voxray {
@@ -31,5 +32,10 @@ void checkFormat(const SceneSource& source);
 /// An image for display holds no radiance: what is brighter than white is cut off.
 /// @throws UsageError for one as environment map, by its ending.
 void checkMapFormat(const SceneSettings& settings);
+
+/// Checks an equirectangular map of radiance that was read from `path`.
+/// @throws Error for an image that has not three channels, and one that names the first pixel that is no
+/// radiance, and how many there are.
+void checkRadiance(const ImageF& map, const std::filesystem::path& path);
 
 }  // namespace voxray

@@ -9,12 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "base/files.h"
-#include "base/interrupt.h"
 #include "base/suggest.h"
-#include "experiment/environment_map.h"
-#include "experiment/scene_files.h"
-#include "image/image.h"
 #include "scene/compose.h"
 #include "scene/content_hash.h"
 #include "scene/load.h"
@@ -28,18 +23,6 @@ namespace voxray {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// What reads a file that the config names: what is wrong with it is told at the config's line.
-template <typename Read>
-auto readAt(const TextLocation& where, const Read& read) {
-    try {
-        return read();
-    } catch (const Interrupted&) {
-        throw;
-    } catch (const Error& error) {
-        throw UsageError(where, "{}", error.what());
-    }
-}
 
 /// From this distance on, in sizes of the scene, two of the seven digits of floats are lost.
 constexpr float kFarAway = 100;
@@ -130,86 +113,6 @@ void chooseLightsAndCamera(PreparedScene& prepared, const SceneSettings& setting
 
 }  // namespace
 
-std::shared_ptr<const Scene> SceneLoader::load(const SceneSource& source) {
-    if (!source.builtin.empty()) {
-        const std::string id = "builtin:" + source.builtin + source.builtinParameters.text();
-        auto& scene = scenes_[id];
-        if (!scene) {
-            checkBuiltin(source, folders_);
-            scene = makeBuiltinScene(source.builtin, source.builtinParameters);
-        }
-        return scene;
-    }
-    checkFormat(source);
-    const fs::path path = findSceneFile(source.file, folders_, source.where);
-    auto& scene = scenes_[path.string()];
-    if (!scene) scene = readAt(source.where, [&] { return loadGltf(path); });
-    return scene;
-}
-
-std::shared_ptr<const ImageF> SceneLoader::loadMap(const SceneSettings& settings) {
-    if (!settings.environment || settings.environment->map.empty()) return nullptr;
-    checkMapFormat(settings);
-    const fs::path path = findSceneFile(settings.environment->map, folders_, settings.environmentWhere);
-    const std::string& layer = settings.environment->layer;
-    auto& map = maps_[{path.string(), layer}];
-    if (!map) {
-        map = readAt(settings.environmentWhere, [&] {
-            LayeredImage read = readLayer(path, layer);
-            checkRadiance(read.image, path);
-            if (layer.empty() && read.layerCount > 1 && !read.layer.empty())
-                mapWarnings_.push_back(fmt::format("{}: its layer '{}' of {} is the environment",
-                                                   path.filename().string(), read.layer, read.layerCount));
-            return std::make_shared<const ImageF>(std::move(read.image));
-        });
-    }
-    return map;
-}
-
-std::string SceneLoader::key(const SceneSettings& settings) {
-    Hasher hasher;
-    hasher.add(load(settings.source)->contentHash);
-    if (settings.placement) hasher.add("transform").add(writeParams(*settings.placement).text());
-    for (const auto& [source, placement, material] : settings.additions)
-        hasher.add("add")
-            .add(load(source)->contentHash)
-            .add(source.name())
-            .add(writeParams(placement).text())
-            .add(material ? writeParams(*material).text() : "");
-    checkOverrides(settings);
-    for (const auto& [name, change, where] : settings.overrides)
-        hasher.add("override")
-            .add(name)
-            .add(writeParams(change.settings).text())
-            .add(fmt::format("{}", fmt::join(change.keys, " ")));
-    for (const HiddenName& hidden : settings.hidden) hasher.add("hide").add(hidden.name);
-    hasher.addPlain(settings.options.keepFileLights).addPlain(settings.options.materials);
-    if (settings.options.subdivide > 0) hasher.add("subdivide").addPlain(settings.options.subdivide);
-    hasher.addPlain(settings.options.time).add(settings.cameraName);
-    // Where all goes from the compared frame on changes nothing in it but the bounds
-    hasher.addPlain(settings.options.timeStep > 0);
-    hasher.add(settings.movingSpheres ? writeParams(*settings.movingSpheres).text() : "");
-    hasher.add(settings.region ? writeParams(*settings.region).text() : "");
-    Value camera = settings.camera ? writeParams(*settings.camera) : Value();
-    camera.erase("move");
-    hasher.add(settings.camera ? camera.text() : "");
-    for (const auto& [light, move, offAt, where] : settings.lights) {
-        hasher.addPlain(light.type)
-            .addPlain(light.intensity)
-            .addPlain(light.position)
-            .addPlain(light.direction);
-        hasher.addPlain(light.innerConeAngle).addPlain(light.outerConeAngle);
-    }
-    hasher.add(settings.environment
-                   ? fmt::format("{}", writeParams(*settings.environment).find("scale")->text())
-                   : "");
-    if (const auto map = loadMap(settings)) {
-        hasher.addPlain(map->width).addPlain(map->height);
-        hasher.add(map->data.data(), map->data.size() * sizeof(float));
-    }
-    return hasher.hex();
-}
-
 void SceneLoader::checkOverrides(const SceneSettings& settings) {
     if (settings.overrides.empty()) return;
     std::vector<std::string> names;
@@ -292,7 +195,9 @@ PreparedScene SceneLoader::prepare(const SceneSettings& settings, Origin origin)
     const Playback playback = settings.options.timeStep > 0 ? Playback::Looping : Playback::Frozen;
     std::shared_ptr<const Scene> scene = compose(settings);
     prepared.state = evaluateParted(scene, settings.options.time, playback);
-    if (origin == Origin::Scene) prepared.origin = nearestOrigin(prepared.state.geometry);
+    const glm::vec3 nearest = nearestOrigin(prepared.state.geometry);
+    prepared.isFarAway = nearest != glm::vec3(0.0f);
+    if (origin == Origin::Scene) prepared.origin = nearest;
     if (prepared.origin != glm::vec3(0.0f)) {
         // A node over all nodes takes their translations away before any vertex is added to them
         auto moved = std::make_shared<Scene>(placedScene(*scene, {.translate = -prepared.origin}));
@@ -317,6 +222,15 @@ const PreparedScene& SceneLoader::prepareOnce(const SceneSettings& settings, con
         return ++scenes >= kScenes || triangles > kTriangles;
     });
     return prepared_.emplace_front(key, prepare(settings)).second;
+}
+
+PreparedScene SceneLoader::takePrepared(const SceneSettings& settings, const std::string& key) {
+    std::list<std::pair<std::string, PreparedScene>> kept;
+    kept.swap(prepared_);
+    const auto known = std::ranges::find(kept, key, &decltype(kept)::value_type::first);
+    if (known != kept.end() && !known->second.isFarAway) return std::move(known->second);
+    kept.clear();
+    return prepare(settings, Origin::Scene);
 }
 
 std::vector<Box> SceneLoader::goToFrame(PreparedScene& prepared, const SceneSettings& settings, int frame) {

@@ -25,14 +25,9 @@ enum class Origin {
 /// A scene as a variant renders it.
 struct PreparedScene {
     glm::vec3 origin{0.0f};  ///< Coordinates of state and camera count from there, m.
+    bool isFarAway = false;  ///< Whether they had better count from the scene's center.
     SceneState state;        ///< Its lights are those that shine, its only camera is `camera`.
     Camera camera;
-};
-
-/// What a camera sees of a scene: checkView().
-struct ViewCheck {
-    std::vector<std::string> warnings;
-    double metal = 0;  ///< Part of the surfaces seen that is metal, 0 to 1.
 };
 
 /// Loads scenes, composes what a config adds and overrides, and puts its camera, lights, environment and
@@ -59,8 +54,9 @@ class SceneLoader {
     /// As prepare(), or what that made before: the last few scenes are kept, fewer where they are large.
     /// @param key that of `settings`. @return what stays as long as no other scene is prepared so.
     const PreparedScene& prepareOnce(const SceneSettings& settings, const std::string& key);
-    /// Frees what prepareOnce() keeps.
-    void forgetPrepared() { prepared_.clear(); }
+    /// As prepare() with Origin::Scene, for one who keeps it: what prepareOnce() made, where its coordinates
+    /// do. Frees all else that is kept.
+    PreparedScene takePrepared(const SceneSettings& settings, const std::string& key);
 
     /// Takes a prepared scene to a frame, counted from the compared one: animation, lights, and a camera on
     /// an animated node. A camera's own `move` is not applied.
@@ -69,9 +65,6 @@ class SceneLoader {
 
     /// What loading left out and composing changed, a line each, of all scenes.
     std::vector<std::string> warnings() const;
-
-    /// What checkView() found: other variants, profiles and configs show the same views.
-    std::map<std::string, ViewCheck> views;
 
  private:
     /// @throws UsageError for an overridden material that no scene has.

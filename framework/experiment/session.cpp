@@ -4,7 +4,7 @@
 
 #include "base/files.h"
 #include "base/interrupt.h"
-#include "experiment/scene_size.h"
+#include "experiment/checks/cost.h"
 #include "vulkan/size_error.h"
 
 namespace voxray {
@@ -30,7 +30,7 @@ std::string Session::tracerName(const Setup& setup) const {
 }
 
 SceneOnDevice& Session::scene(const Setup& setup) {
-    const std::string key = loader_.key(setup.scene) + " " + tracerName(setup);
+    const std::string sceneKey = loader_.key(setup.scene), key = sceneKey + " " + tracerName(setup);
     if (scene_ && scene_->key == key) {
         Frame ignored;
         if (sceneMoved_) goToFrame(setup, ignored, 0);
@@ -43,7 +43,7 @@ SceneOnDevice& Session::scene(const Setup& setup) {
     scene_.emplace();
     sceneMoved_ = false;
     try {
-        scene_->prepared = loader_.prepare(setup.scene, Origin::Scene);
+        scene_->prepared = loader_.takePrepared(setup.scene, sceneKey);
         scene_->gpu = makeGpuScene(device_, stream_, scene_->prepared.state);
         scene_->tracer = makeRayTracer(setup.general.tracer, device_, compiler_, scene_->prepared.state);
         stream_.finish();
@@ -81,16 +81,15 @@ Frame Session::enterFrame(const Setup& setup, uint32_t number, uint64_t seed) {
     return frame;
 }
 
-std::vector<PixelSelection> Session::selectPixels(const Experiment& experiment, const Setup& setup,
-                                                  uint32_t number) {
-    if (experiment.measure.masks.empty()) return {};
+std::vector<PixelSelection> Session::selectPixels(const Study& study, const Setup& setup, uint32_t number) {
+    const std::vector<MaskSettings>& masks = study.experiment.measure.masks;
+    if (masks.empty()) return {};
     if (number == 0)
-        if (const auto known = masks_.find(maskKey(loader_.key(setup.scene), setup.image));
-            known != masks_.end())
+        if (const auto known = study.masks.find(maskKey(loader_.key(setup.scene), setup.image));
+            known != study.masks.end())
             return known->second;
     const Frame frame = enterFrame(setup, number, setup.general.seed);
-    return voxray::selectPixels(experiment.measure.masks, *frame.scene, frame.camera, frame.width,
-                                frame.height);
+    return voxray::selectPixels(masks, *frame.scene, frame.camera, frame.width, frame.height);
 }
 
 std::vector<PassMemory> Session::plan(Graph& graph, const Frame& frame, uint64_t limitMb) {
@@ -100,9 +99,9 @@ std::vector<PassMemory> Session::plan(Graph& graph, const Frame& frame, uint64_t
     return graph.plan(frame, device_.info(), limit);
 }
 
-std::string Session::referenceHashOf(const WiredExperiment& experiment, const Setup& setup, uint32_t number) {
-    if (experiment.reference.isNull()) return {};
-    const std::string first = referenceHash(loader_.key(setup.scene), experiment.reference, setup.image,
+std::string Session::referenceHashOf(const Study& study, const Setup& setup, uint32_t number) {
+    if (study.reference.isNull()) return {};
+    const std::string first = referenceHash(loader_.key(setup.scene), study.reference, setup.image,
                                             referenceSeed(setup.general.seed));
     if (number == 0 || standsStill(setup.scene)) return first;
 
@@ -114,17 +113,16 @@ std::string Session::referenceHashOf(const WiredExperiment& experiment, const Se
     return hasher.hex();
 }
 
-const ReferenceImages& Session::reference(const WiredExperiment& experiment, const Setup& setup,
-                                          const Registry& registry,
+const ReferenceImages& Session::reference(const Study& study, const Setup& setup,
                                           const std::function<void(double)>& progress) {
-    const std::string hash = referenceHashOf(experiment, setup);
+    const std::string hash = referenceHashOf(study, setup);
     if (reference_ && reference_->hash == hash) return *reference_;
     if (const auto failed = failedReferences_.find(hash); failed != failedReferences_.end())
         throw Error("{}", failed->second);
     try {
         reference_ = stored(hash, setup);
         if (reference_) return *reference_;
-        reference_ = makeReference(hash, experiment, setup, registry, 0, progress);
+        reference_ = makeReference(hash, study, setup, 0, progress);
     } catch (const std::exception& error) {
         if (interruptRequested()) throw Interrupted();
         throw Error("{}", failedReferences_[hash] = std::string("reference: ") + error.what());
@@ -159,40 +157,36 @@ void Session::store(const ReferenceImages& reference) {
     }
 }
 
-ReferenceImages Session::frameReference(const WiredExperiment& experiment, const Setup& setup,
-                                        const Registry& registry, uint32_t number,
+ReferenceImages Session::frameReference(const Study& study, const Setup& setup, uint32_t number,
                                         const std::function<void(double)>& progress) {
-    const std::string hash = referenceHashOf(experiment, setup, number);
+    const std::string hash = referenceHashOf(study, setup, number);
     if (auto known = stored(hash, setup)) return std::move(*known);
-    ReferenceImages rendered = makeReference(hash, experiment, setup, registry, number, progress);
+    ReferenceImages rendered = makeReference(hash, study, setup, number, progress);
     store(rendered);
     return rendered;
 }
 
-ReferenceImages Session::makeReference(const std::string& hash, const WiredExperiment& experiment,
-                                       const Setup& setup, const Registry& registry, uint32_t number,
-                                       const std::function<void(double)>& progress) {
-    ReferenceImages reference = imagesOf(renderPart(experiment, setup, registry, number, {}, progress));
+ReferenceImages Session::makeReference(const std::string& hash, const Study& study, const Setup& setup,
+                                       uint32_t number, const std::function<void(double)>& progress) {
+    ReferenceImages reference = imagesOf(renderPart(study, setup, number, {}, progress));
     reference.hash = hash;
     return reference;
 }
 
-RenderedPart Session::referencePart(const WiredExperiment& experiment, const Setup& setup,
-                                    const Registry& registry, uint32_t number, SamplePart samples,
-                                    const std::function<void(double)>& progress) {
+RenderedPart Session::referencePart(const Study& study, const Setup& setup, uint32_t number,
+                                    SamplePart samples, const std::function<void(double)>& progress) {
     if (const auto cached =
-            cache_.load(referenceHashOf(experiment, setup, number), setup.image.width, setup.image.height))
+            cache_.load(referenceHashOf(study, setup, number), setup.image.width, setup.image.height))
         return partOf(*cached);
-    return renderPart(experiment, setup, registry, number, samples, progress);
+    return renderPart(study, setup, number, samples, progress);
 }
 
-RenderedPart Session::renderPart(const WiredExperiment& experiment, const Setup& setup,
-                                 const Registry& registry, uint32_t number, SamplePart samples,
+RenderedPart Session::renderPart(const Study& study, const Setup& setup, uint32_t number, SamplePart samples,
                                  const std::function<void(double)>& progress) {
     Frame frame = enterFrame(setup, number, referenceSeed(setup.general.seed));
     frame.samples = samples;
     SceneOnDevice& onDevice = *scene_;
-    Graph graph = referenceGraph(experiment.experiment, registry);
+    Graph graph = study.referenceGraph();
     plan(graph, frame, 0);
     graph.prepare(frame, device_, compiler_, stream_);
     return renderReference(graph, {frame, device_, stream_, *onDevice.tracer, onDevice.gpu, {}}, number,

@@ -9,9 +9,8 @@
 
 #include "experiment/pixel_masks.h"
 #include "experiment/reference.h"
-#include "experiment/reference_parts.h"
 #include "experiment/scene_setup.h"
-#include "experiment/validate.h"
+#include "experiment/study.h"
 
 namespace voxray {
 
@@ -57,37 +56,31 @@ class Session {
     void takeParts(ReferenceParts parts) { parts_ = std::move(parts); }
     /// The reference of a variant: from memory, from the cache on disk, from its parts, or rendered now.
     /// A reference that failed fails again at once. @throws Error, Interrupted.
-    const ReferenceImages& reference(const WiredExperiment& experiment, const Setup& setup,
-                                     const Registry& registry, const std::function<void(double)>& progress);
+    const ReferenceImages& reference(const Study& study, const Setup& setup,
+                                     const std::function<void(double)>& progress);
     /// The reference of another frame of a sequence (see standsStill); likewise, not kept in memory.
-    ReferenceImages frameReference(const WiredExperiment& experiment, const Setup& setup,
-                                   const Registry& registry, uint32_t number,
+    ReferenceImages frameReference(const Study& study, const Setup& setup, uint32_t number,
                                    const std::function<void(double)>& progress);
     /// Renders a part of a reference, or takes the whole out of the cache. @throws Error, Interrupted.
-    RenderedPart referencePart(const WiredExperiment& experiment, const Setup& setup,
-                               const Registry& registry, uint32_t number, SamplePart samples,
+    RenderedPart referencePart(const Study& study, const Setup& setup, uint32_t number, SamplePart samples,
                                const std::function<void(double)>& progress);
     /// Whether a reference can be had without rendering it.
     bool hasReference(const std::string& hash) const;
     /// A reference's hash, "" where the experiment has none.
-    std::string referenceHashOf(const WiredExperiment& experiment, const Setup& setup, uint32_t number = 0);
+    std::string referenceHashOf(const Study& study, const Setup& setup, uint32_t number = 0);
 
-    /// What masks select in the compared frame, found before: of other scenes and sizes it is looked for.
-    void takeMasks(MaskSelections masks) { masks_ = std::move(masks); }
-    /// The pixels that the experiment's masks select in a frame.
-    std::vector<PixelSelection> selectPixels(const Experiment& experiment, const Setup& setup,
-                                             uint32_t number);
+    /// The pixels that the experiment's masks select in a frame; of the compared one Study::masks knows them.
+    std::vector<PixelSelection> selectPixels(const Study& study, const Setup& setup, uint32_t number);
 
     /// What went wrong without failing a variant, a line each.
     std::vector<std::string> warnings() const;
 
  private:
     std::optional<ReferenceImages> stored(const std::string& hash, const Setup& setup);
-    RenderedPart renderPart(const WiredExperiment& experiment, const Setup& setup, const Registry& registry,
-                            uint32_t number, SamplePart samples, const std::function<void(double)>& progress);
-    ReferenceImages makeReference(const std::string& hash, const WiredExperiment& experiment,
-                                  const Setup& setup, const Registry& registry, uint32_t number,
-                                  const std::function<void(double)>& progress);
+    RenderedPart renderPart(const Study& study, const Setup& setup, uint32_t number, SamplePart samples,
+                            const std::function<void(double)>& progress);
+    ReferenceImages makeReference(const std::string& hash, const Study& study, const Setup& setup,
+                                  uint32_t number, const std::function<void(double)>& progress);
     void store(const ReferenceImages& reference);
 
     Device device_;
@@ -97,7 +90,6 @@ class Session {
     SceneLoader loader_;
     ReferenceCache cache_;
     std::optional<ReferenceParts> parts_;
-    MaskSelections masks_;
     std::optional<SceneOnDevice> scene_;
     bool sceneMoved_ = false;  ///< Out of the compared frame.
     std::optional<ReferenceImages> reference_;

@@ -1,8 +1,10 @@
 #include "experiment/variant_run.h"
 
 #include <algorithm>
+#include <glm/gtc/packing.hpp>
 
 #include "base/byte_units.h"
+#include "experiment/pixel_masks.h"
 
 namespace voxray {
 
@@ -22,10 +24,10 @@ void checkHostMemory(const MeasureSettings& measure, const ImageSettings& image)
 
 FrameImages downloadFrame(const Graph& graph, uint32_t number, Session& session) {
     FrameImages images{number, {}, {}};
-    const Image* final = graph.image("final");
-    if (!final || !*final) throw Error("no pass wrote the image 'final'");
+    const Image* final = graph.image(kComparedImage);
+    if (!final || !*final) throw Error("no pass wrote the image '{}'", kComparedImage);
     images.final = downloadImage(session.device(), session.stream(), *final);
-    if (const Image* indirect = graph.image("indirect"); indirect && *indirect)
+    if (const Image* indirect = graph.image(kIndirectImage); indirect && *indirect)
         images.indirect = downloadImage(session.device(), session.stream(), *indirect);
     return images;
 }
@@ -59,20 +61,86 @@ Measurement runGraph(Graph graph, const Setup& setup, uint64_t seed, const Measu
                         [&](const Frame& now, uint32_t number) { afterFrame(graph, now, number); });
 }
 
-void writeFramePreviews(const std::filesystem::path& folder, const RenderedVariant& variant,
+/// All four components of an image of floats or half floats.
+std::vector<float> downloadTexels(Device& device, CommandStream& stream, const Image& image) {
+    const ImageDesc& desc = image.desc();
+    const uint64_t values = uint64_t(desc.extent.x) * desc.extent.y * 4;
+    const Buffer buffer(device, image.name() + " readback", values / 4 * texelBytes(desc.format),
+                        MemoryKind::Readback);
+    stream.copy(image, buffer);
+    if (desc.format == VK_FORMAT_R32G32B32A32_SFLOAT) return stream.readAs<float>(buffer, values);
+    if (desc.format != VK_FORMAT_R16G16B16A16_SFLOAT)
+        throw Error("image '{}' is neither RGBA32F nor RGBA16F and can't be an AOV", image.name());
+    std::vector<float> texels;
+    texels.reserve(values);
+    for (const uint16_t half : stream.readAs<uint16_t>(buffer, values))
+        texels.push_back(glm::unpackHalf1x16(half));
+    return texels;
+}
+
+/// An image with room for `channels`, a number of them filled so far.
+class ChannelWriter {
+ public:
+    ChannelWriter(AovImage& to, uint32_t width, uint32_t height, size_t channels) : to_(to) {
+        to_.image = ImageF(width, height, uint32_t(channels));
+    }
+    /// @param valueOf the channel's value in a pixel, by its number.
+    template <typename ValueOf>
+    void add(const std::string& name, const ValueOf& valueOf) {
+        const size_t channel = to_.channels.size(), stride = to_.image.channels;
+        for (size_t i = 0; i < to_.image.pixelCount(); ++i) to_.image.data[i * stride + channel] = valueOf(i);
+        to_.channels.push_back(name);
+    }
+
+ private:
+    AovImage& to_;
+};
+
+void writeFramePreviews(const std::filesystem::path& folder, const VariantImages& images,
                         float exposureStops) {
-    if (variant.laterFrames.empty()) return;
+    if (images.laterFrames.empty()) return;
     std::filesystem::create_directories(folder);
     const auto write = [&](uint32_t frame, const ImageF& final, const std::optional<ImageF>& indirect) {
         const std::string end = "." + std::to_string(frame) + ".png";
         writePng(folder / ("final" + end), preview(final, exposureStops));
         if (indirect) writePng(folder / ("indirect" + end), preview(*indirect, exposureStops));
     };
-    write(0, variant.final, variant.indirect);
-    for (const FrameImages& later : variant.laterFrames) write(later.frame, later.final, later.indirect);
+    write(0, images.final, images.indirect);
+    for (const FrameImages& later : images.laterFrames) write(later.frame, later.final, later.indirect);
 }
 
 }  // namespace
+
+std::vector<AovImage> downloadAovs(const Graph& graph, const Frame& frame, const glm::vec3& origin,
+                                   Device& device, CommandStream& stream) {
+    std::vector<AovImage> images;
+    for (const auto& [pass, aovs] : graph.aovs()) {
+        const glm::uvec3 extent = aovs[0].image->desc().extent;
+        size_t channels = 3;
+        for (const Aov& aov : aovs) {
+            if (aov.image->desc().extent != extent)
+                throw Error("pass '{}': its AOVs '{}' and '{}' differ in size", pass, aovs[0].image->name(),
+                            aov.image->name());
+            channels += aov.channels.size();
+        }
+        AovImage& image = images.emplace_back(AovImage{pass, {}, {}});
+        ChannelWriter writer(image, extent.x, extent.y, channels);
+        const std::vector<PrimaryHit> hits = primaryHits(*frame.scene, frame.camera, extent.x, extent.y);
+        for (const Aov& aov : aovs) {
+            const std::vector<float> texels = downloadTexels(device, stream, *aov.image);
+            for (size_t c = 0; c < aov.channels.size(); ++c) {
+                const float offset = aov.channels[c].starts_with("P.") && c < 3 ? origin[int(c)] : 0.0f;
+                writer.add(aov.channels[c], [&](size_t i) {
+                    return texels[i * 4 + c] + (hits[i].instance >= 0 ? offset : 0.0f);
+                });
+            }
+        }
+        writer.add("Z", [&](size_t i) { return hits[i].depth; });
+        writer.add("id", [&](size_t i) { return float(hits[i].instance); });
+        writer.add("material_id", [&](size_t i) { return float(hits[i].material); });
+    }
+    return images;
+}
 
 uint64_t graphRuns(const Experiment& experiment) {
     const MeasureSettings& measure = experiment.measure;
@@ -80,17 +148,16 @@ uint64_t graphRuns(const Experiment& experiment) {
     return uint64_t(runsOf(measure) + (withSecond ? runsOf(untimed(measure)) : 0));
 }
 
-RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experiment, Session& session,
-                              const PreparedReference* reference,
-                              const std::function<FrameReference(uint32_t)>& referenceOf,
-                              const Registry& registry, bool withAovs,
-                              const std::function<void(double)>& progress) {
-    const MeasureSettings& measure = experiment.measure;
+VariantImages renderVariant(Variant& variant, const Study& study, Session& session,
+                            const PreparedReference* reference,
+                            const std::function<FrameReference(uint32_t)>& referenceOf, bool withAovs,
+                            const std::function<void(double)>& progress) {
+    const MeasureSettings& measure = study.experiment.measure;
     checkHostMemory(measure, variant.setup.image);
     Device& device = session.device();
     const size_t messagesBefore = device.validationMessages().size();
-    RenderedVariant rendered;
-    VariantResult& result = rendered.result;
+    VariantImages images;
+    VariantResult result;
     std::vector<FrameImages> frames;
     std::optional<FrameImages> second;
     const uint64_t seed = variant.setup.general.seed;
@@ -103,11 +170,11 @@ RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experimen
             if (measure.compareEvery > 0 ? number % measure.compareEvery == 0 : number == 0)
                 frames.push_back(downloadFrame(graph, number, session));
             if (withAovs && number == 0)
-                rendered.aovs = downloadAovs(graph, now, session.origin(), device, session.stream());
+                images.aovs = downloadAovs(graph, now, session.origin(), device, session.stream());
         });
     if (withSecond)
         runGraph(
-            variantGraph(variant, registry), variant.setup, seed + 1, untimed(measure), session,
+            study.graphOf(variant), variant.setup, seed + 1, untimed(measure), session,
             [&](double part) { progress(firstPart + (1 - firstPart) * part); },
             [&](const Graph& graph, const Frame&, uint32_t number) {
                 second = downloadFrame(graph, number, session);
@@ -127,36 +194,38 @@ RenderedVariant renderVariant(WiredVariant& variant, const Experiment& experimen
         const float stops = variant.setup.image.exposureStops;
         ScoredFrame first =
             scoreFrame(frames[0], reference->images, reference->masks, reference->record, stops);
-        rendered.flip = std::move(first.flip);
-        rendered.indirectFlip = std::move(first.indirectFlip);
+        images.flip = std::move(first.flip);
+        images.indirectFlip = std::move(first.indirectFlip);
         result.scores = first.scores;
         if (second) scoreSeeds(frames[0], *second, reference->images, result.scores);
         if (measure.compareEvery > 0)
             scoreSequence(frames, *reference, first.scores, referenceOf, stops,
                           firstLightOff(variant.setup.scene), result);
     }
-    rendered.final = std::move(frames[0].final);
-    rendered.indirect = std::move(frames[0].indirect);
+    images.final = std::move(frames[0].final);
+    images.indirect = std::move(frames[0].indirect);
     frames.erase(frames.begin());
-    rendered.laterFrames = std::move(frames);
+    images.laterFrames = std::move(frames);
     result.variant = variant.name;
     result.ok = true;
     result.device = device.info().name;
     result.sweepValues = variant.values;
-    return rendered;
+    variant.result = std::move(result);
+    return images;
 }
 
-void writeVariantImages(const std::filesystem::path& folder, const RenderedVariant& variant,
+void writeVariantImages(const std::filesystem::path& folder, const VariantImages& images,
                         float exposureStops) {
-    writeExr(folder / "final.exr", variant.final);
-    writePng(folder / "final.png", preview(variant.final, exposureStops));
-    if (variant.flip) writePng(folder / "flip.png", *variant.flip);
-    writeAovs(folder, variant.aovs);
-    writeFramePreviews(folder / "frames", variant, exposureStops);
-    if (!variant.indirect) return;
-    writeExr(folder / "indirect.exr", *variant.indirect);
-    writePng(folder / "indirect.png", preview(*variant.indirect, exposureStops));
-    if (variant.indirectFlip) writePng(folder / "indirect_flip.png", *variant.indirectFlip);
+    writeExr(folder / "final.exr", images.final);
+    writePng(folder / "final.png", preview(images.final, exposureStops));
+    if (images.flip) writePng(folder / "flip.png", *images.flip);
+    for (const AovImage& aov : images.aovs)
+        writeExr(folder / ("aovs." + aov.pass + ".exr"), aov.image, aov.channels);
+    writeFramePreviews(folder / "frames", images, exposureStops);
+    if (!images.indirect) return;
+    writeExr(folder / "indirect.exr", *images.indirect);
+    writePng(folder / "indirect.png", preview(*images.indirect, exposureStops));
+    if (images.indirectFlip) writePng(folder / "indirect_flip.png", *images.indirectFlip);
 }
 
 void writeReferenceImages(const std::filesystem::path& folder, const PreparedReference& reference,

@@ -190,10 +190,10 @@ Value Graph::resolved() const {
     return list;
 }
 
-std::vector<IdleParameter> Graph::idle() const {
-    std::vector<IdleParameter> all;
+std::vector<UnusedSetting> Graph::unused() const {
+    std::vector<UnusedSetting> all;
     for (const GraphNode& node : impl_->nodes)
-        for (const IdleParameter& own : node.idle)
+        for (const UnusedSetting& own : node.unused)
             all.push_back({node.id + "." + own.name, own.where, own.why});
     return all;
 }

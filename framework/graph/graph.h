@@ -59,7 +59,7 @@ class Graph {
 
     /// The parameters that the config's list names although others leave them without effect:
     /// "<id>.<parameter>".
-    std::vector<IdleParameter> idle() const;
+    std::vector<UnusedSetting> unused() const;
 
     /// Drops every pass that none of the last writers of `portNames` depends on: it would take time and
     /// memory for nothing. A pass that writes nothing is there for what it reports, and stays. @return the

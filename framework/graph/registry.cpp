@@ -83,9 +83,9 @@ Value PassKind::resolve(const Value& map, const std::string& id,
     return writeParams(*type.schema, read(type, map, id, reserved).get());
 }
 
-std::vector<IdleParameter> PassKind::idle(const Value& map, const std::string& id,
-                                          const std::vector<std::string>& reserved) const {
-    return idleParams(*type.schema, read(type, map, id, reserved).get(), map);
+std::vector<UnusedSetting> PassKind::unused(const Value& map, const std::string& id,
+                                            const std::vector<std::string>& reserved) const {
+    return unusedSettings(*type.schema, read(type, map, id, reserved).get(), map);
 }
 
 PassRegistration::PassRegistration(const char* file, Add add) {

@@ -9,7 +9,6 @@
 #include "base/schema.h"
 #include "base/value.h"
 #include "graph/pass.h"
-#include "graph/preview.h"
 
 namespace voxray {
 
@@ -44,8 +43,8 @@ struct PassKind {
     /// The map with every default filled in, reserved keys left out.
     Value resolve(const Value& map, const std::string& id, const std::vector<std::string>& reserved) const;
     /// Parameters that the map names although they have no effect there.
-    std::vector<IdleParameter> idle(const Value& map, const std::string& id,
-                                    const std::vector<std::string>& reserved) const;
+    std::vector<UnusedSetting> unused(const Value& map, const std::string& id,
+                                      const std::vector<std::string>& reserved) const;
 };
 
 /// The ports that a pass has with each value of one parameter, in the order of its values.
@@ -92,9 +91,6 @@ class Registry {
     /// Names of passes that write a port of this name out of others. Those that change what they read under
     /// it need a writer themselves.
     std::vector<std::string> writersOf(const std::string& port) const;
-
-    /// Looks at a view before anything is rendered there. Empty where no pass brings one.
-    Preview preview;
 
  private:
     template <typename Params>

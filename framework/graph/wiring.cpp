@@ -71,17 +71,17 @@ GraphNode readNode(const Registry& registry, const Value& entry, const std::vect
     for (const std::string& key : reservedKeys)
         if (const Value* value = entry.find(key)) node.resolved.set(key, *value);
     Value parameters = kind.resolve(entry, node.id, reservedKeys);
-    std::vector<IdleParameter> idle = kind.idle(parameters, node.id, reservedKeys);
+    std::vector<UnusedSetting> unused = kind.unused(parameters, node.id, reservedKeys);
     for (const ParameterDoc& doc : kind.parameters) {
-        if (std::ranges::count(idle, doc.name, &IdleParameter::name) > 0) continue;
+        if (std::ranges::count(unused, doc.name, &UnusedSetting::name) > 0) continue;
         if (doc.type == "integer" && parameters.find(doc.name)->scalar != doc.min)
             node.counts.push_back(doc.name);
         if (doc.isLessNoise) node.lessNoise.push_back(doc.name);
     }
-    for (IdleParameter& parameter : idle)
+    for (UnusedSetting& parameter : unused)
         if (const Value* written = entry.find(parameter.name)) {
             parameter.where = written->where;
-            node.idle.push_back(std::move(parameter));
+            node.unused.push_back(std::move(parameter));
         }
     for (auto& [key, value] : parameters.members) node.resolved.set(key, std::move(value));
     return node;

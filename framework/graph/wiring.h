@@ -24,7 +24,7 @@ struct GraphNode {
     Value resolved;                                     ///< The config's entry with defaults filled in.
     std::vector<std::string> counts;                    ///< Its whole-number parameters that can be lowered.
     std::vector<std::string> lessNoise;                 ///< Parameters whose larger values lower its noise.
-    std::vector<IdleParameter> idle;  ///< What its entry names although it has no effect there.
+    std::vector<UnusedSetting> unused;  ///< What its entry names although it has no effect there.
     TextLocation where;
     uint64_t lightRays = 0;  ///< As planned.
 };

@@ -2,8 +2,6 @@
 
 #include <string>
 
-#include "passes/path_trace/path_tracer.h"
-
 namespace voxray {
 
 void registerPasses(Registry& registry) {
@@ -16,12 +14,6 @@ void registerPasses(Registry& registry) {
     registry.renamed("gather_merged_rays", "gather_rays with 'source: merged_voxels'");
     registry.renamed("inject_gather_hits", "inject_voxel_rays with 'points: gather_hits'");
     registry.renamed("inject_shadow_map", "inject_voxel_rays with 'direct: shadow_maps'");
-    registry.preview = [](const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
-                          uint32_t width, uint32_t height, uint32_t spp, uint32_t bounces) {
-        const PathTraceOptions options{
-            .width = width, .height = height, .spp = spp, .bounces = bounces, .rays = RaysToCome::Few};
-        return pathTrace(state, tracer, camera, options).total;
-    };
 }
 
 }  // namespace voxray

@@ -32,7 +32,7 @@ inline constexpr std::array kFamilies{
     Family{"experiments", "Measures for experiments; no image depends on them", true},
 };
 
-/// Adds every technique under passes/, by family, and the path tracer as the registry's preview.
+/// Adds every technique under passes/, by family.
 void registerPasses(Registry& registry);
 
 }  // namespace voxray

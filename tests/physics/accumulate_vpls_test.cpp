@@ -12,7 +12,7 @@ namespace voxray::test {
 namespace {
 
 constexpr uint32_t kSize = 32;
-constexpr double kSeen = 0.02;  // Of a light, as framework/experiment/afterglow.h has it.
+constexpr double kSeen = 0.02;  // Of a light, as framework/experiment/scoring.h has it.
 
 /// The Cornell box with a point light, and a second one of a quarter of its power.
 std::shared_ptr<const SceneState> twoLights() {

@@ -1,4 +1,4 @@
-#include "experiment/afterglow.h"
+#include "experiment/scoring.h"
 
 #include <gtest/gtest.h>
 

@@ -193,18 +193,18 @@ TEST(HexColor, IsDecodedToLinearValues) {
 }
 
 TEST(Schema, KnowsParametersWithoutEffect) {
-    const auto idle = [](const Value& map) {
+    const auto unused = [](const Value& map) {
         std::string text;
-        for (const IdleParameter& parameter : idleParams(readParams<Params>(map, "demo"), map))
+        for (const UnusedSetting& parameter : unusedSettings(readParams<Params>(map, "demo"), map))
             text += fmt::format("{}: {}: {}", parameter.where.str(), parameter.name, parameter.why);
         return text;
     };
-    EXPECT_EQ(idle(mapOf({{"edge", "2"}, {"offset", "1"}})),
+    EXPECT_EQ(unused(mapOf({{"edge", "2"}, {"offset", "1"}})),
               "f.yaml:3: edge: no effect with fruit: pear, offset: 1; only with fruit: apple or offset other "
               "than 0 | 1");
     for (const auto& map : {mapOf({{"fruit", "apple"}, {"edge", "2"}}),
                             mapOf({{"offset", "2"}, {"edge", "2"}}), mapOf({{"fruit", "pear"}})})
-        EXPECT_EQ(idle(map), "");
+        EXPECT_EQ(unused(map), "");
 }
 
 TEST(Schema, GivesAnExample) {

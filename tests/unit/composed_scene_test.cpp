@@ -2,9 +2,9 @@
 
 #include <set>
 
-#include "experiment/addition_check.h"
+#include "experiment/checks/checks.h"
+#include "experiment/checks/cost.h"
 #include "experiment/scene_setup.h"
-#include "experiment/scene_size.h"
 #include "experiment/session.h"
 #include "experiment_fakes.h"
 #include "scene/load.h"
@@ -229,7 +229,10 @@ TEST(ComposedSceneLoader, WarnsOfAdditionsInAnotherUnit) {
     const auto saidOf = [](const std::string& additions) {
         SceneLoader loader({});
         const SceneSettings scene = settingsOf("  add: [" + additions + "]\n");
-        return additionWarnings(scene, loader.prepare(scene), loader);
+        std::vector<std::string> lines;
+        for (const Diagnostic& found : addedScenesOfOtherUnits(scene, loader.prepare(scene), loader))
+            lines.push_back(found.str());
+        return lines;
     };
     const auto room = [](const std::string& transform) {
         return "{builtin: white_room, transform: {" + transform + "}}";  // As large as the Cornell box.
@@ -255,9 +258,9 @@ TEST(ComposedSceneLoader, WarnsOfAdditionsInAnotherUnit) {
     SceneLoader loader({});
     const SceneSettings hidden = settingsOf("  hide: [red, sphere]\n  add: [" + room("scale: 2") + ", " +
                                             room("scale: 101") + ", {builtin: mirror_row}]\n");
-    const std::vector<std::string> rest = additionWarnings(hidden, loader.prepare(hidden), loader);
+    const Diagnostics rest = addedScenesOfOtherUnits(hidden, loader.prepare(hidden), loader);
     ASSERT_EQ(rest.size(), 1u);
-    EXPECT_CONTAINS(rest[0], "scene.add[1]: ");
+    EXPECT_CONTAINS(rest[0].str(), "scene.add[1]: ");
 }
 
 TEST_F(SceneSize, AdviceNamesWhatTheLargestPartGrowsWith) {

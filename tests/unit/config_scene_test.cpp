@@ -93,7 +93,7 @@ TEST(ComposedScene, ErrorsNamePlaceAndNearestWord) {
 }
 
 TEST(ComposedScene, SweepsCompose) {
-    const std::vector<Variant> variants = expandSweep(parseExperiment(
+    const std::vector<SweepPoint> variants = expandSweep(parseExperiment(
         withScene("") + "sweep:\n"
                         "  scene.add: [[], [{file: dragon.glb}], [{file: dragon.glb}, {builtin: plane}]]\n"
                         "  scene.override: [{grey: {roughness: 0}}, {grey: {roughness: 1}}]\n",

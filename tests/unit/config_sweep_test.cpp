@@ -12,7 +12,7 @@ using namespace voxray;
 
 namespace {
 
-std::vector<Variant> expand(const std::string& sweep) {
+std::vector<SweepPoint> expand(const std::string& sweep) {
     return expandSweep(
         parseExperiment("name: demo\n"
                         "scene: {builtin: cornell, lights: area}\n"
@@ -85,7 +85,7 @@ TEST(Sweep, AParameterOfAChainsPassVariesVariantsThatHaveIt) {
         "  place_surfels.count: [10, 20]\n"
         "  voxelize.resolution: [32, 64]\n");
     std::vector<std::string> names;
-    for (const Variant& variant : variants) names.push_back(variant.name);
+    for (const SweepPoint& variant : variants) names.push_back(variant.name);
     EXPECT_EQ(names,
               (std::vector<std::string>{"inject-inject_rsm_resolution-32", "inject-inject_rsm_resolution-64",
                                         "inject-place_surfels-inject_voxel_rays_count-10_resolution-32",
@@ -106,7 +106,8 @@ TEST(Sweep, AParameterOfAChainsPassVariesVariantsThatHaveIt) {
 TEST(Sweep, LabelsTellWhatDiffers) {
     const auto labels = [](const std::string& list) {
         std::vector<std::string> texts;
-        for (const Variant& variant : expand("  inject: " + list + "\n")) texts.push_back(variant.values[0]);
+        for (const SweepPoint& variant : expand("  inject: " + list + "\n"))
+            texts.push_back(variant.values[0]);
         return texts;
     };
     using Texts = std::vector<std::string>;
@@ -178,7 +179,7 @@ TEST(Sweep, NamesAreSafeAndUnique) {
         "  inject.write: ['a/b', 'a:b', '../x', \"\xc3\xa9\", '']\n"
         "  scene: [{builtin: cornell, lights: area}, {builtin: cornell, lights: spot}]\n");
     std::set<std::string> names;
-    for (const Variant& v : variants) {
+    for (const SweepPoint& v : variants) {
         EXPECT_TRUE(names.insert(v.name).second) << v.name;
         EXPECT_EQ(v.name.find_first_of("/:\\ "), std::string::npos) << v.name;
         EXPECT_LE(v.name.size(), 140u);

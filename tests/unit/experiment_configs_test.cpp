@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "experiment/scene_setup.h"
-#include "experiment/validate.h"
+#include "experiment/study.h"
 #include "passes/common/families.h"
 #include "tests/support/places.h"
 
@@ -31,10 +31,9 @@ TEST(ShippedConfigs, ReadAndValidate) {
         for (const std::string& profile : profiles) {
             SCOPED_TRACE(entry.path().string() + " " + profile);
             try {
-                const WiredExperiment wired =
-                    wireExperiment(loadExperiment(entry.path(), {profile, {}}), registry);
+                const Study wired = wireExperiment(loadExperiment(entry.path(), {profile, {}}), registry);
                 SceneLoader loader({});
-                for (const WiredVariant& variant : wired.variants)
+                for (const Variant& variant : wired.variants)
                     if (!needsFiles(variant.setup.scene)) loader.prepare(variant.setup.scene);
             } catch (const Error& error) {
                 ADD_FAILURE() << error.what();

@@ -1,12 +1,12 @@
-#include "experiment/plan_checks.h"
+#include "experiment/prepared_experiment.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/progress.h"
 #include "experiment/config_schema.h"
-#include "experiment/progress.h"
 #include "experiment/results.h"
 #include "experiment_fakes.h"
 #include "image/score.h"
@@ -48,7 +48,7 @@ TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
                         "x.yaml"),
         registry);
     std::vector<std::string> names;
-    for (const WiredVariant& variant : wired.variants) names.push_back(variant.name);
+    for (const Variant& variant : wired.variants) names.push_back(variant.name);
     EXPECT_EQ(names, (std::vector<std::string>{"b-constant", "b-veil_value-4", "b-veil_value-5"}));
     EXPECT_EQ(wired.variants[0].values, (std::vector<std::string>{"constant", "-"}));
 
@@ -61,7 +61,7 @@ TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
                         "x.yaml"),
         registry);
     names.clear();
-    for (const WiredVariant& variant : swapped.variants) names.push_back(variant.name);
+    for (const Variant& variant : swapped.variants) names.push_back(variant.name);
     EXPECT_EQ(names, (std::vector<std::string>{"b-constant", "a-x_b-veil", "a-y_b-constant", "a-y_b-veil"}));
 
     // One that changes nothing anywhere is a mistake; an image that is written over is told first
@@ -141,9 +141,11 @@ TEST(Validate, MotionIsRefusedWhereItHasNoEffectInAnyVariant) {
     const auto refusal = [](const std::string& scene, const std::string& rest) {
         const std::string text = "name: x\nscene: {" + scene + "}\n" + rest + "\ngraph: [{pass: constant}]\n";
         try {
-            WiredExperiment wired = wireExperiment(parseExperiment(text, "x.yaml"), fakes::registry());
+            const Registry registry = fakes::registry();
+            Study study = wireExperiment(parseExperiment(text, "x.yaml"), registry);
             SceneLoader loader({});
-            checkPlans(wired, loader, DeviceInfo(), fakes::registry());
+            ViewChecks views({});
+            planVariants(study, loader, views, DeviceInfo());
         } catch (const UsageError& error) {
             return std::string(error.what());
         }

@@ -1,4 +1,4 @@
-#include "experiment/json_text.h"
+#include "experiment/results.h"
 
 #include <gtest/gtest.h>
 

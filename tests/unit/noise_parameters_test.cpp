@@ -5,7 +5,7 @@
 #include <regex>
 #include <set>
 
-#include "experiment/validate.h"
+#include "experiment/study.h"
 #include "passes/common/families.h"
 
 using namespace voxray;

@@ -83,14 +83,16 @@ TEST(PixelMasks, ThatSelectNothingOrAllAreWarnedOf) {
     EXPECT_TRUE(warnings(mask("wood"), sky).empty());
     EXPECT_TRUE(warnings(mask("", "", 0, 1), sky).empty());
     EXPECT_EQ(warnings(mask("", "", 0, 1), closer).size(), 1u);
-    EXPECT_CONTAINS(warnings(mask("", "", 0, 1), closer).at(0), "measure.masks.m: it selects every pixel");
+    EXPECT_CONTAINS(warnings(mask("", "", 0, 1), closer).at(0).str(),
+                    "measure.masks.m: it selects every pixel");
 
     // Out of sight, or nowhere
     Camera left = closer;
     left.position.x = -5;
-    EXPECT_CONTAINS(warnings(mask("mirror"), left).at(0), "is out of sight");
+    EXPECT_CONTAINS(warnings(mask("mirror"), left).at(0).str(), "is out of sight");
     for (const MaskSettings& nowhere : {mask("wood", "right"), mask("", "", 0.9f, 0.01f)})
-        EXPECT_CONTAINS(warnings(nowhere, sky).at(0), "no surface of the scene meets all of its conditions");
+        EXPECT_CONTAINS(warnings(nowhere, sky).at(0).str(),
+                        "no surface of the scene meets all of its conditions");
 }
 
 TEST(PixelMasks, UnknownNamesAreErrors) {

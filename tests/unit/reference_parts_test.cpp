@@ -17,8 +17,7 @@ class RunInParts : public RunTest {
     std::vector<Part> parts(uint32_t referenceParts, const std::string& rest = kSweep) const {
         const Registry passes = registry();
         const RunOptions o = options();
-        PreparedExperiment prepared(wireExperiment(parseExperiment(config(rest), "fake.yaml"), passes), o,
-                                    passes);
+        PreparedExperiment prepared(wireExperiment(parseExperiment(config(rest), "fake.yaml"), passes), o);
         return partsOf(prepared, referenceParts);
     }
     RunSummary runPart(const std::string& id, const std::string& out = "out",
@@ -171,12 +170,12 @@ TEST_F(RunInParts, AFailedReferenceIsWhyVariantsFailed) {
     const Registry passes = registry();
     const auto wired = [&] { return wireExperiment(parseExperiment(text, "fake.yaml"), passes); };
     RunOptions o = options();
-    PreparedExperiment prepared(wired(), o, passes);
+    PreparedExperiment prepared(wired(), o);
     const std::string id = partsOf(prepared, 1)[0].id;
     o.part = id;
-    EXPECT_CONTAINS(errorOf([&] { runExperiment(wired(), o, passes); }), "no truth");
+    EXPECT_CONTAINS(errorOf([&] { runExperiment(wired(), o); }), "no truth");
     o.part = "merge";
-    EXPECT_EQ(runExperiment(wired(), o, passes).failed, 2u);
+    EXPECT_EQ(runExperiment(wired(), o).failed, 2u);
     EXPECT_EQ(cell("value-1", "status"), "failed");
     EXPECT_CONTAINS(cell("value-0.5", "error"), id + ": ");
 }

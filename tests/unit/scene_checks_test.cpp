@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "experiment/environment_map.h"
-#include "experiment/light_cost.h"
+#include "experiment/checks/cost.h"
+#include "experiment/scene_files.h"
 #include "scene/load.h"
 #include "tests/support/errors.h"
 
@@ -24,14 +24,15 @@ TEST(EnvironmentMap, NamesThePixelThatIsNoRadiance) {
     EXPECT_NO_THROW(checkRadiance(ImageF(4, 2, 3, 0.0f), "sky.exr"));
 }
 
-TEST(LightCost, IsToldOfManyLightsThatTakeLong) {
+TEST(LightRays, IsToldOfManyLightsThatTakeLong) {
     SceneState state = evaluate(makeBuiltinScene("plane", {}), 0);
     Graph::PassInfo pass{"shadows", "direct_shadow_rays", Phase::Frame, 0, {"x.yaml", 7}, 0};
     const auto said = [&](size_t lights, uint64_t rays) {
         state.lights.resize(lights);
         pass.lightRays = rays;
-        const auto texts = LightCost(state).warnings({&pass, 1});
-        return texts.empty() ? "" : texts.front();
+        Diagnostics found;
+        LightRays(state).check({&pass, 1}, found);
+        return found.empty() ? "" : found.front().str();
     };
     EXPECT_CONTAINS(said(500, 1'000'000'000'000), "x.yaml:7: shadows: 500 lights take 1000000 million rays");
     EXPECT_EQ(said(500, 1000), "");

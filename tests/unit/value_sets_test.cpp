@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/config_schema.h"
-#include "experiment/validate.h"
+#include "experiment/study.h"
 #include "passes/common/families.h"
 #include "tests/support/errors.h"
 

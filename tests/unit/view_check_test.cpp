@@ -1,9 +1,9 @@
-#include "experiment/view_check.h"
+#include "experiment/checks/view.h"
 
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include "passes/common/families.h"
+#include "passes/path_trace/preview.h"
 #include "scene/load.h"
 #include "tests/support/errors.h"
 
@@ -17,15 +17,15 @@ ViewCheck checkOf(const std::string& scene, int exposureStops, const std::string
                     scene, exposureStops, graph),
         "x.yaml");
     SceneLoader loader({});
-    Registry registry;
-    registerPasses(registry);
-    return checkView(experiment.setup, loader.prepare(experiment.setup.scene), registry.preview);
+    return checkView(experiment.setup, loader.prepare(experiment.setup.scene), pathTracedPreview);
 }
 
 /// What is said of a scene's view.
 std::string saidOf(const std::string& scene, int exposureStops = 0,
                    const std::string& graph = "[{pass: gbuffer}]") {
-    return fmt::format("{}", fmt::join(checkOf(scene, exposureStops, graph).warnings, " | "));
+    std::vector<std::string> lines;
+    for (const Diagnostic& found : checkOf(scene, exposureStops, graph).found) lines.push_back(found.str());
+    return fmt::format("{}", fmt::join(lines, " | "));
 }
 
 std::string refusalOf(const std::string& scene) {

@@ -1,0 +1,113 @@
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "config/overrides.h"
+#include "experiment/checks/checks.h"
+
+namespace voxray {
+namespace {
+
+/// Where light begins in a variant: its first pass with a parameter `bounces`, with its place in the config.
+struct Bounces {
+    std::string id;
+    TextLocation where;
+    int64_t value;
+};
+std::optional<Bounces> bouncesOf(const Variant& variant) {
+    for (const Value& pass : variant.resolved.items)
+        if (const Value* bounces = pass.find("bounces"))
+            for (const Value& entry : variant.setup.graph.items)
+                if (passId(entry) == passId(pass)) {
+                    const Value* written = entry.find("bounces");
+                    return Bounces{passId(pass), written ? written->where : entry.where,
+                                   bounces->asInteger("bounces")};
+                }
+    return std::nullopt;
+}
+
+}  // namespace
+
+/// Passes that go on from frame to frame, where frame 0 alone is compared and too few frames lead up to it.
+void shortHistory(const PlannedVariant& v, Diagnostics& found) {
+    const MeasureSettings& measure = v.study.experiment.measure;
+    if (measure.compareEvery > 0) return;
+    for (const Graph::PassInfo& pass : v.variant.graph.passes())
+        if (pass.framesBefore > measure.warmup)
+            found.push_back(
+                {pass.where,
+                 fmt::format("{}: it goes on from frame to frame, and {} of the {} frames that it looks back "
+                             "on come before the one that is compared:",
+                             pass.id, measure.warmup, pass.framesBefore),
+                 fmt::format("write measure: {{warmup: {}}}, or compare a sequence with 'compare_every'",
+                             pass.framesBefore)});
+}
+
+/// An image that lacks a part of the light that the reference has.
+void missingLight(const PlannedVariant& v, Diagnostics& found) {
+    if (!v.reference) return;
+    for (const Graph::Input& input : v.variant.graph.emptyInputs(kComparedImage))
+        if (std::ranges::count(kPartsOfLight, input.port) > 0)
+            found.push_back(
+                {input.where,
+                 fmt::format("{0}: no pass before it writes '{1}', so that '{2}' lacks {1} light, "
+                             "which the reference has",
+                             input.id, input.port, kComparedImage),
+                 fmt::format("these can: {}", fmt::join(v.study.registry->writersOf(input.port), ", "))});
+}
+
+/// Light that bounces more or fewer times than the reference's, which shows as a difference that no other
+/// parameter lowers; unless the sweep varies it.
+void otherBounces(const PlannedVariant& v, Diagnostics& found) {
+    if (!v.reference) return;
+    const auto* own = v.variant.graph.resource<FrameImage>(kIndirectImage);
+    const auto* right = v.reference->resource<FrameImage>(kIndirectImage);
+    const auto variesBounces = [](const auto& axis) { return axis.key.ends_with(".bounces"); };
+    if (std::ranges::any_of(v.study.experiment.sweep.members, variesBounces)) return;
+    if (!own || !right || !own->lightBounces || !right->lightBounces ||
+        *own->lightBounces == *right->lightBounces)
+        return;
+    const int64_t has = *own->lightBounces, wanted = *right->lightBounces;
+    std::string advice = fmt::format("write 'bounces: {}' in the reference", has);
+
+    // What comes after the first pass adds bounces of its own
+    const std::optional<Bounces> first = bouncesOf(v.variant);
+    if (first && has >= first->value && first->value + wanted - has >= 0)
+        advice = fmt::format("write 'bounces: {}' in '{}', or {}", first->value + wanted - has, first->id,
+                             advice.substr(6));
+    found.push_back({first ? first->where : v.study.experiment.reference.where,
+                     fmt::format("indirect light has {} bounces, the reference's {}:", has, wanted), advice});
+}
+
+/// Much of the view is metal, whose light the reference has and the variant lacks.
+void missingLobes(const PlannedVariant& v, Diagnostics& found) {
+    constexpr double kMuch = 0.1;  // A few knobs of metal are no reason to leave a scene's gloss out.
+    if (!v.reference || v.metal < kMuch) return;
+    const auto* own = v.variant.graph.resource<FrameImage>(kIndirectImage);
+    const auto* right = v.reference->resource<FrameImage>(kIndirectImage);
+    if (!own || !right || own->hasSpecularLobes || !right->hasSpecularLobes) return;
+    found.push_back(
+        {v.variant.setup.scene.where,
+         fmt::format(
+             "scene: {:.0f} % of the surfaces in view are metal, which reflects by specular lobes alone: "
+             "the reference has what they reflect of indirect light, and this variant lacks it",
+             100 * v.metal),
+         "write 'materials: lambert' for a scene without lobes, or take gather_mirror, or gather_cones with "
+         "'specular'"});
+}
+
+/// A reference whose halves have different numbers of samples.
+void unequalHalves(const Study& study, Diagnostics& found) {
+    const Value* spp = study.experiment.reference.find("spp");
+    if (!spp) return;
+    const int64_t samples = spp->asInteger("reference.spp");
+    if (samples % 2 == 0) return;
+    found.push_back({spp->where,
+                     fmt::format("reference.spp: of {} samples a pixel one half of the reference has {}, the "
+                                 "other {}, and both count the same:",
+                                 samples, samples / 2, samples - samples / 2),
+                     "write an even number, best a power of two"});
+}
+
+}  // namespace voxray
