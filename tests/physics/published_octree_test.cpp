@@ -11,6 +11,7 @@
 #include "scene/moving_spheres.h"
 #include "scene/shapes.h"
 #include "tests/gpu/radiance_samples.h"
+#include "tests/support/brick_octree_count.h"
 #include "tests/support/errors.h"
 
 namespace voxray::test {
