@@ -14,7 +14,8 @@ namespace {
 
 /// A shader relative to the source root: next to a source file, or as it is where it names its whole path.
 std::string nextTo(std::string_view source, std::string_view file) {
-    constexpr std::array<std::string_view, 4> kTopFolders{"passes/", "framework/", "tests/", "shaders/"};
+    constexpr std::array<std::string_view, 5> kTopFolders{"passes/", "framework/", "tests/", "docs/examples/",
+                                                          "shaders/"};
     for (const std::string_view top : kTopFolders)
         if (file.starts_with(top)) return std::string(file);
 
