@@ -34,7 +34,7 @@ double LightCost::raysPerSecond() {
         const glm::vec3 way = isFar ? -light.direction : light.position - from;
         rays[i] = {from, 1e-3f, way, isFar ? std::numeric_limits<float>::infinity() : 1.0f};
     }
-    const EmbreeScene tracer(state_, RaysToCome::Few);
+    const EmbreeScene tracer(state_, ExpectedRays::Few);
     std::vector<uint32_t> occluded(kTimedRays);
     const auto start = std::chrono::steady_clock::now();
     tracer.occluded(rays, occluded);

@@ -83,7 +83,7 @@ std::string missingLobes(const WiredVariant& variant, const Graph& referenceGrap
 /// What to say of a variant whose image lacks a part of the light that the reference has.
 std::vector<std::string> missingLight(const WiredVariant& variant, const Registry& registry) {
     std::vector<std::string> texts;
-    for (const Graph::Input& input : variant.graph.emptyInputs("final"))
+    for (const Graph::Input& input : variant.graph.unboundInputs("final"))
         if (input.port == "direct" || input.port == "indirect")
             texts.push_back(
                 UsageError(input.where,
@@ -99,13 +99,13 @@ std::vector<std::string> shortHistory(const WiredVariant& variant, const Measure
     std::vector<std::string> texts;
     if (measure.compareEvery > 0) return texts;
     for (const Graph::PassInfo& pass : variant.graph.passes())
-        if (pass.framesBefore > measure.warmup)
+        if (pass.warmupFrames > measure.warmup)
             texts.push_back(
                 UsageError(pass.where,
                            "{0}: it goes on from frame to frame, and {1} of the {2} frames that it "
                            "looks back on come before the one that is compared: write measure: "
                            "{{warmup: {2}}}, or compare a sequence with 'compare_every'",
-                           pass.id, measure.warmup, pass.framesBefore)
+                           pass.id, measure.warmup, pass.warmupFrames)
                     .what());
     return texts;
 }
@@ -114,7 +114,7 @@ std::vector<std::string> shortHistory(const WiredVariant& variant, const Measure
 std::vector<std::string> lightsThatStay(const WiredVariant& variant, const Scene& scene) {
     if (variant.setup.scene.options.keepFileLights || !scene.lights.empty()) return {};
     return {
-        UsageError(placeOf(variant.config, "scene.keep_file_lights"),
+        UsageError(locationOf(variant.config, "scene.keep_file_lights"),
                    "scene.keep_file_lights: the scene has no punctual lights; what else shines stays: "
                    "'override: {{MATERIAL: {{emission: 0}}}}' puts out a surface, 'environment: none' the "
                    "sky")
@@ -125,7 +125,7 @@ std::vector<std::string> lightsThatStay(const WiredVariant& variant, const Scene
 std::vector<std::string> spheresThatStay(const WiredVariant& variant) {
     const SceneSettings& scene = variant.setup.scene;
     if (!scene.movingSpheres || scene.movingSpheres->count == 0 || scene.options.timeStep > 0) return {};
-    return {UsageError(placeOf(variant.config, "scene.moving_spheres"),
+    return {UsageError(locationOf(variant.config, "scene.moving_spheres"),
                        "scene.moving_spheres: they stand still; for ones that move write 'time_step', the "
                        "seconds from one frame to the next, next to it")
                 .what()};
@@ -198,7 +198,7 @@ std::string overTheLimit(const Experiment& experiment, std::vector<MemoryNeed> n
     if (over == 0) return {};
     std::ranges::stable_sort(needs, {}, &MemoryNeed::bytes);
     const auto& [variant, bytes, largest] = *std::ranges::find_if(needs, isOver);
-    const UsageError error(placeOf(experiment.config, "measure.memory_limit_mb"),
+    const UsageError error(locationOf(experiment.config, "measure.memory_limit_mb"),
                            "measure.memory_limit_mb: {} MiB are too few for {} of {} variants: {} takes at "
                            "least {:.1f} MiB, the "
                            "largest part of it by '{}'",

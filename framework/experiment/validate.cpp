@@ -244,7 +244,7 @@ WiredExperiment wireExperiment(Experiment experiment, const Registry& registry) 
             throw UsageError(variant.setup.graph.where,
                              "graph: no pass writes 'final', the image that is compared; these can: {}",
                              fmt::join(registry.writersOf("final"), ", "));
-        for (const char* part : {"direct", "indirect"}) graph.checkIsMadeOf("final", part);
+        for (const char* part : {"direct", "indirect"}) graph.checkReadsLast("final", part);
         std::vector<IdleParameter> idle = graph.idle();
         std::vector<std::string> leftOut = graph.keepOnly(comparedPorts());
         Value resolved = graph.resolved();

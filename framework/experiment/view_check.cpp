@@ -189,7 +189,7 @@ ViewCheck checkView(const Setup& setup, const PreparedScene& prepared, const Pre
         throw UsageError(cameraPlace(scene), "scene.camera: no surface lies in its view; {}", advice(scene));
     if (!preview) return {};
 
-    const EmbreeScene tracer(state, RaysToCome::Few);
+    const EmbreeScene tracer(state, ExpectedRays::Few);
     const Seen seen = lookThrough(state, tracer, camera, shrunk(setup.image, std::end(kLooks)[-1].size));
     const bool isEmpty = seen.part() < kMinSeen;
     const auto look = [&](const SceneState& lit, const Look& how) {

@@ -50,7 +50,7 @@ std::unique_ptr<ProcessLock> writeWorkflow(PreparedExperiment& prepared, const f
 
     const fs::path workflow = workflowFolder(results), done = workflow / "done";
     fs::create_directories(done);
-    auto lock = std::make_unique<ProcessLock>(workflow / ".lock", ProcessLock::Kind::Alone, results);
+    auto lock = std::make_unique<ProcessLock>(workflow / ".lock", ProcessLock::Kind::Exclusive, results);
     for (const Part& part : partsOf(prepared, settings.referenceParts))
         if (part.kind == Part::Kind::Merge || !fs::exists(results / part.writes)) fs::remove(done / part.id);
     writeFileAtomically(workflow / "Snakefile",
